@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "gateway/interpreter/diagnostic.hpp"
+#include "gateway/interpreter/origin.hpp"
+#include "protocol/base/units.hpp"
+
+/// What a program does, as plain structs, in execution order (spec: trace format).
+/// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's units; the writer of a trace
+/// converts back. string_views live until the sink's function returns. No event of an ordinary motion block allocates.
+namespace dripline::interpreter {
+
+enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
+inline constexpr std::size_t kAxisCount = 9;
+char letter(Axis axis);
+inline bool is_rotary(Axis axis) {
+  return axis == Axis::A || axis == Axis::B || axis == Axis::C;
+}
+
+/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; the typed functions say which.
+/// `axes` are those that have moved since the start of the program or are part of this move.
+class Position {
+ public:
+  Length linear(Axis axis) const { return Length::mm(value_[index(axis)]); }
+  Angle rotary(Axis axis) const { return Angle::degrees(value_[index(axis)]); }
+  void set(Axis axis, Length value) { value_[index(axis)] = value.mm(); axes_.set(index(axis)); }
+  void set(Axis axis, Angle value) { value_[index(axis)] = value.degrees(); axes_.set(index(axis)); }
+  bool has(Axis axis) const { return axes_.test(index(axis)); }
+  void mark(Axis axis) { axes_.set(index(axis)); }
+  bool same_point(const Position& other) const { return value_ == other.value_; }
+  friend bool operator==(const Position&, const Position&) = default;
+
+ private:
+  static constexpr std::size_t index(Axis axis) { return static_cast<std::size_t>(axis); }
+  std::array<double, kAxisCount> value_{};
+  std::bitset<kAxisCount> axes_;
+};
+
+enum class Units : std::uint8_t { Inch, Millimetre };
+enum class Plane : std::uint8_t { XY, ZX, YZ };
+enum class Turn : std::uint8_t { Clockwise, CounterClockwise };  ///< seen from the positive third axis
+enum class SpindleState : std::uint8_t { Off, Clockwise, CounterClockwise, Oriented };
+enum class StopKind : std::uint8_t { Program, Optional, ToolChange, Operator };
+enum class ProbeUntil : std::uint8_t { Contact, Release };
+enum class OutputDevice : std::uint8_t { File, Port1, Port2, Screen, Printer };
+
+struct ProgramHeader {
+  std::string_view control;              ///< the dialect's name
+  std::optional<std::string_view> name;  ///< as the program calls itself, e.g. O0100
+  Units units = Units::Millimetre;
+  bool x_is_diameter = false;
+};
+
+struct UnitsChange { Origin origin; Units units; };
+struct Rapid { Origin origin; Position to; };
+struct Line { Origin origin; Position to; Feed feed; };
+
+struct Arc {
+  Origin origin;
+  Position to;
+  Length center_first;   ///< along the plane's first axis (XY: X, ZX: Z, YZ: Y)
+  Length center_second;  ///< along its second axis (XY: Y, ZX: X, YZ: Z)
+  Plane plane = Plane::XY;
+  Turn turn = Turn::Clockwise;
+  Angle sweep;  ///< > 0; > 360 for several turns
+  Feed feed;
+};
+
+struct Thread { Origin origin; Position to; Length lead; std::optional<Angle> start_angle; };
+
+struct Dwell {
+  Origin origin;
+  double seconds = 0;
+  std::optional<double> revolutions;  ///< when given, counts instead of seconds
+};
+
+struct Spindle {
+  Origin origin;
+  SpindleState state = SpindleState::Off;
+  double revolutions_per_minute = 0;           ///< when `surface_speed` is absent
+  std::optional<Length> surface_speed;         ///< length per minute, constant surface speed
+  std::optional<double> max_revolutions;       ///< per minute, when limited
+};
+
+struct Coolant { Origin origin; bool flood = false; bool mist = false; };
+struct ToolChange { Origin origin; int number = 0; bool is_preselection = false; std::optional<int> offset; };
+struct Miscellaneous { Origin origin; int code = 0; };  ///< any other M function handed to the machine
+struct PinChange {
+  Origin origin;
+  Axis axis = Axis::X;
+  int output = 0;
+  bool state = false;
+  std::optional<double> pulse_ms;
+};
+
+/// `result` is absent while the question is open and present in the event that follows the answer.
+struct ProbeResult { bool tripped = false; Position at; };
+struct Probe {
+  Origin origin;
+  Position from;
+  Position to;
+  ProbeUntil until = ProbeUntil::Contact;
+  Feed feed;
+  std::optional<ProbeResult> result;
+};
+
+struct Output { Origin origin; OutputDevice device = OutputDevice::File; std::string_view text; };
+struct Open { Origin origin; OutputDevice device = OutputDevice::File; std::optional<std::string_view> name; };
+struct Close { Origin origin; OutputDevice device = OutputDevice::File; };
+struct Message { Origin origin; std::string_view text; };
+struct Prompt { Origin origin; std::string_view text; std::string_view variable; std::string_view answer; };
+struct Stop { Origin origin; StopKind kind = StopKind::Program; };
+struct Warning { Origin origin; Diagnostic diagnostic; };
+struct Alarm { Origin origin; Diagnostic diagnostic; };
+struct End { Origin origin; std::uint64_t blocks = 0; bool rewind = false; };
+
+/// Receives what the program does. Called from the thread that steps the interpreter; must not call back into it.
+class EventSink {
+ public:
+  virtual ~EventSink() = default;
+  virtual void on_program(const ProgramHeader&) {}
+  virtual void on_units(const UnitsChange&) {}
+  virtual void on_rapid(const Rapid&) {}
+  virtual void on_line(const Line&) {}
+  virtual void on_arc(const Arc&) {}
+  virtual void on_thread(const Thread&) {}
+  virtual void on_dwell(const Dwell&) {}
+  virtual void on_spindle(const Spindle&) {}
+  virtual void on_coolant(const Coolant&) {}
+  virtual void on_tool(const ToolChange&) {}
+  virtual void on_miscellaneous(const Miscellaneous&) {}
+  virtual void on_pin(const PinChange&) {}
+  virtual void on_probe(const Probe&) {}
+  virtual void on_output(const Output&) {}
+  virtual void on_open(const Open&) {}
+  virtual void on_close(const Close&) {}
+  virtual void on_message(const Message&) {}
+  virtual void on_prompt(const Prompt&) {}
+  virtual void on_stop(const Stop&) {}
+  virtual void on_warning(const Warning&) {}
+  virtual void on_alarm(const Alarm&) {}
+  virtual void on_end(const End&) {}
+  /// The block is finished: every event it caused has been delivered. `blocks` counts from 1.
+  virtual void on_block_end(const Origin&) {}
+};
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,75 @@
+#include "protocol/base/digest.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include "protocol/base/invariant.hpp"
+
+namespace dripline {
+
+struct Sha256::Context {
+  EVP_MD_CTX* evp = EVP_MD_CTX_new();
+  ~Context() { EVP_MD_CTX_free(evp); }
+};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {
+  invariant(EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr) == 1, "SHA-256 is available");
+}
+Sha256::~Sha256() = default;
+Sha256::Sha256(Sha256&&) noexcept = default;
+Sha256& Sha256::operator=(Sha256&&) noexcept = default;
+
+void Sha256::update(std::span<const std::byte> bytes) {
+  EVP_DigestUpdate(context_->evp, bytes.data(), bytes.size());
+}
+
+void Sha256::update(std::string_view text) {
+  update(std::as_bytes(std::span(text)));
+}
+
+Digest Sha256::digest() const {
+  Context copy;
+  invariant(EVP_MD_CTX_copy_ex(copy.evp, context_->evp) == 1, "a digest context can be copied");
+  Digest digest;
+  EVP_DigestFinal_ex(copy.evp, reinterpret_cast<unsigned char*>(digest.bytes.data()), nullptr);
+  return digest;
+}
+
+Digest sha256(std::span<const std::byte> bytes) {
+  Sha256 hash;
+  hash.update(bytes);
+  return hash.digest();
+}
+
+Digest sha256(std::string_view text) {
+  return sha256(std::as_bytes(std::span(text)));
+}
+
+std::string Digest::hex() const {
+  std::string text;
+  text.reserve(2 * kSize);
+  for (const std::byte b : bytes) fmt::format_to(std::back_inserter(text), "{:02x}", std::to_integer<int>(b));
+  return text;
+}
+
+Result<Digest> parse_digest(std::string_view hex) {
+  const auto nibble = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+  };
+  if (hex.size() != 2 * Digest::kSize) {
+    return fail(Errc::Syntax, "a SHA-256 digest has 64 hexadecimal digits, got {}", hex.size());
+  }
+  Digest digest;
+  for (std::size_t i = 0; i < Digest::kSize; ++i) {
+    const int high = nibble(hex[2 * i]);
+    const int low = nibble(hex[2 * i + 1]);
+    if (high < 0 || low < 0) return fail(Errc::Syntax, "'{}' is not a hexadecimal digest", hex);
+    digest.bytes[i] = static_cast<std::byte>(high << 4 | low);
+  }
+  return digest;
+}
+
+}  // namespace dripline

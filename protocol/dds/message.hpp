@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+
+/// The messages of dripline.idl as C++ values, already checked: enumerators are in range, names well formed, text is UTF-8.
+/// MTConnect words where it has them. Members mean what the IDL says.
+namespace dripline::dds {
+
+inline constexpr std::uint32_t kProtocolVersion = 1;
+inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
+inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
+inline constexpr std::size_t kMaxRecordText = 4096;
+
+enum class Execution : std::uint8_t {
+  Ready, Active, Interrupted, FeedHold, Stopped, ProgramStopped, ProgramCompleted, OptionalStop, Waiting,
+};  ///< Waiting: for text (a starved feed), an answer or a connection; `message` says for what
+enum class ControllerMode : std::uint8_t { Automatic, ManualDataInput, Manual };
+enum class RecordKind : std::uint8_t {
+  RunStarted,   ///< text: JSON {"program","revision","control"}
+  RunEnded,     ///< text: JSON RunEnd, see server/feeds and gateway/report
+  Output,       ///< text: the line; device: where it went
+  Probe,        ///< text: JSON {"to":{},"until":"","tripped":true,"at":{}}
+  Message,
+  Stop,
+  Warning,
+  Alarm,        ///< text: JSON {"code","text"}
+  DeviceOpened, ///< text: the name given, or empty
+  DeviceClosed,
+};
+enum class OrderAction : std::uint8_t { Start, Hold, Resume, Abort, Answer, Switch, FeedOverride, RapidOverride, SpindleOverride };
+enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
+
+std::string_view to_string(Execution value);
+std::string_view to_string(ControllerMode value);
+std::string_view to_string(RecordKind value);
+std::string_view to_string(OrderAction value);
+std::string_view to_string(BlockStatus value);
+
+struct Announce {
+  std::string machine, control, version;
+  std::uint32_t protocol = kProtocolVersion;
+  std::uint64_t epoch = 0, session = 0;
+  std::string description;
+};
+
+struct Status {
+  std::string machine;
+  UtcTime time;
+  Execution execution = Execution::Ready;
+  ControllerMode mode = ControllerMode::Automatic;
+  std::string run, program;
+  std::uint64_t sent = 0, accepted = 0, executed = 0, total_bytes = 0;
+  std::uint64_t offset = 0, line = 0;
+  std::int64_t sequence = -1;
+  std::array<double, 9> position{};
+  double feed_mm_per_min = 0, spindle_rpm = 0;
+  double feed_override = 1, rapid_override = 1, spindle_override = 1;
+  double buffered_seconds = 0;
+  bool single_block = false;
+  std::string message;
+  std::uint32_t outbox = 0;
+};
+
+struct Record {
+  std::string machine;
+  std::uint64_t epoch = 0, number = 0;
+  UtcTime time;
+  std::string run;
+  RecordKind kind = RecordKind::Message;
+  std::uint64_t block = 0, line = 0;
+  std::int64_t sequence = -1;
+  std::string device, text;
+};
+
+struct RecordAck { std::string machine; std::uint64_t epoch = 0, number = 0; };
+
+struct Order {
+  std::string machine, id;
+  UtcTime expires;
+  OrderAction action = OrderAction::Hold;
+  std::string run, program, revision;
+  std::uint64_t size = 0;
+  std::string control, argument;
+  double value = 0;
+};
+
+struct OrderResult { std::string machine, id; bool accepted = false; std::string reason; };
+
+struct BlockRequest {
+  std::string machine;
+  std::uint64_t session = 0;
+  std::string run, program;
+  std::uint64_t offset = 0;
+  std::uint32_t length = 0;
+};
+
+struct BlockData {
+  std::string machine;
+  std::uint64_t session = 0;
+  std::string run, program;
+  BlockStatus status = BlockStatus::Ok;
+  std::uint64_t offset = 0, total_bytes = 0;
+  bool ends = false;
+  std::vector<std::byte> bytes;  ///< the CRC was right, or the message was dropped and counted
+  std::string reason;
+};
+
+}  // namespace dripline::dds
