@@ -12,9 +12,10 @@
 #include "protocol/base/digest.hpp"
 #include "protocol/base/result.hpp"
 
-/// What the server keeps, in domain words. One interface, because a second implementation will come; the first is SQLite
-/// (storage/sqlite_store.hpp). Every function may be called from any thread; each is one transaction. When it has returned
-/// success, what it wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
+/// What the server keeps, in domain words. One interface, because a second implementation will
+/// come; the first is SQLite (storage/sqlite_store.hpp). Every function may be called from any
+/// thread; each is one transaction. When it has returned success, what it wrote is on disk. Errors
+/// everywhere: Io, Busy, Corrupt (stored bytes fail their check).
 namespace dripline::storage {
 
 struct Revision {
@@ -22,13 +23,17 @@ struct Revision {
   std::uint64_t number = 0;  ///< 1, 2, 3 ... per program
   Digest content;            ///< SHA-256 of the bytes
   std::uint64_t size = 0;
-  std::string control;       ///< dialect name, or empty when not known
+  std::string control;  ///< dialect name, or empty when not known
   std::string comment;
   std::string author;
   UtcTime created;
 };
 
-struct ProgramSummary { Revision latest; std::uint64_t revisions = 0; bool is_removed = false; };
+struct ProgramSummary {
+  Revision latest;
+  std::uint64_t revisions = 0;
+  bool is_removed = false;
+};
 
 /// An upload in progress. Survives a restart of the server; abandoned ones are dropped after a day.
 struct Upload {
@@ -50,9 +55,11 @@ struct Machine {
 };
 
 enum class RunState : std::uint8_t {
-  Ordered,      ///< the gateway has not confirmed yet
-  Active,       ///< includes held and waiting; the machine's status tells
-  Completed, Aborted, Alarmed,
+  Ordered,  ///< the gateway has not confirmed yet
+  Active,   ///< includes held and waiting; the machine's status tells
+  Completed,
+  Aborted,
+  Alarmed,
   Interrupted,  ///< cut off; `executed` is the block executed last
   Refused,      ///< the gateway said no, or did not answer in time
 };
@@ -76,23 +83,26 @@ struct Run {
   std::string control;
   RunState state = RunState::Ordered;
   Counters counters;
-  std::uint64_t line = 0;       ///< of the block executed last
-  std::int64_t sequence = -1;   ///< its N number
-  std::string reason;           ///< why it ended, for people
-  std::optional<std::string> executed_content;  ///< SHA-256 the gateway reports of the bytes it really received
+  std::uint64_t line = 0;      ///< of the block executed last
+  std::int64_t sequence = -1;  ///< its N number
+  std::string reason;          ///< why it ended, for people
+  std::optional<std::string>
+      executed_content;  ///< SHA-256 the gateway reports of the bytes it really received
   std::string author;
   UtcTime created;
   std::optional<UtcTime> started, ended;
-  std::uint64_t outputs = 0;    ///< stored report lines
+  std::uint64_t outputs = 0;  ///< stored report lines
 };
 
-/// One thing a machine reported, identified for ever by (machine, epoch, number). `kind` is the wire's name of it.
+/// One thing a machine reported, identified for ever by (machine, epoch, number). `kind` is the
+/// wire's name of it.
 struct Record {
   std::string machine;
   std::uint64_t epoch = 0, number = 0;
   UtcTime time;      ///< at the gateway
   std::string run;   ///< may be empty
-  std::string kind;  ///< run_started, run_ended, output, probe, message, stop, warning, alarm, device_opened, device_closed
+  std::string kind;  ///< run_started, run_ended, output, probe, message, stop, warning, alarm,
+                     ///< device_opened, device_closed
   std::uint64_t block = 0, line = 0;
   std::int64_t sequence = -1;
   std::string device, text;
@@ -109,7 +119,10 @@ struct RunEnding {
   std::optional<std::string> executed_content;
   UtcTime ended;
 };
-struct RunBeginning { std::string run; UtcTime started; };
+struct RunBeginning {
+  std::string run;
+  UtcTime started;
+};
 
 struct RecordBatch {
   std::string machine;
@@ -124,34 +137,49 @@ struct AuditEntry {
   std::string who, action, subject, detail;
 };
 
-struct Page { std::uint64_t limit = 100; std::uint64_t offset = 0; };
-struct RunFilter { std::optional<std::string> machine, program; std::optional<RunState> state; };
+struct Page {
+  std::uint64_t limit = 100;
+  std::uint64_t offset = 0;
+};
+struct RunFilter {
+  std::optional<std::string> machine, program;
+  std::optional<RunState> state;
+};
 
 class Store {
  public:
   virtual ~Store() = default;
 
-  // Programs: names with immutable revisions; content is addressed by its SHA-256 and stored in chunks.
+  // Programs: names with immutable revisions; content is addressed by its SHA-256 and stored in
+  // chunks.
   /// Errors: Syntax and LimitExceeded for the name. Begins an upload.
   virtual Result<Upload> begin_upload(const Upload& upload) = 0;
   virtual Result<Upload> upload(const std::string& id) = 0;
-  /// Appends at `offset`. Sending a piece again that is already there is no error. Errors: NotFound, ModalConflict (a gap or an overlap).
-  virtual Result<Upload> append_upload(const std::string& id, std::uint64_t offset, std::span<const std::byte> bytes) = 0;
-  /// Makes the upload a new revision of its program, or returns the latest one when it has the very same content.
-  /// Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax (empty).
-  virtual Result<Revision> commit_upload(const std::string& id, const std::optional<Digest>& expected) = 0;
+  /// Appends at `offset`. Sending a piece again that is already there is no error. Errors:
+  /// NotFound, ModalConflict (a gap or an overlap).
+  virtual Result<Upload> append_upload(const std::string& id, std::uint64_t offset,
+                                       std::span<const std::byte> bytes) = 0;
+  /// Makes the upload a new revision of its program, or returns the latest one when it has the very
+  /// same content. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax
+  /// (empty).
+  virtual Result<Revision> commit_upload(const std::string& id,
+                                         const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon_upload(const std::string& id) = 0;
   virtual Result<std::uint64_t> drop_uploads_before(UtcTime time) = 0;
 
   virtual Result<std::vector<ProgramSummary>> programs(Page page) = 0;
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
   /// The latest, or the one with that number. Errors: NotFound (also when the program was removed).
-  virtual Result<Revision> revision(const std::string& program, std::optional<std::uint64_t> number) = 0;
-  /// Hides the program from listings and starts; runs keep their revision. Errors: NotFound, Busy (an unfinished run uses it).
+  virtual Result<Revision> revision(const std::string& program,
+                                    std::optional<std::uint64_t> number) = 0;
+  /// Hides the program from listings and starts; runs keep their revision. Errors: NotFound, Busy
+  /// (an unfinished run uses it).
   virtual Result<void> remove_program(const std::string& program) = 0;
-  /// Bytes of stored content from `offset`, at most `length`, never crossing more than needed of its chunks; every chunk is checked
-  /// against its own SHA-256 before a byte is returned. Errors: NotFound, Corrupt.
-  virtual Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset, std::uint64_t length) = 0;
+  /// Bytes of stored content from `offset`, at most `length`, never crossing more than needed of
+  /// its chunks; every chunk is checked against its own SHA-256 before a byte is returned. Errors:
+  /// NotFound, Corrupt.
+  virtual Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
+                                                      std::uint64_t length) = 0;
 
   // Machines
   virtual Result<void> save_machine(const Machine& machine) = 0;
@@ -163,16 +191,21 @@ class Store {
   virtual Result<void> create_run(const Run& run) = 0;
   virtual Result<Run> run(const std::string& id) = 0;
   virtual Result<std::vector<Run>> runs(const RunFilter& filter, Page page) = 0;
-  virtual Result<void> set_run_state(const std::string& id, RunState state, const std::string& reason) = 0;
-  /// Progress only: never goes backwards, never changes the state; ignored for runs that have ended.
-  virtual Result<void> update_counters(const std::string& id, const Counters& counters, std::uint64_t line, std::int64_t sequence) = 0;
+  virtual Result<void> set_run_state(const std::string& id, RunState state,
+                                     const std::string& reason) = 0;
+  /// Progress only: never goes backwards, never changes the state; ignored for runs that have
+  /// ended.
+  virtual Result<void> update_counters(const std::string& id, const Counters& counters,
+                                       std::uint64_t line, std::int64_t sequence) = 0;
 
   // Records
-  /// Stores what is new and contiguous, in one transaction; returns the highest number stored without a gap in this epoch.
-  /// Records already stored are skipped; those behind a gap are left out (the gateway sends them again).
+  /// Stores what is new and contiguous, in one transaction; returns the highest number stored
+  /// without a gap in this epoch. Records already stored are skipped; those behind a gap are left
+  /// out (the gateway sends them again).
   virtual Result<std::uint64_t> store_records(const RecordBatch& batch) = 0;
   /// In order of (epoch, number). `kind` empty: all.
-  virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind, Page page) = 0;
+  virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
+                                              Page page) = 0;
 
   // Audit
   virtual Result<void> audit(const AuditEntry& entry) = 0;

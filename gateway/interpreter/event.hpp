@@ -11,8 +11,9 @@
 #include "protocol/base/units.hpp"
 
 /// What a program does, as plain structs, in execution order (spec: trace format).
-/// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's units; the writer of a trace
-/// converts back. string_views live until the sink's function returns. No event of an ordinary motion block allocates.
+/// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's
+/// units; the writer of a trace converts back. string_views live until the sink's function returns.
+/// No event of an ordinary motion block allocates.
 namespace dripline::interpreter {
 
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
@@ -22,14 +23,21 @@ inline bool is_rotary(Axis axis) {
   return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
 
-/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; the typed functions say which.
-/// `axes` are those that have moved since the start of the program or are part of this move.
+/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; the typed functions
+/// say which. `axes` are those that have moved since the start of the program or are part of this
+/// move.
 class Position {
  public:
   Length linear(Axis axis) const { return Length::mm(value_[index(axis)]); }
   Angle rotary(Axis axis) const { return Angle::degrees(value_[index(axis)]); }
-  void set(Axis axis, Length value) { value_[index(axis)] = value.mm(); axes_.set(index(axis)); }
-  void set(Axis axis, Angle value) { value_[index(axis)] = value.degrees(); axes_.set(index(axis)); }
+  void set(Axis axis, Length value) {
+    value_[index(axis)] = value.mm();
+    axes_.set(index(axis));
+  }
+  void set(Axis axis, Angle value) {
+    value_[index(axis)] = value.degrees();
+    axes_.set(index(axis));
+  }
   bool has(Axis axis) const { return axes_.test(index(axis)); }
   void mark(Axis axis) { axes_.set(index(axis)); }
   bool same_point(const Position& other) const { return value_ == other.value_; }
@@ -43,7 +51,10 @@ class Position {
 
 enum class Units : std::uint8_t { Inch, Millimetre };
 enum class Plane : std::uint8_t { XY, ZX, YZ };
-enum class Turn : std::uint8_t { Clockwise, CounterClockwise };  ///< seen from the positive third axis
+enum class Turn : std::uint8_t {
+  Clockwise,
+  CounterClockwise
+};  ///< seen from the positive third axis
 enum class SpindleState : std::uint8_t { Off, Clockwise, CounterClockwise, Oriented };
 enum class StopKind : std::uint8_t { Program, Optional, ToolChange, Operator };
 enum class ProbeUntil : std::uint8_t { Contact, Release };
@@ -56,9 +67,19 @@ struct ProgramHeader {
   bool x_is_diameter = false;
 };
 
-struct UnitsChange { Origin origin; Units units; };
-struct Rapid { Origin origin; Position to; };
-struct Line { Origin origin; Position to; Feed feed; };
+struct UnitsChange {
+  Origin origin;
+  Units units;
+};
+struct Rapid {
+  Origin origin;
+  Position to;
+};
+struct Line {
+  Origin origin;
+  Position to;
+  Feed feed;
+};
 
 struct Arc {
   Origin origin;
@@ -71,7 +92,12 @@ struct Arc {
   Feed feed;
 };
 
-struct Thread { Origin origin; Position to; Length lead; std::optional<Angle> start_angle; };
+struct Thread {
+  Origin origin;
+  Position to;
+  Length lead;
+  std::optional<Angle> start_angle;
+};
 
 struct Dwell {
   Origin origin;
@@ -82,14 +108,26 @@ struct Dwell {
 struct Spindle {
   Origin origin;
   SpindleState state = SpindleState::Off;
-  double revolutions_per_minute = 0;           ///< when `surface_speed` is absent
-  std::optional<Length> surface_speed;         ///< length per minute, constant surface speed
-  std::optional<double> max_revolutions;       ///< per minute, when limited
+  double revolutions_per_minute = 0;      ///< when `surface_speed` is absent
+  std::optional<Length> surface_speed;    ///< length per minute, constant surface speed
+  std::optional<double> max_revolutions;  ///< per minute, when limited
 };
 
-struct Coolant { Origin origin; bool flood = false; bool mist = false; };
-struct ToolChange { Origin origin; int number = 0; bool is_preselection = false; std::optional<int> offset; };
-struct Miscellaneous { Origin origin; int code = 0; };  ///< any other M function handed to the machine
+struct Coolant {
+  Origin origin;
+  bool flood = false;
+  bool mist = false;
+};
+struct ToolChange {
+  Origin origin;
+  int number = 0;
+  bool is_preselection = false;
+  std::optional<int> offset;
+};
+struct Miscellaneous {
+  Origin origin;
+  int code = 0;
+};  ///< any other M function handed to the machine
 struct PinChange {
   Origin origin;
   Axis axis = Axis::X;
@@ -99,7 +137,10 @@ struct PinChange {
 };
 
 /// `result` is absent while the question is open and present in the event that follows the answer.
-struct ProbeResult { bool tripped = false; Position at; };
+struct ProbeResult {
+  bool tripped = false;
+  Position at;
+};
 struct Probe {
   Origin origin;
   Position from;
@@ -109,17 +150,50 @@ struct Probe {
   std::optional<ProbeResult> result;
 };
 
-struct Output { Origin origin; OutputDevice device = OutputDevice::File; std::string_view text; };
-struct Open { Origin origin; OutputDevice device = OutputDevice::File; std::optional<std::string_view> name; };
-struct Close { Origin origin; OutputDevice device = OutputDevice::File; };
-struct Message { Origin origin; std::string_view text; };
-struct Prompt { Origin origin; std::string_view text; std::string_view variable; std::string_view answer; };
-struct Stop { Origin origin; StopKind kind = StopKind::Program; };
-struct Warning { Origin origin; Diagnostic diagnostic; };
-struct Alarm { Origin origin; Diagnostic diagnostic; };
-struct End { Origin origin; std::uint64_t blocks = 0; bool rewind = false; };
+struct Output {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+  std::string_view text;
+};
+struct Open {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+  std::optional<std::string_view> name;
+};
+struct Close {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+};
+struct Message {
+  Origin origin;
+  std::string_view text;
+};
+struct Prompt {
+  Origin origin;
+  std::string_view text;
+  std::string_view variable;
+  std::string_view answer;
+};
+struct Stop {
+  Origin origin;
+  StopKind kind = StopKind::Program;
+};
+struct Warning {
+  Origin origin;
+  Diagnostic diagnostic;
+};
+struct Alarm {
+  Origin origin;
+  Diagnostic diagnostic;
+};
+struct End {
+  Origin origin;
+  std::uint64_t blocks = 0;
+  bool rewind = false;
+};
 
-/// Receives what the program does. Called from the thread that steps the interpreter; must not call back into it.
+/// Receives what the program does. Called from the thread that steps the interpreter; must not call
+/// back into it.
 class EventSink {
  public:
   virtual ~EventSink() = default;

@@ -13,15 +13,27 @@
 
 namespace dripline::interpreter {
 
-/// What the interpreter can not know by itself. The step that asks returns NeedsAnswer; `answer` resumes it.
-struct ProbeQuestion { Probe probe; };                        ///< answered by ProbeResult
-struct PromptQuestion { std::string text; std::string variable; };  ///< answered by PromptAnswer
-struct InputQuestion { int pin = 0; };                        ///< state of an input pin; answered by bool
-struct TimeQuestion {};                                       ///< the control's clock; answered by LocalTime
+/// What the interpreter can not know by itself. The step that asks returns NeedsAnswer; `answer`
+/// resumes it.
+struct ProbeQuestion {
+  Probe probe;
+};  ///< answered by ProbeResult
+struct PromptQuestion {
+  std::string text;
+  std::string variable;
+};  ///< answered by PromptAnswer
+struct InputQuestion {
+  int pin = 0;
+};                       ///< state of an input pin; answered by bool
+struct TimeQuestion {};  ///< the control's clock; answered by LocalTime
 using Question = std::variant<ProbeQuestion, PromptQuestion, InputQuestion, TimeQuestion>;
 
-struct PromptAnswer { std::optional<std::string> text; };     ///< nullopt: the operator refused (ESC)
-struct LocalTime { int year = 0, month = 1, day = 1, hour = 0, minute = 0, second = 0; };
+struct PromptAnswer {
+  std::optional<std::string> text;
+};  ///< nullopt: the operator refused (ESC)
+struct LocalTime {
+  int year = 0, month = 1, day = 1, hour = 0, minute = 0, second = 0;
+};
 using Answer = std::variant<ProbeResult, PromptAnswer, bool, LocalTime>;
 
 enum class StepState {
@@ -41,14 +53,15 @@ struct Snapshot {
   Digest digest() const;
 };
 
-/// One run of one program on one control. Pure: text, answers and setup come in, events go out; no file, socket, clock, thread
-/// or global. Not thread-safe; any single thread may own it. Memory is bounded by the dialect's limits, not by the program.
-/// The source and the sink must outlive it.
+/// One run of one program on one control. Pure: text, answers and setup come in, events go out; no
+/// file, socket, clock, thread or global. Not thread-safe; any single thread may own it. Memory is
+/// bounded by the dialect's limits, not by the program. The source and the sink must outlive it.
 class Interpreter {
  public:
   virtual ~Interpreter() = default;
 
-  /// Executes up to `max_blocks` blocks. Never blocks, and delivers a bounded number of events per block.
+  /// Executes up to `max_blocks` blocks. Never blocks, and delivers a bounded number of events per
+  /// block.
   virtual StepState step(std::uint64_t max_blocks) = 0;
 
   /// The open question; only after step() returned NeedsAnswer.
@@ -63,7 +76,8 @@ class Interpreter {
 
   /// Both only at a block boundary, that is, not while a question is open.
   virtual Snapshot snapshot() const = 0;
-  /// Continues from a snapshot of the same dialect and version. Errors: Unsupported, Corrupt; state is then unchanged.
+  /// Continues from a snapshot of the same dialect and version. Errors: Unsupported, Corrupt; state
+  /// is then unchanged.
   virtual Result<void> restore(const Snapshot& snapshot) = 0;
 };
 

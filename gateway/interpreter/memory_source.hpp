@@ -10,7 +10,8 @@
 
 namespace dripline::interpreter {
 
-/// A whole program in memory (or a mapped file): for offline use and tests. Called programs come from `loader`.
+/// A whole program in memory (or a mapped file): for offline use and tests. Called programs come
+/// from `loader`.
 class MemorySource final : public ProgramSource {
  public:
   /// Text of a called program, or nullopt when there is none of that name.
@@ -23,7 +24,10 @@ class MemorySource final : public ProgramSource {
   ProgramLookup find(std::string_view name) override;
 
  private:
-  struct Called { std::string name; std::string text; };
+  struct Called {
+    std::string name;
+    std::string text;
+  };
   std::string_view main_;
   Loader loader_;
   std::vector<std::unique_ptr<Called>> called_;

@@ -18,7 +18,8 @@ struct TextWindow {
     Failed,  ///< will never come; `reason` says why
   };
   State state = State::NotYet;
-  std::string_view text;     ///< valid until the next call on the source; empty only at the end of the program
+  std::string_view
+      text;  ///< valid until the next call on the source; empty only at the end of the program
   bool reaches_end = false;  ///< the program ends where `text` ends
   std::string reason;
 };
@@ -29,14 +30,16 @@ struct ProgramLookup {
   ProgramIndex program = 0;
 };
 
-/// Gives the interpreter program text at any byte offset, so that jumps, loops and calls work on a program of any size
-/// in bounded memory. Called only from the thread that steps the interpreter. Implementations never block.
+/// Gives the interpreter program text at any byte offset, so that jumps, loops and calls work on a
+/// program of any size in bounded memory. Called only from the thread that steps the interpreter.
+/// Implementations never block.
 class ProgramSource {
  public:
   virtual ~ProgramSource() = default;
 
-  /// Text of `program` from byte `offset`: at least `min_bytes` contiguous bytes, or fewer when the program ends first.
-  /// `min_bytes` is at most kMaxWindow. An offset at the end of the program gives an empty, Ready, reaches_end window.
+  /// Text of `program` from byte `offset`: at least `min_bytes` contiguous bytes, or fewer when the
+  /// program ends first. `min_bytes` is at most kMaxWindow. An offset at the end of the program
+  /// gives an empty, Ready, reaches_end window.
   virtual TextWindow fetch(ProgramIndex program, std::uint64_t offset, std::size_t min_bytes) = 0;
 
   /// Looks up a program that the running one calls, by the name its control would use ("O0002").

@@ -14,16 +14,20 @@ namespace dripline::interpreter {
 struct Dialect {
   std::string_view name;   ///< as in configurations and `--control`
   std::string_view title;  ///< for people
-  /// 0 = certainly not this control's text, 100 = certainly. `head` is the first bytes of the program.
+  /// 0 = certainly not this control's text, 100 = certainly. `head` is the first bytes of the
+  /// program.
   int (*likelihood)(std::string_view head, std::string_view file_name);
-  /// Errors: Syntax, Unsupported (an option or record of the setup that this control does not have).
-  Result<std::unique_ptr<Interpreter>> (*make)(const Setup& setup, ProgramSource& source, EventSink& sink);
+  /// Errors: Syntax, Unsupported (an option or record of the setup that this control does not
+  /// have).
+  Result<std::unique_ptr<Interpreter>> (*make)(const Setup& setup, ProgramSource& source,
+                                               EventSink& sink);
 };
 
 std::span<const Dialect> dialects();
 /// Errors: NotFound, naming the known ones.
 Result<const Dialect*> find_dialect(std::string_view name);
-/// The candidates, likeliest first; one entry when the text leaves no doubt, none when nothing fits.
+/// The candidates, likeliest first; one entry when the text leaves no doubt, none when nothing
+/// fits.
 std::vector<const Dialect*> detect_dialect(std::string_view head, std::string_view file_name);
 
 }  // namespace dripline::interpreter

@@ -31,13 +31,21 @@ struct ToolRecord {
   int tip = 0;  ///< lathe tool type
 };
 
-struct OffsetRecord { std::string name; Position value; };
-struct VariableRecord { std::string name; double value = 0; };
+struct OffsetRecord {
+  std::string name;
+  Position value;
+};
+struct VariableRecord {
+  std::string name;
+  double value = 0;
+};
 
-/// A value of the `[control]` table; lists of tables are kept as their TOML text for the dialect to read.
+/// A value of the `[control]` table; lists of tables are kept as their TOML text for the dialect to
+/// read.
 using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
-/// What a control knows before a program starts. All of it has defaults (spec: trace format, "The setup file").
+/// What a control knows before a program starts. All of it has defaults (spec: trace format, "The
+/// setup file").
 struct Setup {
   Position start;
   std::optional<Units> units;
@@ -52,7 +60,8 @@ struct Setup {
   std::optional<std::string> library_path;  ///< folder of called programs; resolved by the caller
 };
 
-/// Reads a setup file's text. Errors: Syntax, with the key and its line; an unknown key is an error.
+/// Reads a setup file's text. Errors: Syntax, with the key and its line; an unknown key is an
+/// error.
 Result<Setup> parse_setup(std::string_view toml);
 
 }  // namespace dripline::interpreter

@@ -15,7 +15,8 @@ bool is_upper(char c) {
   return c >= 'A' && c <= 'Z';
 }
 bool is_program_name_character(char c) {
-  return is_digit(c) || is_lower(c) || is_upper(c) || std::string_view(" ._-+").find(c) != std::string_view::npos;
+  return is_digit(c) || is_lower(c) || is_upper(c) ||
+         std::string_view(" ._-+").find(c) != std::string_view::npos;
 }
 bool is_machine_name_character(char c) {
   return is_digit(c) || is_lower(c) || c == '-' || c == '_';
@@ -26,12 +27,14 @@ bool is_machine_name_character(char c) {
 Result<void> check_program_name(std::string_view name) {
   if (name.empty()) return fail(Errc::Syntax, "a program name can not be empty");
   if (name.size() > kMaxProgramName) {
-    return fail(Errc::LimitExceeded, "program name of {} characters: at most {}", name.size(), kMaxProgramName);
+    return fail(Errc::LimitExceeded, "program name of {} characters: at most {}", name.size(),
+                kMaxProgramName);
   }
-  if (!std::ranges::all_of(name, is_program_name_character) || name.front() == '.' || name.front() == ' ' ||
-      name.back() == ' ') {
+  if (!std::ranges::all_of(name, is_program_name_character) || name.front() == '.' ||
+      name.front() == ' ' || name.back() == ' ') {
     return fail(Errc::Syntax,
-                "program name '{}': use letters, digits, blanks and . _ - +, not beginning with a dot or a blank",
+                "program name '{}': use letters, digits, blanks and . _ - +, not beginning with a "
+                "dot or a blank",
                 name);
   }
   return {};
@@ -40,11 +43,15 @@ Result<void> check_program_name(std::string_view name) {
 Result<void> check_machine_name(std::string_view name) {
   if (name.empty()) return fail(Errc::Syntax, "a machine name can not be empty");
   if (name.size() > kMaxMachineName) {
-    return fail(Errc::LimitExceeded, "machine name of {} characters: at most {}", name.size(), kMaxMachineName);
+    return fail(Errc::LimitExceeded, "machine name of {} characters: at most {}", name.size(),
+                kMaxMachineName);
   }
-  if (!std::ranges::all_of(name, is_machine_name_character) || !(is_digit(name.front()) || is_lower(name.front()))) {
+  if (!std::ranges::all_of(name, is_machine_name_character) ||
+      !(is_digit(name.front()) || is_lower(name.front()))) {
     return fail(Errc::Syntax,
-                "machine name '{}': use lower-case letters, digits, - and _, beginning with a letter or digit", name);
+                "machine name '{}': use lower-case letters, digits, - and _, beginning with a "
+                "letter or digit",
+                name);
   }
   return {};
 }

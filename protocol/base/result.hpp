@@ -45,16 +45,26 @@ inline tl::unexpected<Error> fail(Error error) {
 
 inline std::string_view to_string(Errc code) {
   switch (code) {
-    case Errc::Syntax: return "syntax";
-    case Errc::ModalConflict: return "modal_conflict";
-    case Errc::Unsupported: return "unsupported";
-    case Errc::LimitExceeded: return "limit_exceeded";
-    case Errc::NotFound: return "not_found";
-    case Errc::Busy: return "busy";
-    case Errc::Timeout: return "timeout";
-    case Errc::Corrupt: return "corrupt";
-    case Errc::Io: return "io";
-    case Errc::Denied: return "denied";
+    case Errc::Syntax:
+      return "syntax";
+    case Errc::ModalConflict:
+      return "modal_conflict";
+    case Errc::Unsupported:
+      return "unsupported";
+    case Errc::LimitExceeded:
+      return "limit_exceeded";
+    case Errc::NotFound:
+      return "not_found";
+    case Errc::Busy:
+      return "busy";
+    case Errc::Timeout:
+      return "timeout";
+    case Errc::Corrupt:
+      return "corrupt";
+    case Errc::Io:
+      return "io";
+    case Errc::Denied:
+      return "denied";
   }
   return "unknown";
 }

@@ -10,7 +10,8 @@
 #include "protocol/base/result.hpp"
 #include "protocol/dds/message.hpp"
 
-/// The two ends of the star: one server, many gateways, a partition per machine. Everything else of DDS stays behind these.
+/// The two ends of the star: one server, many gateways, a partition per machine. Everything else of
+/// DDS stays behind these.
 namespace dripline::dds {
 
 /// File names of DDS Security (PEM; governance and permissions signed). Loopback runs without.
@@ -20,20 +21,24 @@ struct SecurityFiles {
 };
 
 struct NetworkOptions {
-  std::uint32_t domain = 0;               ///< 0..230
-  std::string interface = "lo";           ///< network interface name or address
-  std::string server = "127.0.0.1";       ///< gateways: where the server listens (host or host:port)
-  std::string tag;                        ///< systems with different tags do not see each other
+  std::uint32_t domain = 0;          ///< 0..230
+  std::string interface = "lo";      ///< network interface name or address
+  std::string server = "127.0.0.1";  ///< gateways: where the server listens (host or host:port)
+  std::string tag;                   ///< systems with different tags do not see each other
   std::uint32_t discovery_interval_ms = 250;
-  std::uint32_t lease_ms = 2000;          ///< a silent peer is given up after this
+  std::uint32_t lease_ms = 2000;  ///< a silent peer is given up after this
   std::optional<SecurityFiles> security;
 };
 
 /// Bytes and messages dropped because they failed a check; they are never delivered.
-struct Rejected { std::uint64_t messages = 0; std::string last_reason; };
+struct Rejected {
+  std::uint64_t messages = 0;
+  std::string last_reason;
+};
 
-/// Every callback runs on a DDS thread: it must return at once (post to your own executor) and must not call back into the endpoint
-/// or destroy it. After the endpoint's destructor returns, no callback runs any more.
+/// Every callback runs on a DDS thread: it must return at once (post to your own executor) and must
+/// not call back into the endpoint or destroy it. After the endpoint's destructor returns, no
+/// callback runs any more.
 struct GatewayHandlers {
   std::function<void(Order)> on_order;
   std::function<void(RecordAck)> on_ack;
@@ -41,11 +46,12 @@ struct GatewayHandlers {
   std::function<void(bool is_connected)> on_server;  ///< a server's readers appeared or went away
 };
 
-/// A gateway's end, for one machine. The write functions never wait longer than a few milliseconds: Errc::Timeout means
-/// "not taken, try later"; they may be called from one thread.
+/// A gateway's end, for one machine. The write functions never wait longer than a few milliseconds:
+/// Errc::Timeout means "not taken, try later"; they may be called from one thread.
 class GatewayEndpoint {
  public:
-  static Result<std::unique_ptr<GatewayEndpoint>> open(const NetworkOptions& options, const std::string& machine,
+  static Result<std::unique_ptr<GatewayEndpoint>> open(const NetworkOptions& options,
+                                                       const std::string& machine,
                                                        GatewayHandlers handlers);
   virtual ~GatewayEndpoint() = default;
   virtual Result<void> write(const Announce& message) = 0;
@@ -66,11 +72,13 @@ struct ServerHandlers {
   std::function<void(BlockRequest)> on_request;
 };
 
-/// The server's end. Machines are attached as they announce themselves; each gets writers and bounded readers of its own,
-/// so a hung gateway holds up nobody else. Writes as above; several threads may write, one at a time per machine.
+/// The server's end. Machines are attached as they announce themselves; each gets writers and
+/// bounded readers of its own, so a hung gateway holds up nobody else. Writes as above; several
+/// threads may write, one at a time per machine.
 class ServerEndpoint {
  public:
-  static Result<std::unique_ptr<ServerEndpoint>> open(const NetworkOptions& options, ServerHandlers handlers);
+  static Result<std::unique_ptr<ServerEndpoint>> open(const NetworkOptions& options,
+                                                      ServerHandlers handlers);
   virtual ~ServerEndpoint() = default;
   /// Errors: NotFound (never announced), Timeout (its queue is full: try later).
   virtual Result<void> write(const RecordAck& message) = 0;

@@ -9,8 +9,8 @@
 
 #include "protocol/base/clock.hpp"
 
-/// The messages of dripline.idl as C++ values, already checked: enumerators are in range, names well formed, text is UTF-8.
-/// MTConnect words where it has them. Members mean what the IDL says.
+/// The messages of dripline.idl as C++ values, already checked: enumerators are in range, names
+/// well formed, text is UTF-8. MTConnect words where it has them. Members mean what the IDL says.
 namespace dripline::dds {
 
 inline constexpr std::uint32_t kProtocolVersion = 1;
@@ -19,22 +19,40 @@ inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
 inline constexpr std::size_t kMaxRecordText = 4096;
 
 enum class Execution : std::uint8_t {
-  Ready, Active, Interrupted, FeedHold, Stopped, ProgramStopped, ProgramCompleted, OptionalStop, Waiting,
+  Ready,
+  Active,
+  Interrupted,
+  FeedHold,
+  Stopped,
+  ProgramStopped,
+  ProgramCompleted,
+  OptionalStop,
+  Waiting,
 };  ///< Waiting: for text (a starved feed), an answer or a connection; `message` says for what
 enum class ControllerMode : std::uint8_t { Automatic, ManualDataInput, Manual };
 enum class RecordKind : std::uint8_t {
-  RunStarted,   ///< text: JSON {"program","revision","control"}
-  RunEnded,     ///< text: JSON RunEnd, see server/feeds and gateway/report
-  Output,       ///< text: the line; device: where it went
-  Probe,        ///< text: JSON {"to":{},"until":"","tripped":true,"at":{}}
+  RunStarted,  ///< text: JSON {"program","revision","control"}
+  RunEnded,    ///< text: JSON RunEnd, see server/feeds and gateway/report
+  Output,      ///< text: the line; device: where it went
+  Probe,       ///< text: JSON {"to":{},"until":"","tripped":true,"at":{}}
   Message,
   Stop,
   Warning,
-  Alarm,        ///< text: JSON {"code","text"}
-  DeviceOpened, ///< text: the name given, or empty
+  Alarm,         ///< text: JSON {"code","text"}
+  DeviceOpened,  ///< text: the name given, or empty
   DeviceClosed,
 };
-enum class OrderAction : std::uint8_t { Start, Hold, Resume, Abort, Answer, Switch, FeedOverride, RapidOverride, SpindleOverride };
+enum class OrderAction : std::uint8_t {
+  Start,
+  Hold,
+  Resume,
+  Abort,
+  Answer,
+  Switch,
+  FeedOverride,
+  RapidOverride,
+  SpindleOverride
+};
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
 std::string_view to_string(Execution value);
@@ -79,7 +97,10 @@ struct Record {
   std::string device, text;
 };
 
-struct RecordAck { std::string machine; std::uint64_t epoch = 0, number = 0; };
+struct RecordAck {
+  std::string machine;
+  std::uint64_t epoch = 0, number = 0;
+};
 
 struct Order {
   std::string machine, id;
@@ -91,7 +112,11 @@ struct Order {
   double value = 0;
 };
 
-struct OrderResult { std::string machine, id; bool accepted = false; std::string reason; };
+struct OrderResult {
+  std::string machine, id;
+  bool accepted = false;
+  std::string reason;
+};
 
 struct BlockRequest {
   std::string machine;

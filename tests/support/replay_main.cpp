@@ -1,4 +1,5 @@
-// Replays a fuzz corpus: every file below the folders named on the command line goes through the target once.
+// Replays a fuzz corpus: every file below the folders named on the command line goes through the
+// target once.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -9,12 +9,20 @@
 namespace dripline::interpreter {
 
 /// A plane across one axis.
-struct ProbePlane { Axis axis = Axis::Z; Length at; };
+struct ProbePlane {
+  Axis axis = Axis::Z;
+  Length at;
+};
 /// An upright cylinder (boss or bore) of unlimited height.
-struct ProbeCylinder { Length center_x, center_y, radius; };
-/// A turned part's outline in radius: points (X radius, Z) joined by straight lines; solid on the side of smaller Z.
+struct ProbeCylinder {
+  Length center_x, center_y, radius;
+};
+/// A turned part's outline in radius: points (X radius, Z) joined by straight lines; solid on the
+/// side of smaller Z.
 struct ProbeProfile {
-  struct Point { Length x, z; };
+  struct Point {
+    Length x, z;
+  };
   std::vector<Point> points;
 };
 
@@ -25,8 +33,9 @@ class Workpiece {
   void add(Surface surface) { surfaces_.push_back(std::move(surface)); }
   bool empty() const { return surfaces_.empty(); }
 
-  /// Contact: where the straight move first meets a surface. Release: where it first leaves the surface it starts on or behind.
-  /// With no such point the probe is not tripped and `at` is the end of the move.
+  /// Contact: where the straight move first meets a surface. Release: where it first leaves the
+  /// surface it starts on or behind. With no such point the probe is not tripped and `at` is the
+  /// end of the move.
   ProbeResult probe(const Position& from, const Position& to, ProbeUntil until) const;
 
  private:

@@ -25,16 +25,17 @@ TEST_P(ParseDecimal, KeepsWhatWasWritten) {
   EXPECT_EQ(number->text(), GetParam().printed);
 }
 
-INSTANTIATE_TEST_SUITE_P(, ParseDecimal,
-                         testing::Values(NumberCase{"integer_has_no_point", "10", 10, 0, false, "10"},
-                                         NumberCase{"trailing_point_kept", "10.", 10, 0, true, "10."},
-                                         NumberCase{"leading_point", ".5", 5, 1, true, "0.5"},
-                                         NumberCase{"trailing_zeros_kept", "-1.50", -150, 2, true, "-1.50"},
-                                         NumberCase{"negative_zero", "-0.0", 0, 1, true, "-0.0"},
-                                         NumberCase{"plus_is_dropped", "+7", 7, 0, false, "7"},
-                                         NumberCase{"eighteen_digits", "123456789012345678", 123456789012345678, 0,
-                                                    false, "123456789012345678"}),
-                         [](const auto& i) { return std::string{i.param.name}; });
+INSTANTIATE_TEST_SUITE_P(
+    , ParseDecimal,
+    testing::Values(NumberCase{"integer_has_no_point", "10", 10, 0, false, "10"},
+                    NumberCase{"trailing_point_kept", "10.", 10, 0, true, "10."},
+                    NumberCase{"leading_point", ".5", 5, 1, true, "0.5"},
+                    NumberCase{"trailing_zeros_kept", "-1.50", -150, 2, true, "-1.50"},
+                    NumberCase{"negative_zero", "-0.0", 0, 1, true, "-0.0"},
+                    NumberCase{"plus_is_dropped", "+7", 7, 0, false, "7"},
+                    NumberCase{"eighteen_digits", "123456789012345678", 123456789012345678, 0,
+                               false, "123456789012345678"}),
+    [](const auto& i) { return std::string{i.param.name}; });
 
 TEST(ParseDecimalErrors, RefusesWhatIsNotAPlainNumber) {
   for (const char* text : {"", "-", ".", "1.2.3", "1e5", "inf", "nan", " 1", "1 ", "0x10"}) {

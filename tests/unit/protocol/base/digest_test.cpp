@@ -7,7 +7,8 @@
 namespace dripline {
 namespace {
 
-constexpr auto kAbc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";  // FIPS 180-4
+constexpr auto kAbc =
+    "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";  // FIPS 180-4
 
 TEST(Sha256, MatchesThePublishedVector) {
   EXPECT_EQ(sha256("abc").hex(), kAbc);

@@ -6,11 +6,13 @@ namespace dripline {
 namespace {
 
 TEST(ProgramName, AcceptsWhatShopsCallTheirPrograms) {
-  for (const char* name : {"O0100", "flange rev B.nc", "1234.H", "a+b_c-d"}) EXPECT_TRUE(check_program_name(name)) << name;
+  for (const char* name : {"O0100", "flange rev B.nc", "1234.H", "a+b_c-d"})
+    EXPECT_TRUE(check_program_name(name)) << name;
 }
 
 TEST(ProgramName, CanNotLeaveItsFolder) {
-  for (const char* name : {"../etc/passwd", "..", ".hidden", "a/b", "a\\b", "a\nb", " a", "a ", "", "x\xff"}) {
+  for (const char* name :
+       {"../etc/passwd", "..", ".hidden", "a/b", "a\\b", "a\nb", " a", "a ", "", "x\xff"}) {
     EXPECT_FALSE(check_program_name(name)) << name;
   }
   EXPECT_FALSE(check_program_name(std::string(129, 'a')));
@@ -18,7 +20,8 @@ TEST(ProgramName, CanNotLeaveItsFolder) {
 
 TEST(MachineName, IsSafeInPartitionsAndFiles) {
   EXPECT_TRUE(check_machine_name("lathe-1_b"));
-  for (const char* name : {"", "Lathe", "-a", "a*", "a.b", "a b", "a/b"}) EXPECT_FALSE(check_machine_name(name)) << name;
+  for (const char* name : {"", "Lathe", "-a", "a*", "a.b", "a b", "a/b"})
+    EXPECT_FALSE(check_machine_name(name)) << name;
   EXPECT_FALSE(check_machine_name(std::string(65, 'a')));
 }
 

@@ -26,7 +26,8 @@ TEST(Feed, KeepsItsMeaningApart) {
 }
 
 TEST(Iso8601, PrintsMicrosecondsInUtc) {
-  EXPECT_EQ(to_iso8601(UtcTime{std::chrono::microseconds{1'500'000}}), "1970-01-01T00:00:01.500000Z");
+  EXPECT_EQ(to_iso8601(UtcTime{std::chrono::microseconds{1'500'000}}),
+            "1970-01-01T00:00:01.500000Z");
 }
 
 }  // namespace
