@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Scans `#include "..."` lines against the table of allowed arrows between folders. Prints every arrow that is not allowed.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+# folder (longest prefix wins): folders it may include
+table='
+protocol/base: protocol/base
+protocol/wire: protocol/base protocol/wire
+protocol/dds: protocol/base protocol/dds
+storage/sqlite: protocol/base storage/sqlite
+storage: protocol/base storage
+gateway/interpreter: protocol/base gateway/interpreter
+gateway/machine: protocol/base gateway/interpreter gateway/machine
+gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
+gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
+gateway/app: protocol gateway storage/sqlite
+server/library: protocol/base storage gateway/interpreter server/library
+server/feeds: protocol storage gateway/interpreter server/library server/feeds
+server/api: protocol storage gateway/interpreter server/library server/feeds server/api
+server/app: protocol storage server
+clients: protocol/base gateway/interpreter clients
+'
+folder_of() {  # the longest row that $1 lies under
+  local best=""
+  while IFS=: read -r row _; do
+    [[ -n $row && $1 == "$row"/* && ${#row} -gt ${#best} ]] && best=$row
+  done <<<"$table"
+  printf %s "$best"
+}
+
+bad=0 checked=0
+while IFS=: read -r file line include; do
+  target=${include#*\"}; target=${target%%\"*}
+  folder=$(folder_of "$file")
+  checked=$((checked + 1))
+  if [[ -z $folder ]]; then echo "$file:$line: no row for this folder in the table"; bad=1; continue; fi
+  allowed=$(grep "^$folder:" <<<"$table" | cut -d: -f2-)
+  ok=no
+  for row in $allowed; do [[ $target == "$row"/* ]] && ok=yes; done
+  if [[ $target == */impl/* && ${target%%/impl/*} != "${file%/*}" && ${target%%/impl/*} != "${file%%/impl/*}" ]]; then ok=impl; fi
+  [[ $target == *dripline.h ]] && ok=yes  # generated from the IDL, inside protocol/dds
+  case $ok in
+    no) echo "$file:$line: $folder must not include $target"; bad=1 ;;
+    impl) echo "$file:$line: $target is private to its folder"; bad=1 ;;
+  esac
+done < <(git ls-files protocol storage gateway server clients | grep -E '\.(hpp|cpp)$' | xargs grep -nE '^#include "' /dev/null)
+
+# Third-party headers that only one folder may see.
+only() {  # pattern, folder
+  if git ls-files protocol storage gateway server clients | grep -E '\.(hpp|cpp)$' | grep -v "^$2/" | xargs grep -nE "^#include <($1)" /dev/null; then
+    echo "only $2 may include these"; bad=1
+  fi
+}
+only 'dds/' protocol/dds
+only 'SQLiteCpp|sqlite3' storage/sqlite
+only 'restinio' server/api
+only 'httplib' clients/lib
+
+echo "$checked includes checked"
+exit $bad
