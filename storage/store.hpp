@@ -88,6 +88,7 @@ struct Run {
   std::string reason;          ///< why it ended, for people
   std::optional<std::string>
       executed_content;  ///< SHA-256 the gateway reports of the bytes it really received
+  std::optional<bool> content_verified;  ///< those bytes are the revision's; absent: not compared
   std::string author;
   UtcTime created;
   std::optional<UtcTime> started, ended;
@@ -117,6 +118,7 @@ struct RunEnding {
   std::int64_t sequence = -1;
   std::string reason;
   std::optional<std::string> executed_content;
+  std::optional<bool> content_verified;
   UtcTime ended;
 };
 struct RunBeginning {
@@ -144,6 +146,7 @@ struct Page {
 struct RunFilter {
   std::optional<std::string> machine, program;
   std::optional<RunState> state;
+  bool with_outputs = false;  ///< only runs that have stored report lines
 };
 
 class Store {
@@ -159,6 +162,12 @@ class Store {
   /// NotFound, ModalConflict (a gap or an overlap).
   virtual Result<Upload> append_upload(const std::string& id, std::uint64_t offset,
                                        std::span<const std::byte> bytes) = 0;
+  /// Bytes received so far, from `offset`, at most `length`; empty behind the end. Errors:
+  /// NotFound.
+  virtual Result<std::vector<std::byte>> read_upload(const std::string& id, std::uint64_t offset,
+                                                     std::uint64_t length) = 0;
+  /// For uploads begun without a control, once it was detected from the text. Errors: NotFound.
+  virtual Result<void> set_upload_control(const std::string& id, const std::string& control) = 0;
   /// Makes the upload a new revision of its program, or returns the latest one when it has the very
   /// same content. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax
   /// (empty).
