@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "gateway/interpreter/event.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::machine {
+
+/// What one axis can do. Linear axes: millimetres (a lathe's X in radius); rotary axes: degrees.
+struct AxisLimits {
+  double min = -std::numeric_limits<double>::infinity();  ///< travel, both ends allowed
+  double max = std::numeric_limits<double>::infinity();
+  double rapid_per_minute = 10'000;
+  double feed_per_minute = 5'000;  ///< the fastest feed, whatever is programmed
+  double acceleration = 1'000;     ///< per second squared
+};
+
+struct SpindleLimits {
+  double max_rpm = 6'000;
+  /// Used for feed per revolution and threads while the spindle stands still; 0: that is an alarm.
+  double assumed_rpm = 0;
+};
+
+/// The machine as configured. Value type.
+struct MachineLimits {
+  std::array<std::optional<AxisLimits>, interpreter::kAxisCount> axes;  ///< absent: no such axis
+  SpindleLimits spindle;
+  /// How far a corner may be cut in thought to find the speed it is passed at: a corner is taken at
+  /// the speed of the circle that leaves it by this much (mm). 0: full stop at every corner.
+  double corner_deviation = 0.02;
+  bool waits_at_tool_change = false;  ///< a tool change stop waits for resume, as a program stop
+
+  const std::optional<AxisLimits>& axis(interpreter::Axis axis) const {
+    return axes[static_cast<std::size_t>(axis)];
+  }
+  std::optional<AxisLimits>& axis(interpreter::Axis axis) {
+    return axes[static_cast<std::size_t>(axis)];
+  }
+
+  /// Two axes, X (radius) and Z, ordinary speeds, no travel limits.
+  static MachineLimits lathe();
+  /// X, Y, Z and the rotary A, B, C.
+  static MachineLimits mill();
+};
+
+/// Errors: LimitExceeded, naming the axis and the value that can not be (a speed or acceleration
+/// that is not positive and finite, min above max, no axis at all).
+Result<void> check(const MachineLimits& limits);
+
+}  // namespace dripline::machine

@@ -1,0 +1,23 @@
+#pragma once
+
+namespace dripline::machine {
+
+/// The switches and knobs in front of the operator, as plain state. The application maps orders to
+/// it. Block skip is the interpreter's to obey; it is kept here so that one place knows them all.
+struct OperatorPanel {
+  bool single_block = false;   ///< stop after every block
+  bool optional_stop = false;  ///< an optional stop (M1) stops
+  bool block_skip = false;
+  double feed_override = 1;     ///< 0 .. 2; threads ignore it
+  double rapid_override = 1;    ///< 0 .. 1
+  double spindle_override = 1;  ///< 0.5 .. 1.2
+
+  static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1;
+  static constexpr double kMinSpindleOverride = 0.5, kMaxSpindleOverride = 1.2;
+
+  /// The nearest panel a hand could set; a NaN counts as 1.
+  OperatorPanel clamped() const;
+  friend bool operator==(const OperatorPanel&, const OperatorPanel&) = default;
+};
+
+}  // namespace dripline::machine
