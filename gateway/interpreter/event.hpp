@@ -18,7 +18,11 @@ namespace dripline::interpreter {
 
 enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
 inline constexpr std::size_t kAxisCount = 9;
+inline constexpr std::array<Axis, kAxisCount> kAllAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B,
+                                                       Axis::C, Axis::U, Axis::V, Axis::W};
 char letter(Axis axis);
+/// The axis of a capital letter, or nullopt.
+std::optional<Axis> axis_of(char letter);
 inline bool is_rotary(Axis axis) {
   return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
@@ -39,6 +43,14 @@ class Position {
     axes_.set(index(axis));
   }
   bool has(Axis axis) const { return axes_.test(index(axis)); }
+  /// Of a linear axis millimetres, of a rotary axis degrees: for loops over all axes.
+  double raw(Axis axis) const { return value_[index(axis)]; }
+  void set_raw(Axis axis, double value) {
+    value_[index(axis)] = value;
+    axes_.set(index(axis));
+  }
+  /// Marks every axis that `other` has; values stay.
+  void mark_all_of(const Position& other) { axes_ |= other.axes_; }
   void mark(Axis axis) { axes_.set(index(axis)); }
   bool same_point(const Position& other) const { return value_ == other.value_; }
   friend bool operator==(const Position&, const Position&) = default;

@@ -21,6 +21,8 @@ struct Dialect {
   /// have).
   Result<std::unique_ptr<Interpreter>> (*make)(const Setup& setup, ProgramSource& source,
                                                EventSink& sink);
+  /// Units of the control's own memory at power on: of a setup file that names none.
+  Units units = Units::Millimetre;
 };
 
 std::span<const Dialect> dialects();

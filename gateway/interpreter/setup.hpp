@@ -1,15 +1,14 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "gateway/interpreter/event.hpp"
 #include "gateway/interpreter/geometry/workpiece.hpp"
 #include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/option.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter {
@@ -40,10 +39,6 @@ struct VariableRecord {
   double value = 0;
 };
 
-/// A value of the `[control]` table; lists of tables are kept as their TOML text for the dialect to
-/// read.
-using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
-
 /// What a control knows before a program starts. All of it has defaults (spec: trace format, "The
 /// setup file").
 struct Setup {
@@ -56,12 +51,13 @@ struct Setup {
   std::vector<OffsetRecord> offsets;
   std::vector<VariableRecord> variables;
   Workpiece workpiece;
-  std::map<std::string, OptionValue, std::less<>> control;
+  Options control;
   std::optional<std::string> library_path;  ///< folder of called programs; resolved by the caller
 };
 
-/// Reads a setup file's text. Errors: Syntax, with the key and its line; an unknown key is an
-/// error.
-Result<Setup> parse_setup(std::string_view toml);
+/// Reads a setup file's text; lengths are in the file's `units`, or in `units` when it names none
+/// (a dialect's own, see `Dialect::units`). Errors: Syntax, with the key and its line; an unknown
+/// key is an error.
+Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimetre);
 
 }  // namespace dripline::interpreter

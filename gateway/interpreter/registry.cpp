@@ -1,0 +1,60 @@
+#include "gateway/interpreter/registry.hpp"
+
+#include <algorithm>
+
+namespace dripline::interpreter {
+namespace {
+
+/// A candidate this far ahead of the next leaves no doubt.
+constexpr int kClearLead = 30;
+
+/// One line for each dialect.
+const std::vector<Dialect>& table() {
+  static const std::vector<Dialect> kTable{};
+  return kTable;
+}
+
+std::string known_names() {
+  std::string names;
+  for (const Dialect& dialect : table()) {
+    if (!names.empty()) names += ", ";
+    names += dialect.name;
+  }
+  return names;
+}
+
+}  // namespace
+
+std::span<const Dialect> dialects() {
+  return table();
+}
+
+Result<const Dialect*> find_dialect(std::string_view name) {
+  for (const Dialect& dialect : table()) {
+    if (dialect.name == name) return &dialect;
+  }
+  return fail(Errc::NotFound, "control \"{}\" is not known; known are: {}", name, known_names());
+}
+
+std::vector<const Dialect*> detect_dialect(std::string_view head, std::string_view file_name) {
+  struct Candidate {
+    const Dialect* dialect;
+    int likelihood;
+  };
+  std::vector<Candidate> candidates;
+  for (const Dialect& dialect : table()) {
+    const int likelihood = dialect.likelihood(head, file_name);
+    if (likelihood > 0) candidates.push_back({&dialect, likelihood});
+  }
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.likelihood > b.likelihood; });
+  if (candidates.size() > 1 && candidates[0].likelihood >= candidates[1].likelihood + kClearLead) {
+    candidates.resize(1);
+  }
+  std::vector<const Dialect*> found;
+  for (const Candidate& candidate : candidates) found.push_back(candidate.dialect);
+  return found;
+}
+
+}  // namespace dripline::interpreter
