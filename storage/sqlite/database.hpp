@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+#include "storage/sqlite/statement.hpp"
+
+namespace dripline::storage::sqlite {
+
+enum class Access { ReadWrite, ReadOnly };
+
+/// When a commit has returned: Full = it survives a power cut; Normal = it survives a kill of the
+/// process, but a power cut may take the last commits (never tear one).
+enum class Synchronous { Normal, Full };
+
+struct OpenOptions {
+  Access access = Access::ReadWrite;  ///< ReadWrite creates the file
+  Synchronous synchronous = Synchronous::Full;
+  std::chrono::milliseconds busy_timeout{5000};  ///< then Errc::Busy
+  std::uint64_t page_bytes = 4096;               ///< of a new file; a power of two, 512 to 65536
+  std::uint64_t max_bytes = 0;  ///< the file never grows beyond; 0 = as the disk allows
+  std::uint64_t cache_bytes = 2 << 20;
+  std::uint64_t checkpoint_bytes = 4 << 20;  ///< of log after which it is written into the file
+};
+
+/// One connection to one file: WAL, foreign keys on, no secure delete. One thread at a time; a
+/// thread may hand it to another. Errors of everything here: Busy (another connection writes),
+/// Corrupt, Io (a full disk says "disk full"), ModalConflict (a constraint of the schema); the text
+/// holds SQLite's extended code and the SQL.
+class Database {
+ public:
+  static Result<Database> open(const std::filesystem::path& file, const OpenOptions& options = {});
+  Database(Database&&) noexcept;
+  Database& operator=(Database&&) noexcept;
+  ~Database();
+
+  /// Runs one or several statements that return nothing.
+  Result<void> execute(const std::string& sql);
+
+  /// A prepared statement, kept for the next caller with the same text: so SQL texts are
+  /// constants, values are bound. It must be gone before the database is.
+  Result<Statement> prepare(const std::string& sql);
+
+  /// The first column of the only row, for PRAGMA and COUNT. Errors: also NotFound (no row).
+  Result<std::int64_t> integer(const std::string& sql);
+  Result<std::string> text(const std::string& sql);
+
+  /// Rows changed by the statement that ran last.
+  std::uint64_t changes() const;
+  /// Row id of the last INSERT.
+  std::int64_t last_insert_id() const;
+  bool in_transaction() const;
+  /// Outside a transaction only: what the next commits promise.
+  Result<void> set_synchronous(Synchronous synchronous);
+
+  const std::string& file() const;
+
+ private:
+  struct Connection;
+  explicit Database(std::unique_ptr<Connection> connection);
+  Result<void> configure(const OpenOptions& options);
+
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace dripline::storage::sqlite

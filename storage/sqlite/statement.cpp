@@ -1,0 +1,129 @@
+#include "storage/sqlite/statement.hpp"
+
+#include <sqlite3.h>
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Statement.h>
+
+#include "protocol/base/invariant.hpp"
+#include "storage/sqlite/error.hpp"
+
+namespace dripline::storage::sqlite {
+namespace {
+
+/// SQLiteCpp throws on a position that does not exist, or for want of memory: neither is an
+/// expected failure.
+template <class Action>
+auto expect_position(Action action) {
+  try {
+    return action();
+  } catch (const SQLite::Exception& exception) {
+    invariant(false, exception.what());
+    throw;
+  }
+}
+
+}  // namespace
+
+Statement::Statement(std::shared_ptr<SQLite::Statement> statement, bool* is_busy)
+    : statement_(std::move(statement)), is_busy_(is_busy) {
+  if (is_busy_ != nullptr) *is_busy_ = true;
+}
+
+Statement::Statement(Statement&& other) noexcept
+    : statement_(std::move(other.statement_)), is_busy_(std::exchange(other.is_busy_, nullptr)) {}
+
+Statement::~Statement() {
+  if (statement_ == nullptr) return;
+  statement_->tryReset();
+  expect_position([this] { statement_->clearBindings(); });  // lets go of the caller's bytes
+  if (is_busy_ != nullptr) *is_busy_ = false;
+}
+
+Result<bool> Statement::step() {
+  if (statement_->isDone()) statement_->tryReset();
+  const int code = statement_->tryExecuteStep();
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  const Error error = error_of(statement_->getExtendedErrorCode(), statement_->getErrorMsg(),
+                               statement_->getQuery());
+  statement_->tryReset();
+  return fail(error);
+}
+
+Result<void> Statement::run() {
+  for (;;) {
+    const auto has_row = step();
+    if (!has_row) return fail(has_row.error());
+    if (!*has_row) break;
+  }
+  reset();
+  return {};
+}
+
+void Statement::reset() {
+  statement_->tryReset();
+}
+
+void Statement::bind_integer(int position, std::int64_t value) {
+  expect_position([&] { statement_->bind(position, value); });
+}
+
+void Statement::bind_text(int position, const std::string& value) {
+  expect_position([&] { statement_->bind(position, value); });
+}
+
+void Statement::bind_blob(int position, std::span<const std::byte> value) {
+  const void* bytes = value.empty() ? "" : static_cast<const void*>(value.data());  // null is NULL
+  invariant(value.size() <= 1'000'000'000, "a blob has at most 10^9 bytes");
+  expect_position([&] { statement_->bindNoCopy(position, bytes, static_cast<int>(value.size())); });
+}
+
+void Statement::bind_null(int position) {
+  expect_position([&] { statement_->bind(position); });
+}
+
+std::int64_t Statement::integer(int column) const {
+  return expect_position([&] { return statement_->getColumn(column).getInt64(); });
+}
+
+std::uint64_t Statement::number(int column) const {
+  return static_cast<std::uint64_t>(integer(column));
+}
+
+std::string Statement::text(int column) const {
+  return expect_position([&] { return statement_->getColumn(column).getString(); });
+}
+
+std::span<const std::byte> Statement::blob(int column) const {
+  return expect_position([&]() -> std::span<const std::byte> {
+    const SQLite::Column value = statement_->getColumn(column);
+    const auto* bytes = static_cast<const std::byte*>(value.getBlob());
+    return {bytes, static_cast<std::size_t>(value.getBytes())};
+  });
+}
+
+UtcTime Statement::time(int column) const {
+  return UtcTime{std::chrono::microseconds{integer(column)}};
+}
+
+bool Statement::is_null(int column) const {
+  return expect_position([&] { return statement_->isColumnNull(column); });
+}
+
+std::optional<std::int64_t> Statement::optional_integer(int column) const {
+  if (is_null(column)) return std::nullopt;
+  return integer(column);
+}
+
+std::optional<std::string> Statement::optional_text(int column) const {
+  if (is_null(column)) return std::nullopt;
+  return text(column);
+}
+
+std::optional<UtcTime> Statement::optional_time(int column) const {
+  if (is_null(column)) return std::nullopt;
+  return time(column);
+}
+
+}  // namespace dripline::storage::sqlite
