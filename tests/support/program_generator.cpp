@@ -96,7 +96,7 @@ void write_report_program(std::uint64_t lines, std::uint64_t moves_per_line, con
     out.block("G1 X{:.3f} Z{:.3f} F50", 2.0 + 0.001 * static_cast<double>(i % 2),
               -0.001 * static_cast<double>(i % 7));
   }
-  out.block("DPRNT [LINE #1[00] ]");
+  out.block("DPRNT [LINE #1[50]]");
   out.block("IF P1<{} GOTO 10", lines);
   out.block("PCLOS");
   out.block("M30");

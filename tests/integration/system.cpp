@@ -1,0 +1,157 @@
+#include "tests/integration/system.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <fstream>
+#include <sstream>
+
+namespace dripline::integration {
+
+using test_support::ChildProcess;
+using test_support::eventually;
+using test_support::RestClient;
+
+namespace {
+
+constexpr const char* kDiscovery = "50";  // ms; only restarts are quicker than with the default
+constexpr const char* kLease = "1000";    // ms
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Domains share a port range of the machine, so tests that run side by side take different ones.
+int free_domain() {
+  return 1 + static_cast<int>(::getpid() % 90);  // above, their ports would meet ephemeral ones
+}
+
+bool has_ended(const nlohmann::json& run) {
+  const std::string state = run.value("state", "");
+  return state != "ordered" && state != "active" && !state.empty();
+}
+
+}  // namespace
+
+std::string program_path(const std::string& name) {
+  return std::string(DRIPLINE_BIN) + "/" + name;
+}
+
+System::System(Options options)
+    : options_(std::move(options)),
+      domain_(free_domain()),
+      tag_("test-" + std::to_string(::getpid())) {}
+
+void System::start_server() {
+  server_.reset();
+  std::filesystem::remove(server_state() / "dncd.json");
+  std::vector<std::string> command{program_path("dncd"),
+                                   "--state",
+                                   server_state(),
+                                   "--http",
+                                   "127.0.0.1:0",
+                                   "--dds-domain",
+                                   std::to_string(domain_),
+                                   "--dds-tag",
+                                   tag_,
+                                   "--discovery-interval-ms",
+                                   kDiscovery,
+                                   "--lease-ms",
+                                   kLease,
+                                   "--log",
+                                   folder() / "dncd.log"};
+  command.insert(command.end(), options_.server_arguments.begin(), options_.server_arguments.end());
+  server_.emplace(std::move(command), folder() / "dncd.out");
+  const bool listens = eventually([this] {
+    return std::filesystem::exists(server_state() / "dncd.json") &&
+           rest().get("/api/v1/server").status == 200;
+  });
+  ASSERT_TRUE(listens) << server_->output();
+}
+
+void System::start_gateway(const std::string& machine) {
+  gateway_.reset();
+  std::vector<std::string> command{program_path("dncgw"),
+                                   "--machine",
+                                   machine,
+                                   "--control",
+                                   "centurion",
+                                   "--state",
+                                   folder() / "gateway" / machine,
+                                   "--speed",
+                                   options_.speed,
+                                   "--dds-domain",
+                                   std::to_string(domain_),
+                                   "--dds-tag",
+                                   tag_,
+                                   "--discovery-interval-ms",
+                                   kDiscovery,
+                                   "--lease-ms",
+                                   kLease,
+                                   "--log",
+                                   folder() / "dncgw.log",
+                                   "--witness",
+                                   folder() / "witness"};
+  command.insert(command.end(), options_.gateway_arguments.begin(),
+                 options_.gateway_arguments.end());
+  gateway_.emplace(std::move(command), folder() / "dncgw.out");
+}
+
+void System::wait_connected(const std::string& machine) {
+  const bool connected = eventually(
+      [&] { return rest().get("/api/v1/machines/" + machine).json().value("connected", false); });
+  ASSERT_TRUE(connected) << "the server does not see " << machine << "\n" << gateway_->output();
+}
+
+RestClient System::rest() const {
+  const auto location =
+      nlohmann::json::parse(read_file(server_state() / "dncd.json"), nullptr, false);
+  std::string token = read_file(server_state() / "token");
+  while (!token.empty() && token.back() == '\n') token.pop_back();
+  return RestClient(url(), token);
+}
+
+nlohmann::json System::push(const std::string& name, const std::string& text) {
+  constexpr std::size_t kPiece = 4 << 20;
+  const RestClient client = rest();
+  const auto upload =
+      client.post("/api/v1/uploads", {{"program", name}, {"control", "centurion"}}).json();
+  const std::string path = "/api/v1/uploads/" + upload.value("id", "none");
+  for (std::size_t at = 0; at < text.size(); at += kPiece) {
+    const auto reply =
+        client.put_bytes(path + "/content?offset=" + std::to_string(at), text.substr(at, kPiece));
+    EXPECT_EQ(reply.status, 200) << reply.body;
+  }
+  const auto reply = client.post(path + "/commit", nlohmann::json::object());
+  EXPECT_TRUE(reply.status == 200 || reply.status == 201) << reply.body;
+  return reply.json();
+}
+
+std::string System::start_run(const std::string& program, const std::string& machine) {
+  const auto reply = rest().post("/api/v1/runs", {{"machine", machine}, {"program", program}});
+  EXPECT_EQ(reply.status, 201) << reply.body;
+  return reply.json().value("id", "none");
+}
+
+nlohmann::json System::run(const std::string& id) const {
+  auto run = rest().get("/api/v1/runs/" + id).json();
+  return run.is_object() ? run : nlohmann::json::object();
+}
+
+nlohmann::json System::wait_ended(const std::string& id, std::chrono::milliseconds limit) const {
+  nlohmann::json last = nlohmann::json::object();
+  const bool ended = eventually([&] { return has_ended(last = run(id)); }, limit);
+  EXPECT_TRUE(ended) << "run " << id << " did not end in time: " << last.dump();
+  return last;
+}
+
+std::vector<std::string> System::report_lines(const std::string& id) const {
+  std::istringstream text(rest().get("/api/v1/reports/" + id + "?format=text").body);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace dripline::integration

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/child_process.hpp"
+#include "tests/support/rest_client.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::integration {
+
+/// The real programs in a folder of their own: one server, one or more gateways, on loopback, with
+/// a DDS domain and tag that no other test uses. Every start waits until the program answers.
+/// Failures are reported through gtest assertions.
+class System {
+ public:
+  struct Options {
+    std::string speed = "max";
+    std::vector<std::string> server_arguments;
+    std::vector<std::string> gateway_arguments;
+  };
+  explicit System(Options options = {});
+
+  void start_server();
+  void start_gateway(const std::string& machine = "lathe-1");
+  void wait_connected(const std::string& machine = "lathe-1");
+
+  test_support::ChildProcess& server() { return *server_; }
+  test_support::ChildProcess& gateway() { return *gateway_; }
+  test_support::RestClient rest() const;
+  std::string url() const;
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path server_state() const { return folder() / "server"; }
+
+  /// Stores `text` as a new revision of `name`; returns the commit's answer.
+  nlohmann::json push(const std::string& name, const std::string& text);
+  /// Starts a run and returns its id.
+  std::string start_run(const std::string& program, const std::string& machine = "lathe-1");
+  nlohmann::json run(const std::string& id) const;
+  /// Waits until the run has ended and returns it.
+  nlohmann::json wait_ended(const std::string& id,
+                            std::chrono::milliseconds limit = std::chrono::seconds(60)) const;
+  std::vector<std::string> report_lines(const std::string& id) const;
+
+  /// What the simulated machine truly did in its last run, from a file that only its lowest level
+  /// writes.
+  struct Witness {
+    std::uint64_t executed = 0, outputs = 0;
+  };
+  Witness witness() const;
+
+ private:
+  test_support::TemporaryFolder folder_;
+  Options options_;
+  int domain_;
+  std::string tag_;
+  std::optional<test_support::ChildProcess> server_, gateway_;
+};
+
+/// Where the built programs are, given to ctest by CMake.
+std::string program_path(const std::string& name);
+
+}  // namespace dripline::integration

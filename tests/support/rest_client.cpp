@@ -1,0 +1,44 @@
+#include "tests/support/rest_client.hpp"
+
+#include <httplib.h>
+
+namespace dripline::test_support {
+namespace {
+
+httplib::Client connect(const std::string& url, const std::string& token) {
+  httplib::Client client(url);
+  client.set_bearer_token_auth(token);
+  client.set_read_timeout(30);
+  return client;
+}
+
+RestClient::Reply reply(const httplib::Result& result) {
+  return result ? RestClient::Reply{result->status, result->body} : RestClient::Reply{};
+}
+
+}  // namespace
+
+RestClient::RestClient(std::string url, std::string token)
+    : url_(std::move(url)), token_(std::move(token)) {}
+
+RestClient::Reply RestClient::get(const std::string& path) const {
+  return reply(connect(url_, token_).Get(path));
+}
+
+RestClient::Reply RestClient::post(const std::string& path, const nlohmann::json& body) const {
+  return post_text(path, body.dump());
+}
+
+RestClient::Reply RestClient::post_text(const std::string& path, const std::string& body) const {
+  return reply(connect(url_, token_).Post(path, body, "application/json"));
+}
+
+RestClient::Reply RestClient::put_bytes(const std::string& path, const std::string& bytes) const {
+  return reply(connect(url_, token_).Put(path, bytes, "application/octet-stream"));
+}
+
+RestClient::Reply RestClient::remove(const std::string& path) const {
+  return reply(connect(url_, token_).Delete(path));
+}
+
+}  // namespace dripline::test_support

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dripline::test_support {
+
+/// A plain HTTP client for tests, independent of our own client library, so that a shared mistake
+/// can not hide.
+class RestClient {
+ public:
+  struct Reply {
+    int status = 0;  ///< 0: no answer
+    std::string body;
+    nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
+  };
+
+  RestClient(std::string url, std::string token);
+  Reply get(const std::string& path) const;
+  Reply post(const std::string& path, const nlohmann::json& body) const;
+  Reply post_text(const std::string& path, const std::string& body) const;
+  Reply put_bytes(const std::string& path, const std::string& bytes) const;
+  Reply remove(const std::string& path) const;
+
+ private:
+  std::string url_;
+  std::string token_;
+};
+
+}  // namespace dripline::test_support
