@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string_view>
 
 #include "gateway/interpreter/event.hpp"
 #include "gateway/interpreter/geometry/workpiece.hpp"

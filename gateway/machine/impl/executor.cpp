@@ -1,0 +1,263 @@
+#include "gateway/machine/impl/executor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::machine::impl {
+
+Executor::Executor(const Parts& parts)
+    : limits_(parts.limits),
+      workpiece_(parts.workpiece),
+      queue_(parts.queue),
+      intake_(parts.intake),
+      sink_(parts.sink),
+      spindle_(parts.limits.spindle) {}
+
+void Executor::begin(const interpreter::Position& at) {
+  is_held_ = is_aborting_ = false;
+  discard();
+  at_ = {};
+  axes_ = {};
+  for (std::size_t i = 0; i < interpreter::kAxisCount; ++i)
+    if (limits_.axes[i]) axes_.mark(static_cast<interpreter::Axis>(i));
+  take_over(at_, at);
+  intake_.begin(at_);
+  planner_.invalidate();
+  spindle_.stop();
+  stop_ = MachineState::Idle;
+  origin_ = {};
+  executed_ = 0;
+}
+
+// -- time ------------------------------------------------------------------------------------
+
+double Executor::advance(double by, std::size_t max_actions) {
+  double used = 0;
+  look_ahead_again();
+  for (;;) {
+    if (motion_.is_active()) {
+      const double left = motion_.left();
+      if (left > by - used) {
+        motion_.pass(by - used);
+        return by;
+      }
+      used += std::max(left, 0.0);
+      motion_.pass_all();
+      if (!motion_.reaches_end()) {
+        if (is_aborting_) discard();
+        return used;
+      }
+      finish_move();
+    } else if (is_dwelling_) {
+      if (is_held_) return used;
+      if (dwell_left_ > by - used) {
+        dwell_left_ -= by - used;
+        return by;
+      }
+      used += dwell_left_;
+      is_dwelling_ = false;
+      finish_action();
+    } else if (max_actions > 0 && may_start()) {
+      --max_actions;
+      start_front();
+    } else {
+      if (is_aborting_ && speed_ == 0) discard();
+      return used;
+    }
+  }
+}
+
+bool Executor::is_over() const {
+  return stop_ == MachineState::Completed || stop_ == MachineState::Alarmed ||
+         stop_ == MachineState::Aborted;
+}
+
+bool Executor::may_start() const {
+  if (queue_.empty()) return false;
+  // The last block's end may come after the program's.
+  if (stop_ == MachineState::Completed)
+    return std::holds_alternative<BlockEnd>(queue_.front().body);
+  if (stop_ != MachineState::Idle) return false;
+  return speed_ > 0 || !(is_held_ || is_aborting_);
+}
+
+void Executor::start_front() {
+  Action& action = queue_.front();
+  origin_ = action.origin;
+  if (const auto* move = std::get_if<Move>(&action.body)) {
+    planner_.ensure(queue_, panel_);
+    start(*move);
+  } else if (const auto* wait = std::get_if<Wait>(&action.body)) {
+    is_dwelling_ = true;
+    dwell_left_ = wait->follows_spindle ? wait->seconds / panel_.spindle_override : wait->seconds;
+  } else if (std::holds_alternative<ProbeMarker>(action.body)) {
+    start_probe();
+  } else {
+    report(action);
+  }
+}
+
+void Executor::start(const Move& move) {
+  motion_.start(move, speed_, goal(move));
+}
+
+/// Only a move that an operator can interrupt obeys a hold; an abort stops everything.
+MotionGoal Executor::goal(const Move& move) const {
+  if (is_aborting_ || (is_held_ && move.pace != Pace::Thread)) return {.cruise = 0, .exit = 0};
+  return {.cruise = move.wanted_speed(panel_), .exit = std::sqrt(move.exit_square)};
+}
+
+void Executor::finish_move() {
+  speed_ = motion_.exit_speed();
+  at_ = motion_.move().path.to;
+  const bool is_probe = &motion_.move() == &probe_move_;
+  motion_.stop();
+  if (is_probe)
+    finish_probe();
+  else
+    finish_action();
+}
+
+void Executor::finish_action() {
+  const Action& action = queue_.front();
+  const bool ends_block = action.ends_block;
+  const interpreter::Origin origin = action.origin;
+  queue_.pop();
+  if (!ends_block) return;
+  executed_ = origin.block;
+  if (panel_.single_block && speed_ == 0 && stop_ == MachineState::Idle)
+    stop_ = MachineState::SingleBlock;
+  sink_.on_block_executed(origin);
+}
+
+void Executor::discard() {
+  if (motion_.is_active()) at_ = position();
+  motion_.stop();
+  is_dwelling_ = false;
+  speed_ = 0;
+  queue_.clear();
+  intake_.close();
+  if (!is_aborting_) return;
+  is_aborting_ = is_held_ = false;
+  stop_ = MachineState::Aborted;
+  sink_.on_aborted();
+}
+
+// -- probing ---------------------------------------------------------------------------------
+
+void Executor::start_probe() {
+  interpreter::Probe& probe = *queue_.probe;
+  // The interpreter's own idea of where it goes, so that a trace without a machine says the same.
+  probe.result = workpiece_.probe(probe.from, probe.to, probe.until);
+  Coordinates target = at_;
+  take_over(target, probe.result->at);
+  if (target == at_) return finish_probe();
+  MoveBuilder builder(limits_);
+  const MoveTask task{
+      .path = straight_path(at_, target), .pace = Pace::Feed, .feed = probe.feed, .lead = {}};
+  if (auto refusal = builder.build(task, spindle_, probe_move_)) {
+    queue_.alarm = interpreter::Diagnostic{
+        .id = refusal->id, .text = std::move(refusal->text), .line = probe.origin.line};
+    return report_alarm(probe.origin);
+  }
+  probe_move_.exit_square = 0;
+  start(probe_move_);
+}
+
+void Executor::finish_probe() {
+  intake_.end_probe(at_);
+  const interpreter::Probe probe = *queue_.probe;
+  queue_.probe.reset();
+  finish_action();
+  sink_.on_probed(probe);
+}
+
+// -- the operator ----------------------------------------------------------------------------
+
+void Executor::set_panel(const OperatorPanel& panel) {
+  const OperatorPanel next = panel.clamped();
+  if (next == panel_) return;
+  panel_ = next;
+  planner_.invalidate();
+  plan_motion_again();
+}
+
+void Executor::hold() {
+  if (is_held_ || is_over()) return;
+  is_held_ = true;
+  plan_motion_again();
+}
+
+bool Executor::resume() {
+  if (is_aborting_ || is_over()) return false;
+  if (!is_held_ && stop_ == MachineState::Idle) return false;
+  is_held_ = false;
+  stop_ = MachineState::Idle;
+  plan_motion_again();
+  return true;
+}
+
+void Executor::abort() {
+  if (is_aborting_ || is_over()) return;
+  is_aborting_ = true;
+  if (speed() > 0)
+    plan_motion_again();
+  else
+    discard();
+}
+
+/// More was queued: the move being made may leave faster than it had to when nothing was behind it.
+void Executor::look_ahead_again() {
+  if (!motion_.is_active() || &motion_.move() == &probe_move_) return;
+  const double before = motion_.move().exit_square;
+  planner_.ensure(queue_, panel_);
+  if (motion_.move().exit_square != before) motion_.change(goal(motion_.move()));
+}
+
+void Executor::plan_motion_again() {
+  if (!motion_.is_active()) return;
+  if (&motion_.move() != &probe_move_) planner_.ensure(queue_, panel_);
+  motion_.change(goal(motion_.move()));
+}
+
+// -- what it does now ------------------------------------------------------------------------
+
+double Executor::speed() const {
+  return motion_.is_active() ? motion_.speed() : speed_;
+}
+
+Coordinates Executor::position() const {
+  return motion_.is_active() ? motion_.move().path.at(motion_.distance()) : at_;
+}
+
+double Executor::buffered() const {
+  double seconds = queue_.seconds();
+  if (motion_.is_active() && motion_.move().path.length > 0)
+    seconds -= queue_.front().seconds * motion_.distance() / motion_.move().path.length;
+  if (is_dwelling_) seconds -= queue_.front().seconds - dwell_left_;
+  return std::max(seconds, 0.0);
+}
+
+MachineState Executor::state() const {
+  if (is_over()) return stop_;
+  if (is_held_ || is_aborting_) return MachineState::Held;
+  if (stop_ != MachineState::Idle) return stop_;
+  const bool is_busy = motion_.is_active() || is_dwelling_ || !queue_.empty();
+  return is_busy ? MachineState::Running : MachineState::Idle;
+}
+
+MachineStatus Executor::status() const {
+  const Coordinates now = position();
+  const double turn = spindle_.rpm(now[0], panel_.spindle_override);
+  return {.state = state(),
+          .position = to_position(now, axes_),
+          .feed_per_minute = speed() * 60,
+          .spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn,
+          .origin = origin_,
+          .executed = executed_,
+          .buffered = Seconds{buffered()},
+          .queued = queue_.size(),
+          .stopped_at = stopped_at_};
+}
+
+}  // namespace dripline::machine::impl

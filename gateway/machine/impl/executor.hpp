@@ -1,0 +1,84 @@
+#pragma once
+
+#include "gateway/interpreter/geometry/workpiece.hpp"
+#include "gateway/machine/execution_sink.hpp"
+#include "gateway/machine/impl/intake.hpp"
+#include "gateway/machine/impl/motion.hpp"
+#include "gateway/machine/impl/planner.hpp"
+#include "gateway/machine/machine.hpp"
+
+namespace dripline::machine::impl {
+
+/// Executes the queue in machine time: starts the front action, lets time pass over it, reports it
+/// and takes the next. Zero-time actions are executed between the moves without stopping them.
+class Executor {
+ public:
+  struct Parts {
+    const MachineLimits& limits;
+    const interpreter::Workpiece& workpiece;
+    ActionQueue& queue;
+    Intake& intake;
+    ExecutionSink& sink;
+  };
+  explicit Executor(const Parts& parts);
+
+  void begin(const interpreter::Position& at);
+  double advance(double by, std::size_t max_actions);
+
+  const OperatorPanel& panel() const { return panel_; }
+  void set_panel(const OperatorPanel& panel);
+  void hold();
+  bool resume();
+  void abort();
+
+  MachineState state() const;
+  bool is_moving() const { return speed() > 0; }
+  MachineStatus status() const;
+  double buffered() const;
+
+ private:
+  bool may_start() const;
+  bool is_over() const;
+  void start_front();
+  void start(const Move& move);
+  void start_probe();
+  void finish_move();
+  void finish_probe();
+  void finish_action();
+  void report(const Action& action);
+  void report_text(const interpreter::Origin& origin, const Text& text);
+  void report_alarm(const interpreter::Origin& origin);
+  void report_stop(const interpreter::Stop& stop);
+  void discard();
+
+  MotionGoal goal(const Move& move) const;
+  void look_ahead_again();
+  void plan_motion_again();
+  double speed() const;
+  Coordinates position() const;
+
+  const MachineLimits& limits_;
+  const interpreter::Workpiece& workpiece_;
+  ActionQueue& queue_;
+  Intake& intake_;
+  ExecutionSink& sink_;
+  Planner planner_;
+  OperatorPanel panel_;
+  SpindleModel spindle_;
+
+  Motion motion_;  ///< the move being made, if any
+  Move probe_move_;
+  bool is_dwelling_ = false;  ///< the front of the queue is a wait that has begun
+  double dwell_left_ = 0;
+  double speed_ = 0;            ///< between two moves
+  Coordinates at_{};            ///< between two moves
+  interpreter::Position axes_;  ///< says which axes were ever given
+
+  bool is_held_ = false, is_aborting_ = false;
+  MachineState stop_ = MachineState::Idle;  ///< Idle: no reason to stand
+  interpreter::StopKind stopped_at_{};
+  interpreter::Origin origin_;
+  std::uint64_t executed_ = 0;
+};
+
+}  // namespace dripline::machine::impl

@@ -1,0 +1,209 @@
+#include "gateway/machine/impl/intake.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::machine::impl {
+
+using interpreter::Origin;
+
+namespace {
+
+constexpr std::size_t kLongestWarning = 4096;
+
+}  // namespace
+
+Intake::Intake(const MachineLimits& limits, ActionQueue& queue)
+    : limits_(limits), queue_(queue), builder_(limits), spindle_(limits.spindle) {}
+
+void Intake::begin(const Coordinates& at) {
+  end_ = at;
+  spindle_.stop();
+  builder_.forget_direction();
+  is_closed_ = false;
+}
+
+Action* Intake::add(const Origin& origin) {
+  if (is_closed_) return nullptr;
+  if (queue_.size() + 1 < queue_.capacity()) return &queue_.push(origin);
+  alarm(origin, "MCH0005", "one block asks for more actions than the machine can queue");
+  return nullptr;
+}
+
+void Intake::alarm(const Origin& origin, std::string_view id, std::string text) {
+  add_alarm(origin, {.id = id, .text = std::move(text), .line = origin.line});
+}
+
+void Intake::add_alarm(const Origin& origin, interpreter::Diagnostic diagnostic) {
+  if (is_closed_) return;
+  queue_.push(origin).body.emplace<AlarmMarker>();  // the last place is kept free for this
+  queue_.alarm = std::move(diagnostic);
+  is_closed_ = true;
+}
+
+template <class Event>
+void Intake::add_as_is(const Event& event) {
+  if (Action* action = add(event.origin)) action->body.emplace<Event>(event);
+}
+
+void Intake::add_straight(const Origin& origin, const interpreter::Position& to, MoveTask task) {
+  Coordinates target = end_;
+  take_over(target, to);
+  if (target == end_) return;
+  task.path = straight_path(end_, target);
+  add_move(origin, task);
+}
+
+void Intake::add_move(const Origin& origin, const MoveTask& task) {
+  Action* action = add(origin);
+  if (!action) return;
+  auto& move = action->body.emplace<Move>();
+  if (auto refusal = builder_.build(task, spindle_, move)) {
+    queue_.drop_back();
+    return alarm(origin, refusal->id, std::move(refusal->text));
+  }
+  queue_.set_seconds(*action, move.path.length / std::min(move.speed, move.ceiling));
+  end_ = task.path.to;
+}
+
+void Intake::on_rapid(const interpreter::Rapid& event) {
+  add_straight(event.origin, event.to, {.path = {}, .pace = Pace::Rapid, .feed = {}, .lead = {}});
+}
+
+void Intake::on_line(const interpreter::Line& event) {
+  add_straight(event.origin, event.to,
+               {.path = {}, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
+}
+
+void Intake::on_thread(const interpreter::Thread& event) {
+  add_straight(event.origin, event.to,
+               {.path = {}, .pace = Pace::Thread, .feed = {}, .lead = abs(event.lead)});
+}
+
+void Intake::on_arc(const interpreter::Arc& event) {
+  const Path path = arc_path(end_, event);
+  if (!path.is_arc() || !(path.length > 0))
+    return alarm(event.origin, "MCH0006", "the arc has no radius or no length");
+  add_move(event.origin, {.path = path, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
+}
+
+void Intake::on_dwell(const interpreter::Dwell& event) {
+  Wait wait{.seconds = event.seconds, .follows_spindle = event.revolutions.has_value()};
+  if (event.revolutions) {
+    const double rpm = spindle_.mean_rpm(end_[0], end_[0]);
+    if (!(rpm > 0))
+      return alarm(event.origin, "MCH0004", "a dwell of turns with the spindle standing still");
+    wait.seconds = *event.revolutions / rpm * 60;
+  }
+  if (!std::isfinite(wait.seconds))
+    return alarm(event.origin, "MCH0006", "the dwell has no finite length");
+  if (wait.seconds < 0) wait.seconds = 0;
+  Action* action = add(event.origin);
+  if (!action) return;
+  action->body = wait;
+  queue_.set_seconds(*action, wait.seconds);
+}
+
+void Intake::on_spindle(const interpreter::Spindle& event) {
+  add_as_is(event);
+  spindle_.set(event);
+}
+
+void Intake::on_coolant(const interpreter::Coolant& event) {
+  if (Action* action = add(event.origin))
+    action->body = CoolantChange{.flood = event.flood, .mist = event.mist};
+}
+
+void Intake::on_tool(const interpreter::ToolChange& event) {
+  add_as_is(event);
+}
+void Intake::on_miscellaneous(const interpreter::Miscellaneous& event) {
+  add_as_is(event);
+}
+void Intake::on_pin(const interpreter::PinChange& event) {
+  add_as_is(event);
+}
+void Intake::on_stop(const interpreter::Stop& event) {
+  add_as_is(event);
+}
+void Intake::on_end(const interpreter::End& event) {
+  add_as_is(event);
+}
+
+void Intake::add_text(const Origin& origin, Text text, std::string_view content) {
+  if (is_closed_) return;
+  const auto piece = queue_.texts().push(content);
+  if (!piece)
+    return alarm(origin, "MCH0005", "one block puts out more text than the machine can queue");
+  Action* action = add(origin);
+  if (!action) return;  // the alarm's clearing of the queue gives the text back
+  text.piece = *piece;
+  action->body = text;
+}
+
+void Intake::on_output(const interpreter::Output& event) {
+  Text text;
+  text.device = event.device;
+  add_text(event.origin, text, event.text);
+}
+
+void Intake::on_open(const interpreter::Open& event) {
+  Text text;
+  text.kind = event.name ? Text::Kind::OpenNamed : Text::Kind::Open;
+  text.device = event.device;
+  add_text(event.origin, text, event.name.value_or(""));
+}
+
+void Intake::on_close(const interpreter::Close& event) {
+  if (Action* action = add(event.origin)) action->body = CloseDevice{event.device};
+}
+
+void Intake::on_message(const interpreter::Message& event) {
+  Text text;
+  text.kind = Text::Kind::Message;
+  add_text(event.origin, text, event.text);
+}
+
+void Intake::on_warning(const interpreter::Warning& event) {
+  Text text;
+  text.kind = Text::Kind::Warning;
+  text.id = event.diagnostic.id;
+  text.line = event.diagnostic.line;
+  text.column = event.diagnostic.column;
+  add_text(event.origin, text, std::string_view{event.diagnostic.text}.substr(0, kLongestWarning));
+}
+
+void Intake::on_alarm(const interpreter::Alarm& event) {
+  add_alarm(event.origin, event.diagnostic);
+}
+
+void Intake::on_block_end(const Origin& origin) {
+  if (is_closed_) return;
+  if (!queue_.empty()) {
+    Action& last = queue_.back();
+    if (!last.ends_block && last.origin.block == origin.block) {
+      last.ends_block = true;
+      last.origin = origin;
+      return;
+    }
+  }
+  if (Action* action = add(origin)) {
+    action->body.emplace<BlockEnd>();
+    action->ends_block = true;
+  }
+}
+
+void Intake::begin_probe(const interpreter::Probe& probe) {
+  Action* action = add(probe.origin);
+  if (!action) return;
+  action->body.emplace<ProbeMarker>();
+  queue_.probe = probe;
+  queue_.probe->result.reset();
+}
+
+void Intake::end_probe(const Coordinates& at) {
+  end_ = at;
+  builder_.forget_direction();
+}
+
+}  // namespace dripline::machine::impl

@@ -1,0 +1,28 @@
+#include "gateway/machine/impl/motion.hpp"
+
+#include <algorithm>
+
+namespace dripline::machine::impl {
+
+void Motion::start(const Move& move, double entry, const MotionGoal& goal) {
+  move_ = &move;
+  begun_at_ = 0;
+  plan(entry, goal);
+}
+
+void Motion::change(const MotionGoal& goal) {
+  const double now = speed();
+  begun_at_ = std::min(distance(), move_->path.length);
+  plan(now, goal);
+}
+
+void Motion::plan(double entry, const MotionGoal& goal) {
+  time_ = 0;
+  profile_ = Profile({.length = move_->path.length - begun_at_,
+                      .entry = entry,
+                      .cruise = goal.cruise,
+                      .exit = goal.exit,
+                      .acceleration = move_->acceleration});
+}
+
+}  // namespace dripline::machine::impl

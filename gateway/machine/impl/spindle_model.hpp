@@ -1,0 +1,34 @@
+#pragma once
+
+#include "gateway/interpreter/event.hpp"
+#include "gateway/machine/machine_limits.hpp"
+
+namespace dripline::machine::impl {
+
+/// How fast the spindle turns. It reaches its speed at once. Constant surface speed follows X (the
+/// radius, mm) up to the program's and the machine's highest speed.
+class SpindleModel {
+ public:
+  explicit SpindleModel(const SpindleLimits& limits) : limits_(limits) {}
+  void set(const interpreter::Spindle& spindle) { spindle_ = spindle; }
+  void stop() { spindle_ = {}; }
+
+  /// Revolutions per minute, 0 or more, with the tool at radius `x`.
+  double rpm(double x, double override) const;
+  /// The even speed that makes as many turns on the way from `x0` to `x1` as the changing one.
+  /// Standing still: the machine's assumed speed.
+  double mean_rpm(double x0, double x1) const;
+  /// The highest speed there can be now, any override.
+  double ceiling() const;
+  bool is_counter_clockwise() const {
+    return spindle_.state == interpreter::SpindleState::CounterClockwise;
+  }
+
+ private:
+  bool is_turning() const;
+
+  SpindleLimits limits_;
+  interpreter::Spindle spindle_;
+};
+
+}  // namespace dripline::machine::impl

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/machine/test_machine.hpp"
+
+namespace dripline::machine::test {
+namespace {
+
+TEST(Execution, CountsEveryBlockExactlyOnceAndInOrder) {
+  TestMachine test;
+  for (int i = 1; i <= 500; ++i) {
+    if (i % 7 == 0)
+      test.program.empty();
+    else if (i % 5 == 0)
+      test.program.output("x");
+    else
+      test.program.line(0, i, 1200);
+  }
+  test.run_all();
+  ASSERT_EQ(test.recorder.blocks.size(), 500u);
+  for (std::size_t i = 0; i < 500; ++i) EXPECT_EQ(test.recorder.blocks[i], i + 1);
+  EXPECT_EQ(test.machine.status().executed, 500u);
+  EXPECT_TRUE(test.machine.drained());
+}
+
+TEST(Execution, OutputIsToldOnlyAfterTheMotionBeforeIt) {
+  TestMachine test;
+  test.program.line(0, 10, 600);
+  test.program.output("done");
+  test.program.line(0, 0, 600);
+  test.machine.advance(Seconds{0.9});
+  EXPECT_TRUE(test.recorder.lines.empty());
+  test.machine.advance(Seconds{0.2});
+  EXPECT_EQ(test.recorder.lines, (std::vector<std::string>{"block 1", "output done", "block 2"}));
+}
+
+TEST(Execution, BlockOfSeveralMovesIsDoneAfterItsLast) {
+  TestMachine test;
+  const Origin& origin = test.program.begin_block();
+  test.machine.events().on_rapid({origin, Program::at(0, 10)});
+  test.machine.events().on_rapid({origin, Program::at(10, 10)});
+  test.program.end_block();
+  test.machine.advance_all(1);
+  EXPECT_TRUE(test.recorder.blocks.empty());
+  test.run_all();
+  EXPECT_EQ(test.recorder.blocks.size(), 1u);
+}
+
+TEST(Execution, BlockEndThatComesLateIsStillCounted) {
+  TestMachine test;
+  const Origin& origin = test.program.begin_block();
+  test.machine.events().on_rapid({origin, Program::at(0, 10)});
+  test.run_all();
+  EXPECT_TRUE(test.recorder.blocks.empty());
+  test.program.end_block();
+  test.run_all();
+  EXPECT_EQ(test.recorder.blocks.size(), 1u);
+}
+
+TEST(Execution, EverythingIsToldInTheOrderOfTheProgram) {
+  TestMachine test;
+  auto& events = test.machine.events();
+  const Origin& o = test.program.begin_block();
+  events.on_open({o, interpreter::OutputDevice::File, "PROFILE"});
+  events.on_open({o, interpreter::OutputDevice::Port1, std::nullopt});
+  events.on_coolant({o, true, false});
+  events.on_tool({o, 7, false, std::nullopt});
+  events.on_miscellaneous({o, 62});
+  events.on_pin({o, Axis::X, 3, true, std::nullopt});
+  events.on_message({o, "look"});
+  events.on_warning({o, {.id = "CEN0001", .text = "odd", .line = 1}});
+  events.on_close({o, interpreter::OutputDevice::File});
+  test.program.end_block();
+  test.program.end();
+  test.run_all();
+  EXPECT_EQ(test.recorder.lines,
+            (std::vector<std::string>{
+                "open PROFILE", "open -", "coolant true false", "tool 7", "misc 62", "pin 3 true",
+                "message look", "warning CEN0001 odd", "close", "block 1", "block 2", "end"}));
+  EXPECT_EQ(test.machine.state(), MachineState::Completed);
+}
+
+TEST(Execution, AlarmEndsEverythingBehindIt) {
+  TestMachine test;
+  test.program.line(0, 10, 1200);
+  const Origin& origin = test.program.begin_block();
+  test.machine.events().on_alarm({origin, {.id = "CEN0103", .text = "no such code", .line = 2}});
+  test.program.output("never");
+  EXPECT_NEAR(test.run_all(), trapezoid(10, 20, 1000), 1e-9);
+  EXPECT_EQ(test.recorder.lines,
+            (std::vector<std::string>{"block 1", "alarm CEN0103 no such code"}));
+  EXPECT_EQ(test.machine.state(), MachineState::Alarmed);
+  test.program.output("dropped");
+  test.run_all();
+  EXPECT_EQ(test.recorder.lines.size(), 2u);
+  EXPECT_FALSE(test.machine.resume());
+}
+
+TEST(Execution, BudgetOfActionsIsKept) {
+  TestMachine test;
+  for (int i = 1; i <= 100; ++i) test.program.line(0, i, 1200);
+  test.machine.advance_all(30);
+  EXPECT_EQ(test.recorder.blocks.size(), 30u);
+  test.run_all();
+  EXPECT_EQ(test.recorder.blocks.size(), 100u);
+}
+
+TEST(Queue, SaysWhenItIsFullAndEmptiesAgain) {
+  TestMachine test;
+  std::size_t blocks = 0;
+  while (test.machine.has_room()) test.program.line(0, static_cast<double>(++blocks), 1200);
+  EXPECT_EQ(blocks, Machine::kQueuedActions);
+  test.machine.advance_all(1);
+  EXPECT_TRUE(test.machine.has_room());
+  test.run_all();
+  EXPECT_EQ(test.recorder.blocks.size(), blocks);
+}
+
+TEST(Queue, IsFullOfTextToo) {
+  TestMachine test;
+  test.recorder.writes_blocks = false;
+  const std::string text(4000, 't');
+  std::size_t outputs = 0;
+  for (int round = 0; round < 5; ++round) {  // round and round the ring
+    while (test.machine.has_room()) {
+      test.program.output(fmt::format("{} {}", outputs++, text));
+    }
+    test.machine.advance_all(50);
+  }
+  test.run_all();
+  ASSERT_EQ(test.recorder.lines.size(), outputs);
+  for (std::size_t i = 0; i < outputs; ++i)
+    EXPECT_EQ(test.recorder.lines[i], fmt::format("output {} {}", i, text));
+}
+
+TEST(Queue, OverrunByOneBlockIsAnAlarmAndNotMemory) {
+  TestMachine test;
+  while (test.machine.has_room()) test.program.empty();
+  const Origin& origin = test.program.begin_block();
+  for (std::size_t i = 0; i < 2 * Machine::kBlockReserve; ++i)
+    test.machine.events().on_coolant({origin, i % 2 == 0, false});
+  test.program.end_block();
+  test.recorder.lines.clear();
+  test.run_all();
+  EXPECT_TRUE(test.recorder.lines.back().starts_with("alarm MCH0005"));
+}
+
+TEST(Queue, OverrunByTextIsAnAlarm) {
+  TestMachine test;
+  const Origin& origin = test.program.begin_block();
+  const std::string text(64 * 1024, 't');
+  for (int i = 0; i < 20; ++i)
+    test.machine.events().on_output({origin, interpreter::OutputDevice::File, text});
+  test.run_all();
+  EXPECT_TRUE(test.recorder.lines.back().starts_with("alarm MCH0005"));
+}
+
+}  // namespace
+}  // namespace dripline::machine::test

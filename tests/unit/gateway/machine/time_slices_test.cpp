@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+#include <random>
+
+#include "tests/unit/gateway/machine/test_machine.hpp"
+
+namespace dripline::machine::test {
+namespace {
+
+/// A program of everything that takes time or is told, different for each seed.
+void queue_random_program(TestMachine& test, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  test.program.spindle(600);
+  double x = 50, z = 0;
+  test.program.rapid(x, z);
+  for (int i = 0; i < 300; ++i) {
+    const double step = random() % 2 == 0 ? 0.05 : 5;
+    switch (random() % 9) {
+      case 0:
+        test.program.output(fmt::format("line {}", i));
+        break;
+      case 1:
+        test.program.dwell(between(0, 0.1));
+        break;
+      case 2:
+        x += between(-step, step);
+        test.program.rapid(x, z);
+        break;
+      case 3:
+        z += between(-step, step);
+        test.program.line(x, z, Feed::per_revolution(Length::mm(0.2)));
+        break;
+      case 4: {  // a half circle
+        const double radius = between(0.1, step);
+        test.program.arc(x, z + 2 * radius, z + radius, x, 180, between(100, 3000));
+        z += 2 * radius;
+        break;
+      }
+      case 5:
+        z -= step;
+        test.program.thread(x, z, 1.5);
+        break;
+      default:
+        x += between(-step, step);
+        z += between(-step, step);
+        test.program.line(x, z, between(100, 3000));
+    }
+  }
+  test.program.end();
+}
+
+TEST(TimeSlices, AnySlicingGivesTheSameOrderAndTheSameTotal) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    TestMachine whole, sliced;
+    queue_random_program(whole, seed);
+    queue_random_program(sliced, seed);
+    const double total = whole.run_all();
+    std::mt19937 random(seed);
+    std::exponential_distribution<double> slice(1 / (total / 2000));
+    double sum = 0;
+    while (sliced.machine.state() == MachineState::Running)
+      sum += sliced.machine.advance(Seconds{slice(random)}).count();
+    EXPECT_EQ(sliced.recorder.lines, whole.recorder.lines) << seed;
+    EXPECT_EQ(whole.recorder.lines.back(), "end");
+    EXPECT_NEAR(sum, total, total * 1e-9) << seed;
+    EXPECT_EQ(sliced.x(), whole.x());
+    EXPECT_EQ(sliced.z(), whole.z());
+  }
+}
+
+TEST(TimeSlices, SmallStepsPassThroughTheSamePlaces) {
+  TestMachine coarse, fine;
+  queue_random_program(coarse, 7);
+  queue_random_program(fine, 7);
+  for (int second = 0; second < 20; ++second) {
+    coarse.machine.advance(Seconds{1});
+    for (int i = 0; i < 1024; ++i) fine.machine.advance(Seconds{1.0 / 1024});
+    EXPECT_NEAR(coarse.x(), fine.x(), 1e-7);
+    EXPECT_NEAR(coarse.z(), fine.z(), 1e-7);
+    EXPECT_EQ(coarse.recorder.blocks, fine.recorder.blocks);
+  }
+}
+
+TEST(TimeSlices, HoldingAnywhereLosesNothing) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    TestMachine plain, held;
+    queue_random_program(plain, seed);
+    queue_random_program(held, seed);
+    plain.run_all();
+    std::mt19937 random(seed);
+    std::exponential_distribution<double> slice(2);
+    while (held.machine.state() != MachineState::Completed) {
+      held.machine.advance(Seconds{slice(random)});
+      held.machine.hold();
+      held.machine.advance(Seconds{slice(random) / 20});  // often still slowing down
+      held.machine.resume();
+    }
+    EXPECT_EQ(held.recorder.lines, plain.recorder.lines) << seed;
+    EXPECT_EQ(held.x(), plain.x());
+    EXPECT_EQ(held.z(), plain.z());
+  }
+}
+
+TEST(TimeSlices, SpeedNeverJumpsByMoreThanTheAccelerationAllows) {
+  TestMachine test;
+  queue_random_program(test, 11);
+  std::mt19937 random(11);
+  const double step = 0.0005;
+  double last = 0;
+  for (int i = 0; test.machine.state() == MachineState::Running; ++i) {
+    if (i % 400 == 0) {
+      OperatorPanel panel = test.machine.panel();
+      panel.feed_override = std::uniform_real_distribution<double>(0.2, 2)(random);
+      panel.rapid_override = std::uniform_real_distribution<double>(0.2, 1)(random);
+      test.machine.set_panel(panel);
+    }
+    test.machine.advance(Seconds{step});
+    const double now = test.machine.status().feed_per_minute / 60;
+    // 1000 mm/s^2 an axis: at most sqrt(2) of it along a diagonal.
+    ASSERT_LE(std::fabs(now - last), 1000 * std::sqrt(2) * step + 1e-3) << i;
+    last = now;
+  }
+}
+
+}  // namespace
+}  // namespace dripline::machine::test
