@@ -52,6 +52,8 @@ class Position {
   /// Marks every axis that `other` has; values stay.
   void mark_all_of(const Position& other) { axes_ |= other.axes_; }
   void mark(Axis axis) { axes_.set(index(axis)); }
+  /// No axis has moved any more; values stay.
+  void unmark_all() { axes_.reset(); }
   bool same_point(const Position& other) const { return value_ == other.value_; }
   friend bool operator==(const Position&, const Position&) = default;
 

@@ -1,0 +1,104 @@
+#include "gateway/interpreter/trace/offline_run.hpp"
+
+#include <algorithm>
+
+#include "gateway/interpreter/trace/event_tee.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+/// Blocks between two looks at the limit.
+constexpr std::uint64_t kStride = 65'536;
+constexpr LocalTime kDefaultTime{2000, 1, 1, 0, 0, 0};
+
+class Diagnostics final : public EventSink {
+ public:
+  void on_warning(const Warning&) override { ++warnings; }
+  void on_alarm(const Alarm& event) override { alarm = event.diagnostic; }
+
+  std::uint64_t warnings = 0;
+  std::optional<Diagnostic> alarm;
+};
+
+/// Gives the answers of a setup, in order.
+class SetupAnswers {
+ public:
+  SetupAnswers(const Setup& setup, std::vector<std::int64_t> pins)
+      : setup_(setup), pins_(std::move(pins)) {}
+
+  Result<Answer> operator()(const ProbeQuestion& question, const Origin&) {
+    const Probe& probe = question.probe;
+    return Answer(setup_.workpiece.probe(probe.from, probe.to, probe.until));
+  }
+  Result<Answer> operator()(const PromptQuestion& question, const Origin& origin) {
+    if (used_ == setup_.answers.size()) {
+      return fail(Errc::NotFound,
+                  "line {}: the program asks \"{}\" and there is no answer left; the setup's "
+                  "`answers` hold {}",
+                  origin.line, question.text, setup_.answers.size());
+    }
+    return Answer(PromptAnswer{setup_.answers[used_++]});
+  }
+  Result<Answer> operator()(const InputQuestion& question, const Origin&) {
+    return Answer(std::find(pins_.begin(), pins_.end(), question.pin) != pins_.end());
+  }
+  Result<Answer> operator()(const TimeQuestion&, const Origin&) {
+    return Answer(setup_.date_time.value_or(kDefaultTime));
+  }
+
+ private:
+  const Setup& setup_;
+  std::vector<std::int64_t> pins_;
+  std::size_t used_ = 0;
+};
+
+Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
+  const Origin origin = interpreter.origin();
+  const auto answer = std::visit([&](const auto& question) { return answers(question, origin); },
+                                 interpreter.question());
+  if (!answer) return fail(answer.error());
+  return interpreter.answer(*answer);
+}
+
+/// Steps until the program has ended or raised its alarm.
+Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, OfflineLimits limits) {
+  while (interpreter.blocks() < limits.max_blocks) {
+    const std::uint64_t left = limits.max_blocks - interpreter.blocks();
+    switch (const StepState state = interpreter.step(std::min(left, kStride))) {
+      case StepState::Ended:
+      case StepState::Alarmed:
+        return state;
+      case StepState::Ran:
+        break;
+      case StepState::NeedsText:
+        return fail(Errc::Io, "line {}: the text of the program is not all there",
+                    interpreter.origin().line);
+      case StepState::NeedsAnswer:
+        if (auto answered = answer_question(interpreter, answers); !answered) {
+          return fail(answered.error());
+        }
+        break;
+    }
+  }
+  return fail(Errc::LimitExceeded, "line {}: stopped after {} blocks, the limit of an offline run",
+              interpreter.origin().line, limits.max_blocks);
+}
+
+}  // namespace
+
+Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
+                                   ProgramSource& source, EventSink& sink, OfflineLimits limits) {
+  auto pins = setup.control.integers("pins");
+  if (!pins) return fail(pins.error());
+  Diagnostics diagnostics;
+  EventTee tee(sink, diagnostics);
+  auto interpreter = dialect.make(setup, source, tee);
+  if (!interpreter) return fail(interpreter.error());
+  SetupAnswers answers(setup, *std::move(pins));
+  const auto state = run(**interpreter, answers, limits);
+  if (!state) return fail(state.error());
+  return OfflineOutcome{*state == StepState::Ended, (*interpreter)->blocks(), diagnostics.warnings,
+                        diagnostics.alarm};
+}
+
+}  // namespace dripline::interpreter
