@@ -50,7 +50,7 @@ std::vector<const Dialect*> detect_dialect(std::string_view head, std::string_vi
       candidates.begin(), candidates.end(),
       [](const Candidate& a, const Candidate& b) { return a.likelihood > b.likelihood; });
   if (candidates.size() > 1 && candidates[0].likelihood >= candidates[1].likelihood + kClearLead) {
-    candidates.resize(1);
+    candidates.erase(candidates.begin() + 1, candidates.end());
   }
   std::vector<const Dialect*> found;
   for (const Candidate& candidate : candidates) found.push_back(candidate.dialect);
