@@ -159,7 +159,8 @@ class Store {
   virtual Result<Upload> begin_upload(const Upload& upload) = 0;
   virtual Result<Upload> upload(const std::string& id) = 0;
   /// Appends at `offset`. Sending a piece again that is already there is no error. Errors:
-  /// NotFound, ModalConflict (a gap or an overlap).
+  /// NotFound, ModalConflict (a gap, an overlap, or other bytes than before), LimitExceeded (a
+  /// piece of more than 16 MiB).
   virtual Result<Upload> append_upload(const std::string& id, std::uint64_t offset,
                                        std::span<const std::byte> bytes) = 0;
   /// Bytes received so far, from `offset`, at most `length`; empty behind the end. Errors:
@@ -174,15 +175,19 @@ class Store {
   virtual Result<Revision> commit_upload(const std::string& id,
                                          const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon_upload(const std::string& id) = 0;
+  /// Drops those whose last piece came before `time`; returns how many.
   virtual Result<std::uint64_t> drop_uploads_before(UtcTime time) = 0;
 
+  /// In order of their names.
   virtual Result<std::vector<ProgramSummary>> programs(Page page) = 0;
+  /// Newest first. Errors: NotFound.
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
   /// The latest, or the one with that number. Errors: NotFound (also when the program was removed).
   virtual Result<Revision> revision(const std::string& program,
                                     std::optional<std::uint64_t> number) = 0;
-  /// Hides the program from listings and starts; runs keep their revision. Errors: NotFound, Busy
-  /// (an unfinished run uses it).
+  /// Hides the program from listings and starts; runs keep their revision. A program pushed again
+  /// under the name shows only its new revisions, numbered on. Errors: NotFound, Busy (an
+  /// unfinished run uses it).
   virtual Result<void> remove_program(const std::string& program) = 0;
   /// Bytes of stored content from `offset`, at most `length`, never crossing more than needed of
   /// its chunks; every chunk is checked against its own SHA-256 before a byte is returned. Errors:
@@ -191,26 +196,34 @@ class Store {
                                                       std::uint64_t length) = 0;
 
   // Machines
+  /// Adds or updates. `last_record` is the store's own and ignored, `first_seen` is kept. Errors:
+  /// Syntax and LimitExceeded for the name.
   virtual Result<void> save_machine(const Machine& machine) = 0;
   virtual Result<Machine> machine(const std::string& name) = 0;
   virtual Result<std::vector<Machine>> machines() = 0;
 
   // Runs
-  /// Errors: Busy (the machine has an unfinished run; named).
+  /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
+  /// ModalConflict (the content is not the revision's, or the id was used before).
   virtual Result<void> create_run(const Run& run) = 0;
   virtual Result<Run> run(const std::string& id) = 0;
+  /// Newest first.
   virtual Result<std::vector<Run>> runs(const RunFilter& filter, Page page) = 0;
+  /// Ordered to Active, or either to a final state; to the state it has: nothing to do. A final
+  /// state is never left. Errors: NotFound, ModalConflict.
   virtual Result<void> set_run_state(const std::string& id, RunState state,
                                      const std::string& reason) = 0;
   /// Progress only: never goes backwards, never changes the state; ignored for runs that have
-  /// ended.
+  /// ended. Survives a kill of the process; a power cut may take the last ones. Errors: NotFound.
   virtual Result<void> update_counters(const std::string& id, const Counters& counters,
                                        std::uint64_t line, std::int64_t sequence) = 0;
 
   // Records
   /// Stores what is new and contiguous, in one transaction; returns the highest number stored
   /// without a gap in this epoch. Records already stored are skipped; those behind a gap are left
-  /// out (the gateway sends them again).
+  /// out (the gateway sends them again), and so is a beginning or ending whose record (run_started,
+  /// run_ended) is left out. An ending never changes a run that has ended. A machine not known yet
+  /// is added; a run not known is no error. Errors: Syntax, LimitExceeded (epoch over 2^63).
   virtual Result<std::uint64_t> store_records(const RecordBatch& batch) = 0;
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
@@ -218,6 +231,7 @@ class Store {
 
   // Audit
   virtual Result<void> audit(const AuditEntry& entry) = 0;
+  /// Newest first.
   virtual Result<std::vector<AuditEntry>> audit_entries(Page page) = 0;
 };
 
