@@ -1,0 +1,19 @@
+#pragma once
+
+#include "storage/impl/connections.hpp"
+
+namespace dripline::storage {
+
+/// Promises: storage/store.hpp. Thread-safe.
+class AuditRepository {
+ public:
+  explicit AuditRepository(Connections& connections) : connections_(connections) {}
+
+  Result<void> add(const AuditEntry& entry);
+  Result<std::vector<AuditEntry>> all(Page page);
+
+ private:
+  Connections& connections_;
+};
+
+}  // namespace dripline::storage

@@ -1,0 +1,73 @@
+#include "storage/impl/connections.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "storage/impl/schema.hpp"
+
+namespace dripline::storage {
+namespace {
+
+/// A new file's name is on disk only when its folder is.
+void sync_folder_of(const std::filesystem::path& file) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // the file in it was just opened; some file systems refuse this
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+sqlite::OpenOptions connection_options(const SqliteStoreOptions& options, sqlite::Access access) {
+  sqlite::OpenOptions connection;
+  connection.access = access;
+  connection.busy_timeout = options.wait;
+  connection.max_bytes = options.max_bytes;
+  connection.cache_bytes = access == sqlite::Access::ReadWrite ? 8 << 20 : 1 << 20;
+  // Big enough that a page written by several pieces of an upload goes into the file once.
+  connection.checkpoint_bytes = 16 << 20;
+  return connection;
+}
+
+}  // namespace
+
+Result<sqlite::Database> ConnectionPool::take() {
+  std::unique_lock lock(mutex_);
+  const auto deadline = std::chrono::steady_clock::now() + wait_;
+  if (!freed_.wait_until(lock, deadline, [this] { return !free_.empty(); })) {
+    return fail(Errc::Busy, "no database connection came free within {} ms", wait_.count());
+  }
+  sqlite::Database connection = std::move(free_.back());
+  free_.pop_back();
+  return connection;
+}
+
+void ConnectionPool::give_back(sqlite::Database connection) {
+  {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(connection));
+  }
+  freed_.notify_one();
+}
+
+Result<std::unique_ptr<Connections>> Connections::open(const SqliteStoreOptions& options) {
+  auto lock = sqlite::FileLock::acquire(options.file);
+  if (!lock) return fail(lock.error());
+  std::unique_ptr<Connections> connections(new Connections(std::move(*lock), options.wait));
+
+  auto writer =
+      sqlite::Database::open(options.file, connection_options(options, sqlite::Access::ReadWrite));
+  if (!writer) return fail(writer.error());
+  if (auto migrated = sqlite::migrate(*writer, schema()); !migrated) return fail(migrated.error());
+  connections->writer_.add(std::move(*writer));
+
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, options.readers); ++i) {
+    auto reader =
+        sqlite::Database::open(options.file, connection_options(options, sqlite::Access::ReadOnly));
+    if (!reader) return fail(reader.error());
+    connections->readers_.add(std::move(*reader));
+  }
+  sync_folder_of(options.file);
+  return connections;
+}
+
+}  // namespace dripline::storage

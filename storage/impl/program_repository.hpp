@@ -1,0 +1,33 @@
+#pragma once
+
+#include "storage/impl/chunk_cache.hpp"
+#include "storage/impl/connections.hpp"
+
+namespace dripline::storage {
+
+/// Inside the caller's transaction: makes `content` a new revision of the upload's program, or
+/// returns the latest one when that has this very content.
+Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
+                                  std::int64_t content, UtcTime now);
+
+/// Programs, their revisions and the bytes of these. Promises: storage/store.hpp. Thread-safe.
+class ProgramRepository {
+ public:
+  ProgramRepository(Connections& connections, std::uint64_t cache_bytes)
+      : connections_(connections), cache_(cache_bytes) {}
+
+  Result<std::vector<ProgramSummary>> programs(Page page);
+  Result<std::vector<Revision>> revisions(const std::string& program);
+  Result<Revision> revision(const std::string& program, std::optional<std::uint64_t> number);
+  Result<void> remove(const std::string& program);
+  Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
+                                              std::uint64_t length);
+
+ private:
+  Result<std::shared_ptr<const CachedChunk>> chunk(const Digest& content, std::uint64_t position);
+
+  Connections& connections_;
+  ChunkCache cache_;
+};
+
+}  // namespace dripline::storage

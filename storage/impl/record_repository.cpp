@@ -1,0 +1,149 @@
+#include "storage/impl/record_repository.hpp"
+
+#include <limits>
+#include <map>
+
+#include "storage/impl/machine_repository.hpp"
+#include "storage/impl/run_endings.hpp"
+#include "storage/sqlite/query.hpp"
+
+namespace dripline::storage {
+namespace {
+
+Record read_record(const sqlite::Statement& row) {
+  Record record;
+  record.machine = row.text(0);
+  record.epoch = row.number(1);
+  record.number = row.number(2);
+  record.time = row.time(3);
+  record.run = row.optional_text(4).value_or("");
+  record.kind = row.text(5);
+  record.block = row.number(6);
+  record.line = row.number(7);
+  record.sequence = row.integer(8);
+  record.device = row.text(9);
+  record.text = row.text(10);
+  return record;
+}
+
+/// What came in is from outside: the batch must speak of one machine and one epoch, and the epoch
+/// must have its order in SQL.
+Result<void> check(const RecordBatch& batch) {
+  if (batch.epoch > std::numeric_limits<std::int64_t>::max()) {
+    return fail(Errc::LimitExceeded, "records of {}: epoch {} is over 2^63", batch.machine,
+                batch.epoch);
+  }
+  for (const Record& record : batch.records) {
+    if (record.machine != batch.machine || record.epoch != batch.epoch) {
+      return fail(Errc::Syntax, "record {} of {} epoch {} in a batch of {} epoch {}", record.number,
+                  record.machine, record.epoch, batch.machine, batch.epoch);
+    }
+  }
+  return {};
+}
+
+Result<std::uint64_t> last_number(sqlite::Database& database, std::int64_t machine,
+                                  std::uint64_t epoch) {
+  const auto last = sqlite::first_row(
+      database, "SELECT last FROM record_epoch WHERE machine = ?1 AND epoch = ?2",
+      [](const sqlite::Statement& row) { return row.number(0); }, machine, epoch);
+  if (!last) return fail(last.error());
+  return last->value_or(0);
+}
+
+Result<void> insert_record(sqlite::Statement& insert, std::int64_t machine, const Record& record) {
+  std::optional<std::string> run;
+  if (!record.run.empty()) run = record.run;
+  return insert
+      .bind(machine, record.epoch, record.number, record.time, run, record.kind, record.block,
+            record.line, record.sequence, record.device, record.text)
+      .run();
+}
+
+/// Inserts what follows `last` without a gap; returns the new last number.
+Result<std::uint64_t> insert_contiguous(sqlite::Database& database, const RecordBatch& batch,
+                                        std::int64_t machine, std::uint64_t last) {
+  auto insert = database.prepare(
+      "INSERT INTO record (machine, epoch, number, time_us, run, kind, block, line, sequence, "
+      "device, text) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)");
+  if (!insert) return fail(insert.error());
+  std::map<std::string, std::uint64_t> outputs;
+  for (const Record& record : batch.records) {
+    if (record.number <= last) continue;
+    if (record.number != last + 1) break;
+    if (auto done = insert_record(*insert, machine, record); !done) return fail(done.error());
+    if (record.kind == "output" && !record.run.empty()) ++outputs[record.run];
+    last = record.number;
+  }
+  for (const auto& [run, count] : outputs) {
+    if (auto done = add_outputs(database, run, count); !done) return fail(done.error());
+  }
+  return last;
+}
+
+/// Whether what the batch says of `run` is to be believed now: the record that says so is stored.
+/// When the batch holds no such record, nothing of the batch may have been left out.
+bool is_stored(const RecordBatch& batch, const std::string& run, std::string_view kind,
+               std::uint64_t last) {
+  bool is_complete = true;
+  for (const Record& record : batch.records) {
+    if (record.run == run && record.kind == kind) return record.number <= last;
+    is_complete = is_complete && record.number <= last;
+  }
+  return is_complete;
+}
+
+Result<void> apply_to_runs(sqlite::Database& database, const RecordBatch& batch,
+                           std::uint64_t last) {
+  for (const RunBeginning& beginning : batch.beginnings) {
+    if (!is_stored(batch, beginning.run, "run_started", last)) continue;
+    if (auto done = apply_beginning(database, beginning); !done) return done;
+  }
+  for (const RunEnding& ending : batch.endings) {
+    if (!is_stored(batch, ending.run, "run_ended", last)) continue;
+    if (auto done = apply_ending(database, ending); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
+  if (auto checked = check(batch); !checked) return fail(checked.error());
+  return connections_.write([&](sqlite::Database& database) -> Result<std::uint64_t> {
+    const auto machine = machine_id(database, batch.machine, batch.epoch, clock_.now());
+    if (!machine) return fail(machine.error());
+    const auto before = last_number(database, *machine, batch.epoch);
+    if (!before) return before;
+    const auto last = insert_contiguous(database, batch, *machine, *before);
+    if (!last) return last;
+    if (*last > *before) {
+      const auto noted =
+          sqlite::run(database,
+                      "INSERT INTO record_epoch (machine, epoch, last) VALUES (?1, ?2, ?3) "
+                      "ON CONFLICT (machine, epoch) DO UPDATE SET last = excluded.last",
+                      *machine, batch.epoch, *last);
+      if (!noted) return fail(noted.error());
+    }
+    if (auto done = apply_to_runs(database, batch, *last); !done) return fail(done.error());
+    return last;
+  });
+}
+
+Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
+                                                     const std::string& kind, Page page) {
+  static const std::string kSelect =
+      "SELECT machine.name, record.epoch, number, time_us, run, kind, block, line, sequence, "
+      "device, text FROM record JOIN machine ON machine.id = record.machine WHERE run = ?1 ";
+  static const std::string kOrder = "ORDER BY record.epoch, number LIMIT ?2 OFFSET ?3";
+  static const std::string kOfKind = kSelect + "AND kind = ?4 " + kOrder;
+  static const std::string kOfAny = kSelect + kOrder;
+  return connections_.read([&](sqlite::Database& database) {
+    return kind.empty()
+               ? sqlite::all_rows(database, kOfAny, read_record, run, page.limit, page.offset)
+               : sqlite::all_rows(database, kOfKind, read_record, run, page.limit, page.offset,
+                                  kind);
+  });
+}
+
+}  // namespace dripline::storage

@@ -1,0 +1,189 @@
+#include "storage/impl/run_repository.hpp"
+
+#include "storage/impl/content.hpp"
+#include "storage/impl/run_endings.hpp"
+
+namespace dripline::storage {
+namespace {
+
+const std::string kSelect =
+    "SELECT run.id, machine.name, program.name, run.revision, content.sha256, content.size, "
+    "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
+    "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
+    "run.started_us, run.ended_us, run.outputs FROM run "
+    "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
+    "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
+    "JOIN content ON content.id = revision.content ";
+
+Run read_run(const sqlite::Statement& row) {
+  Run run;
+  run.id = row.text(0);
+  run.machine = row.text(1);
+  run.program = row.text(2);
+  run.revision = row.number(3);
+  run.content = read_digest(row, 4);
+  run.size = row.number(5);
+  run.control = row.text(6);
+  // The schema knows only our words; a row that says otherwise is damaged, and damaged is cut off.
+  run.state = parse_run_state(row.text(7)).value_or(RunState::Interrupted);
+  run.counters = {row.number(8), row.number(9), row.number(10)};
+  run.line = row.number(11);
+  run.sequence = row.integer(12);
+  run.reason = row.text(13);
+  run.executed_content = row.optional_text(14);
+  if (const auto verified = row.optional_integer(15)) run.content_verified = *verified != 0;
+  run.author = row.text(16);
+  run.created = row.time(17);
+  run.started = row.optional_time(18);
+  run.ended = row.optional_time(19);
+  run.outputs = row.number(20);
+  return run;
+}
+
+/// Errors: NotFound.
+Result<Run> find_run(sqlite::Database& database, const std::string& id) {
+  static const std::string kSql = kSelect + "WHERE run.id = ?1";
+  auto run = sqlite::first_row(database, kSql, read_run, id);
+  if (!run) return fail(run.error());
+  if (!*run) return fail(Errc::NotFound, "run {} is not known", id);
+  return std::move(**run);
+}
+
+struct RunPlace {
+  std::int64_t machine = 0;
+  std::int64_t program = 0;
+};
+
+Result<std::int64_t> known_machine(sqlite::Database& database, const std::string& name) {
+  const auto machine = sqlite::first_row(
+      database, "SELECT id FROM machine WHERE name = ?1",
+      [](const sqlite::Statement& row) { return row.integer(0); }, name);
+  if (!machine) return fail(machine.error());
+  if (!*machine) return fail(Errc::NotFound, "machine {} is not known", name);
+  return **machine;
+}
+
+/// The run's content must be its revision's: what is fed is what was approved.
+Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) {
+  struct Found {
+    std::int64_t program;
+    Digest content;
+  };
+  const auto found = sqlite::first_row(
+      database,
+      "SELECT program.id, content.sha256 FROM revision "
+      "JOIN program ON program.id = revision.program "
+      "JOIN content ON content.id = revision.content "
+      "WHERE program.name = ?1 AND revision.number = ?2 "
+      "AND revision.number > program.removed_through",
+      [](const sqlite::Statement& row) {
+        return Found{row.integer(0), read_digest(row, 1)};
+      },
+      run.program, run.revision);
+  if (!found) return fail(found.error());
+  if (!*found) {
+    return fail(Errc::NotFound, "program {} has no revision {} in the library", run.program,
+                run.revision);
+  }
+  if ((*found)->content != run.content) {
+    return fail(Errc::ModalConflict, "run {}: content {} is not that of {} revision {}", run.id,
+                run.content.hex(), run.program, run.revision);
+  }
+  return (*found)->program;
+}
+
+Result<void> check_idle(sqlite::Database& database, std::int64_t machine, const std::string& name) {
+  const auto unfinished = sqlite::first_row(
+      database, "SELECT id FROM run WHERE machine = ?1 AND state IN ('ordered', 'active')",
+      [](const sqlite::Statement& row) { return row.text(0); }, machine);
+  if (!unfinished) return fail(unfinished.error());
+  if (!*unfinished) return {};
+  return fail(Errc::Busy, "machine {} has the unfinished run {}", name, **unfinished);
+}
+
+Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPlace& place) {
+  return sqlite::run(
+      database,
+      "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
+      "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
+      "ended_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, "
+      "?17, ?18)",
+      run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
+      run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
+      run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
+      run.ended);
+}
+
+}  // namespace
+
+Result<void> RunRepository::create(const Run& run) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto machine = known_machine(database, run.machine);
+    if (!machine) return fail(machine.error());
+    const auto program = known_revision(database, run);
+    if (!program) return fail(program.error());
+    if (!is_finished(run.state)) {
+      if (auto idle = check_idle(database, *machine, run.machine); !idle) return idle;
+    }
+    return insert_run(database, run, {*machine, *program});
+  });
+}
+
+Result<Run> RunRepository::find(const std::string& id) {
+  return connections_.read([&](sqlite::Database& database) { return find_run(database, id); });
+}
+
+Result<std::vector<Run>> RunRepository::all(const RunFilter& filter, Page page) {
+  std::string sql = kSelect + "WHERE true ";  // few texts, so that each is prepared once
+  if (filter.machine) sql += "AND machine.name = ?1 ";
+  if (filter.program) sql += "AND program.name = ?2 ";
+  if (filter.state) sql += "AND run.state = ?3 ";
+  if (filter.with_outputs) sql += "AND run.outputs > 0 ";
+  sql += "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ORDER BY run.number DESC LIMIT ?4 OFFSET ?5";
+  std::optional<std::string> state;
+  if (filter.state) state = to_string(*filter.state);
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, sql, read_run, filter.machine, filter.program, state,
+                            page.limit, page.offset);
+  });
+}
+
+Result<void> RunRepository::set_state(const std::string& id, RunState state,
+                                      const std::string& reason) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto run = find_run(database, id);
+    if (!run) return fail(run.error());
+    if (run->state == state) return {};
+    if (is_finished(run->state) || state == RunState::Ordered) {
+      return fail(Errc::ModalConflict, "run {} is {} and can not become {}", id,
+                  to_string(run->state), to_string(state));
+    }
+    if (state == RunState::Active) {
+      return apply_beginning(database, {id, clock_.now()});
+    }
+    return sqlite::run(database,
+                       "UPDATE run SET state = ?2, reason = ?3, ended_us = ?4 WHERE id = ?1", id,
+                       to_string(state), reason, clock_.now());
+  });
+}
+
+Result<void> RunRepository::update_counters(const std::string& id, const Counters& counters,
+                                            std::uint64_t line, std::int64_t sequence) {
+  const auto update = [&](sqlite::Database& database) -> Result<void> {
+    const auto updated =
+        sqlite::run(database,
+                    "UPDATE run SET line = iif(?4 >= executed, ?5, line), "
+                    "sequence = iif(?4 >= executed, ?6, sequence), sent = max(sent, ?2), "
+                    "accepted = max(accepted, ?3), executed = max(executed, ?4) "
+                    "WHERE id = ?1 AND state IN ('ordered', 'active')",
+                    id, counters.sent, counters.accepted, counters.executed, line, sequence);
+    if (!updated || database.changes() > 0) return updated;
+    const auto run = find_run(database, id);  // ended: ignored
+    if (!run) return fail(run.error());
+    return {};
+  };
+  // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.
+  return connections_.write(update, sqlite::Synchronous::Normal);
+}
+
+}  // namespace dripline::storage

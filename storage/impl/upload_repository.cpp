@@ -1,0 +1,275 @@
+#include "storage/impl/upload_repository.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "protocol/base/names.hpp"
+#include "storage/impl/content.hpp"
+#include "storage/impl/program_repository.hpp"
+
+namespace dripline::storage {
+namespace {
+
+constexpr std::uint64_t kMaxPieceBytes = 16 << 20;
+
+struct UploadRow {
+  Upload upload;
+  ContentRow content;
+};
+
+UploadRow read_upload_row(const sqlite::Statement& row) {
+  UploadRow found;
+  found.upload = {row.text(0), row.text(1),   row.text(2), row.text(3),
+                  row.text(4), row.number(6), row.time(7)};
+  found.content = {row.integer(5), row.number(6)};
+  return found;
+}
+
+/// Errors: NotFound.
+Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
+  auto row = sqlite::first_row(
+      database,
+      "SELECT upload.id, program, control, comment, author, content, size, created_us "
+      "FROM upload JOIN content ON content.id = upload.content WHERE upload.id = ?1",
+      read_upload_row, id);
+  if (!row) return fail(row.error());
+  if (!*row) return fail(Errc::NotFound, "upload {} is not known", id);
+  return std::move(**row);
+}
+
+std::string label_of(const std::string& id) {
+  return fmt::format("upload {}", id);
+}
+
+/// 128 random bits: nobody guesses another one's upload.
+std::string new_upload_id() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+}
+
+Result<void> drop_upload(sqlite::Database& database, const std::string& id, std::int64_t content) {
+  if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) return done;
+  return drop_content(database, content);
+}
+
+/// The upload's content gets its name, or gives way to the same one that is here already.
+Result<std::int64_t> settle_content(sqlite::Database& database, std::int64_t content,
+                                    const Digest& digest) {
+  const auto known = find_content(database, digest);
+  if (!known) return fail(known.error());
+  if (*known) {
+    if (auto done = drop_content(database, content); !done) return fail(done.error());
+    return (*known)->id;
+  }
+  const auto named = sqlite::run(database, "UPDATE content SET sha256 = ?2 WHERE id = ?1", content,
+                                 std::span<const std::byte>(digest.bytes));
+  if (!named) return fail(named.error());
+  return content;
+}
+
+Result<void> check_unchanged(const UploadRow& row, const UploadProgress& progress) {
+  if (row.content.size == progress.received) return {};
+  return fail(Errc::ModalConflict, "upload {} was changed by someone else meanwhile",
+              row.upload.id);
+}
+
+}  // namespace
+
+Result<Upload> UploadRepository::begin(const Upload& upload) {
+  if (auto named = check_program_name(upload.program); !named) return fail(named.error());
+  Upload begun = upload;
+  begun.received = 0;
+  if (begun.id.empty()) begun.id = new_upload_id();
+  if (begun.created == UtcTime{}) begun.created = clock_.now();
+  return connections_.write([&](sqlite::Database& database) -> Result<Upload> {
+    if (find_row(database, begun.id)) {
+      return fail(Errc::ModalConflict, "upload {} exists already", begun.id);
+    }
+    const auto content = create_content(database);
+    if (!content) return fail(content.error());
+    const auto inserted = sqlite::run(
+        database,
+        "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
+        "touched_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7)",
+        begun.id, begun.program, begun.control, begun.comment, begun.author, *content,
+        begun.created);
+    if (!inserted) return fail(inserted.error());
+    return begun;
+  });
+}
+
+Result<Upload> UploadRepository::find(const std::string& id) {
+  return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
+    auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    return std::move(row->upload);
+  });
+}
+
+Result<std::shared_ptr<UploadProgress>> UploadRepository::progress_of(const std::string& id) {
+  using Found = Result<std::shared_ptr<UploadProgress>>;
+  if (auto kept = table_.find(id)) return kept;
+  auto loaded = connections_.read([&](sqlite::Database& database) -> Found {
+    const auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    auto progress = std::make_shared<UploadProgress>();
+    progress->content = row->content.id;
+    progress->received = row->content.size;
+    if (progress->received == 0) progress->hash.emplace();
+    const std::uint64_t chunk_begin = progress->received - progress->received % kChunkBytes;
+    auto tail = load_range(database, row->content, chunk_begin, kChunkBytes, label_of(id));
+    if (!tail) return fail(tail.error());
+    progress->tail = std::move(*tail);
+    return progress;
+  });
+  if (!loaded) return loaded;
+  return table_.insert(id, std::move(*loaded));
+}
+
+Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t offset,
+                                        std::span<const std::byte> bytes) {
+  if (bytes.size() > kMaxPieceBytes) {
+    return fail(Errc::LimitExceeded, "upload {}: piece of {} bytes, at most {}", id, bytes.size(),
+                kMaxPieceBytes);
+  }
+  const auto progress = progress_of(id);
+  if (!progress) return fail(progress.error());
+  const std::lock_guard lock((*progress)->mutex);
+  const std::uint64_t received = (*progress)->received;
+  if (offset > received) {
+    return fail(Errc::ModalConflict,
+                "upload {}: the piece begins at {}, but only {} bytes are here", id, offset,
+                received);
+  }
+  if (offset < received) return check_resent(id, **progress, offset, bytes);
+  auto stored = store_piece(id, **progress, bytes);
+  // Whatever went wrong, the next piece starts from what the database says.
+  if (!stored) table_.erase(id);
+  return stored;
+}
+
+Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgress& progress,
+                                             std::span<const std::byte> bytes) {
+  const auto chunks = encode_chunks(progress.tail, bytes);
+  auto stored = connections_.write([&](sqlite::Database& database) -> Result<Upload> {
+    auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    if (auto same = check_unchanged(*row, progress); !same) return fail(same.error());
+    if (bytes.empty()) return std::move(row->upload);
+    const auto put =
+        put_chunks(database, progress.content, progress.received / kChunkBytes, chunks);
+    if (!put) return fail(put.error());
+    const auto touched =
+        sqlite::run(database, "UPDATE upload SET touched_us = ?2 WHERE id = ?1", id, clock_.now());
+    if (!touched) return fail(touched.error());
+    row->upload.received += bytes.size();
+    return std::move(row->upload);
+  });
+  if (stored) progress.advance(bytes);
+  return stored;
+}
+
+Result<Upload> UploadRepository::check_resent(const std::string& id, const UploadProgress& progress,
+                                              std::uint64_t offset,
+                                              std::span<const std::byte> bytes) {
+  if (bytes.size() > progress.received - offset) {
+    return fail(Errc::ModalConflict, "upload {}: bytes {} to {} overlap what is here: go on at {}",
+                id, offset, offset + bytes.size(), progress.received);
+  }
+  return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
+    auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    const auto known = load_range(database, row->content, offset, bytes.size(), label_of(id));
+    if (!known) return fail(known.error());
+    if (!std::ranges::equal(*known, bytes)) {
+      return fail(Errc::ModalConflict, "upload {}: other bytes than before were sent at {}", id,
+                  offset);
+    }
+    return std::move(row->upload);
+  });
+}
+
+Result<std::vector<std::byte>> UploadRepository::read(const std::string& id, std::uint64_t offset,
+                                                      std::uint64_t length) {
+  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<std::byte>> {
+    const auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    return load_range(database, row->content, offset, length, label_of(id));
+  });
+}
+
+Result<void> UploadRepository::set_control(const std::string& id, const std::string& control) {
+  return connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto set =
+        sqlite::run(database, "UPDATE upload SET control = ?2 WHERE id = ?1", id, control);
+    if (!set) return set;
+    if (database.changes() == 0) return fail(Errc::NotFound, "upload {} is not known", id);
+    return {};
+  });
+}
+
+Result<Digest> UploadRepository::digest_of(const std::string& id, const UploadProgress& progress) {
+  if (progress.hash) return progress.hash->digest();
+  Sha256 hash;
+  for (std::uint64_t offset = 0; offset < progress.received; offset += kChunkBytes) {
+    const auto chunk = read(id, offset, kChunkBytes);
+    if (!chunk) return fail(chunk.error());
+    hash.update(*chunk);
+  }
+  return hash.digest();
+}
+
+Result<Revision> UploadRepository::commit(const std::string& id,
+                                          const std::optional<Digest>& expected) {
+  const auto progress = progress_of(id);
+  if (!progress) return fail(progress.error());
+  const std::lock_guard lock((*progress)->mutex);
+  if ((*progress)->received == 0) return fail(Errc::Syntax, "upload {} has no bytes", id);
+  const auto digest = digest_of(id, **progress);
+  if (!digest) return fail(digest.error());
+  if (expected && *expected != *digest) {
+    return fail(Errc::Corrupt, "upload {}: SHA-256 of the {} bytes received is {}, expected {}", id,
+                (*progress)->received, digest->hex(), expected->hex());
+  }
+  auto published = connections_.write([&](sqlite::Database& database) -> Result<Revision> {
+    const auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    if (auto same = check_unchanged(*row, **progress); !same) return fail(same.error());
+    if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) {
+      return fail(done.error());
+    }
+    const auto content = settle_content(database, row->content.id, *digest);
+    if (!content) return fail(content.error());
+    return publish_revision(database, row->upload, *content, clock_.now());
+  });
+  if (published) table_.erase(id);
+  return published;
+}
+
+Result<void> UploadRepository::abandon(const std::string& id) {
+  auto abandoned = connections_.write([&](sqlite::Database& database) -> Result<void> {
+    const auto row = find_row(database, id);
+    if (!row) return fail(row.error());
+    return drop_upload(database, id, row->content.id);
+  });
+  if (abandoned) table_.erase(id);
+  return abandoned;
+}
+
+Result<std::uint64_t> UploadRepository::drop_before(UtcTime time) {
+  auto dropped = connections_.write([&](sqlite::Database& database) -> Result<std::uint64_t> {
+    using Old = std::pair<std::string, std::int64_t>;
+    const auto old = sqlite::all_rows(
+        database, "SELECT id, content FROM upload WHERE touched_us < ?1",
+        [](const sqlite::Statement& row) { return Old(row.text(0), row.integer(1)); }, time);
+    if (!old) return fail(old.error());
+    for (const auto& [id, content] : *old) {
+      if (auto done = drop_upload(database, id, content); !done) return fail(done.error());
+    }
+    return static_cast<std::uint64_t>(old->size());
+  });
+  if (dropped && *dropped > 0) table_.clear();
+  return dropped;
+}
+
+}  // namespace dripline::storage

@@ -1,0 +1,142 @@
+#include "storage/sqlite_store.hpp"
+
+#include "storage/impl/audit_repository.hpp"
+#include "storage/impl/machine_repository.hpp"
+#include "storage/impl/program_repository.hpp"
+#include "storage/impl/record_repository.hpp"
+#include "storage/impl/run_repository.hpp"
+#include "storage/impl/upload_repository.hpp"
+
+namespace dripline::storage {
+
+struct SqliteStore::Repositories {
+  Repositories(std::unique_ptr<Connections> opened, const Clock& clock, std::uint64_t cache_bytes)
+      : connections(std::move(opened)),
+        uploads(*connections, clock),
+        programs(*connections, cache_bytes),
+        machines(*connections),
+        runs(*connections, clock),
+        records(*connections, clock),
+        audit(*connections) {}
+
+  std::unique_ptr<Connections> connections;
+  UploadRepository uploads;
+  ProgramRepository programs;
+  MachineRepository machines;
+  RunRepository runs;
+  RecordRepository records;
+  AuditRepository audit;
+};
+
+Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const SqliteStoreOptions& options,
+                                                       const Clock& clock) {
+  auto connections = Connections::open(options);
+  if (!connections) return fail(connections.error());
+  return std::unique_ptr<SqliteStore>(new SqliteStore(
+      std::make_unique<Repositories>(std::move(*connections), clock, options.cache_bytes)));
+}
+
+SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
+    : repositories_(std::move(repositories)) {}
+SqliteStore::~SqliteStore() = default;
+
+Result<void> SqliteStore::check() {
+  return repositories_->connections->read([](sqlite::Database& database) -> Result<void> {
+    const auto verdict = database.text("PRAGMA quick_check(1)");
+    if (!verdict) return fail(verdict.error());
+    if (*verdict == "ok") return {};
+    return fail(Errc::Corrupt, "database {}: {}", database.file(), *verdict);
+  });
+}
+
+Result<Upload> SqliteStore::begin_upload(const Upload& upload) {
+  return repositories_->uploads.begin(upload);
+}
+Result<Upload> SqliteStore::upload(const std::string& id) {
+  return repositories_->uploads.find(id);
+}
+Result<Upload> SqliteStore::append_upload(const std::string& id, std::uint64_t offset,
+                                          std::span<const std::byte> bytes) {
+  return repositories_->uploads.append(id, offset, bytes);
+}
+Result<std::vector<std::byte>> SqliteStore::read_upload(const std::string& id, std::uint64_t offset,
+                                                        std::uint64_t length) {
+  return repositories_->uploads.read(id, offset, length);
+}
+Result<void> SqliteStore::set_upload_control(const std::string& id, const std::string& control) {
+  return repositories_->uploads.set_control(id, control);
+}
+Result<Revision> SqliteStore::commit_upload(const std::string& id,
+                                            const std::optional<Digest>& expected) {
+  return repositories_->uploads.commit(id, expected);
+}
+Result<void> SqliteStore::abandon_upload(const std::string& id) {
+  return repositories_->uploads.abandon(id);
+}
+Result<std::uint64_t> SqliteStore::drop_uploads_before(UtcTime time) {
+  return repositories_->uploads.drop_before(time);
+}
+
+Result<std::vector<ProgramSummary>> SqliteStore::programs(Page page) {
+  return repositories_->programs.programs(page);
+}
+Result<std::vector<Revision>> SqliteStore::revisions(const std::string& program) {
+  return repositories_->programs.revisions(program);
+}
+Result<Revision> SqliteStore::revision(const std::string& program,
+                                       std::optional<std::uint64_t> number) {
+  return repositories_->programs.revision(program, number);
+}
+Result<void> SqliteStore::remove_program(const std::string& program) {
+  return repositories_->programs.remove(program);
+}
+Result<std::vector<std::byte>> SqliteStore::read_content(const Digest& content,
+                                                         std::uint64_t offset,
+                                                         std::uint64_t length) {
+  return repositories_->programs.read_content(content, offset, length);
+}
+
+Result<void> SqliteStore::save_machine(const Machine& machine) {
+  return repositories_->machines.save(machine);
+}
+Result<Machine> SqliteStore::machine(const std::string& name) {
+  return repositories_->machines.find(name);
+}
+Result<std::vector<Machine>> SqliteStore::machines() {
+  return repositories_->machines.all();
+}
+
+Result<void> SqliteStore::create_run(const Run& run) {
+  return repositories_->runs.create(run);
+}
+Result<Run> SqliteStore::run(const std::string& id) {
+  return repositories_->runs.find(id);
+}
+Result<std::vector<Run>> SqliteStore::runs(const RunFilter& filter, Page page) {
+  return repositories_->runs.all(filter, page);
+}
+Result<void> SqliteStore::set_run_state(const std::string& id, RunState state,
+                                        const std::string& reason) {
+  return repositories_->runs.set_state(id, state, reason);
+}
+Result<void> SqliteStore::update_counters(const std::string& id, const Counters& counters,
+                                          std::uint64_t line, std::int64_t sequence) {
+  return repositories_->runs.update_counters(id, counters, line, sequence);
+}
+
+Result<std::uint64_t> SqliteStore::store_records(const RecordBatch& batch) {
+  return repositories_->records.store(batch);
+}
+Result<std::vector<Record>> SqliteStore::records(const std::string& run, const std::string& kind,
+                                                 Page page) {
+  return repositories_->records.of_run(run, kind, page);
+}
+
+Result<void> SqliteStore::audit(const AuditEntry& entry) {
+  return repositories_->audit.add(entry);
+}
+Result<std::vector<AuditEntry>> SqliteStore::audit_entries(Page page) {
+  return repositories_->audit.all(page);
+}
+
+}  // namespace dripline::storage

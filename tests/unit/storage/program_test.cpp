@@ -1,0 +1,154 @@
+#include "storage/sqlite/database.hpp"
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+using ProgramTest = StoreTest;
+
+TEST_F(ProgramTest, EveryPushIsANewRevisionAndTheOldOnesStay) {
+  const auto first = push("p.nc", "G00 X1.\n");
+  clock_.advance(std::chrono::seconds(1));
+  const auto second = push("p.nc", "G00 X2.\n");
+  EXPECT_EQ(first->number, 1u);
+  EXPECT_EQ(second->number, 2u);
+  EXPECT_EQ(second->control, "centurion");
+  EXPECT_EQ(second->comment, "a comment");
+  EXPECT_EQ(second->author, "cam");
+  EXPECT_EQ(second->created, clock_.now());
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
+  EXPECT_EQ(store_->revision("p.nc", 1)->content, first->content);
+  const auto all = store_->revisions("p.nc");
+  ASSERT_EQ(all->size(), 2u);
+  EXPECT_EQ(all->front().number, 2u);
+  EXPECT_EQ(pull(first->content), "G00 X1.\n");
+}
+
+TEST_F(ProgramTest, SameContentAgainIsTheLatestRevision) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 1u);
+  ASSERT_TRUE(push("p.nc", "G00 X2.\n"));
+  EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 3u) << "back to old content is a change";
+  EXPECT_EQ(query("SELECT count(*) FROM content"), 2);
+  EXPECT_EQ(query("SELECT count(*) FROM upload"), 0);
+}
+
+TEST_F(ProgramTest, ListingIsByNameAndPaged) {
+  for (const char* name : {"c.nc", "a.nc", "b.nc"}) ASSERT_TRUE(push(name, "M30\n"));
+  ASSERT_TRUE(push("a.nc", "M2\n"));
+  const auto page = store_->programs({.limit = 2, .offset = 0});
+  ASSERT_TRUE(page) << page.error().what;
+  ASSERT_EQ(page->size(), 2u);
+  EXPECT_EQ(page->at(0).latest.program, "a.nc");
+  EXPECT_EQ(page->at(0).latest.number, 2u);
+  EXPECT_EQ(page->at(0).revisions, 2u);
+  EXPECT_EQ(page->at(1).latest.program, "b.nc");
+  EXPECT_EQ(store_->programs({.limit = 2, .offset = 2})->at(0).latest.program, "c.nc");
+}
+
+TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
+  const auto revision = push("p.nc", "G00 X1.\n");
+  ASSERT_TRUE(store_->remove_program("p.nc"));
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->revision("p.nc", 1).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->revisions("p.nc").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->remove_program("p.nc").error().code, Errc::NotFound);
+  EXPECT_TRUE(store_->programs({})->empty());
+  EXPECT_EQ(pull(revision->content), "G00 X1.\n");
+}
+
+TEST_F(ProgramTest, PushedAgainAfterRemovalGoesOnWithItsNumbers) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  ASSERT_TRUE(store_->remove_program("p.nc"));
+  EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 2u);
+  EXPECT_EQ(store_->revisions("p.nc")->size(), 1u);
+  EXPECT_EQ(store_->programs({})->at(0).revisions, 1u);
+  EXPECT_FALSE(store_->revision("p.nc", 1));
+}
+
+TEST_F(ProgramTest, CanNotBeRemovedUnderARun) {
+  const Run run = make_run("r1");
+  ASSERT_TRUE(store_->create_run(run));
+  const auto refused = store_->remove_program("p.nc");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Busy);
+  EXPECT_NE(refused.error().what.find("r1"), std::string::npos);
+  ASSERT_TRUE(store_->set_run_state("r1", RunState::Aborted, "operator"));
+  EXPECT_TRUE(store_->remove_program("p.nc"));
+  EXPECT_EQ(store_->run("r1")->program, "p.nc") << "runs keep their revision";
+}
+
+TEST_F(ProgramTest, AnyRangeOfContentIsRead) {
+  const std::string text = nc_text(1'000'000);
+  const Digest content = push("p.nc", text)->content;
+  for (const auto& [offset, length] :
+       {std::pair(0, 1), std::pair(262'143, 2), std::pair(262'144, 262'144),
+        std::pair(100, 999'000), std::pair(999'999, 10), std::pair(786'431, 2)}) {
+    const auto bytes = store_->read_content(content, static_cast<std::uint64_t>(offset),
+                                            static_cast<std::uint64_t>(length));
+    ASSERT_TRUE(bytes) << bytes.error().what;
+    EXPECT_EQ(text_of(*bytes),
+              text.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)));
+  }
+  EXPECT_TRUE(store_->read_content(content, 1'000'000, 1)->empty());
+  EXPECT_TRUE(store_->read_content(content, ~0ull, ~0ull)->empty());
+  EXPECT_TRUE(store_->read_content(content, 5, 0)->empty());
+  EXPECT_EQ(store_->read_content(sha256("x"), 0, 1).error().code, Errc::NotFound);
+}
+
+struct DamageCase {
+  const char* name;
+  const char* sql;
+};
+class Damage : public StoreTest, public testing::WithParamInterface<DamageCase> {};
+
+TEST_P(Damage, IsRefusedByNameAndHealedByPushingAgain) {
+  const std::string text = nc_text(800'000);
+  const Digest content = push("p.nc", text)->content;
+  damage(GetParam().sql);
+  EXPECT_EQ(text_of(store_->read_content(content, 0, 1000).value()), text.substr(0, 1000))
+      << "the chunks before are sound";
+  const auto refused = store_->read_content(content, 300'000, 10);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Corrupt);
+  EXPECT_NE(refused.error().what.find(content.hex()), std::string::npos) << refused.error().what;
+  EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
+  EXPECT_FALSE(store_->read_content(content, 0, 800'000));
+  ASSERT_TRUE(push("p.nc", text));
+  EXPECT_EQ(pull(content), text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Damage,
+    testing::Values(
+        DamageCase{"one_byte_of_the_frame",
+                   "UPDATE chunk SET data = CAST(substr(data, 1, 50000) || x'00' || "
+                   "substr(data, 50002) AS BLOB) WHERE id = (SELECT chunk FROM content_chunk WHERE "
+                   "position = 1)"},
+        DamageCase{"another_chunks_frame",
+                   "UPDATE chunk SET data = (SELECT data FROM chunk WHERE id = (SELECT chunk FROM "
+                   "content_chunk WHERE position = 0)) WHERE id = (SELECT chunk FROM content_chunk "
+                   "WHERE position = 1)"},
+        DamageCase{"cut_off",
+                   "UPDATE chunk SET data = substr(data, 1, 100) WHERE id = (SELECT "
+                   "chunk FROM content_chunk WHERE position = 1)"},
+        DamageCase{"no_frame_at_all",
+                   "UPDATE chunk SET data = x'' WHERE id = (SELECT chunk FROM "
+                   "content_chunk WHERE position = 1)"},
+        DamageCase{"wrong_size",
+                   "UPDATE chunk SET size = 17 WHERE id = (SELECT chunk FROM "
+                   "content_chunk WHERE position = 1)"}),
+    [](const auto& i) { return std::string{i.param.name}; });
+
+TEST_F(ProgramTest, SequentialReadingDecompressesEveryChunkOnce) {
+  const std::string text = nc_text(600'000);
+  const Digest content = push("p.nc", text)->content;
+  ASSERT_TRUE(store_->read_content(content, 0, 10));
+  auto other = sqlite::Database::open(options_.file);
+  ASSERT_TRUE(other->execute("UPDATE chunk SET data = x''"));
+  EXPECT_TRUE(store_->read_content(content, 10, 10)) << "from the cache";
+  EXPECT_FALSE(store_->read_content(content, 262'144, 10)) << "from the file";
+}
+
+}  // namespace
+}  // namespace dripline::storage
