@@ -10,6 +10,9 @@ namespace dripline::machine {
 class ExecutionSink {
  public:
   virtual ~ExecutionSink() = default;
+  /// A move, a dwell or a probe is about to begin: the last moment to put on disk what was told
+  /// before it.
+  virtual void on_motion_starts(const interpreter::Origin&) {}
   /// The block is done: all its moves have ended. This is the *executed* counter.
   virtual void on_block_executed(const interpreter::Origin&) {}
   virtual void on_output(const interpreter::Output&) {}

@@ -84,6 +84,10 @@ bool Executor::may_start() const {
 void Executor::start_front() {
   Action& action = queue_.front();
   origin_ = action.origin;
+  const bool takes_time = std::holds_alternative<Move>(action.body) ||
+                          std::holds_alternative<Wait>(action.body) ||
+                          std::holds_alternative<ProbeMarker>(action.body);
+  if (takes_time) sink_.on_motion_starts(origin_);
   if (const auto* move = std::get_if<Move>(&action.body)) {
     planner_.ensure(queue_, panel_);
     start(*move);
