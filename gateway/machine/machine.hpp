@@ -52,7 +52,7 @@ struct MachineStatus {
 ///   NeedsAnswer, a probe:   begin_probe once, then advance until ExecutionSink::on_probed, answer.
 ///   NeedsAnswer, others:    advance until drained(), then ask and answer.
 ///
-/// One owner, one thread. Memory is fixed at construction (about 3 MiB). No call allocates, except
+/// One owner, one thread. Memory is fixed at construction (about 4 MiB). No call allocates, except
 /// for alarms and warnings.
 class Machine {
  public:
@@ -87,7 +87,8 @@ class Machine {
 
   // -- time -----------------------------------------------------------------------------------
   static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
-  /// Executes for `by` (infinite is allowed), at most `max_actions` actions. Returns the machine
+  /// Executes for `by` (infinite is allowed), at most `max_actions` actions (slowing down for
+  /// a hold or an abort goes on beyond them). Returns the machine
   /// time used: less than `by` when it ran out of actions, stands, or used up `max_actions`.
   Seconds advance(Seconds by, std::size_t max_actions = kNoLimit);
   /// As fast as possible: no limit of time.

@@ -57,8 +57,8 @@ double Executor::advance(double by, std::size_t max_actions) {
       used += dwell_left_;
       is_dwelling_ = false;
       finish_action();
-    } else if (max_actions > 0 && may_start()) {
-      --max_actions;
+    } else if ((max_actions > 0 || is_slowing_down()) && may_start()) {
+      if (max_actions > 0) --max_actions;
       start_front();
     } else {
       if (is_aborting_ && speed_ == 0) discard();
@@ -79,6 +79,11 @@ bool Executor::may_start() const {
     return std::holds_alternative<BlockEnd>(queue_.front().body);
   if (stop_ != MachineState::Idle) return false;
   return speed_ > 0 || !(is_held_ || is_aborting_);
+}
+
+/// Axes that have to come to rest cross into the next moves, whatever the budget.
+bool Executor::is_slowing_down() const {
+  return speed_ > 0 && (is_held_ || is_aborting_);
 }
 
 void Executor::start_front() {

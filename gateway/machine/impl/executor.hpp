@@ -38,6 +38,7 @@ class Executor {
 
  private:
   bool may_start() const;
+  bool is_slowing_down() const;
   bool is_over() const;
   void start_front();
   void start(const Move& move);

@@ -95,6 +95,24 @@ TEST(Execution, AlarmEndsEverythingBehindIt) {
   EXPECT_FALSE(test.machine.resume());
 }
 
+TEST(Execution, MotionIsAnnouncedAfterWhatWasToldBeforeIt) {
+  struct Announcer final : ExecutionSink {
+    std::vector<std::string> lines;
+    void on_motion_starts(const Origin& o) override {
+      lines.push_back(fmt::format("motion {}", o.block));
+    }
+    void on_output(const interpreter::Output& o) override { lines.emplace_back(o.text); }
+  } announcer;
+  Machine machine(plain_lathe(), {}, announcer);
+  Program program(machine.events());
+  program.output("a");
+  program.line(0, 1, 600);
+  program.output("b");
+  program.dwell(1);
+  machine.advance_all();
+  EXPECT_EQ(announcer.lines, (std::vector<std::string>{"a", "motion 2", "b", "motion 4"}));
+}
+
 TEST(Execution, BudgetOfActionsIsKept) {
   TestMachine test;
   for (int i = 1; i <= 100; ++i) test.program.line(0, i, 1200);

@@ -111,6 +111,15 @@ TEST(Hold, CrossesBlocksWhileSlowingDown) {
   EXPECT_EQ(test.z(), 50);
 }
 
+TEST(Hold, ComesToRestEvenWithoutABudgetOfActions) {
+  TestMachine test;
+  for (int i = 1; i <= 1000; ++i) test.program.line(0, i * 0.05, 1200);
+  test.machine.advance(Seconds{1});
+  test.machine.hold();
+  EXPECT_NEAR(test.machine.advance(Seconds{1}, 0).count(), 0.02, 1e-9);
+  EXPECT_FALSE(test.machine.is_moving());
+}
+
 TEST(Hold, OnAnArcStaysOnTheArc) {
   TestMachine test;
   test.machine.begin(Program::at(0, 10));
