@@ -7,48 +7,68 @@ namespace dripline::machine::test {
 namespace {
 
 /// A program of everything that takes time or is told, different for each seed.
-void queue_random_program(TestMachine& test, unsigned seed) {
-  std::mt19937 random(seed);
-  const auto between = [&random](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  test.program.spindle(600);
-  double x = 50, z = 0;
-  test.program.rapid(x, z);
-  for (int i = 0; i < 300; ++i) {
-    const double step = random() % 2 == 0 ? 0.05 : 5;
-    switch (random() % 9) {
+class RandomProgram {
+ public:
+  explicit RandomProgram(unsigned seed) : random_(seed) {}
+
+  /// Queues one block; false when the program has ended.
+  bool next(Program& program) {
+    if (blocks_ == kBlocks) return false;
+    ++blocks_;
+    if (blocks_ == 1)
+      program.spindle(600);
+    else if (blocks_ == kBlocks)
+      program.end();
+    else
+      any_block(program);
+    return true;
+  }
+
+ private:
+  static constexpr int kBlocks = 300;
+
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  void any_block(Program& program) {
+    const double step = random_() % 2 == 0 ? 0.05 : 5;
+    switch (random_() % 9) {
       case 0:
-        test.program.output(fmt::format("line {}", i));
-        break;
+        return program.output(fmt::format("line {}", blocks_));
       case 1:
-        test.program.dwell(between(0, 0.1));
-        break;
+        return program.dwell(between(0, 0.1));
       case 2:
-        x += between(-step, step);
-        test.program.rapid(x, z);
-        break;
+        x_ += between(-step, step);
+        return program.rapid(x_, z_);
       case 3:
-        z += between(-step, step);
-        test.program.line(x, z, Feed::per_revolution(Length::mm(0.2)));
-        break;
+        z_ += between(-step, step);
+        return program.line(x_, z_, Feed::per_revolution(Length::mm(0.2)));
       case 4: {  // a half circle
         const double radius = between(0.1, step);
-        test.program.arc(x, z + 2 * radius, z + radius, x, 180, between(100, 3000));
-        z += 2 * radius;
-        break;
+        const double center = z_ + radius;
+        z_ += 2 * radius;
+        return program.arc(x_, z_, center, x_, 180, between(100, 3000));
       }
       case 5:
-        z -= step;
-        test.program.thread(x, z, 1.5);
-        break;
+        z_ -= step;
+        return program.thread(x_, z_, 1.5);
       default:
-        x += between(-step, step);
-        z += between(-step, step);
-        test.program.line(x, z, between(100, 3000));
+        x_ += between(-step, step);
+        z_ += between(-step, step);
+        return program.line(x_, z_, between(100, 3000));
     }
   }
-  test.program.end();
+
+  std::mt19937 random_;
+  int blocks_ = 0;
+  double x_ = 0, z_ = 0;
+};
+
+void queue_random_program(TestMachine& test, unsigned seed) {
+  RandomProgram program(seed);
+  while (program.next(test.program)) {
+  }
 }
 
 TEST(TimeSlices, AnySlicingGivesTheSameOrderAndTheSameTotal) {
@@ -100,6 +120,32 @@ TEST(TimeSlices, HoldingAnywhereLosesNothing) {
     EXPECT_EQ(held.recorder.lines, plain.recorder.lines) << seed;
     EXPECT_EQ(held.x(), plain.x());
     EXPECT_EQ(held.z(), plain.z());
+  }
+}
+
+TEST(TimeSlices, AnyOperatorAndAnyFeedOfBlocksGiveTheSameExecution) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    TestMachine plain, disturbed;
+    queue_random_program(plain, seed);
+    plain.run_all();
+    RandomProgram program(seed);
+    std::mt19937 random(seed);
+    std::exponential_distribution<double> slice(5);
+    while (disturbed.machine.state() != MachineState::Completed) {
+      for (auto blocks = random() % 6; blocks > 0; --blocks) program.next(disturbed.program);
+      OperatorPanel panel;
+      panel.single_block = random() % 4 == 0;
+      panel.feed_override = static_cast<double>(random() % 21) / 10;
+      panel.rapid_override = static_cast<double>(random() % 11) / 10;
+      if (random() % 2 == 0) disturbed.machine.set_panel(panel);
+      if (random() % 4 == 0) disturbed.machine.hold();
+      const double used = disturbed.machine.advance(Seconds{slice(random)}, random() % 9).count();
+      ASSERT_GE(used, 0);
+      if (random() % 2 == 0) disturbed.machine.resume();
+    }
+    EXPECT_EQ(disturbed.recorder.lines, plain.recorder.lines) << seed;
+    EXPECT_EQ(disturbed.x(), plain.x());
+    EXPECT_EQ(disturbed.z(), plain.z());
   }
 }
 
