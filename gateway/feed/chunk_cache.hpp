@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string_view>
+
+#include "gateway/interpreter/program_source.hpp"
+
+namespace dripline::feed {
+
+/// Program text in pieces of kChunkBytes, each filled from its beginning; the least recently used
+/// pieces go when the bound is reached. Pure; one thread.
+class ChunkCache {
+ public:
+  static constexpr std::size_t kChunkBytes = 32 * 1024;
+
+  struct Key {
+    interpreter::ProgramIndex program = 0;
+    std::uint64_t index = 0;  ///< offset / kChunkBytes
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  explicit ChunkCache(std::size_t max_bytes) : max_chunks_(max_bytes / kChunkBytes) {}
+
+  /// The contiguous bytes held from `offset` to the end of its chunk; empty when there are none.
+  /// Valid until the chunk is dropped; the chunk looked at last is never dropped.
+  std::string_view view(interpreter::ProgramIndex program, std::uint64_t offset);
+  /// The same without counting as a use.
+  std::string_view peek(interpreter::ProgramIndex program, std::uint64_t offset) const;
+  /// Takes what fits: bytes that begin beyond the filled part of a chunk, or lie within it, are
+  /// left out. Returns how many were new.
+  std::size_t store(interpreter::ProgramIndex program, std::uint64_t offset, std::string_view text);
+  /// How many bytes of this chunk are held, from its beginning.
+  std::size_t filled(Key key) const;
+  std::size_t bytes() const { return chunks_.size() * kChunkBytes; }
+
+ private:
+  struct Chunk {
+    std::unique_ptr<std::array<char, kChunkBytes>> text;
+    std::size_t filled = 0;
+    std::uint64_t used = 0;
+  };
+  std::size_t store_in_chunk(Key key, std::size_t begin, std::string_view text);
+  void make_room();
+
+  std::size_t max_chunks_;
+  std::map<Key, Chunk> chunks_;
+  Key last_viewed_{~0U, 0};
+  std::uint64_t tick_ = 0;
+};
+
+}  // namespace dripline::feed

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/feed/chunk_cache.hpp"
+#include "gateway/interpreter/program_source.hpp"
+#include "protocol/base/clock.hpp"
+#include "protocol/base/digest.hpp"
+#include "protocol/dds/message.hpp"
+
+namespace dripline::feed {
+
+struct PullFeedOptions {
+  std::size_t cache_bytes = 8 * 1024 * 1024;
+  std::size_t min_window = 64 * 1024;  ///< asked for ahead of the cursor, at least
+  std::size_t max_window = 4 * 1024 * 1024;
+  double target_seconds = 10;  ///< of motion to be asked for ahead
+  std::uint32_t request_bytes = 128 * 1024;
+  std::chrono::milliseconds retry{300};  ///< silence after which is asked again; doubles
+  std::chrono::milliseconds max_retry{3000};
+  int max_failures = 10;  ///< answers "failed" in a row until the program counts as lost
+  std::size_t max_called_programs = 64;
+};
+
+/// What is fed: one run of one program revision.
+struct FeedRun {
+  std::string machine;
+  std::uint64_t session = 0;  ///< of this gateway process
+  std::string run;
+  std::uint64_t size = 0;  ///< bytes of the program
+};
+
+/// The program text of one run, pulled from a server that only answers. The gateway owns the
+/// cursor: what `fetch` asked for last, and a window ahead of it, is requested in `poll` until it
+/// has come; asking is idempotent, so lost, doubled, reordered, late and foreign answers do no
+/// harm. Memory: `cache_bytes` and one stitched window. Pure: time comes in, requests go out
+/// through a callback. One thread.
+class PullFeed final : public interpreter::ProgramSource {
+ public:
+  /// False: not taken, try in the next poll.
+  using Ask = std::function<bool(const dds::BlockRequest&)>;
+
+  PullFeed(FeedRun run, PullFeedOptions options, Ask ask);
+
+  interpreter::TextWindow fetch(interpreter::ProgramIndex program, std::uint64_t offset,
+                                std::size_t min_bytes) override;
+  interpreter::ProgramLookup find(std::string_view name) override;
+
+  /// An answer. Anything that is not of this run and session is ignored.
+  void on_data(const dds::BlockData& data, SteadyTime now);
+  /// Sends the requests that are due. Cheap when nothing is missing.
+  void poll(SteadyTime now);
+  /// When poll has something to do without anything else happening; nullopt: never.
+  std::optional<SteadyTime> next_poll() const { return next_poll_; }
+  /// A server has (re)appeared: everything missing is asked for at once.
+  void ask_again();
+
+  /// Sizes the window to `target_seconds`; nullopt: as fast as possible, the whole window.
+  void set_consumption(std::optional<double> bytes_per_second);
+
+  /// Why the program can not be had any more; empty: it can.
+  const std::string& failure() const { return failure_; }
+  /// The *sent* counter: bytes of the main program received without a gap from its beginning.
+  std::uint64_t sent() const { return hashed_; }
+  /// SHA-256 of those bytes; equals the revision's once sent() is the program's size.
+  Digest content_digest() const { return hash_.digest(); }
+  std::uint64_t content_length() const { return hashed_; }
+  /// Contiguous bytes held after the cursor.
+  std::uint64_t bytes_ahead() const;
+
+ private:
+  struct Program {
+    std::string name;  ///< empty: the run's own
+    std::optional<std::uint64_t> size;
+    bool is_missing = false;
+    int failures = 0;
+    std::uint64_t received_to = 0;  ///< end of the furthest answer since it was last asked
+  };
+  struct Asked {
+    SteadyTime deadline;
+    int attempts = 0;
+  };
+  struct Range {
+    std::uint64_t begin = 0, end = 0;
+  };
+
+  interpreter::TextWindow stitch(interpreter::ProgramIndex program, std::uint64_t offset,
+                                 std::size_t need);
+  std::optional<interpreter::ProgramIndex> program_of(const dds::BlockData& data) const;
+  bool is_consistent(const Program& program, const dds::BlockData& data);
+  void on_error(Program& program, const dds::BlockData& data);
+  void forget_asked(interpreter::ProgramIndex program, std::uint64_t from, std::uint64_t to);
+  void extend_hash();
+  Range window_of(const Program& program) const;
+  void ask_window(interpreter::ProgramIndex index, SteadyTime now);
+  bool is_due(ChunkCache::Key key, SteadyTime now);
+  bool send(interpreter::ProgramIndex index, Range range, SteadyTime now);
+  void note_deadline(SteadyTime deadline);
+
+  FeedRun run_;
+  PullFeedOptions options_;
+  Ask ask_;
+  ChunkCache cache_;
+  std::vector<Program> programs_;
+  std::map<ChunkCache::Key, Asked> asked_;
+  std::string stitched_;
+  std::string failure_;
+
+  interpreter::ProgramIndex cursor_program_ = interpreter::kMainProgram;
+  std::uint64_t cursor_ = 0;
+  std::size_t window_;
+  SteadyTime last_data_{};
+  std::optional<SteadyTime> next_poll_;
+
+  Sha256 hash_;
+  std::uint64_t hashed_ = 0;
+};
+
+}  // namespace dripline::feed

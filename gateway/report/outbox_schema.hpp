@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+
+#include "storage/sqlite/migration.hpp"
+
+namespace dripline::report {
+
+inline constexpr std::array kOutboxMigrations{storage::sqlite::Migration{1, "outbox", R"sql(
+CREATE TABLE outbox (
+  only_row    INTEGER PRIMARY KEY CHECK (only_row = 1),
+  epoch       INTEGER NOT NULL, -- of the record numbers; random, not 0
+  last_number INTEGER NOT NULL  -- given to a record
+) STRICT;
+CREATE TABLE record (
+  number   INTEGER PRIMARY KEY,
+  time_us  INTEGER NOT NULL, -- UTC
+  run      TEXT NOT NULL,    -- empty: of no run
+  kind     INTEGER NOT NULL, -- RecordKind of the wire
+  block    INTEGER NOT NULL,
+  line     INTEGER NOT NULL,
+  sequence INTEGER NOT NULL, -- N number, -1 none
+  device   TEXT NOT NULL,
+  text     TEXT NOT NULL
+) STRICT;
+CREATE TABLE active_run (
+  only_row INTEGER PRIMARY KEY CHECK (only_row = 1),
+  run      TEXT NOT NULL,
+  program  TEXT NOT NULL,
+  revision TEXT NOT NULL,    -- SHA-256
+  control  TEXT NOT NULL,
+  size     INTEGER NOT NULL, -- bytes
+  sent     INTEGER NOT NULL, -- bytes
+  accepted INTEGER NOT NULL, -- blocks
+  executed INTEGER NOT NULL, -- blocks
+  line     INTEGER NOT NULL, -- of the block executed last
+  sequence INTEGER NOT NULL, -- its N number, -1 none
+  offset   INTEGER NOT NULL  -- bytes
+) STRICT;
+CREATE TABLE order_result (
+  position    INTEGER PRIMARY KEY AUTOINCREMENT, -- the oldest are dropped
+  id          TEXT NOT NULL UNIQUE,
+  is_accepted INTEGER NOT NULL,
+  reason      TEXT NOT NULL
+) STRICT;
+)sql"}};
+
+}  // namespace dripline::report

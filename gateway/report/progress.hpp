@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dripline::report {
+
+/// How far a run has come: the three counters, and where the block executed last is.
+struct Progress {
+  std::uint64_t sent = 0;      ///< bytes of the program received
+  std::uint64_t accepted = 0;  ///< blocks interpreted
+  std::uint64_t executed = 0;  ///< blocks finished by the machine
+  std::uint64_t line = 0;
+  std::int64_t sequence = -1;
+  std::uint64_t offset = 0;
+  friend bool operator==(const Progress&, const Progress&) = default;
+};
+
+/// The run this gateway is busy with, as it was ordered.
+struct ActiveRun {
+  std::string run, program, revision, control;
+  std::uint64_t size = 0;
+};
+
+}  // namespace dripline::report

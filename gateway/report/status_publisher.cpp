@@ -1,0 +1,28 @@
+#include "gateway/report/status_publisher.hpp"
+
+#include <tuple>
+
+namespace dripline::report {
+namespace {
+
+/// Everything but the machine's name and the time.
+auto content(const dds::Status& s) {
+  return std::tie(s.execution, s.mode, s.run, s.program, s.sent, s.accepted, s.executed,
+                  s.total_bytes, s.offset, s.line, s.sequence, s.position, s.feed_mm_per_min,
+                  s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
+                  s.buffered_seconds, s.single_block, s.message, s.outbox);
+}
+
+}  // namespace
+
+void StatusPublisher::offer(const dds::Status& status, SteadyTime now) {
+  if (last_ && now < next_) return;
+  const bool has_changed = !last_ || content(*last_) != content(status);
+  if (!has_changed && now - sent_ < kHeartbeat) return;
+  next_ = now + kShortest;
+  if (!send_(status)) return;
+  last_ = status;
+  sent_ = now;
+}
+
+}  // namespace dripline::report
