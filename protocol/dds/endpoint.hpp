@@ -36,20 +36,34 @@ struct Rejected {
   std::string last_reason;
 };
 
-/// Every callback runs on a DDS thread: it must return at once (post to your own executor) and must
-/// not call back into the endpoint or destroy it. After the endpoint's destructor returns, no
-/// callback runs any more.
+/// How much may be under way unacknowledged before the oldest gives way to the newest (qos.cpp says
+/// why nothing waits instead): records of one gateway, and block pieces of kMaxBlockBytes for one
+/// machine. Stay below them and a live peer loses nothing; what is lost is sent or asked for again.
+inline constexpr std::size_t kRecordWindow = 256;
+inline constexpr std::size_t kBlockWindow = 64;
+/// Machines one server attaches; announcements beyond are rejected.
+inline constexpr std::size_t kMaxMachines = 4096;
+
+/// Every callback runs on a thread of the endpoint: it must return at once (post to your own
+/// executor) and must not call back into the endpoint or destroy it. Callbacks of different kinds
+/// may run at the same time. After the endpoint's destructor returns, no callback runs any more.
 struct GatewayHandlers {
   std::function<void(Order)> on_order;
   std::function<void(RecordAck)> on_ack;
   std::function<void(BlockData)> on_block;
-  std::function<void(bool is_connected)> on_server;  ///< a server's readers appeared or went away
+  /// true: a server hears this gateway and is heard by it; repeated when another server takes over
+  /// or the same one is back. false: none is left.
+  std::function<void(bool is_connected)> on_server;
 };
 
-/// A gateway's end, for one machine. The write functions never wait longer than a few milliseconds:
-/// Errc::Timeout means "not taken, try later"; they may be called from one thread.
+/// A gateway's end, for one machine. Nothing is delivered before the gateway wrote its Announce;
+/// the endpoint repeats it to every server that comes. The write functions never wait longer than a
+/// few milliseconds: Errc::Timeout means "not taken, try later"; any thread. What is written while
+/// no server is connected is lost, except the last Announce and Status. Errors of writing: Syntax,
+/// LimitExceeded (a member that can not be), Timeout, Io.
 class GatewayEndpoint {
  public:
+  /// Errors: Syntax, LimitExceeded (options, machine name), NotFound (a security file), Io.
   static Result<std::unique_ptr<GatewayEndpoint>> open(const NetworkOptions& options,
                                                        const std::string& machine,
                                                        GatewayHandlers handlers);
@@ -64,8 +78,11 @@ class GatewayEndpoint {
 };
 
 struct ServerHandlers {
+  /// The machine can be written to from now on. Again whenever it is back or announces something
+  /// else; a restarted gateway can come (with another session) without on_lost before. Its status
+  /// and records may arrive a little earlier.
   std::function<void(Announce)> on_announce;
-  std::function<void(std::string machine)> on_lost;  ///< its liveliness ended, or it left
+  std::function<void(std::string machine)> on_lost;  ///< its lease ended, or it left
   std::function<void(Status)> on_status;
   std::function<void(Record)> on_record;
   std::function<void(OrderResult)> on_order_result;
@@ -77,10 +94,11 @@ struct ServerHandlers {
 /// threads may write, one at a time per machine.
 class ServerEndpoint {
  public:
+  /// Errors: Busy (another server of this domain runs here), and those of GatewayEndpoint::open.
   static Result<std::unique_ptr<ServerEndpoint>> open(const NetworkOptions& options,
                                                       ServerHandlers handlers);
   virtual ~ServerEndpoint() = default;
-  /// Errors: NotFound (never announced), Timeout (its queue is full: try later).
+  /// Errors: NotFound (not connected), Syntax, LimitExceeded, Timeout (not taken: try later), Io.
   virtual Result<void> write(const RecordAck& message) = 0;
   virtual Result<void> write(const Order& message) = 0;
   virtual Result<void> write(const BlockData& message) = 0;

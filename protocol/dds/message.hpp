@@ -66,6 +66,7 @@ struct Announce {
   std::uint32_t protocol = kProtocolVersion;
   std::uint64_t epoch = 0, session = 0;
   std::string description;
+  friend bool operator==(const Announce&, const Announce&) = default;
 };
 
 struct Status {
@@ -84,6 +85,7 @@ struct Status {
   bool single_block = false;
   std::string message;
   std::uint32_t outbox = 0;
+  friend bool operator==(const Status&, const Status&) = default;
 };
 
 struct Record {
@@ -95,11 +97,13 @@ struct Record {
   std::uint64_t block = 0, line = 0;
   std::int64_t sequence = -1;
   std::string device, text;
+  friend bool operator==(const Record&, const Record&) = default;
 };
 
 struct RecordAck {
   std::string machine;
   std::uint64_t epoch = 0, number = 0;
+  friend bool operator==(const RecordAck&, const RecordAck&) = default;
 };
 
 struct Order {
@@ -110,12 +114,14 @@ struct Order {
   std::uint64_t size = 0;
   std::string control, argument;
   double value = 0;
+  friend bool operator==(const Order&, const Order&) = default;
 };
 
 struct OrderResult {
   std::string machine, id;
   bool accepted = false;
   std::string reason;
+  friend bool operator==(const OrderResult&, const OrderResult&) = default;
 };
 
 struct BlockRequest {
@@ -124,6 +130,7 @@ struct BlockRequest {
   std::string run, program;
   std::uint64_t offset = 0;
   std::uint32_t length = 0;
+  friend bool operator==(const BlockRequest&, const BlockRequest&) = default;
 };
 
 struct BlockData {
@@ -135,6 +142,7 @@ struct BlockData {
   bool ends = false;
   std::vector<std::byte> bytes;  ///< the CRC was right, or the message was dropped and counted
   std::string reason;
+  friend bool operator==(const BlockData&, const BlockData&) = default;
 };
 
 }  // namespace dripline::dds

@@ -1,0 +1,114 @@
+#include "protocol/dds/configuration.hpp"
+
+#include <algorithm>
+
+namespace dripline::dds {
+namespace {
+
+constexpr std::uint32_t kMaxDomain = 230;  // above, the ports leave the 16-bit range
+
+std::string escape_xml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+bool is_plain(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+}
+
+Result<void> check_options(const NetworkOptions& options) {
+  if (options.domain > kMaxDomain) {
+    return fail(Errc::LimitExceeded, "DDS domain {}, at most {}", options.domain, kMaxDomain);
+  }
+  if (options.interface.empty() || !is_plain(options.interface)) {
+    return fail(Errc::Syntax, "DDS interface '{}' is not a name or address", options.interface);
+  }
+  if (options.server.empty() || !is_plain(options.server)) {
+    return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", options.server);
+  }
+  if (!is_plain(options.tag) || options.tag.size() > 128) {
+    return fail(Errc::Syntax, "DDS tag '{}' is not a plain word", options.tag);
+  }
+  if (options.discovery_interval_ms < 10 || options.discovery_interval_ms > 60'000) {
+    return fail(Errc::LimitExceeded, "discovery interval {} ms, 10 to 60000",
+                options.discovery_interval_ms);
+  }
+  if (options.lease_ms < 2 * options.discovery_interval_ms || options.lease_ms > 600'000) {
+    return fail(Errc::LimitExceeded,
+                "lease {} ms, from twice the discovery interval ({} ms) to 600000",
+                options.lease_ms, options.discovery_interval_ms);
+  }
+  return {};
+}
+
+bool is_loopback(const std::string& interface) {
+  return interface == "lo" || interface.starts_with("127.");
+}
+
+std::string interface_element(const std::string& interface) {
+  const bool is_address = interface.find_first_not_of("0123456789.") == std::string::npos ||
+                          interface.find(':') != std::string::npos;
+  return fmt::format(R"(<NetworkInterface {}="{}" multicast="false"/>)",
+                     is_address ? "address" : "name", escape_xml(interface));
+}
+
+/// A block of 32 KiB travels in one datagram on loopback, where no wire limits it; elsewhere
+/// Cyclone's own sizes keep IP from fragmenting.
+std::string size_elements(const std::string& interface) {
+  if (!is_loopback(interface)) return {};
+  return "<MaxMessageSize>65500B</MaxMessageSize><MaxRexmitMessageSize>65500B</"
+         "MaxRexmitMessageSize>"
+         "<FragmentSize>65000B</FragmentSize>";
+}
+
+std::string host_and_port(const NetworkOptions& options) {
+  const bool has_port = options.server.find(':') != std::string::npos;
+  return has_port ? options.server
+                  : fmt::format("{}:{}", options.server, server_port(options.domain));
+}
+
+std::string place_elements(const NetworkOptions& options, Role role) {
+  if (role == Role::Server) return "<ParticipantIndex>0</ParticipantIndex>";
+  return fmt::format(
+      "<ParticipantIndex>none</ParticipantIndex><Peers><Peer Address=\"{}\"/></Peers>",
+      escape_xml(host_and_port(options)));
+}
+
+}  // namespace
+
+Result<std::string> domain_configuration(const NetworkOptions& options, Role role) {
+  if (auto checked = check_options(options); !checked) return fail(checked.error());
+  // ExternalDomainId: the number on the network; the one in this process may be another, so that
+  // several ends fit into one process. The watermarks only have to be above what the writers'
+  // history can hold (qos.cpp), since a writer must never wait for an acknowledgement.
+  return fmt::format(
+      R"(<CycloneDDS><Domain Id="any"><General><Interfaces>{}</Interfaces>)"
+      "<AllowMulticast>false</AllowMulticast>{}</General>"
+      "<Discovery><ExternalDomainId>{}</ExternalDomainId><Tag>{}</Tag>{}"
+      "<SPDPInterval>{}ms</SPDPInterval><LeaseDuration>{}ms</LeaseDuration></Discovery>"
+      "<Internal><Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>16MB</WhcHigh>"
+      "<WhcHighInit>16MB</WhcHighInit></Watermarks></Internal></Domain></CycloneDDS>",
+      interface_element(options.interface), size_elements(options.interface), options.domain,
+      escape_xml(options.tag), place_elements(options, role), options.discovery_interval_ms,
+      options.lease_ms);
+}
+
+}  // namespace dripline::dds

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <iterator>
+#include <mutex>
+#include <thread>
+
+#include "protocol/base/names.hpp"
+#include "protocol/dds/endpoint.hpp"
+#include "protocol/dds/impl/domain.hpp"
+#include "protocol/dds/impl/matched.hpp"
+#include "protocol/dds/impl/reader.hpp"
+#include "protocol/dds/impl/writer.hpp"
+
+namespace dripline::dds {
+namespace {
+
+/// Threads: DDS threads deliver orders, acks and blocks; `watcher_` looks who is matched whenever
+/// that changes (DDS tables must not be looked at in a listener) and repeats the Announce.
+class Gateway final : public GatewayEndpoint {
+ public:
+  Gateway(Domain domain, std::string machine, GatewayHandlers handlers)
+      : domain_(std::move(domain)), machine_(std::move(machine)), handlers_(std::move(handlers)) {}
+  ~Gateway() override {
+    watcher_.request_stop();
+    if (watcher_.joinable()) watcher_.join();
+  }
+
+  Result<void> start();
+
+  Result<void> write(const Announce& message) override {
+    std::lock_guard lock(announce_mutex_);
+    if (auto checked = own_machine(message); !checked) return checked;
+    announce_ = message;
+    return write_announce();
+  }
+  Result<void> write(const Status& message) override { return write_own(*status_, message); }
+  Result<void> write(const Record& message) override { return write_own(*record_, message); }
+  Result<void> write(const OrderResult& message) override { return write_own(*result_, message); }
+  Result<void> write(const BlockRequest& message) override { return write_own(*request_, message); }
+  bool is_connected() const override { return is_connected_; }
+  Rejected rejected() const override { return rejections_.get(); }
+
+ private:
+  template <class Message>
+  Result<void> own_machine(const Message& message) const {
+    if (message.machine == machine_) return {};
+    return fail(Errc::Syntax, "message of machine {} at the gateway of {}", message.machine,
+                machine_);
+  }
+  template <class Message>
+  Result<void> write_own(Writer<Message>& writer, const Message& message) {
+    if (auto checked = own_machine(message); !checked) return checked;
+    return writer.write(message);
+  }
+  template <class Message>
+  Result<void> open_writer(const Entity& publisher, std::unique_ptr<Writer<Message>>& writer);
+  template <class Message>
+  Result<void> open_reader(const Entity& subscriber, std::unique_ptr<Reader<Message>>& reader,
+                           std::function<void(Message)>& handler);
+
+  void wake_watcher();
+  void watch(const std::stop_token& stop);
+  void look_at_servers();
+  std::set<std::string> complete_servers() const;
+  Result<void> write_announce();
+
+  // Order matters: the listeners of readers and writers use what is above them.
+  Domain domain_;
+  std::string machine_;
+  GatewayHandlers handlers_;
+  Rejections rejections_;
+  std::atomic<bool> is_connected_ = false;
+
+  std::mutex watch_mutex_;
+  std::condition_variable_any watch_wanted_;
+  bool matches_changed_ = false;
+
+  std::mutex announce_mutex_;
+  std::optional<Announce> announce_;
+  std::string heard_;               // written by the watcher under announce_mutex_
+  std::set<std::string> complete_;  // this and the next are the watcher's
+  bool announce_due_ = false;
+
+  Entity publisher_, subscriber_;
+  std::vector<Entity> topics_;
+  std::unique_ptr<Writer<Announce>> announcer_;
+  std::unique_ptr<Writer<Status>> status_;
+  std::unique_ptr<Writer<Record>> record_;
+  std::unique_ptr<Writer<OrderResult>> result_;
+  std::unique_ptr<Writer<BlockRequest>> request_;
+  std::unique_ptr<Reader<Order>> order_;
+  std::unique_ptr<Reader<RecordAck>> ack_;
+  std::unique_ptr<Reader<BlockData>> block_;
+  std::jthread watcher_;
+};
+
+template <class Message>
+Result<void> Gateway::open_writer(const Entity& publisher,
+                                  std::unique_ptr<Writer<Message>>& writer) {
+  auto topic = create_topic<Message>(domain_);
+  if (!topic) return fail(topic.error());
+  auto created = Writer<Message>::create(publisher, *topic, [this] { wake_watcher(); });
+  if (!created) return fail(created.error());
+  topics_.push_back(std::move(*topic));
+  writer = std::move(*created);
+  return {};
+}
+
+template <class Message>
+Result<void> Gateway::open_reader(const Entity& subscriber,
+                                  std::unique_ptr<Reader<Message>>& reader,
+                                  std::function<void(Message)>& handler) {
+  auto topic = create_topic<Message>(domain_);
+  if (!topic) return fail(topic.error());
+  auto created =
+      Reader<Message>::create(subscriber, *topic, machine_, rejections_,
+                              {.on_message =
+                                   [&handler](Message message, const auto&, dds_instance_handle_t) {
+                                     if (handler) handler(std::move(message));
+                                   },
+                               .on_gone = {},
+                               .on_matched = [this] { wake_watcher(); }});
+  if (!created) return fail(created.error());
+  topics_.push_back(std::move(*topic));
+  reader = std::move(*created);
+  return {};
+}
+
+Result<void> Gateway::start() {
+  const Qos partition = partition_qos(partition_of(machine_));
+  auto publisher =
+      own(dds_create_publisher(domain_.participant.get(), partition.get(), nullptr), "publisher");
+  if (!publisher) return fail(publisher.error());
+  publisher_ = std::move(*publisher);
+  auto subscriber =
+      own(dds_create_subscriber(domain_.participant.get(), partition.get(), nullptr), "subscriber");
+  if (!subscriber) return fail(subscriber.error());
+  subscriber_ = std::move(*subscriber);
+
+  if (auto r = open_reader(subscriber_, order_, handlers_.on_order); !r) return r;
+  if (auto r = open_reader(subscriber_, ack_, handlers_.on_ack); !r) return r;
+  if (auto r = open_reader(subscriber_, block_, handlers_.on_block); !r) return r;
+  if (auto r = open_writer(publisher_, announcer_); !r) return r;
+  if (auto r = open_writer(publisher_, status_); !r) return r;
+  if (auto r = open_writer(publisher_, record_); !r) return r;
+  if (auto r = open_writer(publisher_, result_); !r) return r;
+  if (auto r = open_writer(publisher_, request_); !r) return r;
+  watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  return {};
+}
+
+void Gateway::wake_watcher() {
+  {
+    std::lock_guard lock(watch_mutex_);
+    matches_changed_ = true;
+  }
+  watch_wanted_.notify_one();
+}
+
+void Gateway::watch(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(watch_mutex_);
+      if (!watch_wanted_.wait(lock, stop, [this] { return matches_changed_; })) return;
+      matches_changed_ = false;
+    }
+    look_at_servers();
+  }
+}
+
+/// A server counts when all of its writers and readers for this machine are matched here: only
+/// then nothing of what either side writes is lost.
+std::set<std::string> Gateway::complete_servers() const {
+  std::set<std::string> result = matched_with_writer(announcer_->get());
+  const auto keep = [&result](const std::set<std::string>& others) {
+    std::erase_if(result, [&](const std::string& key) { return !others.contains(key); });
+  };
+  keep(matched_with_writer(status_->get()));
+  keep(matched_with_writer(record_->get()));
+  keep(matched_with_writer(result_->get()));
+  keep(matched_with_writer(request_->get()));
+  keep(matched_with_reader(order_->get()));
+  keep(matched_with_reader(ack_->get()));
+  keep(matched_with_reader(block_->get()));
+  return result;
+}
+
+/// The newest server is the one that counts: a killed one stays matched until its lease ends.
+void Gateway::look_at_servers() {
+  std::set<std::string> now = complete_servers();
+  std::string heard = heard_;
+  if (!now.contains(heard)) heard = now.empty() ? std::string{} : *now.begin();
+  for (const std::string& key : now) {
+    if (!complete_.contains(key)) heard = key;
+  }
+  complete_ = std::move(now);
+  const bool is_news = heard != heard_;
+  if (!is_news && !announce_due_) return;
+  {
+    std::lock_guard lock(announce_mutex_);
+    heard_ = heard;
+    announce_due_ = announce_ && !write_announce();
+  }
+  if (announce_due_) wake_watcher();  // not taken: again, each try waits a little by itself
+  if (!is_news) return;
+  is_connected_ = !heard.empty();
+  if (handlers_.on_server) handlers_.on_server(is_connected_);
+}
+
+Result<void> Gateway::write_announce() {
+  return announcer_->write(*announce_, [this](dripline_idl_Announce& sample) {
+    std::copy(heard_.begin(), heard_.end(), std::begin(sample.heard));
+  });
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GatewayEndpoint>> GatewayEndpoint::open(const NetworkOptions& options,
+                                                               const std::string& machine,
+                                                               GatewayHandlers handlers) {
+  if (auto checked = check_machine_name(machine); !checked) return fail(checked.error());
+  auto domain = open_domain(options, Role::Gateway);
+  if (!domain) return fail(domain.error());
+  auto gateway = std::make_unique<Gateway>(std::move(*domain), machine, std::move(handlers));
+  if (auto started = gateway->start(); !started) return fail(started.error());
+  return gateway;
+}
+
+}  // namespace dripline::dds

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "protocol/dds/impl/decode.hpp"
+#include "protocol/dds/impl/entity.hpp"
+#include "protocol/dds/impl/rejections.hpp"
+#include "protocol/dds/qos.hpp"
+
+namespace dripline::dds {
+
+/// Where samples of one topic go. Called on DDS threads, one at a time per reader.
+template <class Message>
+struct ReaderHandlers {
+  /// `sample` is for members that only it has, `writer` is where it came from.
+  std::function<void(Message, const SampleOf<Message>& sample, dds_instance_handle_t writer)>
+      on_message;
+  std::function<void(std::string machine)> on_gone;  ///< no writer of this machine is left
+  std::function<void()> on_matched;                  ///< writers came or went
+};
+
+/// Takes every sample in the callback that announces it, checks it and hands it over. When the
+/// destructor returns no handler runs any more.
+template <class Message>
+class Reader {
+ public:
+  /// `machine`: samples keyed otherwise are rejected; empty: any.
+  static Result<std::unique_ptr<Reader>> create(const Entity& subscriber, const Entity& topic,
+                                                std::string machine, Rejections& rejections,
+                                                ReaderHandlers<Message> handlers) {
+    std::unique_ptr<Reader> reader(new Reader(std::move(machine), rejections, std::move(handlers)));
+    const Listener listener(dds_create_listener(reader.get()));
+    dds_lset_data_available(listener.get(), [](dds_entity_t entity, void* self) {
+      static_cast<Reader*>(self)->take_all(entity);
+    });
+    dds_lset_subscription_matched(
+        listener.get(), [](dds_entity_t, const dds_subscription_matched_status_t, void* self) {
+          const auto& on_matched = static_cast<Reader*>(self)->handlers_.on_matched;
+          if (on_matched) on_matched();
+        });
+    auto entity = own(dds_create_reader(subscriber.get(), topic.get(), topic_qos<Message>().get(),
+                                        listener.get()),
+                      Topic<Message>::kName);
+    if (!entity) return fail(entity.error());
+    reader->entity_ = std::move(*entity);
+    return reader;
+  }
+  ~Reader() { dds_set_listener(entity_.get(), nullptr); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  dds_entity_t get() const { return entity_.get(); }
+
+ private:
+  Reader(std::string machine, Rejections& rejections, ReaderHandlers<Message> handlers)
+      : machine_(std::move(machine)), rejections_(rejections), handlers_(std::move(handlers)) {}
+
+  // The entity comes as an argument: the first callback can be there before create() has stored it.
+  void take_all(dds_entity_t entity) {
+    for (;;) {
+      const Loan loan(entity);
+      for (std::size_t i = 0; i < loan.size(); ++i) {
+        handle(*static_cast<const SampleOf<Message>*>(loan.sample(i)), loan.info(i));
+      }
+      if (loan.size() < Loan::kCapacity) return;
+    }
+  }
+
+  void handle(const SampleOf<Message>& sample, const dds_sample_info_t& info) {
+    if (info.instance_state != DDS_IST_ALIVE && handlers_.on_gone) {
+      handlers_.on_gone(sample.machine);  // only the key is filled in
+    }
+    if (!info.valid_data) return;
+    auto message = decode(sample);
+    if (message && !machine_.empty() && message->machine != machine_) {
+      message = fail(Errc::Syntax, "machine {} in the partition of {}", message->machine, machine_);
+    }
+    if (!message) return rejections_.add(Topic<Message>::kName, message.error().what);
+    handlers_.on_message(std::move(*message), sample, info.publication_handle);
+  }
+
+  std::string machine_;
+  Rejections& rejections_;
+  ReaderHandlers<Message> handlers_;
+  Entity entity_;
+};
+
+}  // namespace dripline::dds

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <dds/dds.h>
+#include <dripline.h>  // generated from dripline.idl
+
+#include "protocol/dds/message.hpp"
+
+/// Which generated type and topic name belong to which message.
+namespace dripline::dds {
+
+template <class Message>
+struct Topic;
+
+#define DRIPLINE_TOPIC(Message)                                                                 \
+  template <>                                                                                   \
+  struct Topic<Message> {                                                                       \
+    using Sample = dripline_idl_##Message;                                                      \
+    static constexpr const char* kName = "dripline_" #Message;                                  \
+    static const dds_topic_descriptor_t& descriptor() { return dripline_idl_##Message##_desc; } \
+  }
+
+DRIPLINE_TOPIC(Announce);
+DRIPLINE_TOPIC(Status);
+DRIPLINE_TOPIC(Record);
+DRIPLINE_TOPIC(RecordAck);
+DRIPLINE_TOPIC(Order);
+DRIPLINE_TOPIC(OrderResult);
+DRIPLINE_TOPIC(BlockRequest);
+DRIPLINE_TOPIC(BlockData);
+#undef DRIPLINE_TOPIC
+
+template <class Message>
+using SampleOf = typename Topic<Message>::Sample;
+
+}  // namespace dripline::dds

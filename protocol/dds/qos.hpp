@@ -1,0 +1,37 @@
+#pragma once
+
+#include "protocol/dds/impl/entity.hpp"
+#include "protocol/dds/message.hpp"
+
+/// The quality of service of every topic, the reason beside each. Nothing else sets QoS.
+namespace dripline::dds {
+
+/// The partition of one machine, and the server's view of all.
+std::string partition_of(const std::string& machine);
+std::string partition_of_all();
+
+/// For a publisher or subscriber: a partition is fixed when it is created.
+Qos partition_qos(const std::string& partition);
+
+/// The same for the reader and the writer of a topic, so they always match.
+template <class Message>
+Qos topic_qos();
+
+template <>
+Qos topic_qos<Announce>();
+template <>
+Qos topic_qos<Status>();
+template <>
+Qos topic_qos<Record>();
+template <>
+Qos topic_qos<RecordAck>();
+template <>
+Qos topic_qos<Order>();
+template <>
+Qos topic_qos<OrderResult>();
+template <>
+Qos topic_qos<BlockRequest>();
+template <>
+Qos topic_qos<BlockData>();
+
+}  // namespace dripline::dds

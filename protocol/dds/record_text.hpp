@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+
+/// The texts of structured records (message.hpp, RecordKind) as JSON. Both ends use these.
+/// Decoding is strict: every member must be there with its type; members a newer version added are
+/// ignored. Pure; any thread. Errors of decoding: Syntax, LimitExceeded (too long or nested).
+namespace dripline::dds {
+
+/// RecordKind::RunStarted
+struct RunStartText {
+  std::string program;
+  std::string revision;  ///< SHA-256 of the content, 64 hexadecimal digits
+  std::string control;
+  friend bool operator==(const RunStartText&, const RunStartText&) = default;
+};
+
+enum class RunOutcome : std::uint8_t { Completed, Aborted, Alarmed, Interrupted };
+std::string_view to_string(RunOutcome value);  ///< completed, aborted, alarmed, interrupted
+
+/// RecordKind::RunEnded
+struct RunEndText {
+  RunOutcome outcome = RunOutcome::Interrupted;
+  std::uint64_t sent = 0;      ///< bytes of the program the gateway received
+  std::uint64_t accepted = 0;  ///< blocks interpreted
+  std::uint64_t executed = 0;  ///< blocks finished by the machine
+  std::uint64_t line = 0;      ///< of the last executed block, 1-based; 0: none was
+  std::int64_t sequence = -1;  ///< its N number, -1 none
+  std::string reason;          ///< empty when completed
+  /// SHA-256 of the first `content_length` bytes of the program as the gateway received them; empty
+  /// when it does not know.
+  std::string content_sha256;
+  std::uint64_t content_length = 0;
+  friend bool operator==(const RunEndText&, const RunEndText&) = default;
+};
+
+/// RecordKind::Alarm
+struct AlarmText {
+  std::string code;  ///< the diagnostic's stable id
+  std::string text;
+  friend bool operator==(const AlarmText&, const AlarmText&) = default;
+};
+
+/// RecordKind::Probe. Axis letters to mm or degrees, as in the trace.
+struct ProbeText {
+  std::map<char, double> to;
+  std::string until;  ///< contact, release
+  bool tripped = false;
+  std::map<char, double> at;
+  friend bool operator==(const ProbeText&, const ProbeText&) = default;
+};
+
+/// Invalid UTF-8 becomes U+FFFD; a number that is not finite breaks an invariant.
+std::string encode(const RunStartText& value);
+std::string encode(const RunEndText& value);
+std::string encode(const AlarmText& value);
+std::string encode(const ProbeText& value);
+
+Result<RunStartText> decode_run_start(std::string_view text);
+Result<RunEndText> decode_run_end(std::string_view text);
+Result<AlarmText> decode_alarm(std::string_view text);
+Result<ProbeText> decode_probe(std::string_view text);
+
+}  // namespace dripline::dds

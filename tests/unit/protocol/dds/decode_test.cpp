@@ -1,0 +1,145 @@
+#include "protocol/dds/impl/decode.hpp"
+
+#include <cstring>
+#include <limits>
+
+#include "network.hpp"
+#include "protocol/dds/impl/encode.hpp"
+
+namespace dripline::dds::test {
+namespace {
+
+template <class Message>
+SampleOf<Message> sample_of(const Message& message) {
+  SampleOf<Message> sample;
+  const auto encoded = encode(message, sample);
+  EXPECT_TRUE(encoded) << (encoded ? "" : encoded.error().what);
+  return sample;
+}
+
+Status status() {
+  Status m;
+  m.machine = "lathe-1";
+  return m;
+}
+
+TEST(Decode, RefusesBlockDataWithAWrongCrc) {
+  const BlockData data = block_data("lathe-1", 0, 10);
+  auto sample = sample_of(data);
+  sample.crc ^= 1;
+  const auto decoded = decode(sample);
+  ASSERT_FALSE(decoded);
+  EXPECT_EQ(decoded.error().code, Errc::Corrupt);
+}
+
+TEST(Decode, RefusesBlockDataBeyondItsTotal) {
+  const BlockData data = block_data("lathe-1", 100, 10);
+  auto sample = sample_of(data);
+  sample.total_bytes = 109;
+  EXPECT_FALSE(decode(sample));
+  sample.total_bytes = 111;  // "ends" is set but it does not
+  EXPECT_FALSE(decode(sample));
+  sample.offset = UINT64_MAX - 5;  // the sum must not wrap
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Decode, RefusesBytesThatComeWithAFailure) {
+  const BlockData data = block_data("lathe-1", 0, 10);
+  auto sample = sample_of(data);
+  sample.status = static_cast<std::uint8_t>(BlockStatus::Corrupt);
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Decode, RefusesEnumeratorsWithoutMeaning) {
+  const Status message = status();
+  auto sample = sample_of(message);
+  sample.execution = 9;
+  EXPECT_FALSE(decode(sample));
+  auto kind = sample_of(record("lathe-1", 1));
+  kind.kind = 10;
+  EXPECT_FALSE(decode(kind));
+  const BlockData data = block_data("lathe-1", 0, 0);
+  auto data_status = sample_of(data);
+  data_status.status = 6;
+  EXPECT_FALSE(decode(data_status));
+}
+
+TEST(Decode, RefusesNumbersThatAreNotFinite) {
+  const Status message = status();
+  auto sample = sample_of(message);
+  sample.feed_mm_per_min = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(decode(sample));
+  Status at_infinity = status();
+  at_infinity.position[8] = std::numeric_limits<double>::infinity();
+  SampleOf<Status> unused;
+  EXPECT_FALSE(encode(at_infinity, unused));
+}
+
+TEST(Decode, RefusesAPositionWithoutNineAxes) {
+  const Status message = status();
+  auto sample = sample_of(message);
+  sample.position._length = 8;
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Decode, RefusesNamesThatCouldLeaveTheirPlace) {
+  auto sample = sample_of(RecordAck{"lathe-1", 1, 1});
+  for (const char* name : {"", "*", "../x", "Lathe", "a b"}) {
+    std::strcpy(sample.machine, name);
+    EXPECT_FALSE(decode(sample)) << name;
+  }
+  auto request = sample_of(BlockRequest{"lathe-1", 1, "run-1", "", 0, 1});
+  std::strcpy(request.program, "../secret");
+  EXPECT_FALSE(decode(request));
+}
+
+TEST(Decode, RefusesRequestsOutOfRange) {
+  auto sample = sample_of(BlockRequest{"lathe-1", 1, "run-1", "", 0, 1});
+  sample.length = 0;
+  EXPECT_FALSE(decode(sample));
+  sample.length = kMaxRequestBytes + 1;
+  EXPECT_FALSE(decode(sample));
+  sample.length = 2;
+  sample.offset = UINT64_MAX - 1;
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Decode, RefusesTextThatIsNotUtf8) {
+  auto sample = sample_of(record("lathe-1", 1));
+  std::strcpy(sample.text, "\xC3(");
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Decode, RefusesAStartWithoutAProgram) {
+  Order order;
+  order.machine = "lathe-1";
+  order.id = "1";
+  auto sample = sample_of(order);
+  ASSERT_TRUE(decode(sample));
+  sample.action = static_cast<std::uint8_t>(OrderAction::Start);
+  EXPECT_FALSE(decode(sample));
+}
+
+TEST(Encode, RefusesWhatDoesNotFitInsteadOfCuttingIt) {
+  Record long_text = record("lathe-1", 1);
+  long_text.text.assign(kMaxRecordText + 1, 'x');
+  SampleOf<Record> sample;
+  const auto encoded = encode(long_text, sample);
+  ASSERT_FALSE(encoded);
+  EXPECT_EQ(encoded.error().code, Errc::LimitExceeded);
+  Record long_run = record("lathe-1", 1);
+  long_run.run.assign(41, 'x');
+  EXPECT_FALSE(encode(long_run, sample));
+}
+
+TEST(Encode, ShortensAStatusMessageVisibly) {
+  Status message = status();
+  message.message.assign(1000, 'x');
+  const auto decoded = decode(sample_of(message));
+  ASSERT_TRUE(decoded);
+  EXPECT_EQ(decoded->message.size(), 512U);
+  EXPECT_TRUE(decoded->message.ends_with("…"));
+}
+
+}  // namespace
+}  // namespace dripline::dds::test

@@ -1,0 +1,96 @@
+#include "network.hpp"
+
+namespace dripline::dds::test {
+namespace {
+
+class Reconnect : public Network {
+ protected:
+  /// Messages pass both ways.
+  void expect_working(TestServer& server, TestGateway& gateway, std::uint64_t mark) {
+    ASSERT_TRUE(gateway.endpoint->write(record("lathe-1", mark)));
+    auto got = server.records.take();
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->number, mark);
+    ASSERT_TRUE(server.endpoint->write(RecordAck{"lathe-1", 7, mark}));
+    auto ack = gateway.acks.take();
+    ASSERT_TRUE(ack);
+    EXPECT_EQ(ack->number, mark);
+  }
+};
+
+TEST_F(Reconnect, GatewayMeetsANewServer) {
+  auto server = open_server();
+  auto gateway = open_gateway("lathe-1");
+  ASSERT_TRUE(server->announces.take());
+  ASSERT_EQ(gateway->server.take(), true);
+  server.reset();
+  EXPECT_EQ(gateway->server.take(), false);
+  EXPECT_FALSE(gateway->endpoint->is_connected());
+  server = open_server();
+  EXPECT_EQ(server->announces.take(), announce("lathe-1"));
+  EXPECT_EQ(gateway->server.take(), true);
+  expect_working(*server, *gateway, 1);
+}
+
+TEST_F(Reconnect, GatewayStartedFirstMeetsTheServer) {
+  open_server();  // finds a free domain, then is gone
+  auto gateway = open_gateway("lathe-1");
+  EXPECT_FALSE(gateway->endpoint->is_connected());
+  auto server = open_server();
+  EXPECT_EQ(server->announces.take(), announce("lathe-1"));
+  EXPECT_EQ(gateway->server.take(), true);
+  expect_working(*server, *gateway, 1);
+}
+
+TEST_F(Reconnect, ServerTellsThatAGatewayLeftAndCameBack) {
+  auto server = open_server();
+  auto gateway = open_gateway("lathe-1", 1);
+  ASSERT_TRUE(server->announces.take());
+  gateway.reset();
+  EXPECT_EQ(server->lost.take(), "lathe-1");
+  const auto written = server->endpoint->write(RecordAck{"lathe-1", 7, 1});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Errc::NotFound);
+  gateway = open_gateway("lathe-1", 2);
+  EXPECT_EQ(server->announces.take(), announce("lathe-1", 2));
+  ASSERT_EQ(gateway->server.take(), true);
+  expect_working(*server, *gateway, 2);
+}
+
+TEST_F(Reconnect, ALateServerGetsTheLastStatus) {
+  auto server = open_server();
+  auto gateway = open_gateway("lathe-1");
+  ASSERT_EQ(gateway->server.take(), true);
+  Status status;
+  status.machine = "lathe-1";
+  for (status.line = 1; status.line <= 3; ++status.line) {
+    ASSERT_TRUE(gateway->endpoint->write(status));
+  }
+  server.reset();
+  server = open_server();
+  const auto got = server->statuses.take();
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->line, 3U);
+}
+
+TEST_F(Reconnect, ANewServerIsNotHandedOldRecordsOrOrders) {
+  auto server = open_server();
+  auto gateway = open_gateway("lathe-1", 1);
+  ASSERT_TRUE(server->announces.take());
+  ASSERT_TRUE(gateway->endpoint->write(record("lathe-1", 1)));
+  ASSERT_TRUE(server->records.take());
+  Order order;
+  order.machine = "lathe-1";
+  order.id = "order-1";
+  ASSERT_TRUE(server->endpoint->write(order));
+  ASSERT_TRUE(gateway->orders.take());
+  gateway.reset();
+  gateway = open_gateway("lathe-1", 2);
+  ASSERT_EQ(gateway->server.take(), true);
+  expect_working(*server, *gateway, 2);
+  EXPECT_EQ(gateway->orders.size(), 0U);
+  EXPECT_EQ(server->records.size(), 0U);
+}
+
+}  // namespace
+}  // namespace dripline::dds::test
