@@ -160,10 +160,10 @@ void Executor::start_probe() {
   probe.result = workpiece_.probe(probe.from, probe.to, probe.until);
   Coordinates target = at_;
   take_over(target, probe.result->at);
-  if (target == at_) return finish_probe();
+  const Path path = straight_path(at_, target);
+  if (path.length == 0) return finish_probe();
   MoveBuilder builder(limits_);
-  const MoveTask task{
-      .path = straight_path(at_, target), .pace = Pace::Feed, .feed = probe.feed, .lead = {}};
+  const MoveTask task{.path = path, .pace = Pace::Feed, .feed = probe.feed, .lead = {}};
   if (auto refusal = builder.build(task, spindle_, probe_move_)) {
     queue_.alarm = interpreter::Diagnostic{
         .id = refusal->id, .text = std::move(refusal->text), .line = probe.origin.line};

@@ -51,6 +51,7 @@ void Intake::add_straight(const Origin& origin, const interpreter::Position& to,
   take_over(target, to);
   if (target == end_) return;
   task.path = straight_path(end_, target);
+  if (task.path.length == 0) return;  // so short that its square is 0
   add_move(origin, task);
 }
 

@@ -26,7 +26,7 @@ double way(const Coordinates& from, const Coordinates& to) {
     const double change = to[i] - from[i];
     (is_rotary_axis(i) ? rotary : linear) += change * change;
   }
-  return std::sqrt(linear > 0 ? linear : rotary);
+  return std::sqrt(linear != 0 ? linear : rotary);  // not-a-number stays what it is
 }
 
 double arc_length_in_plane(const Circle& circle) {

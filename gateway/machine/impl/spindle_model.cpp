@@ -13,7 +13,8 @@ bool SpindleModel::is_turning() const {
 }
 
 double SpindleModel::ceiling() const {
-  return std::min(limits_.max_rpm, spindle_.max_revolutions.value_or(limits_.max_rpm));
+  const double programmed = spindle_.max_revolutions.value_or(limits_.max_rpm);
+  return std::max(0.0, std::min(limits_.max_rpm, programmed));
 }
 
 double SpindleModel::rpm(double x, double override) const {
@@ -32,7 +33,7 @@ double SpindleModel::mean_rpm(double x0, double x1) const {
     const double speed = rpm(x0, 1);
     return speed > 0 ? speed : limits_.assumed_rpm;
   }
-  if (spindle_.surface_speed->mm() <= 0) return limits_.assumed_rpm;
+  if (!(spindle_.surface_speed->mm() > 0) || ceiling() <= 0) return limits_.assumed_rpm;
   // Minutes a revolution takes: proportional to the radius, but not below the shortest. Their mean
   // over the way, by the integral from the centre to either end.
   const double slope = 2 * Angle::kPi / spindle_.surface_speed->mm();

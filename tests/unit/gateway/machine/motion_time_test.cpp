@@ -160,6 +160,22 @@ TEST(ThreadMove, ThatTheAxesCanNotFollowIsAnAlarm) {
   EXPECT_TRUE(test.recorder.lines.back().starts_with("alarm MCH0007"));
 }
 
+TEST(SurfaceSpeed, LimitedToZeroIsASpindleAtRest) {
+  TestMachine test;
+  test.machine.begin(Program::at(50, 0));
+  test.program.surface_speed(100'000, 0);
+  test.program.line(5, 0, Feed::per_revolution(Length::mm(0.2)));
+  test.run_all();
+  EXPECT_TRUE(test.recorder.lines.back().starts_with("alarm MCH0004"));
+}
+
+TEST(ShortestMove, TooShortToSquareIsNoMove) {
+  TestMachine test;
+  test.program.line(0, 1e-200, 1200);
+  EXPECT_EQ(test.run_all(), 0);
+  EXPECT_EQ(test.recorder.lines, std::vector<std::string>{"block 1"});
+}
+
 TEST(ZeroFeed, IsAnAlarm) {
   TestMachine test;
   test.program.line(0, 10, 0);
