@@ -99,6 +99,7 @@ TEST_F(ProgramTest, AnyRangeOfContentIsRead) {
 struct DamageCase {
   const char* name;
   const char* sql;
+  friend void PrintTo(const DamageCase& c, std::ostream* out) { *out << c.name; }
 };
 class Damage : public StoreTest, public testing::WithParamInterface<DamageCase> {};
 

@@ -8,6 +8,7 @@ using UploadTest = StoreTest;
 struct PieceCase {
   const char* name;
   std::size_t size, piece;
+  friend void PrintTo(const PieceCase& c, std::ostream* out) { *out << c.name; }
 };
 class AnyPieces : public StoreTest, public testing::WithParamInterface<PieceCase> {};
 

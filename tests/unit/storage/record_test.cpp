@@ -1,0 +1,198 @@
+#include <limits>
+
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+class RecordTest : public StoreTest {
+ protected:
+  std::string numbers(const std::string& run = "r1", const std::string& kind = "", Page page = {}) {
+    std::string text;
+    const auto found = store_->records(run, kind, page);
+    for (const Record& record : *found) {
+      text += fmt::format("{} ", record.number);
+    }
+    return text;
+  }
+  static RunEnding ending(RunState state) {
+    RunEnding ending;
+    ending.run = "r1";
+    ending.state = state;
+    ending.counters = {12, 2, 2};
+    ending.line = 2;
+    ending.sequence = 20;
+    ending.reason = "M30";
+    ending.executed_content = std::string(64, 'a');
+    ending.content_verified = true;
+    ending.ended = UtcTime{std::chrono::microseconds{5}};
+    return ending;
+  }
+};
+
+TEST_F(RecordTest, ComesBackAsItWasReported) {
+  RecordBatch batch = make_batch(1, 1);
+  batch.records[0].text = "DPRNT \"quoted\", \xff and\ttabs";
+  ASSERT_EQ(store_->store_records(batch), 1u);
+  reopen();
+  const auto found = store_->records("r1", "output", {});
+  ASSERT_TRUE(found) << found.error().what;
+  ASSERT_EQ(found->size(), 1u);
+  const Record& record = found->front();
+  EXPECT_EQ(record.machine, "m1");
+  EXPECT_EQ(record.epoch, 7u);
+  EXPECT_EQ(record.number, 1u);
+  EXPECT_EQ(record.time, batch.records[0].time);
+  EXPECT_EQ(record.run, "r1");
+  EXPECT_EQ(record.kind, "output");
+  EXPECT_EQ(record.block, 10u);
+  EXPECT_EQ(record.line, 11u);
+  EXPECT_EQ(record.sequence, 12);
+  EXPECT_EQ(record.device, "port1");
+  EXPECT_EQ(record.text, batch.records[0].text);
+}
+
+TEST_F(RecordTest, SentAgainAreStoredOnce) {
+  EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
+  EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
+  EXPECT_EQ(store_->store_records(make_batch(3, 8)), 8u);
+  EXPECT_EQ(store_->store_records(make_batch(2, 2)), 8u);
+  EXPECT_EQ(numbers(), "1 2 3 4 5 6 7 8 ");
+}
+
+TEST_F(RecordTest, BehindAGapAreLeftOut) {
+  EXPECT_EQ(store_->store_records(make_batch(2, 4)), 0u) << "number 1 is missing";
+  EXPECT_EQ(numbers(), "");
+  RecordBatch batch = make_batch(1, 6);
+  batch.records.erase(batch.records.begin() + 3);
+  EXPECT_EQ(store_->store_records(batch), 3u);
+  EXPECT_EQ(numbers(), "1 2 3 ");
+  EXPECT_EQ(store_->store_records(make_batch(4, 6)), 6u);
+  EXPECT_EQ(numbers(), "1 2 3 4 5 6 ");
+}
+
+TEST_F(RecordTest, EpochsHaveNumbersOfTheirOwnAndComeInOrder) {
+  ASSERT_TRUE(store_->store_records(make_batch(1, 2)));
+  RecordBatch later = make_batch(1, 2);
+  later.epoch = 8;
+  for (Record& record : later.records) record.epoch = 8;
+  EXPECT_EQ(store_->store_records(later), 2u);
+  EXPECT_EQ(numbers(), "1 2 1 2 ");
+  EXPECT_EQ(store_->records("r1", "", {})->back().epoch, 8u);
+}
+
+TEST_F(RecordTest, AreFilteredByKindAndPaged) {
+  RecordBatch batch = make_batch(1, 6);
+  batch.records[1].kind = batch.records[4].kind = "probe";
+  batch.records[5].run = "";
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(numbers("r1", "probe"), "2 5 ");
+  EXPECT_EQ(numbers("r1", "output"), "1 3 4 ");
+  EXPECT_EQ(numbers("r1", "", {.limit = 2, .offset = 1}), "2 3 ");
+  EXPECT_EQ(numbers("r1", "output", {.limit = 9, .offset = 2}), "4 ");
+  EXPECT_EQ(numbers("unknown"), "");
+}
+
+TEST_F(RecordTest, OfAnUnknownMachineOrRunAreKept) {
+  EXPECT_EQ(store_->store_records(make_batch(1, 2, "never-heard-of")), 2u);
+  EXPECT_EQ(numbers("never-heard-of"), "1 2 ");
+  EXPECT_EQ(store_->machine("m1")->last_record, 2u);
+}
+
+TEST_F(RecordTest, OutputsAreCountedOnceForTheRun) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  RecordBatch batch = make_batch(1, 5);
+  batch.records[0].kind = "run_started";
+  ASSERT_TRUE(store_->store_records(batch));
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(store_->run("r1")->outputs, 4u);
+}
+
+TEST_F(RecordTest, BeginAndEndTheRunTheySpeakOf) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  RecordBatch batch = make_batch(1, 1);
+  batch.records[0].kind = "run_started";
+  batch.beginnings.push_back({"r1", UtcTime{std::chrono::microseconds{3}}});
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(store_->run("r1")->state, RunState::Active);
+  EXPECT_EQ(store_->run("r1")->started, UtcTime{std::chrono::microseconds{3}});
+
+  RecordBatch end = make_batch(2, 3);
+  end.records[1].kind = "run_ended";
+  end.endings.push_back(ending(RunState::Completed));
+  ASSERT_TRUE(store_->store_records(end));
+  const auto run = store_->run("r1");
+  EXPECT_EQ(run->state, RunState::Completed);
+  EXPECT_EQ(run->counters.sent, 12u);
+  EXPECT_EQ(run->counters.executed, 2u);
+  EXPECT_EQ(run->line, 2u);
+  EXPECT_EQ(run->sequence, 20);
+  EXPECT_EQ(run->reason, "M30");
+  EXPECT_EQ(run->executed_content, std::string(64, 'a'));
+  EXPECT_EQ(run->content_verified, true);
+  EXPECT_EQ(run->ended, UtcTime{std::chrono::microseconds{5}});
+
+  ASSERT_TRUE(store_->store_records(batch)) << "an old beginning comes again";
+  EXPECT_EQ(store_->run("r1")->state, RunState::Completed);
+}
+
+TEST_F(RecordTest, EndARunThatWasNeverSeenActive) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  RecordBatch batch = make_batch(1, 1);
+  batch.endings.push_back(ending(RunState::Alarmed));
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(store_->run("r1")->state, RunState::Alarmed);
+}
+
+TEST_F(RecordTest, DoNotChangeARunThatHasEnded) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  ASSERT_TRUE(store_->set_run_state("r1", RunState::Refused, "no answer in time"));
+  RecordBatch batch = make_batch(1, 1);
+  batch.beginnings.push_back({"r1", clock_.now()});
+  batch.endings.push_back(ending(RunState::Completed));
+  EXPECT_EQ(store_->store_records(batch), 1u) << "the records themselves are kept";
+  EXPECT_EQ(store_->run("r1")->state, RunState::Refused);
+  EXPECT_EQ(store_->run("r1")->reason, "no answer in time");
+}
+
+TEST_F(RecordTest, EndingBehindAGapWaitsForItsRecord) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  RecordBatch batch = make_batch(2, 3);
+  batch.records[1].kind = "run_ended";
+  batch.endings.push_back(ending(RunState::Completed));
+  EXPECT_EQ(store_->store_records(batch), 0u);
+  EXPECT_EQ(store_->run("r1")->state, RunState::Ordered);
+  ASSERT_TRUE(store_->store_records(make_batch(1, 1)));
+  EXPECT_EQ(store_->store_records(batch), 3u);
+  EXPECT_EQ(store_->run("r1")->state, RunState::Completed);
+}
+
+TEST_F(RecordTest, BatchesThatContradictThemselvesAreRefused) {
+  RecordBatch batch = make_batch(1, 2);
+  batch.records[1].machine = "m2";
+  EXPECT_EQ(store_->store_records(batch).error().code, Errc::Syntax);
+  batch = make_batch(1, 2);
+  batch.epoch = 8;
+  EXPECT_EQ(store_->store_records(batch).error().code, Errc::Syntax);
+  batch = make_batch(1, 1);
+  batch.epoch = batch.records[0].epoch = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(store_->store_records(batch).error().code, Errc::LimitExceeded);
+  batch = make_batch(1, 1);
+  batch.endings.push_back(ending(RunState::Active));
+  EXPECT_EQ(store_->store_records(batch).error().code, Errc::Syntax);
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 0);
+}
+
+TEST_F(RecordTest, NumbersOfAnySizeComeBack) {
+  RecordBatch batch = make_batch(1, 1);
+  batch.records[0].block = batch.records[0].line = std::numeric_limits<std::uint64_t>::max();
+  batch.records[0].sequence = std::numeric_limits<std::int64_t>::min();
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(store_->records("r1", "", {})->front().block,
+            std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(store_->records("r1", "", {})->front().sequence,
+            std::numeric_limits<std::int64_t>::min());
+}
+
+}  // namespace
+}  // namespace dripline::storage
