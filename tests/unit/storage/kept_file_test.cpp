@@ -1,0 +1,72 @@
+#include <fstream>
+#include <sstream>
+
+#include "storage/sqlite/database.hpp"
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+/// Opens the kept file of an older version (tests/golden/storage) as the server would.
+class KeptFile : public StoreTest, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    new_schema_ = schema_of(options_.file);
+    std::stringstream sql;
+    sql << std::ifstream(std::string("tests/golden/storage/") + GetParam()).rdbuf();
+    options_.file = directory_ / "kept.sqlite";
+    auto kept = sqlite::Database::open(options_.file);
+    ASSERT_TRUE(kept) << kept.error().what;
+    const auto loaded = kept->execute(sql.str());
+    ASSERT_TRUE(loaded) << loaded.error().what;
+    ASSERT_GT(kept->integer("PRAGMA user_version").value(), 0);
+  }
+  static std::string schema_of(const std::filesystem::path& file) {
+    auto database = sqlite::Database::open(file);
+    return database
+        ->text(
+            "SELECT group_concat(sql, x'0a') FROM "
+            "(SELECT sql FROM sqlite_schema ORDER BY type, name)")
+        .value_or("no schema");
+  }
+  std::string new_schema_;
+};
+
+TEST_P(KeptFile, BecomesTheSchemaOfANewFile) {
+  reopen();
+  EXPECT_EQ(schema_of(options_.file), new_schema_) << "a released migration was edited?";
+}
+
+TEST_P(KeptFile, KeepsEverythingInIt) {
+  reopen();
+  const auto run = store_->run("r1");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, RunState::Completed);
+  EXPECT_EQ(run->counters.executed, 2u);
+  EXPECT_EQ(run->content_verified, true);
+  EXPECT_EQ(run->outputs, 1u);
+  EXPECT_EQ(pull(run->content), "G00 X1.\nM30\n");
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
+  EXPECT_EQ(store_->revision("gone.nc", std::nullopt).error().code, Errc::NotFound);
+  const auto records = store_->records("r1", "", {});
+  ASSERT_EQ(records->size(), 3u);
+  EXPECT_EQ(records->at(1).text, "X2");
+  EXPECT_EQ(store_->machine("m1")->last_record, 3u);
+  EXPECT_EQ(store_->audit_entries({})->at(0).action, "push");
+}
+
+TEST_P(KeptFile, CanBeGoneOnWith) {
+  reopen();
+  ASSERT_TRUE(store_->append_upload("u1", 5, bytes_of("9.\n")));
+  const auto revision = store_->commit_upload("u1", sha256("G01 X9.\n"));
+  ASSERT_TRUE(revision) << revision.error().what;
+  EXPECT_EQ(pull(revision->content), "G01 X9.\n");
+  EXPECT_EQ(store_->store_records(make_batch(4, 6)), 6u);
+  EXPECT_EQ(push("gone.nc", "M2\n")->number, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(, KeptFile, testing::Values("v1.sql"),
+                         [](const auto& i) { return std::string(i.param, 2); });
+
+}  // namespace
+}  // namespace dripline::storage
