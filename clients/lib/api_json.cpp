@@ -1,0 +1,335 @@
+#include "clients/lib/api_json.hpp"
+
+#include <concepts>
+
+namespace dripline::client {
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+/// Every type's members are listed once, below; a Reader and a Writer walk the same list.
+template <class P, class T>
+concept Is = std::same_as<std::remove_const_t<P>, T>;
+
+template <class T>
+constexpr bool kIsOptional = false;
+template <class T>
+constexpr bool kIsOptional<std::optional<T>> = true;
+
+template <class V>
+void members(V& v, Is<ServerInfo::Dds> auto& x) {
+  v("domain", x.domain);
+  v("rejected", x.rejected);
+}
+
+template <class V>
+void members(V& v, Is<ServerInfo> auto& x) {
+  v("name", x.name);
+  v("version", x.version);
+  v("started", x.started);
+  v("uptime_s", x.uptime_s);
+  v("data_dir", x.data_dir);
+  v("machines", x.machines);
+  v("machines_connected", x.machines_connected);
+  v("programs", x.programs);
+  v("runs_active", x.runs_active);
+  v("dds", x.dds);
+}
+
+/// What programs and revisions share.
+template <class V, class P>
+void content_members(V& v, P& x) {
+  v("size", x.size);
+  v("sha256", x.sha256);
+  v("control", x.control);
+  v("comment", x.comment);
+  v("author", x.author);
+  v("created", x.created);
+}
+
+template <class V>
+void members(V& v, Is<Program> auto& x) {
+  v("name", x.name);
+  v("revision", x.revision);
+  v("revisions", x.revisions);
+  content_members(v, x);
+}
+
+template <class V>
+void members(V& v, Is<Revision> auto& x) {
+  v("program", x.program);
+  v("revision", x.revision);
+  content_members(v, x);
+  v.flag("unchanged", x.unchanged);
+}
+
+template <class V>
+void members(V& v, Is<Upload> auto& x) {
+  v("id", x.id);
+  v("program", x.program);
+  v("received", x.received);
+  v("max_piece", x.max_piece);
+}
+
+template <class V>
+void members(V& v, Is<MachineStatus> auto& x) {
+  v("time", x.time);
+  v("execution", x.execution);
+  v("mode", x.mode);
+  v("run", x.run);
+  v("program", x.program);
+  v("sent", x.sent);
+  v("accepted", x.accepted);
+  v("executed", x.executed);
+  v("total_bytes", x.total_bytes);
+  v("offset", x.offset);
+  v("line", x.line);
+  v("sequence", x.sequence);
+  v("position", x.position);
+  v("feed_mm_per_min", x.feed_mm_per_min);
+  v("spindle_rpm", x.spindle_rpm);
+  v("feed_override", x.feed_override);
+  v("rapid_override", x.rapid_override);
+  v("spindle_override", x.spindle_override);
+  v("buffered_seconds", x.buffered_seconds);
+  v("single_block", x.single_block);
+  v("message", x.message);
+  v("outbox", x.outbox);
+}
+
+template <class V>
+void members(V& v, Is<Machine> auto& x) {
+  v("name", x.name);
+  v("control", x.control);
+  v("description", x.description);
+  v("gateway_version", x.gateway_version);
+  v("connected", x.connected);
+  v("first_seen", x.first_seen);
+  v("last_seen", x.last_seen);
+  v("status", x.status);
+}
+
+template <class V>
+void members(V& v, Is<Run> auto& x) {
+  v("id", x.id);
+  v("machine", x.machine);
+  v("program", x.program);
+  v("revision", x.revision);
+  v("sha256", x.sha256);
+  v("size", x.size);
+  v("control", x.control);
+  v("state", x.state);
+  v("sent", x.sent);
+  v("accepted", x.accepted);
+  v("executed", x.executed);
+  v("line", x.line);
+  v("sequence", x.sequence);
+  v("reason", x.reason);
+  v("content_verified", x.content_verified);
+  v("author", x.author);
+  v("created", x.created);
+  v("started", x.started);
+  v("ended", x.ended);
+  v("outputs", x.outputs);
+}
+
+template <class V>
+void members(V& v, Is<Record> auto& x) {
+  v("machine", x.machine);
+  v("epoch", x.epoch);
+  v("number", x.number);
+  v("time", x.time);
+  v("run", x.run);
+  v("kind", x.kind);
+  v("block", x.block);
+  v("line", x.line);
+  v("sequence", x.sequence);
+  v("device", x.device);
+  v("text", x.text);
+}
+
+template <class V>
+void members(V& v, Is<Report> auto& x) {
+  v("run", x.run);
+  v("machine", x.machine);
+  v("program", x.program);
+  v("revision", x.revision);
+  v("state", x.state);
+  v("lines", x.lines);
+  v("started", x.started);
+  v("ended", x.ended);
+}
+
+class Reader {
+ public:
+  explicit Reader(const Json& object) : object_(object) {}
+
+  template <class T>
+  void operator()(const char* key, T& field) {
+    const auto found = object_.find(key);
+    const bool is_absent = found == object_.end() || found->is_null();
+    if constexpr (kIsOptional<T>) {
+      if (is_absent) return;
+      typename T::value_type value{};
+      read(key, *found, value);
+      field = std::move(value);
+    } else if constexpr (std::same_as<T, std::string>) {
+      if (!is_absent) read(key, *found, field);
+    } else if (is_absent) {
+      complain(key, "is missing");
+    } else {
+      read(key, *found, field);
+    }
+  }
+  void flag(const char* key, bool& field) {
+    if (object_.contains(key)) (*this)(key, field);
+  }
+
+  const std::string& error() const { return error_; }
+
+ private:
+  void complain(const char* key, std::string_view what) {
+    if (error_.empty()) error_ = fmt::format("member \"{}\" {}", key, what);
+  }
+  void read(const char* key, const Json& json, std::string& field) {
+    json.is_string() ? void(field = json.get<std::string>()) : complain(key, "is not a text");
+  }
+  void read(const char* key, const Json& json, bool& field) {
+    json.is_boolean() ? void(field = json.get<bool>()) : complain(key, "is not true or false");
+  }
+  void read(const char* key, const Json& json, double& field) {
+    json.is_number() ? void(field = json.get<double>()) : complain(key, "is not a number");
+  }
+  void read(const char* key, const Json& json, std::uint64_t& field) {
+    json.is_number_unsigned() ? void(field = json.get<std::uint64_t>())
+                              : complain(key, "is not a whole number >= 0");
+  }
+  void read(const char* key, const Json& json, std::int64_t& field) {
+    json.is_number_integer() ? void(field = json.get<std::int64_t>())
+                             : complain(key, "is not a whole number");
+  }
+  void read(const char* key, const Json& json, std::map<std::string, double>& field) {
+    if (!json.is_object()) return complain(key, "is not an object");
+    for (const auto& [name, value] : json.items()) read(key, value, field[name]);
+  }
+  template <class T>
+  void read(const char* key, const Json& json, T& field) {
+    if (!json.is_object()) return complain(key, "is not an object");
+    Reader inner(json);
+    members(inner, field);
+    if (!inner.error().empty() && error_.empty()) error_ = inner.error() + " of \"" + key + "\"";
+  }
+
+  const Json& object_;
+  std::string error_;
+};
+
+class Writer {
+ public:
+  template <class T>
+  void operator()(const char* key, const T& field) {
+    if constexpr (kIsOptional<T>) {
+      if (field) {
+        (*this)(key, *field);
+      } else {
+        object_[key] = nullptr;
+      }
+    } else if constexpr (std::same_as<T, std::string>) {
+      object_[key] = field.empty() ? OrderedJson(nullptr) : OrderedJson(field);
+    } else if constexpr (requires { OrderedJson(field); } && !std::is_class_v<T>) {
+      object_[key] = field;
+    } else if constexpr (std::same_as<T, std::map<std::string, double>>) {
+      object_[key] = OrderedJson::object();
+      for (const auto& [name, value] : field) object_[key][name] = value;
+    } else {
+      Writer inner;
+      members(inner, field);
+      object_[key] = std::move(inner.object_);
+    }
+  }
+  void flag(const char* key, bool field) {
+    if (field) object_[key] = true;
+  }
+  OrderedJson take() { return std::move(object_); }
+
+ private:
+  OrderedJson object_ = OrderedJson::object();
+};
+
+template <class T>
+Result<T> read_object(const Json& json) {
+  if (!json.is_object()) return fail(Errc::Syntax, "not a JSON object");
+  T value{};
+  Reader reader(json);
+  members(reader, value);
+  if (!reader.error().empty()) return fail(Errc::Syntax, "{}", reader.error());
+  return value;
+}
+
+}  // namespace
+
+template <class T>
+Result<T> from_json(const Json& json) {
+  return read_object<T>(json);
+}
+
+/// The history is a Program whose "revisions" is the list instead of its length.
+template <>
+Result<ProgramHistory> from_json(const Json& json) {
+  if (!json.is_object()) return fail(Errc::Syntax, "not a JSON object");
+  const auto list = json.find("revisions");
+  if (list == json.end() || !list->is_array()) {
+    return fail(Errc::Syntax, "member \"revisions\" is not a list");
+  }
+  Json latest = json;
+  latest["revisions"] = list->size();
+  auto program = read_object<Program>(latest);
+  if (!program) return fail(program.error());
+  ProgramHistory history{std::move(*program), {}};
+  for (const auto& item : *list) {
+    auto revision = read_object<Revision>(item);
+    if (!revision) return fail(revision.error());
+    history.revisions.push_back(std::move(*revision));
+  }
+  return history;
+}
+
+template <class T>
+OrderedJson to_json_value(const T& value) {
+  Writer writer;
+  members(writer, value);
+  return writer.take();
+}
+
+template <>
+OrderedJson to_json_value(const ProgramHistory& history) {
+  auto json = to_json_value(history.program);
+  json["revisions"] = OrderedJson::array();
+  for (const auto& revision : history.revisions) {
+    json["revisions"].push_back(to_json_value(revision));
+  }
+  return json;
+}
+
+#define DRIPLINE_API_TYPE(T)                    \
+  template Result<T> from_json<T>(const Json&); \
+  template OrderedJson to_json_value<T>(const T&)
+DRIPLINE_API_TYPE(ServerInfo);
+DRIPLINE_API_TYPE(Program);
+DRIPLINE_API_TYPE(Revision);
+DRIPLINE_API_TYPE(Upload);
+DRIPLINE_API_TYPE(MachineStatus);
+DRIPLINE_API_TYPE(Machine);
+DRIPLINE_API_TYPE(Run);
+DRIPLINE_API_TYPE(Record);
+DRIPLINE_API_TYPE(Report);
+#undef DRIPLINE_API_TYPE
+
+Result<Json> parse_json(std::string_view text) {
+  auto json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) return fail(Errc::Syntax, "not JSON");
+  return json;
+}
+
+}  // namespace dripline::client

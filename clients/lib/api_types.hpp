@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the server's answers hold (server/api/README.md), as plain values. Times are ISO 8601 UTC
+/// text as they came, lengths millimetres. An absent text is empty; other absent values are
+/// nullopt.
+namespace dripline::client {
+
+struct ServerInfo {
+  std::string name, version, started;
+  double uptime_s = 0;
+  std::string data_dir;
+  std::uint64_t machines = 0, machines_connected = 0, programs = 0, runs_active = 0;
+  struct Dds {
+    std::uint64_t domain = 0, rejected = 0;
+  } dds;
+};
+
+/// A program's latest revision, as listings give it.
+struct Program {
+  std::string name;
+  std::uint64_t revision = 0, revisions = 0, size = 0;
+  std::string sha256, control, comment, author, created;
+};
+
+struct Revision {
+  std::string program;
+  std::uint64_t revision = 0, size = 0;
+  std::string sha256, control, comment, author, created;
+  bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
+};
+
+struct ProgramHistory {
+  Program program;
+  std::vector<Revision> revisions;
+};
+
+struct Upload {
+  std::string id, program;
+  std::uint64_t received = 0;
+  std::uint64_t max_piece = 0;
+};
+
+struct MachineStatus {
+  std::string time, execution, mode, run, program;
+  std::uint64_t sent = 0, accepted = 0, executed = 0, total_bytes = 0, offset = 0;
+  std::optional<std::uint64_t> line;
+  std::optional<std::int64_t> sequence;
+  std::map<std::string, double> position;  ///< by axis letter
+  double feed_mm_per_min = 0, spindle_rpm = 0;
+  double feed_override = 1, rapid_override = 1, spindle_override = 1;  ///< 1 = 100 %
+  double buffered_seconds = 0;
+  bool single_block = false;
+  std::string message;
+  std::uint64_t outbox = 0;
+};
+
+struct Machine {
+  std::string name, control, description, gateway_version;
+  bool connected = false;
+  std::string first_seen, last_seen;
+  std::optional<MachineStatus> status;
+};
+
+struct Run {
+  std::string id, machine, program;
+  std::uint64_t revision = 0;
+  std::string sha256;
+  std::uint64_t size = 0;
+  std::string control, state;
+  std::uint64_t sent = 0, accepted = 0, executed = 0;
+  std::optional<std::uint64_t> line;
+  std::optional<std::int64_t> sequence;
+  std::string reason;
+  std::optional<bool> content_verified;
+  std::string author, created, started, ended;
+  std::uint64_t outputs = 0;
+};
+
+struct Record {
+  std::string machine;
+  std::uint64_t epoch = 0, number = 0;
+  std::string time, run, kind;
+  std::optional<std::uint64_t> block, line;
+  std::optional<std::int64_t> sequence;
+  std::string device, text;
+};
+
+struct Report {
+  std::string run, machine, program;
+  std::uint64_t revision = 0;
+  std::string state;
+  std::uint64_t lines = 0;
+  std::string started, ended;
+};
+
+}  // namespace dripline::client

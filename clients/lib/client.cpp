@@ -1,0 +1,314 @@
+#include "clients/lib/client.hpp"
+
+#include <charconv>
+
+#include "clients/lib/api_json.hpp"
+
+namespace dripline::client {
+namespace {
+
+using Json = nlohmann::json;
+constexpr std::string_view kRoot = "/api/v1/";
+
+struct CodeName {
+  std::string_view name;
+  Errc code;
+};
+constexpr CodeName kCodes[] = {
+    {"syntax", Errc::Syntax},
+    {"modal_conflict", Errc::ModalConflict},
+    {"unsupported", Errc::Unsupported},
+    {"limit_exceeded", Errc::LimitExceeded},
+    {"not_found", Errc::NotFound},
+    {"busy", Errc::Busy},
+    {"timeout", Errc::Timeout},
+    {"corrupt", Errc::Corrupt},
+    {"io", Errc::Io},
+    {"denied", Errc::Denied},
+};
+
+Errc code_of(std::string_view name) {
+  for (const auto& row : kCodes) {
+    if (row.name == name) return row.code;
+  }
+  return Errc::Io;
+}
+
+HttpRequest get(std::string path) {
+  HttpRequest request;
+  request.path = std::move(path);
+  return request;
+}
+
+HttpRequest with_method(std::string method, std::string path) {
+  HttpRequest request = get(std::move(path));
+  request.method = std::move(method);
+  return request;
+}
+
+std::string path_of(std::string_view collection) {
+  return std::string(kRoot) + std::string(collection);
+}
+
+std::string path_of(std::string_view collection, std::string_view item) {
+  return path_of(collection) + "/" + url_encode(item);
+}
+
+/// Adds `key=value` to a path's query; nothing for an empty value.
+std::string with_query(std::string path, std::string_view key, std::string_view value) {
+  if (value.empty()) return path;
+  path += path.find('?') == std::string::npos ? '?' : '&';
+  path += key;
+  path += '=';
+  return path + url_encode(value);
+}
+
+std::string with_page(std::string path, Page page) {
+  path = with_query(std::move(path), "limit", std::to_string(page.limit));
+  return with_query(std::move(path), "offset", std::to_string(page.offset));
+}
+
+/// What the server said went wrong.
+Failure refusal(const HttpResponse& response, const std::string& url) {
+  std::string code, message;
+  if (auto json = parse_json(response.body); json && json->is_object()) {
+    if (const auto error = json->find("error"); error != json->end() && error->is_object()) {
+      code = error->value("code", "");
+      message = error->value("message", "");
+    }
+  }
+  if (response.status == 401 || response.status == 403 || code == "denied") {
+    return {Failure::Kind::Denied, Errc::Denied,
+            fmt::format("server {} does not accept the token{}{}; expected the right one from "
+                        "--token-file FILE or DRIPLINE_TOKEN",
+                        url, message.empty() ? "" : ": ", message)};
+  }
+  if (message.empty()) {
+    return {Failure::Kind::BadReply, Errc::Io,
+            fmt::format("{} answered with status {} and no reason; is it a Dripline server?", url,
+                        response.status)};
+  }
+  return {Failure::Kind::Refused, code_of(code), message};
+}
+
+std::uint64_t header_number(const HttpResponse& response, const std::string& name) {
+  const auto found = response.headers.find(name);
+  std::uint64_t value = 0;
+  if (found == response.headers.end()) return value;
+  const std::string& text = found->second;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::string header_text(const HttpResponse& response, const std::string& name) {
+  const auto found = response.headers.find(name);
+  return found == response.headers.end() ? std::string() : found->second;
+}
+
+std::string dumped(const Json& body) {
+  return body.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string order_body(const OrderRequest& order) {
+  Json body{{"action", order.action}};
+  if (order.text) body["text"] = *order.text;
+  if (order.name) body["name"] = *order.name;
+  if (order.value) body["value"] = *order.value;
+  return dumped(body);
+}
+
+}  // namespace
+
+Client::Client(ServerAddress address, const HttpOptions& options)
+    : address_(std::move(address)), http_(open_http(address_, options)) {}
+
+Client::Client(ServerAddress address, std::unique_ptr<Http> http)
+    : address_(std::move(address)), http_(std::move(http)) {}
+
+Reply<HttpResponse> Client::exchange(const HttpRequest& request) {
+  auto response = http_->send(request);
+  if (!response) return response;
+  if (response->status < 200 || response->status >= 300) {
+    return failed(refusal(*response, address_.url));
+  }
+  return response;
+}
+
+template <class T>
+Reply<T> Client::fetch(const HttpRequest& request) {
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  auto json = parse_json(response->body);
+  auto value = json ? from_json<T>(*json) : Result<T>(tl::make_unexpected(json.error()));
+  if (!value) {
+    return failed(Failure::Kind::BadReply, Errc::Syntax,
+                  "the answer of {} to {} {} is not as expected: {}", address_.url, request.method,
+                  request.path, value.error().what);
+  }
+  return std::move(*value);
+}
+
+template <class T>
+Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* member) {
+  auto response = exchange(get(path));
+  if (!response) return failed(response.error());
+  auto json = parse_json(response->body);
+  const auto bad = [&](std::string_view why) {
+    return failed(Failure::Kind::BadReply, Errc::Syntax,
+                  "the answer of {} to {} is not as expected: {}", address_.url, path, why);
+  };
+  if (!json || !json->is_object() || !json->contains(member) || !(*json)[member].is_array()) {
+    return bad(fmt::format("no list \"{}\"", member));
+  }
+  std::vector<T> list;
+  for (const auto& item : (*json)[member]) {
+    auto value = from_json<T>(item);
+    if (!value) return bad(value.error().what);
+    list.push_back(std::move(*value));
+  }
+  return list;
+}
+
+Reply<void> Client::health() {
+  auto response = exchange(get(path_of("health")));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<ServerInfo> Client::server() {
+  return fetch<ServerInfo>(get(path_of("server")));
+}
+
+Reply<std::vector<Program>> Client::programs(Page page) {
+  return fetch_list<Program>(with_page(path_of("programs"), page), "programs");
+}
+
+Reply<ProgramHistory> Client::program(std::string_view name) {
+  return fetch<ProgramHistory>(get(path_of("programs", name)));
+}
+
+Reply<void> Client::remove_program(std::string_view name) {
+  auto response = exchange(with_method("DELETE", path_of("programs", name)));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<Content> Client::content(const ContentRange& range) {
+  HttpRequest request = get(with_query(path_of("programs", range.program) + "/content", "revision",
+                                       std::to_string(range.revision)));
+  const std::uint64_t last = range.offset + range.length - 1;
+  request.headers.emplace_back("Range", fmt::format("bytes={}-{}", range.offset, last));
+  request.max_body = range.length;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  if (response->status != 206 && range.offset != 0) {
+    return failed(Failure::Kind::BadReply, Errc::Unsupported,
+                  "{} does not serve parts of a program (status {}, expected 206)", address_.url,
+                  response->status);
+  }
+  Content content;
+  content.sha256 = header_text(*response, "dripline-sha256");
+  content.revision = header_number(*response, "dripline-revision");
+  content.size = header_number(*response, "dripline-size");
+  content.bytes = std::move(response->body);
+  return content;
+}
+
+Reply<Upload> Client::open_upload(const UploadRequest& request) {
+  Json json{{"program", request.program}};
+  if (!request.control.empty()) json["control"] = request.control;
+  if (!request.comment.empty()) json["comment"] = request.comment;
+  const std::string body = dumped(json);
+  HttpRequest http = with_method("POST", path_of("uploads"));
+  http.body = body;
+  return fetch<Upload>(http);
+}
+
+Reply<Upload> Client::upload(std::string_view id) {
+  return fetch<Upload>(get(path_of("uploads", id)));
+}
+
+Reply<Upload> Client::put_piece(std::string_view id, const Piece& piece) {
+  HttpRequest http = with_method("PUT", with_query(path_of("uploads", id) + "/content", "offset",
+                                                   std::to_string(piece.offset)));
+  http.content_type = "application/octet-stream";
+  http.body = piece.bytes;
+  http.on_sent = piece.on_sent;
+  return fetch<Upload>(http);
+}
+
+Reply<Revision> Client::commit_upload(std::string_view id, std::string_view sha256) {
+  Json json = Json::object();
+  if (!sha256.empty()) json["sha256"] = sha256;
+  const std::string body = dumped(json);
+  HttpRequest http = with_method("POST", path_of("uploads", id) + "/commit");
+  http.body = body;
+  return fetch<Revision>(http);
+}
+
+Reply<void> Client::drop_upload(std::string_view id) {
+  auto response = exchange(with_method("DELETE", path_of("uploads", id)));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<std::vector<Machine>> Client::machines() {
+  return fetch_list<Machine>(path_of("machines"), "machines");
+}
+
+Reply<Machine> Client::machine(std::string_view name) {
+  return fetch<Machine>(get(path_of("machines", name)));
+}
+
+Reply<Run> Client::start_run(const RunRequest& request) {
+  Json json{{"machine", request.machine}, {"program", request.program}};
+  if (request.revision) json["revision"] = *request.revision;
+  const std::string body = dumped(json);
+  HttpRequest http = with_method("POST", path_of("runs"));
+  http.body = body;
+  return fetch<Run>(http);
+}
+
+Reply<std::vector<Run>> Client::runs(const RunQuery& query) {
+  std::string path = with_page(path_of("runs"), query.page);
+  path = with_query(std::move(path), "machine", query.machine);
+  path = with_query(std::move(path), "program", query.program);
+  path = with_query(std::move(path), "state", query.state);
+  return fetch_list<Run>(path, "runs");
+}
+
+Reply<Run> Client::run(std::string_view id) {
+  return fetch<Run>(get(path_of("runs", id)));
+}
+
+Reply<void> Client::order(std::string_view run, const OrderRequest& request) {
+  const std::string body = order_body(request);
+  HttpRequest http = with_method("POST", path_of("runs", run) + "/orders");
+  http.body = body;
+  auto response = exchange(http);
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<std::vector<Record>> Client::records(std::string_view run, std::string_view kind, Page page) {
+  const std::string path = with_page(path_of("runs", run) + "/records", page);
+  return fetch_list<Record>(with_query(path, "kind", kind), "records");
+}
+
+Reply<std::vector<Report>> Client::reports(const ReportQuery& query) {
+  std::string path = with_page(path_of("reports"), query.page);
+  path = with_query(std::move(path), "machine", query.machine);
+  path = with_query(std::move(path), "program", query.program);
+  return fetch_list<Report>(path, "reports");
+}
+
+Reply<void> Client::export_report(std::string_view run, std::string_view format,
+                                  const std::function<bool(std::string_view)>& sink) {
+  HttpRequest request = get(with_query(path_of("reports", run), "format", format));
+  request.on_body = sink;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  return {};
+}
+
+}  // namespace dripline::client

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/lib/api_types.hpp"
+#include "clients/lib/http.hpp"
+#include "clients/lib/reply.hpp"
+#include "clients/lib/server_address.hpp"
+
+namespace dripline::client {
+
+struct Page {
+  std::uint64_t limit = 100;
+  std::uint64_t offset = 0;
+};
+
+struct UploadRequest {
+  std::string program;
+  std::string control, comment;  ///< empty: not said
+};
+
+struct Piece {
+  std::uint64_t offset = 0;
+  std::string_view bytes;  ///< at most Upload::max_piece
+  std::function<bool(std::uint64_t sent)> on_sent;
+};
+
+struct ContentRange {
+  std::string program;
+  std::uint64_t revision = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;  ///< > 0
+};
+
+/// A part of a stored revision and what the server says of the whole.
+struct Content {
+  std::string bytes;
+  std::string sha256;
+  std::uint64_t revision = 0, size = 0;
+};
+
+struct RunRequest {
+  std::string machine, program;
+  std::optional<std::uint64_t> revision;  ///< nullopt: the latest
+};
+
+/// Texts empty: all.
+struct RunQuery {
+  std::string machine, program, state;
+  Page page;
+};
+
+struct ReportQuery {
+  std::string machine, program;
+  Page page;
+};
+
+struct OrderRequest {
+  std::string action;
+  std::optional<std::string> text, name;
+  std::optional<double> value;
+};
+
+/// Typed calls for every endpoint of server/api/README.md; each is one HTTP exchange and is not
+/// repeated. One thread at a time.
+class Client {
+ public:
+  explicit Client(ServerAddress address, const HttpOptions& options = {});
+  /// Takes any transport; for tests.
+  Client(ServerAddress address, std::unique_ptr<Http> http);
+
+  const ServerAddress& address() const { return address_; }
+
+  Reply<void> health();
+  Reply<ServerInfo> server();
+
+  Reply<std::vector<Program>> programs(Page page);
+  Reply<ProgramHistory> program(std::string_view name);
+  Reply<void> remove_program(std::string_view name);
+  /// Fewer bytes than asked only at the end of the content.
+  Reply<Content> content(const ContentRange& range);
+
+  Reply<Upload> open_upload(const UploadRequest& request);
+  Reply<Upload> upload(std::string_view id);
+  Reply<Upload> put_piece(std::string_view id, const Piece& piece);
+  Reply<Revision> commit_upload(std::string_view id, std::string_view sha256);
+  Reply<void> drop_upload(std::string_view id);
+
+  Reply<std::vector<Machine>> machines();
+  Reply<Machine> machine(std::string_view name);
+
+  Reply<Run> start_run(const RunRequest& request);
+  Reply<std::vector<Run>> runs(const RunQuery& query);
+  Reply<Run> run(std::string_view id);
+  Reply<void> order(std::string_view run, const OrderRequest& request);
+  Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
+
+  Reply<std::vector<Report>> reports(const ReportQuery& query);
+  /// `format`: text, csv or json. The bytes go to `sink` as they come; false from it ends the call.
+  Reply<void> export_report(std::string_view run, std::string_view format,
+                            const std::function<bool(std::string_view)>& sink);
+
+ private:
+  Reply<HttpResponse> exchange(const HttpRequest& request);
+  template <class T>
+  Reply<T> fetch(const HttpRequest& request);
+  template <class T>
+  Reply<std::vector<T>> fetch_list(const std::string& path, const char* member);
+
+  ServerAddress address_;
+  std::unique_ptr<Http> http_;
+};
+
+}  // namespace dripline::client

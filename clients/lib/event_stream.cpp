@@ -1,0 +1,164 @@
+#include "clients/lib/event_stream.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "clients/lib/api_json.hpp"
+#include "clients/lib/event_parser.hpp"
+#include "clients/lib/http.hpp"
+
+namespace dripline::client {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr std::size_t kMaxWaiting = 1024;
+constexpr auto kFirstDelay = 100ms;
+constexpr auto kLongestDelay = 2000ms;
+
+template <class T>
+std::optional<StreamItem> item_of(const nlohmann::json& json) {
+  auto value = from_json<T>(json);
+  if (!value) return std::nullopt;
+  return StreamItem(std::move(*value));
+}
+
+/// nullopt for events of a kind, or of a shape, that this version does not know.
+std::optional<StreamItem> decode(const ServerEvent& event) {
+  auto json = parse_json(event.data);
+  if (!json) return std::nullopt;
+  if (event.name == "machine") return item_of<Machine>(*json);
+  if (event.name == "run") return item_of<Run>(*json);
+  if (event.name == "record") return item_of<Record>(*json);
+  return std::nullopt;
+}
+
+/// A server's refusal of the stream, as a failure.
+Failure refused(const HttpResponse& response, const std::string& url) {
+  const bool is_denied = response.status == 401 || response.status == 403;
+  if (is_denied) {
+    return {Failure::Kind::Denied, Errc::Denied,
+            fmt::format("server {} does not accept the token", url)};
+  }
+  return {Failure::Kind::Unreachable, Errc::Io,
+          fmt::format("server {} gives no events (status {})", url, response.status)};
+}
+
+}  // namespace
+
+class EventStream::Impl {
+ public:
+  Impl(const ServerAddress& address, const std::string& machine)
+      : address_(address), http_(open_http(address, {5000ms, 60000ms})) {
+    path_ = "/api/v1/events";
+    if (!machine.empty()) path_ += "?machine=" + url_encode(machine);
+    thread_ = std::thread([this] { run(); });
+  }
+
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_stopped_ = true;
+    }
+    changed_.notify_all();
+    // The request may just be beginning, when a stop has no effect yet: repeat until it is over.
+    while (!wait_until_over(50ms)) http_->stop();
+    thread_.join();
+  }
+
+  std::optional<StreamItem> next(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, timeout, [this] { return !waiting_.empty(); });
+    if (waiting_.empty()) return std::nullopt;
+    StreamItem item = std::move(waiting_.front());
+    waiting_.pop_front();
+    changed_.notify_all();
+    return item;
+  }
+
+ private:
+  void run() {
+    auto delay = kFirstDelay;
+    while (!is_stopped()) {
+      had_data_ = false;
+      const auto ended = read_once();
+      if (had_data_) delay = kFirstDelay;
+      const bool is_denied = ended.kind == Failure::Kind::Denied;
+      push(StreamLost{ended});
+      if (is_denied || !pause(delay)) break;
+      delay = std::min<std::chrono::milliseconds>(delay * 2, kLongestDelay);
+    }
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+    changed_.notify_all();
+  }
+
+  Failure read_once() {
+    EventParser parser;
+    HttpRequest request;
+    request.path = path_;
+    request.headers.emplace_back("Accept", "text/event-stream");
+    request.on_head = [this] { return push(StreamOpened{}); };
+    request.on_body = [&](std::string_view bytes) { return take(parser, bytes); };
+    auto response = http_->send(request);
+    if (!response) return response.error();
+    if (response->status < 200 || response->status >= 300) return refused(*response, address_.url);
+    return {Failure::Kind::Unreachable, Errc::Io,
+            fmt::format("server {} ended the stream of events", address_.url)};
+  }
+
+  bool take(EventParser& parser, std::string_view bytes) {
+    had_data_ = true;
+    auto events = parser.feed(bytes);
+    if (!events) return false;
+    for (const auto& event : *events) {
+      auto item = decode(event);
+      if (item && !push(std::move(*item))) return false;
+    }
+    return !is_stopped();
+  }
+
+  bool push(StreamItem item) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_stopped_ || waiting_.size() < kMaxWaiting; });
+    if (is_stopped_) return false;
+    waiting_.push_back(std::move(item));
+    changed_.notify_all();
+    return true;
+  }
+
+  bool pause(std::chrono::milliseconds delay) {
+    std::unique_lock lock(mutex_);
+    return !changed_.wait_for(lock, delay, [this] { return is_stopped_; });
+  }
+  bool wait_until_over(std::chrono::milliseconds delay) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, delay, [this] { return is_over_; });
+  }
+  bool is_stopped() {
+    const std::lock_guard lock(mutex_);
+    return is_stopped_;
+  }
+
+  ServerAddress address_;
+  std::string path_;
+  std::unique_ptr<Http> http_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<StreamItem> waiting_;
+  bool is_stopped_ = false, is_over_ = false;
+  bool had_data_ = false;  ///< of the thread alone
+  std::thread thread_;
+};
+
+EventStream::EventStream(const ServerAddress& address, const std::string& machine)
+    : impl_(std::make_unique<Impl>(address, machine)) {}
+EventStream::~EventStream() = default;
+
+std::optional<StreamItem> EventStream::next(std::chrono::milliseconds timeout) {
+  return impl_->next(timeout);
+}
+
+}  // namespace dripline::client

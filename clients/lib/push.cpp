@@ -1,0 +1,161 @@
+#include "clients/lib/push.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "protocol/base/digest.hpp"
+
+namespace dripline::client {
+namespace {
+
+constexpr std::uint64_t kPiece = 4ull * 1024 * 1024;
+
+/// One push: the upload's id, where it stands, the digest so far.
+class Push {
+ public:
+  Push(Client& client, ByteSource& source, const PushOptions& options)
+      : client_(client), source_(source), options_(options), back_off_(options_.retry) {}
+
+  Reply<Revision> run() {
+    if (auto opened = open(); !opened) return failed(opened.error());
+    if (auto sent = send_all(); !sent) {
+      // A refused upload is of no use to anybody; one that was cut off may still be looked at.
+      if (sent.error().kind == Failure::Kind::Refused) {
+        [[maybe_unused]] const auto dropped = client_.drop_upload(id_);
+      }
+      return failed(sent.error());
+    }
+    return commit();
+  }
+
+ private:
+  static bool can_help_to_retry(const Failure& failure) {
+    return failure.kind == Failure::Kind::Unreachable || failure.code == Errc::Busy ||
+           failure.code == Errc::Timeout;
+  }
+
+  Reply<void> open() {
+    while (true) {
+      auto upload = client_.open_upload(options_.upload);
+      if (upload) {
+        id_ = upload->id;
+        piece_size_ = upload->max_piece == 0 ? kPiece : std::min(upload->max_piece, kPiece);
+        return {};
+      }
+      if (!can_help_to_retry(upload.error()) || !back_off_.wait()) return failed(upload.error());
+    }
+  }
+
+  Reply<void> send_all() {
+    while (offset_ < source_.size()) {
+      auto sent = send_piece();
+      if (sent) continue;
+      if (auto resumed = resume(sent.error()); !resumed) return resumed;
+    }
+    return {};
+  }
+
+  Reply<void> send_piece() {
+    buffer_.resize(std::min(piece_size_, source_.size() - offset_));
+    if (auto read = source_.read(offset_, buffer_); !read) return failed_locally(read.error());
+    hash(buffer_);
+    const Piece piece{offset_, buffer_,
+                      [this](std::uint64_t sent) { return report(offset_ + sent); }};
+    auto upload = client_.put_piece(id_, piece);
+    if (!upload) return failed(upload.error());
+    if (auto moved = move_to(upload->received); !moved) return moved;
+    back_off_.reset();
+    return {};
+  }
+
+  /// After a failed piece: waits, asks how far the server came, goes on from there.
+  Reply<void> resume(const Failure& failure) {
+    if (failure.kind == Failure::Kind::Local || is_ended_) return failed(failure);
+    const bool may_be_offset = failure.kind == Failure::Kind::Refused;
+    if (!can_help_to_retry(failure) && !may_be_offset) return failed(failure);
+    while (true) {
+      if (!back_off_.wait()) return failed(failure);
+      auto upload = client_.upload(id_);
+      if (upload) {
+        const bool has_moved = upload->received != offset_;
+        // Refused at the right offset: it would be refused again.
+        if (!has_moved && !can_help_to_retry(failure)) return failed(failure);
+        if (upload->received > offset_) back_off_.reset();
+        return move_to(upload->received);
+      }
+      if (!can_help_to_retry(upload.error())) return failed(upload.error());
+    }
+  }
+
+  Reply<void> move_to(std::uint64_t received) {
+    if (received > hashed_) {
+      return failed(Failure::Kind::BadReply, Errc::Corrupt,
+                    "the server says it has {} bytes of upload {}, only {} were sent", received,
+                    id_, hashed_);
+    }
+    offset_ = received;
+    if (report(offset_)) return {};
+    return failed(Failure::Kind::Local, Errc::Timeout, "the push was ended from this side");
+  }
+
+  /// Only bytes not seen before: a piece sent again must not be counted twice.
+  void hash(std::string_view piece) {
+    const std::uint64_t end = offset_ + piece.size();
+    if (end <= hashed_) return;
+    digest_.update(piece.substr(static_cast<std::size_t>(hashed_ - offset_)));
+    hashed_ = end;
+  }
+
+  bool report(std::uint64_t done) {
+    is_ended_ = options_.on_progress && !options_.on_progress(done, source_.size());
+    return !is_ended_;
+  }
+
+  /// A commit whose answer was lost may have happened: then the upload is gone and the latest
+  /// revision has our content.
+  Reply<Revision> commit() {
+    const std::string sha256 = digest_.digest().hex();
+    back_off_.reset();
+    bool is_repeated = false;
+    while (true) {
+      auto revision = client_.commit_upload(id_, sha256);
+      if (revision) return revision;
+      if (is_repeated && revision.error().code == Errc::NotFound) {
+        return find_committed(sha256, revision.error());
+      }
+      if (!can_help_to_retry(revision.error()) || !back_off_.wait()) return revision;
+      is_repeated = true;
+    }
+  }
+
+  Reply<Revision> find_committed(const std::string& sha256, const Failure& failure) {
+    auto history = client_.program(options_.upload.program);
+    if (!history) return failed(failure);
+    for (const auto& revision : history->revisions) {
+      if (revision.sha256 == sha256 && revision.revision == history->program.revision) {
+        return revision;
+      }
+    }
+    return failed(failure);
+  }
+
+  Client& client_;
+  ByteSource& source_;
+  const PushOptions& options_;
+  BackOff back_off_;
+  std::string id_;
+  std::uint64_t piece_size_ = kPiece;
+  std::uint64_t offset_ = 0;  ///< of the next piece
+  std::uint64_t hashed_ = 0;  ///< bytes in the digest
+  Sha256 digest_;
+  std::string buffer_;
+  bool is_ended_ = false;
+};
+
+}  // namespace
+
+Reply<Revision> push_program(Client& client, ByteSource& source, const PushOptions& options) {
+  return Push(client, source, options).run();
+}
+
+}  // namespace dripline::client

@@ -1,0 +1,159 @@
+#include "clients/lib/server_location.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace dripline::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaxSmallFile = 64 * 1024;
+
+/// What a running server says about itself in STATE/dncd.json.
+struct LocalServer {
+  std::string url;
+  std::optional<std::string> token_file, ca_file;
+};
+
+Result<std::string> read_small_file(const std::string& path, std::string_view purpose) {
+  std::error_code ec;
+  const auto size = fs::file_size(path, ec);
+  if (ec) return fail(Errc::Io, "{} {} can not be read: {}", purpose, path, ec.message());
+  if (size > kMaxSmallFile) {
+    return fail(Errc::LimitExceeded, "{} {} has {} bytes, expected at most {}", purpose, path, size,
+                kMaxSmallFile);
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(Errc::Io, "{} {} can not be read: permission denied?", purpose, path);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+Result<std::string> read_token(const std::string& path) {
+  auto text = read_small_file(path, "token file");
+  if (!text) return text;
+  const auto first = text->find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return fail(Errc::Syntax, "token file {} is empty", path);
+  const auto last = text->find_last_not_of(" \t\r\n");
+  std::string token = text->substr(first, last - first + 1);
+  if (token.find_first_of(" \t\r\n") != std::string::npos) {
+    return fail(Errc::Syntax, "token file {} holds more than one word, expected the token alone",
+                path);
+  }
+  return token;
+}
+
+Result<std::string> checked_url(std::string url, std::string_view origin) {
+  while (!url.empty() && url.back() == '/') url.pop_back();
+  const bool is_http = url.starts_with("http://") && url.size() > 7;
+  const bool is_https = url.starts_with("https://") && url.size() > 8;
+  if (!is_http && !is_https) {
+    return fail(Errc::Syntax,
+                "{} '{}' is not a server address, expected http://HOST:PORT or "
+                "https://HOST:PORT",
+                origin, url);
+  }
+  if (url.find_first_of("/ ?#", is_http ? 7 : 8) != std::string::npos) {
+    return fail(Errc::Syntax, "{} '{}' has a path, expected only http(s)://HOST:PORT", origin, url);
+  }
+  return url;
+}
+
+std::optional<std::string> text_member(const nlohmann::json& object, const char* key,
+                                       const fs::path& relative_to) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_string()) return std::nullopt;
+  const fs::path path(found->get<std::string>());
+  return path.is_absolute() ? path.string() : (relative_to / path).string();
+}
+
+/// nullopt: there is no dncd.json, so no server runs here.
+Result<std::optional<LocalServer>> read_local_server(const std::string& state) {
+  const std::string path = (fs::path(state) / "dncd.json").string();
+  std::error_code ec;
+  if (!fs::exists(path, ec)) return std::optional<LocalServer>();
+  auto text = read_small_file(path, "the local server's file");
+  if (!text) return fail(text.error());
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("url") || !json["url"].is_string()) {
+    return fail(Errc::Syntax, "{} is not a server's file, expected JSON with \"url\"", path);
+  }
+  LocalServer local;
+  auto url = checked_url(json["url"].get<std::string>(), path);
+  if (!url) return fail(url.error());
+  local.url = *url;
+  local.token_file = text_member(json, "token_file", state);
+  local.ca_file = text_member(json, "ca_file", state);
+  return std::optional<LocalServer>(std::move(local));
+}
+
+/// The address the user named, if any.
+Result<std::optional<std::string>> named_url(const LocationOptions& options,
+                                             const Environment& environment) {
+  std::optional<std::string> text = options.server;
+  const bool from_option = text.has_value();
+  if (!text) text = environment("DRIPLINE_SERVER");
+  if (!text) return std::optional<std::string>();
+  auto url = checked_url(*text, from_option ? "--server" : "DRIPLINE_SERVER");
+  if (!url) return fail(url.error());
+  return std::optional<std::string>(std::move(*url));
+}
+
+Result<std::string> find_token(const LocationOptions& options, const Environment& environment,
+                               const std::optional<std::string>& local_token_file) {
+  if (options.token_file) return read_token(*options.token_file);
+  if (auto token = environment("DRIPLINE_TOKEN")) return *token;
+  if (local_token_file) return read_token(*local_token_file);
+  return std::string();
+}
+
+}  // namespace
+
+std::optional<std::string> process_environment(std::string_view name) {
+  const char* value = std::getenv(std::string(name).c_str());
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return std::string(value);
+}
+
+Result<std::string> state_directory(const LocationOptions& options, const Environment& environment,
+                                    bool is_root) {
+  if (options.state_dir) return *options.state_dir;
+  if (auto state = environment("DRIPLINE_STATE")) return *state;
+  if (is_root) return std::string("/var/lib/dripline");
+  if (auto state = environment("XDG_STATE_HOME")) return *state + "/dripline";
+  if (auto home = environment("HOME")) return *home + "/.local/state/dripline";
+  return fail(Errc::NotFound, "no state folder: HOME is not set, expected --state DIR");
+}
+
+Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
+                                    bool is_root) {
+  auto url = named_url(options, environment);
+  if (!url) return fail(url.error());
+  auto state = state_directory(options, environment, is_root);
+  if (!state && !*url) return fail(state.error());
+  std::optional<LocalServer> local;
+  if (state) {
+    auto read = read_local_server(*state);
+    // A server named explicitly must be usable even where the local one's file is not.
+    if (!read && !*url) return fail(read.error());
+    if (read) local = *read;
+  }
+  if (!*url && !local) {
+    return fail(Errc::NotFound,
+                "no server is named, and none runs here ({}/dncd.json does not "
+                "exist); expected --server URL or DRIPLINE_SERVER",
+                *state);
+  }
+  const bool state_is_named = options.state_dir || environment("DRIPLINE_STATE");
+  const bool is_local = local && (!*url || **url == local->url || state_is_named);
+  auto token = find_token(options, environment, is_local ? local->token_file : std::nullopt);
+  if (!token) return fail(token.error());
+  ServerAddress address{*url ? **url : local->url, *token, options.ca_file};
+  if (!address.ca_file && is_local) address.ca_file = local->ca_file;
+  return address;
+}
+
+}  // namespace dripline::client
