@@ -1,0 +1,17 @@
+#pragma once
+
+#include "clients/cli/context.hpp"
+
+/// One function for each group of verbs: adds it to the application. The verbs run as CLI11
+/// callbacks and leave their status in the context, which must outlive the application.
+namespace dripline::cli {
+
+void add_program_commands(CLI::App& app, Context& context);
+void add_machine_commands(CLI::App& app, Context& context);
+void add_run_commands(CLI::App& app, Context& context);
+void add_report_commands(CLI::App& app, Context& context);
+void add_server_commands(CLI::App& app, Context& context);
+void add_check_command(CLI::App& app, Context& context);
+void add_trace_command(CLI::App& app, Context& context);
+
+}  // namespace dripline::cli

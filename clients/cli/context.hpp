@@ -1,0 +1,56 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clients/cli/exit_status.hpp"
+#include "clients/cli/table.hpp"
+#include "clients/lib/client.hpp"
+#include "clients/lib/retry.hpp"
+#include "clients/lib/server_location.hpp"
+
+namespace dripline::cli {
+
+/// What every command shares: the options before the verb, and the status it leaves.
+class Context {
+ public:
+  client::LocationOptions location;
+  bool wants_json = false;
+  int status = kExitOk;
+
+  /// A client of the server the options, the environment or the state folder name; when none can be
+  /// found it complains, sets `status` and gives nothing.
+  std::optional<client::Client> connect();
+
+  bool has_colour() const;
+  void print(std::string_view text) const;
+  void print(const Table& table) const { print(table.render(has_colour())); }
+  void print(const Details& details) const { print(details.render(has_colour())); }
+};
+
+/// Adds `--json` to a command.
+void add_json_flag(CLI::App& command, Context& context);
+
+/// How long transfers go on when the server does not answer; Ctrl-C ends the waiting.
+client::RetryPolicy retry_policy();
+
+/// All pages of a listing: `fetch(Page)` is asked until a page is not full or `limit` is reached
+/// (0: no limit).
+template <class Fetch>
+auto fetch_all(std::uint64_t limit, Fetch fetch) -> decltype(fetch(client::Page{})) {
+  constexpr std::uint64_t kPageSize = 100;
+  auto all = fetch(client::Page{limit == 0 ? kPageSize : std::min(limit, kPageSize), 0});
+  while (all && (limit == 0 || all->size() < limit)) {
+    if (all->empty() || all->size() % kPageSize != 0) break;
+    const std::uint64_t left = limit == 0 ? kPageSize : std::min(kPageSize, limit - all->size());
+    auto page = fetch(client::Page{left, all->size()});
+    if (!page) return page;
+    if (page->empty()) break;
+    for (auto& item : *page) all->push_back(std::move(item));
+  }
+  return all;
+}
+
+}  // namespace dripline::cli

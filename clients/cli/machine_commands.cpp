@@ -1,0 +1,90 @@
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/json_text.hpp"
+#include "clients/cli/machine_text.hpp"
+#include "clients/cli/machine_watch.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+void add_row(Table& table, const client::Machine& machine) {
+  const auto status = machine.status.value_or(client::MachineStatus{});
+  const bool has_run = !status.run.empty();
+  table.add({machine.name, machine.control,
+             machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad),
+             Cell(status.execution, style_of_execution(status.execution)), status.program,
+             has_run ? fmt::format("{:.0f}", fraction_executed(status) * 100) : "",
+             has_run ? std::to_string(status.executed) : "", position_text(status),
+             time_text(machine.last_seen)});
+}
+
+int list_machines(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto machines = client->machines();
+  if (!machines) return complain(machines.error());
+  if (context.wants_json) {
+    context.print(json_list_text("machines", *machines));
+    return kExitOk;
+  }
+  if (machines->empty()) {
+    context.print("No machine has announced itself yet; start its gateway, dncgw.\n");
+    return kExitOk;
+  }
+  Table table({{"NAME"},
+               {"CONTROL"},
+               {"CONNECTED"},
+               {"EXECUTION"},
+               {"PROGRAM"},
+               {"DONE %", Align::Right},
+               {"BLOCKS", Align::Right},
+               {"POSITION mm"},
+               {"LAST SEEN"}});
+  for (const auto& machine : *machines) add_row(table, machine);
+  context.print(table);
+  return kExitOk;
+}
+
+int show_status(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto machine = client->machine(name);
+  if (!machine) return complain(machine.error());
+  if (context.wants_json) {
+    context.print(json_text(*machine));
+  } else {
+    context.print(machine_details(*machine));
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_machine_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("machine", "Machines and what they do now");
+  group->require_subcommand(1);
+
+  auto* list = group->add_subcommand("list", "All machines that ever announced themselves");
+  add_json_flag(*list, context);
+  list->callback([&context] { context.status = list_machines(context); });
+
+  auto name = std::make_shared<std::string>();
+  auto* status = group->add_subcommand("status", "Everything known of one machine");
+  status->add_option("NAME", *name, "The machine")->required();
+  add_json_flag(*status, context);
+  status->callback([&context, name] { context.status = show_status(context, *name); });
+
+  auto watched = std::make_shared<std::string>();
+  auto* watch = group->add_subcommand("watch", "Follow one machine, or all, until Ctrl-C");
+  watch->add_option("NAME", *watched, "The machine (default: all)");
+  watch->add_flag("--json", context.wants_json, "Print each change as one JSON object a line");
+  watch->footer(
+      "On a terminal one live line a machine; in a pipe one line for each change of what it "
+      "executes\nor says, and of its counters every five seconds. Watching changes nothing at the "
+      "machine.\n\nExample:\n  dnc machine watch lathe-1");
+  watch->callback([&context, watched] { context.status = watch_machines(context, *watched); });
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,148 @@
+#include "clients/cli/machine_text.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "clients/cli/progress.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+constexpr std::size_t kBarCells = 16;
+
+std::string percent(double factor) {
+  return fmt::format("{:.0f} %", factor * 100);
+}
+
+/// ", name: text" when there is a text.
+std::string with_text(std::string_view name, const std::string& text) {
+  return text.empty() ? std::string() : fmt::format("  {}{}", name, text);
+}
+
+void add_motion(Details& details, const client::MachineStatus& status) {
+  details.add("position", position_text(status) + " mm");
+  details.add("feed", fmt::format("{:.1f} mm/min", status.feed_mm_per_min));
+  details.add("spindle", fmt::format("{:.0f} 1/min", status.spindle_rpm));
+  details.add("overrides",
+              fmt::format("feed {}, rapid {}, spindle {}", percent(status.feed_override),
+                          percent(status.rapid_override), percent(status.spindle_override)));
+}
+
+void add_program(Details& details, const client::MachineStatus& status) {
+  details.add("run", status.run);
+  details.add("program", status.program);
+  details.add("executed", fmt::format("{} blocks, {}", status.executed, place_text(status)));
+  details.add("accepted", fmt::format("{} blocks", status.accepted));
+  details.add("sent",
+              fmt::format("{} of {}", bytes_text(status.sent), bytes_text(status.total_bytes)));
+  details.add("buffered", fmt::format("{:.1f} s of motion", status.buffered_seconds));
+}
+
+}  // namespace
+
+Style style_of_execution(const std::string& execution) {
+  if (execution == "Active") return Style::Busy;
+  if (execution == "Ready" || execution == "ProgramCompleted") return Style::Good;
+  if (execution == "Interrupted" || execution == "Stopped") return Style::Bad;
+  return Style::Plain;
+}
+
+Style style_of_state(const std::string& state) {
+  if (state == "completed") return Style::Good;
+  if (state == "active" || state == "ordered") return Style::Busy;
+  return Style::Bad;
+}
+
+bool has_ended(const client::Run& run) {
+  return run.state != "ordered" && run.state != "active";
+}
+
+std::string position_text(const client::MachineStatus& status) {
+  std::string text;
+  // In the order of the axis letters on a control's screen, which JSON objects do not keep.
+  constexpr std::string_view kOrder = "XYZABCUVW";
+  for (const char axis : kOrder) {
+    const auto found = status.position.find(std::string(1, axis));
+    if (found == status.position.end()) continue;
+    text += fmt::format("{}{} {:.3f}", text.empty() ? "" : " ", axis, found->second);
+  }
+  return text;
+}
+
+std::string place_text(const client::MachineStatus& status) {
+  std::string text = fmt::format("line {}", status.line.value_or(0));
+  if (status.sequence && *status.sequence >= 0) text += fmt::format(" N{}", *status.sequence);
+  return text;
+}
+
+double fraction_executed(const client::MachineStatus& status) {
+  if (status.total_bytes == 0) return 0;
+  if (status.execution == "ProgramCompleted") return 1;
+  return std::min(1.0,
+                  static_cast<double>(status.offset) / static_cast<double>(status.total_bytes));
+}
+
+std::string status_line(const client::Machine& machine) {
+  if (!machine.connected) return fmt::format("{}  not connected", machine.name);
+  if (!machine.status) return fmt::format("{}  connected, no status yet", machine.name);
+  const auto& status = *machine.status;
+  std::string line = fmt::format("{}  {}", machine.name, status.execution);
+  if (!status.run.empty()) {
+    line += fmt::format("  {} {:3.0f} %  {}", status.program, fraction_executed(status) * 100,
+                        place_text(status));
+  }
+  line += with_text("", position_text(status));
+  line += fmt::format("  F {:.0f} mm/min", status.feed_mm_per_min);
+  return line + with_text("", status.message);
+}
+
+Details machine_details(const client::Machine& machine) {
+  Details details;
+  details.add("machine", machine.name);
+  details.add("control", machine.control);
+  details.add("description", machine.description);
+  details.add("gateway", machine.gateway_version);
+  details.add("connected", machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad));
+  details.add("last seen", time_text(machine.last_seen));
+  if (!machine.status) return details;
+  const auto& status = *machine.status;
+  details.add("execution", Cell(status.execution, style_of_execution(status.execution)));
+  details.add("mode", status.mode);
+  add_program(details, status);
+  add_motion(details, status);
+  details.add("message", status.message);
+  details.add("records waiting", std::to_string(status.outbox));
+  return details;
+}
+
+std::string run_line(const client::Run& run, const client::MachineStatus* status) {
+  if (status == nullptr) {
+    return fmt::format("{} on {}  {}  {} of {} sent  {} blocks executed", run.program, run.machine,
+                       run.state, bytes_text(run.sent), bytes_text(run.size), run.executed);
+  }
+  const double fraction = fraction_executed(*status);
+  return fmt::format(
+      "{} on {} {} {:3.0f} %  {}  sent {}  accepted {}  executed {}  {}  {}  "
+      "F {:.0f}{}",
+      run.program, run.machine, render_bar(fraction, kBarCells), fraction * 100, status->execution,
+      bytes_text(std::max(run.sent, status->sent)), std::max(run.accepted, status->accepted),
+      std::max(run.executed, status->executed), place_text(*status), position_text(*status),
+      status->feed_mm_per_min, with_text("", status->message));
+}
+
+std::string outcome_line(const client::Run& run) {
+  std::string line = fmt::format("Run {} of {} on {} {}: {} blocks executed", short_id(run.id),
+                                 run.program, run.machine, run.state, run.executed);
+  const double seconds = seconds_between(run.started, run.ended);
+  if (seconds > 0) line += " in " + duration_text(seconds);
+  if (run.outputs > 0) line += fmt::format(", {} report lines", run.outputs);
+  if (run.content_verified) {
+    line += *run.content_verified ? ", content verified" : ", CONTENT NOT WHAT WAS APPROVED";
+  }
+  if (run.state != "completed" && run.line) line += fmt::format(", last line {}", *run.line);
+  if (!run.reason.empty()) line += "; " + printable(run.reason);
+  return line;
+}
+
+}  // namespace dripline::cli

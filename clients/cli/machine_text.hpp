@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "clients/cli/table.hpp"
+#include "clients/lib/api_types.hpp"
+
+/// Machines and runs in words, shared by listings and watches.
+namespace dripline::cli {
+
+Style style_of_execution(const std::string& execution);
+Style style_of_state(const std::string& state);
+bool has_ended(const client::Run& run);
+
+/// "X 12.500 Z -3.000"
+std::string position_text(const client::MachineStatus& status);
+/// "line 1234 N1200", as far as known.
+std::string place_text(const client::MachineStatus& status);
+/// How much of the program's text the machine has executed, 0 to 1.
+double fraction_executed(const client::MachineStatus& status);
+/// One line of what the machine does now.
+std::string status_line(const client::Machine& machine);
+Details machine_details(const client::Machine& machine);
+
+/// One line of how the run stands; `status` is the machine's when it speaks of this run, or null.
+std::string run_line(const client::Run& run, const client::MachineStatus* status);
+/// How the run ended, in one line.
+std::string outcome_line(const client::Run& run);
+
+}  // namespace dripline::cli

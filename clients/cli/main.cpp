@@ -1,0 +1,91 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+
+#include "clients/cli/commands.hpp"
+
+namespace {
+
+using namespace dripline::cli;
+
+constexpr const char* kAbout =
+    "dnc: the command line of Dripline, for NC programs, machines, runs and their reports.";
+
+constexpr const char* kFooter = R"(Which server:
+  --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. STATE is --state,
+  else DRIPLINE_STATE, else /var/lib/dripline (root), $XDG_STATE_HOME/dripline or
+  ~/.local/state/dripline. The token is --token-file's, else DRIPLINE_TOKEN, else the local
+  server's. These options may stand before or after the verb.
+
+Examples:
+  dnc program push shaft.nc --name O0200 --control centurion
+  dnc run start lathe-1 O0200 --follow
+  dnc report export latest --format csv -o profile.csv
+  dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
+  dnc check shaft.nc
+  dnc trace --control centurion --setup lathe.toml shaft.nc
+
+Exit status:
+  0    it went well
+  1    the program, the run or the server said no
+  2    usage, an unreadable file, an unknown control
+  3    the server is not reachable
+  4    the server does not accept the token
+  130  ended by Ctrl-C; a watched run goes on
+
+`dnc VERB --help` and `dnc VERB VERB --help` say more. NO_COLOR is respected.)";
+
+void add_connection_options(CLI::App& app, Context& context) {
+  auto& location = context.location;
+  app.add_option("--server", location.server, "Address of the server, http(s)://HOST:PORT")->type_name("URL");
+  app.add_option("--token-file", location.token_file, "File that holds the access token")->type_name("FILE");
+  app.add_option("--ca", location.ca_file, "PEM file of the authority to trust for https")->type_name("FILE");
+  app.add_option("--state", location.state_dir, "State folder of a server on this machine")->type_name("DIR");
+}
+
+/// Options of a group or the application may follow the verb.
+void let_options_follow(CLI::App& app) {
+  for (auto* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    command->fallthrough();
+    let_options_follow(*command);
+  }
+}
+
+/// Help and version are no errors; everything else is a usage error.
+int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
+  if (end.get_exit_code() == 0) return app.exit(end);
+  std::fprintf(stderr, "dnc: %s\nSee dnc --help.\n", end.what());
+  return kExitUsage;
+}
+
+int run(int argc, char** argv) {
+  Context context;
+  CLI::App app(kAbout, "dnc");
+  app.set_version_flag("--version", "dnc " DRIPLINE_VERSION);
+  app.require_subcommand(1);
+  add_connection_options(app, context);
+  add_program_commands(app, context);
+  add_machine_commands(app, context);
+  add_run_commands(app, context);
+  add_report_commands(app, context);
+  add_server_commands(app, context);
+#ifdef DRIPLINE_OFFLINE
+  add_check_command(app, context);
+  add_trace_command(app, context);
+#endif
+  app.footer(kFooter);  // after the verbs, which would inherit it
+  let_options_follow(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {
+    return report_parse_end(app, end);
+  }
+  return context.status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A connection that breaks while sending is an error to report, not the end of the process.
+  std::signal(SIGPIPE, SIG_IGN);
+  return run(argc, argv);
+}

@@ -1,0 +1,137 @@
+#include <unistd.h>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/json_text.hpp"
+#include "clients/cli/program_transfer.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+int list_programs(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto programs = fetch_all(0, [&](client::Page page) { return client->programs(page); });
+  if (!programs) return complain(programs.error());
+  if (context.wants_json) {
+    context.print(json_list_text("programs", *programs));
+    return kExitOk;
+  }
+  Table table({{"NAME"},
+               {"REV", Align::Right},
+               {"SIZE", Align::Right},
+               {"CONTROL"},
+               {"CREATED"},
+               {"AUTHOR"},
+               {"COMMENT"}});
+  for (const auto& program : *programs) {
+    table.add({program.name, std::to_string(program.revision), bytes_text(program.size),
+               program.control, time_text(program.created), program.author, program.comment});
+  }
+  if (table.empty()) context.print("The library is empty; dnc program push FILE fills it.\n");
+  if (!table.empty()) context.print(table);
+  return kExitOk;
+}
+
+int show_program(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto history = client->program(name);
+  if (!history) return complain(history.error());
+  if (context.wants_json) {
+    context.print(json_text(*history));
+    return kExitOk;
+  }
+  const auto& program = history->program;
+  Details details;
+  details.add("program", program.name);
+  details.add("control", program.control);
+  details.add("latest", fmt::format("revision {}, {}", program.revision, bytes_text(program.size)));
+  details.add("sha256", program.sha256);
+  context.print(details);
+  Table table({{"REV", Align::Right},
+               {"SIZE", Align::Right},
+               {"SHA-256"},
+               {"CONTROL"},
+               {"CREATED"},
+               {"AUTHOR"},
+               {"COMMENT"}});
+  for (const auto& revision : history->revisions) {
+    table.add({std::to_string(revision.revision), bytes_text(revision.size),
+               short_id(revision.sha256), revision.control, time_text(revision.created),
+               revision.author, revision.comment});
+  }
+  context.print("\n");
+  context.print(table);
+  return kExitOk;
+}
+
+int remove_program(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto removed = client->remove_program(name);
+  if (!removed) return complain(removed.error());
+  context.print(fmt::format("Removed {} from the library; its runs and reports stay.\n", name));
+  return kExitOk;
+}
+
+void add_push(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("push", "Store FILE as a program, or as its next revision");
+  auto options = std::make_shared<PushCommand>();
+  command->add_option("FILE", options->file, "The NC program")->required();
+  command->add_option("--name", options->name, "Name in the library (default: FILE's name)");
+  command->add_option(
+      "--control", options->control,
+      "The control it is written for, e.g. centurion (default: the server finds out)");
+  command->add_option("--comment", options->comment, "What changed; kept with the revision");
+  add_json_flag(*command, context);
+  command->footer(
+      "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
+      "breaks,\nit goes on where the server stopped receiving. The same content again makes no new "
+      "revision.\n\nExample:\n  dnc program push shaft.nc --name O0200 --control centurion "
+      "--comment \"deeper groove\"");
+  command->callback([&context, options] { context.status = push(context, *options); });
+}
+
+void add_pull(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("pull", "Fetch a program's content");
+  auto options = std::make_shared<PullCommand>();
+  command->add_option("NAME", options->name, "The program")->required();
+  command->add_option("-o,--output", options->output,
+                      "File to write, - for standard output (default: NAME here)");
+  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command->footer(
+      "FILE appears only when all of it is there and its SHA-256 is right. On standard output the "
+      "bytes\ncome first and the check last: look at the exit status.\n\nExample:\n  dnc program "
+      "pull O0200 --revision 3 -o shaft.nc");
+  command->callback([&context, options] { context.status = pull(context, *options); });
+}
+
+void add_by_name(CLI::App& group, Context& context, const char* verb, const char* help,
+                 int (*action)(Context&, const std::string&)) {
+  auto* command = group.add_subcommand(verb, help);
+  auto name = std::make_shared<std::string>();
+  command->add_option("NAME", *name, "The program")->required();
+  if (action == show_program) add_json_flag(*command, context);
+  command->callback([&context, name, action] { context.status = action(context, *name); });
+}
+
+}  // namespace
+
+void add_program_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("program", "Programs in the server's library");
+  group->require_subcommand(1);
+  add_push(*group, context);
+  add_pull(*group, context);
+  auto* list = group->add_subcommand("list", "All programs with their latest revision");
+  add_json_flag(*list, context);
+  list->callback([&context] { context.status = list_programs(context); });
+  add_by_name(*group, context, "show", "One program and all its revisions", show_program);
+  add_by_name(*group, context, "remove", "Take a program out of the library", remove_program);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,121 @@
+#include "clients/cli/run_orders.hpp"
+
+#include <memory>
+#include <vector>
+
+#include "clients/cli/run_reference.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
+
+struct OrderCommand {
+  std::string run;
+  std::string text, name, state;
+  std::optional<double> feed, rapid, spindle;  ///< per cent
+};
+
+/// Gives the orders one after the other, as long as the machine takes them.
+int give(Context& context, const std::string& reference,
+         const std::vector<client::OrderRequest>& orders) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto run = find_run(*client, reference);
+  if (!run) return complain(run.error());
+  for (const auto& order : orders) {
+    auto given = client->order(run->id, order);
+    if (!given) return complain(given.error());
+    context.print(fmt::format("{}: {} took it (run {}, {})\n", order.action, run->machine,
+                              short_id(run->id), run->program));
+  }
+  return kExitOk;
+}
+
+client::OrderRequest plain(std::string action) {
+  return {std::move(action), {}, {}, {}};
+}
+
+void add_plain(CLI::App& group, Context& context, const std::string& action, const char* help) {
+  auto* command = group.add_subcommand(action, help);
+  auto run = std::make_shared<std::string>();
+  command->add_option("ID", *run, kRunHelp)->required();
+  command->callback(
+      [&context, run, action] { context.status = give(context, *run, {plain(action)}); });
+}
+
+void add_answer(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("answer", "Answer the question a run waits with");
+  auto options = std::make_shared<OrderCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("TEXT", options->text, "What the operator would type")->required();
+  command->footer("Example:\n  dnc run answer latest 16.4856");
+  command->callback([&context, options] {
+    client::OrderRequest order = plain("answer");
+    order.text = options->text;
+    context.status = give(context, options->run, {order});
+  });
+}
+
+void add_switch(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
+  auto options = std::make_shared<OrderCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("NAME", options->name, "single_block, optional_stop, block_skip or dry_run")
+      ->required();
+  command->add_option("STATE", options->state, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+  command->footer("Example:\n  dnc run switch latest single_block on");
+  command->callback([&context, options] {
+    client::OrderRequest order = plain("switch");
+    order.name = options->name;
+    order.value = options->state == "on" ? 1 : 0;
+    context.status = give(context, options->run, {order});
+  });
+}
+
+int give_overrides(Context& context, const OrderCommand& command) {
+  std::vector<client::OrderRequest> orders;
+  const auto add = [&](const char* action, const std::optional<double>& percent) {
+    if (!percent) return;
+    orders.push_back(plain(action));
+    orders.back().value = *percent / 100;
+  };
+  add("feed_override", command.feed);
+  add("rapid_override", command.rapid);
+  add("spindle_override", command.spindle);
+  if (!orders.empty()) return give(context, command.run, orders);
+  fmt::print(stderr, "dnc: run override changes nothing; expected --feed, --rapid or --spindle\n");
+  return kExitUsage;
+}
+
+void add_override(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("override", "Set feed, rapid or spindle override");
+  auto options = std::make_shared<OrderCommand>();
+  const CLI::Range percent(0.0, 1000.0);
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("--feed", options->feed, "Of the programmed feed, in per cent")
+      ->check(percent);
+  command->add_option("--rapid", options->rapid, "Of rapid traverse, in per cent")->check(percent);
+  command->add_option("--spindle", options->spindle, "Of the programmed speed, in per cent")
+      ->check(percent);
+  command->footer(
+      "The machine has its own limits and refuses what is beyond them.\n\nExample:\n  dnc run "
+      "override latest --feed 80 --rapid 25");
+  command->callback([&context, options] { context.status = give_overrides(context, *options); });
+}
+
+}  // namespace
+
+void add_order_commands(CLI::App& group, Context& context) {
+  add_plain(group, context, "hold", "Feed hold: stop moving, keep the place");
+  add_plain(group, context, "resume", "Go on after a hold, a stop or a single block");
+  add_plain(group, context, "abort", "End a run for good");
+  add_answer(group, context);
+  add_switch(group, context);
+  add_override(group, context);
+}
+
+}  // namespace dripline::cli

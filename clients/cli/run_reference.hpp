@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "clients/lib/client.hpp"
+
+namespace dripline::cli {
+
+/// The run that `reference` means: a full id, a prefix that fits only one run, or `latest`.
+/// Failures: those of the calls; Refused with NotFound (none fits) or ModalConflict (several fit;
+/// named).
+client::Reply<client::Run> find_run(client::Client& client, const std::string& reference);
+
+}  // namespace dripline::cli

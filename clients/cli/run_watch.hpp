@@ -1,0 +1,17 @@
+#pragma once
+
+#include "clients/cli/context.hpp"
+#include "clients/lib/client.hpp"
+
+namespace dripline::cli {
+
+enum class WatchStyle {
+  Live,    ///< a live line on a terminal, lines of changes in a pipe
+  Silent,  ///< only the outcome
+};
+
+/// Follows a run to its end and says how it ended. Gives the exit status: by the run's outcome, or
+/// kExitInterrupted on Ctrl-C, which leaves the run alone.
+int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style);
+
+}  // namespace dripline::cli

@@ -1,0 +1,44 @@
+#include "clients/cli/commands.hpp"
+#include "clients/cli/json_text.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+int show_status(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto server = client->server();
+  if (!server) return complain(server.error());
+  if (context.wants_json) {
+    context.print(json_text(*server));
+    return kExitOk;
+  }
+  Details details;
+  details.add("server", client->address().url);
+  details.add("name", server->name);
+  details.add("version", server->version);
+  details.add("started", time_text(server->started));
+  details.add("up for", duration_text(server->uptime_s));
+  details.add("data", server->data_dir);
+  details.add("machines",
+              fmt::format("{}, {} connected", server->machines, server->machines_connected));
+  details.add("programs", std::to_string(server->programs));
+  details.add("runs active", std::to_string(server->runs_active));
+  details.add("DDS", fmt::format("domain {}, {} messages rejected", server->dds.domain,
+                                 server->dds.rejected));
+  context.print(details);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_server_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("server", "The server itself");
+  group->require_subcommand(1);
+  auto* status = group->add_subcommand("status", "Version, uptime and what it looks after");
+  add_json_flag(*status, context);
+  status->callback([&context] { context.status = show_status(context); });
+}
+
+}  // namespace dripline::cli
