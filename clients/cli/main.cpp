@@ -36,10 +36,14 @@ Exit status:
 
 void add_connection_options(CLI::App& app, Context& context) {
   auto& location = context.location;
-  app.add_option("--server", location.server, "Address of the server, http(s)://HOST:PORT")->type_name("URL");
-  app.add_option("--token-file", location.token_file, "File that holds the access token")->type_name("FILE");
-  app.add_option("--ca", location.ca_file, "PEM file of the authority to trust for https")->type_name("FILE");
-  app.add_option("--state", location.state_dir, "State folder of a server on this machine")->type_name("DIR");
+  app.add_option("--server", location.server, "Address of the server, http(s)://HOST:PORT")
+      ->type_name("URL");
+  app.add_option("--token-file", location.token_file, "File that holds the access token")
+      ->type_name("FILE");
+  app.add_option("--ca", location.ca_file, "PEM file of the authority to trust for https")
+      ->type_name("FILE");
+  app.add_option("--state", location.state_dir, "State folder of a server on this machine")
+      ->type_name("DIR");
 }
 
 /// Options of a group or the application may follow the verb.

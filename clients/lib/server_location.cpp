@@ -86,6 +86,8 @@ Result<std::optional<LocalServer>> read_local_server(const std::string& state) {
   if (!url) return fail(url.error());
   local.url = *url;
   local.token_file = text_member(json, "token_file", state);
+  const fs::path beside = fs::path(state) / "token";
+  if (!local.token_file && fs::exists(beside, ec)) local.token_file = beside.string();
   local.ca_file = text_member(json, "ca_file", state);
   return std::optional<LocalServer>(std::move(local));
 }

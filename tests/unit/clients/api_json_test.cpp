@@ -1,0 +1,76 @@
+#include "clients/lib/api_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/clients/fake_server.hpp"
+
+namespace dripline::client {
+namespace {
+
+nlohmann::json status_json() {
+  return nlohmann::json::parse(R"({"time":"2026-11-21T07:40:06Z","execution":"Active",
+      "mode":"Automatic","run":"r1","program":"O1","sent":10,"accepted":3,"executed":2,
+      "total_bytes":20,"offset":5,"line":2,"sequence":20,"position":{"X":1.5,"Z":-2},
+      "feed_mm_per_min":100,"spindle_rpm":0,"feed_override":1,"rapid_override":0.25,
+      "spindle_override":1,"buffered_seconds":0.5,"single_block":false,"message":null,
+      "outbox":0})");
+}
+
+TEST(ApiJson, ReadsAMachineWithItsStatus) {
+  auto json = test_support::machine_json("lathe-1");
+  json["status"] = status_json();
+  const auto machine = from_json<client::Machine>(json);
+  ASSERT_TRUE(machine) << machine.error().what;
+  ASSERT_TRUE(machine->status);
+  EXPECT_EQ(machine->status->position.at("Z"), -2);
+  EXPECT_EQ(machine->status->sequence, 20);
+  EXPECT_EQ(machine->status->message, "");
+}
+
+TEST(ApiJson, GivesBackWhatItRead) {
+  auto machine = test_support::machine_json("lathe-1");
+  machine["status"] = status_json();
+  EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Machine>(machine))), machine);
+  const auto run = test_support::run_json("r1", "completed");
+  EXPECT_EQ(nlohmann::json(to_json_value(*from_json<client::Run>(run))), run);
+}
+
+TEST(ApiJson, KeepsTheDocumentedOrder) {
+  const std::string text = to_json_value(Report{"r", "m", "p", 1, "completed", 3, "", ""}).dump();
+  EXPECT_EQ(text, R"({"run":"r","machine":"m","program":"p","revision":1,"state":"completed",)"
+                  R"("lines":3,"started":null,"ended":null})");
+}
+
+TEST(ApiJson, IgnoresMembersItDoesNotKnow) {
+  auto json = test_support::run_json("r1", "active");
+  json["colour"] = "blue";
+  EXPECT_TRUE(from_json<client::Run>(json));
+}
+
+TEST(ApiJson, NamesWhatIsMissingOrOfTheWrongKind) {
+  auto json = test_support::run_json("r1", "active");
+  json.erase("executed");
+  EXPECT_EQ(from_json<client::Run>(json).error().what, "member \"executed\" is missing");
+  json["executed"] = "many";
+  EXPECT_EQ(from_json<client::Run>(json).error().what, "member \"executed\" is not a whole number >= 0");
+  auto machine = test_support::machine_json("lathe-1");
+  machine["status"] = status_json();
+  machine["status"]["feed_override"] = nullptr;
+  EXPECT_EQ(from_json<client::Machine>(machine).error().what,
+            "member \"feed_override\" is missing of \"status\"");
+}
+
+TEST(ApiJson, ReadsAHistory) {
+  const auto json = nlohmann::json::parse(
+      R"({"name":"p","revision":1,"size":4,"sha256":"ab","control":null,"comment":null,
+          "author":null,"created":"t","revisions":[{"program":"p","revision":1,"size":4,
+          "sha256":"ab","control":null,"comment":"c","author":null,"created":"t"}]})");
+  const auto history = from_json<ProgramHistory>(json);
+  ASSERT_TRUE(history) << history.error().what;
+  EXPECT_EQ(history->program.revisions, 1u);
+  EXPECT_EQ(history->revisions.at(0).comment, "c");
+  EXPECT_EQ(nlohmann::json(to_json_value(*history)), json);
+}
+
+}  // namespace
+}  // namespace dripline::client

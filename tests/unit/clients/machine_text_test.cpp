@@ -1,0 +1,86 @@
+#include "clients/cli/machine_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dripline::cli {
+namespace {
+
+client::Run run() {
+  client::Run run;
+  run.id = "0192aabbccdd";
+  run.machine = "lathe-1";
+  run.program = "O0200";
+  run.state = "completed";
+  run.size = 2'000'000;
+  run.executed = 200'000;
+  run.started = "2026-11-21T07:40:00Z";
+  run.ended = "2026-11-21T07:41:06Z";
+  run.outputs = 12;
+  run.content_verified = true;
+  return run;
+}
+
+client::MachineStatus status() {
+  client::MachineStatus status;
+  status.execution = "Active";
+  status.run = "0192aabbccdd";
+  status.program = "O0200";
+  status.sent = 1'500'000;
+  status.accepted = 120'000;
+  status.executed = 100'000;
+  status.total_bytes = 2'000'000;
+  status.offset = 1'000'000;
+  status.line = 100'001;
+  status.sequence = 42;
+  status.position = {{"Z", -3}, {"X", 12.5}};
+  status.feed_mm_per_min = 200;
+  return status;
+}
+
+TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
+  const auto machine = status();
+  client::Run active = run();
+  active.state = "active";
+  active.executed = 0;
+  EXPECT_EQ(run_line(active, &machine),
+            "O0200 on lathe-1 [########........]  50 %  Active  sent 1.50 MB  accepted 120000  "
+            "executed 100000  line 100001 N42  X 12.500 Z -3.000  F 200");
+}
+
+TEST(RunLine, ManagesWithoutAStatus) {
+  client::Run ordered = run();
+  ordered.state = "ordered";
+  ordered.executed = 0;
+  EXPECT_EQ(run_line(ordered, nullptr),
+            "O0200 on lathe-1  ordered  0 B of 2.00 MB sent  0 blocks executed");
+}
+
+TEST(OutcomeLine, SaysHowTheRunWent) {
+  EXPECT_EQ(outcome_line(run()),
+            "Run 0192aabb of O0200 on lathe-1 completed: 200000 blocks executed in 1:06, 12 report "
+            "lines, content verified");
+  client::Run alarmed = run();
+  alarmed.state = "alarmed";
+  alarmed.reason = "CEN0103 bad word";
+  alarmed.line = 7;
+  alarmed.content_verified = std::nullopt;
+  EXPECT_EQ(outcome_line(alarmed),
+            "Run 0192aabb of O0200 on lathe-1 alarmed: 200000 blocks executed in 1:06, 12 report "
+            "lines, last line 7; CEN0103 bad word");
+}
+
+TEST(StatusLine, SaysWhatAMachineDoes) {
+  client::Machine machine;
+  machine.name = "lathe-1";
+  EXPECT_EQ(status_line(machine), "lathe-1  not connected");
+  machine.connected = true;
+  EXPECT_EQ(status_line(machine), "lathe-1  connected, no status yet");
+  machine.status = status();
+  machine.status->message = "HELLO";
+  EXPECT_EQ(status_line(machine),
+            "lathe-1  Active  O0200  50 %  line 100001 N42  X 12.500 Z -3.000  F 200 mm/min  "
+            "HELLO");
+}
+
+}  // namespace
+}  // namespace dripline::cli
