@@ -57,7 +57,13 @@ void let_options_follow(CLI::App& app) {
 /// Help and version are no errors; everything else is a usage error.
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
   if (end.get_exit_code() == 0) return app.exit(end);
-  std::fprintf(stderr, "dnc: %s\nSee dnc --help.\n", end.what());
+  const auto unknown = app.remaining(true);
+  // CLI11 says only that a verb is missing when there is one that it does not know.
+  if (dynamic_cast<const CLI::RequiredError*>(&end) != nullptr && !unknown.empty()) {
+    std::fprintf(stderr, "dnc: '%s' is not known here\nSee dnc --help.\n", unknown.front().c_str());
+  } else {
+    std::fprintf(stderr, "dnc: %s\nSee dnc --help.\n", end.what());
+  }
   return kExitUsage;
 }
 

@@ -7,7 +7,7 @@
 /// Values as people read them.
 namespace dripline::cli {
 
-/// 512 B, 1.5 kB, 12.0 MB, 1.07 GB: SI units, three digits or so.
+/// 512 B, 1.5 kB, 12.0 MB, 1.07 GB: SI units.
 std::string bytes_text(std::uint64_t bytes);
 /// 0:07, 12:34, 1:02:03; rounded down to seconds, never negative.
 std::string duration_text(double seconds);

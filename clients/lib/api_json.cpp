@@ -202,8 +202,10 @@ class Reader {
     json.is_number() ? void(field = json.get<double>()) : complain(key, "is not a number");
   }
   void read(const char* key, const Json& json, std::uint64_t& field) {
-    json.is_number_unsigned() ? void(field = json.get<std::uint64_t>())
-                              : complain(key, "is not a whole number >= 0");
+    const bool is_whole =
+        json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
+    is_whole ? void(field = json.get<std::uint64_t>())
+             : complain(key, "is not a whole number >= 0");
   }
   void read(const char* key, const Json& json, std::int64_t& field) {
     json.is_number_integer() ? void(field = json.get<std::int64_t>())

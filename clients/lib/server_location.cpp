@@ -57,7 +57,9 @@ Result<std::string> checked_url(std::string url, std::string_view origin) {
                 origin, url);
   }
   if (url.find_first_of("/ ?#", is_http ? 7 : 8) != std::string::npos) {
-    return fail(Errc::Syntax, "{} '{}' has a path, expected only http(s)://HOST:PORT", origin, url);
+    return fail(Errc::Syntax,
+                "{} '{}' has a path, expected http://HOST:PORT or https://HOST:PORT alone", origin,
+                url);
   }
   return url;
 }

@@ -43,7 +43,7 @@ TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
   active.state = "active";
   active.executed = 0;
   EXPECT_EQ(run_line(active, &machine),
-            "O0200 on lathe-1 [########........]  50 %  Active  sent 1.50 MB  accepted 120000  "
+            "O0200 on lathe-1 [########........]  50 %  Active  sent 1.5 MB  accepted 120000  "
             "executed 100000  line 100001 N42  X 12.500 Z -3.000  F 200");
 }
 
@@ -52,7 +52,7 @@ TEST(RunLine, ManagesWithoutAStatus) {
   ordered.state = "ordered";
   ordered.executed = 0;
   EXPECT_EQ(run_line(ordered, nullptr),
-            "O0200 on lathe-1  ordered  0 B of 2.00 MB sent  0 blocks executed");
+            "O0200 on lathe-1  ordered  0 B of 2.0 MB sent  0 blocks executed");
 }
 
 TEST(OutcomeLine, SaysHowTheRunWent) {

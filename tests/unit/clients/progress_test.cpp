@@ -27,7 +27,7 @@ struct FakeTerminal {
 
 TEST(RenderProgress, ShowsBytesRateAndWhatIsLeft) {
   EXPECT_EQ(render_progress({"O1", 5'000'000, 10'000'000, 2.0}, 200),
-            "O1 [############............]  50 %  5.00 MB of 10.00 MB  2.50 MB/s  0:02 left");
+            "O1 [############............]  50 %  5.0 MB of 10.0 MB  2.5 MB/s  0:02 left");
 }
 
 TEST(RenderProgress, GuessesNoRateAtTheBeginning) {

@@ -11,7 +11,7 @@ TEST(BytesText, UsesSiUnits) {
   EXPECT_EQ(bytes_text(0), "0 B");
   EXPECT_EQ(bytes_text(999), "999 B");
   EXPECT_EQ(bytes_text(1000), "1.0 kB");
-  EXPECT_EQ(bytes_text(999'960), "1.00 MB");
+  EXPECT_EQ(bytes_text(999'960), "1.0 MB");
   EXPECT_EQ(bytes_text(1ull << 30), "1.07 GB");
   EXPECT_EQ(bytes_text(5'000'000'000'000'000), "5000.00 TB");
 }
