@@ -1,0 +1,19 @@
+#include "server/library/audit_trail.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace dripline::library {
+
+void AuditTrail::write(Change change) {
+  const storage::AuditEntry entry{.time = clock_.now(),
+                                  .who = std::move(change.who),
+                                  .action = std::move(change.action),
+                                  .subject = std::move(change.subject),
+                                  .detail = std::move(change.detail)};
+  if (auto written = store_.audit(entry); !written) {
+    spdlog::error("audit entry lost who={} action={} subject={}: {}", entry.who, entry.action,
+                  entry.subject, written.error().what);
+  }
+}
+
+}  // namespace dripline::library

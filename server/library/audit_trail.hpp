@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+/// Who changed what. Written after the change; an entry that can not be written is logged as an
+/// error and does not undo the change. Any thread.
+class AuditTrail {
+ public:
+  AuditTrail(storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+
+  struct Change {
+    std::string who, action, subject, detail;
+  };
+  void write(Change change);
+  Result<std::vector<storage::AuditEntry>> entries(storage::Page page) {
+    return store_.audit_entries(page);
+  }
+
+ private:
+  storage::Store& store_;
+  const Clock& clock_;
+};
+
+}  // namespace dripline::library

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::library {
+
+/// Which controls there are, and which one a text is for. Implementations are safe on any thread.
+class ControlCatalog {
+ public:
+  virtual ~ControlCatalog() = default;
+  virtual std::vector<std::string> names() const = 0;
+  /// The candidates for a program that begins with `head`, likeliest first; one when the text
+  /// leaves no doubt.
+  virtual std::vector<std::string> detect(std::string_view head,
+                                          std::string_view program) const = 0;
+};
+
+/// Errors: Unsupported, naming the known controls.
+Result<void> check_control(const ControlCatalog& catalog, std::string_view control);
+/// The one control the text is for. Errors: Unsupported (none or several fit), asking for one.
+Result<std::string> detect_control(const ControlCatalog& catalog, std::string_view head,
+                                   std::string_view program);
+
+}  // namespace dripline::library

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "server/library/control_catalog.hpp"
+
+namespace dripline::library {
+
+/// The controls whose dialects are built into this program.
+class DialectCatalog final : public ControlCatalog {
+ public:
+  std::vector<std::string> names() const override;
+  std::vector<std::string> detect(std::string_view head, std::string_view program) const override;
+};
+
+}  // namespace dripline::library

@@ -1,0 +1,161 @@
+#include "server/library/programs.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+#include "protocol/base/names.hpp"
+
+namespace dripline::library {
+namespace {
+
+/// More unfinished uploads than this are still possible; their checks are made again when needed.
+constexpr std::size_t kMaxSessions = 256;
+constexpr std::uint64_t kCatchUpPiece = 1024 * 1024;
+
+}  // namespace
+
+Programs::Programs(storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
+                   AuditTrail& audit)
+    : store_(store), clock_(clock), catalog_(catalog), audit_(audit) {}
+
+Result<storage::Upload> Programs::begin(const UploadRequest& request, const std::string& who) {
+  if (auto name = check_program_name(request.program); !name) return fail(name.error());
+  if (request.comment.size() > kMaxComment) {
+    return fail(Errc::LimitExceeded, "comment of {} bytes: at most {}", request.comment.size(),
+                kMaxComment);
+  }
+  if (!request.control.empty()) {
+    if (auto known = check_control(catalog_, request.control); !known) return fail(known.error());
+  }
+  storage::Upload upload;
+  upload.program = request.program;
+  upload.control = request.control;
+  upload.comment = request.comment;
+  upload.author = who;
+  upload.created = clock_.now();
+  return store_.begin_upload(upload);
+}
+
+Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t offset,
+                                         std::span<const std::byte> bytes) {
+  const auto session = this->session(id);
+  const std::lock_guard lock(session->mutex);
+  auto upload = store_.upload(id);
+  if (!upload) return forget(id), fail(upload.error());
+  // Only a piece that goes on where the upload stands is new; the store judges all others.
+  if (offset == upload->received) {
+    if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
+    ContentCheck check = session->check;
+    if (auto good = check.feed(bytes); !good) return drop(*upload, good.error());
+    upload = store_.append_upload(id, offset, bytes);
+    if (!upload) return fail(upload.error());
+    session->check = check;
+  } else {
+    upload = store_.append_upload(id, offset, bytes);
+    if (!upload) return fail(upload.error());
+  }
+  if (upload->control.empty() && upload->received >= kHead) {
+    if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
+  }
+  return upload;
+}
+
+Result<Committed> Programs::commit(const std::string& id, const std::optional<Digest>& expected,
+                                   const std::string& who) {
+  const auto session = this->session(id);
+  const std::lock_guard lock(session->mutex);
+  auto upload = store_.upload(id);
+  if (!upload) return forget(id), fail(upload.error());
+  if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
+  if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
+  if (upload->control.empty()) {
+    if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
+  }
+  const auto before = store_.revision(upload->program, std::nullopt);
+  auto revision = store_.commit_upload(id, expected);
+  if (!revision) return fail(revision.error());
+  forget(id);
+  const bool is_unchanged = before && before->number == revision->number;
+  if (!is_unchanged) {
+    spdlog::info("stored program={} revision={} size={} control={}", revision->program,
+                 revision->number, revision->size, revision->control);
+    audit_.write({.who = who,
+                  .action = "program.store",
+                  .subject = revision->program,
+                  .detail = fmt::format("revision {} sha256 {} size {}", revision->number,
+                                        revision->content.hex(), revision->size)});
+  }
+  return Committed{.revision = *std::move(revision), .is_unchanged = is_unchanged};
+}
+
+Result<void> Programs::abandon(const std::string& id) {
+  const auto session = this->session(id);
+  const std::lock_guard lock(session->mutex);
+  forget(id);
+  return store_.abandon_upload(id);
+}
+
+Result<void> Programs::remove(const std::string& program, const std::string& who) {
+  if (auto removed = store_.remove_program(program); !removed) return removed;
+  spdlog::info("removed program={}", program);
+  audit_.write({.who = who, .action = "program.remove", .subject = program, .detail = {}});
+  return {};
+}
+
+std::shared_ptr<Programs::Session> Programs::session(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = sessions_.find(id); found != sessions_.end()) return found->second;
+  if (sessions_.size() >= kMaxSessions) {
+    // One that nobody works on; its check can be made again from the stored bytes.
+    const auto idle =
+        std::ranges::find_if(sessions_, [](const auto& s) { return s.second.use_count() == 1; });
+    if (idle != sessions_.end()) sessions_.erase(idle);
+  }
+  return sessions_.emplace(id, std::make_shared<Session>()).first->second;
+}
+
+void Programs::forget(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  sessions_.erase(id);
+}
+
+/// After a restart of the server the check has seen nothing of an upload that is half there.
+Result<void> Programs::catch_up(Session& session, const storage::Upload& upload) {
+  if (session.check.offset() > upload.received) session.check = ContentCheck{};
+  while (session.check.offset() < upload.received) {
+    const std::uint64_t missing = upload.received - session.check.offset();
+    auto bytes =
+        store_.read_upload(upload.id, session.check.offset(), std::min(missing, kCatchUpPiece));
+    if (!bytes) return fail(bytes.error());
+    if (bytes->empty()) {
+      return fail(Errc::Corrupt, "upload {} has {} bytes but they end at {}", upload.id,
+                  upload.received, session.check.offset());
+    }
+    if (auto good = session.check.feed(*bytes); !good) return drop(upload, good.error());
+  }
+  return {};
+}
+
+Result<void> Programs::settle_control(storage::Upload& upload) {
+  const auto head = store_.read_upload(upload.id, 0, kHead);
+  if (!head) return fail(head.error());
+  const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
+  auto control = detect_control(catalog_, text, upload.program);
+  if (!control) return drop(upload, control.error());
+  if (auto set = store_.set_upload_control(upload.id, *control); !set) return set;
+  upload.control = *std::move(control);
+  return {};
+}
+
+tl::unexpected<Error> Programs::drop(const storage::Upload& upload, const Error& error) {
+  forget(upload.id);
+  if (auto dropped = store_.abandon_upload(upload.id); !dropped) {
+    spdlog::warn("upload {} of program={} could not be dropped: {}", upload.id, upload.program,
+                 dropped.error().what);
+  }
+  spdlog::info("refused upload of program={}: {}", upload.program, error.what);
+  return fail(error.code, "program '{}' is refused: {}; nothing was changed", upload.program,
+              error.what);
+}
+
+}  // namespace dripline::library

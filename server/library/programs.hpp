@@ -1,0 +1,90 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/digest.hpp"
+#include "server/library/audit_trail.hpp"
+#include "server/library/content_check.hpp"
+#include "server/library/control_catalog.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+struct UploadRequest {
+  std::string program;
+  std::string control;  ///< empty: found out from the text
+  std::string comment;
+};
+
+struct Committed {
+  storage::Revision revision;
+  bool is_unchanged = false;  ///< the latest revision had the same content already
+};
+
+/// The program library: uploads that become immutable revisions, and what can be done with those.
+/// Every byte is checked when it arrives; a bad one drops the upload and changes nothing else.
+/// Any thread; pieces of one upload are taken one after the other.
+class Programs {
+ public:
+  Programs(storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
+           AuditTrail& audit);
+
+  /// Errors: Syntax, LimitExceeded (name, comment), Unsupported (control; names the known ones).
+  Result<storage::Upload> begin(const UploadRequest& request, const std::string& who);
+  Result<storage::Upload> upload(const std::string& id) { return store_.upload(id); }
+  /// Errors: those of ContentCheck and detect_control (the upload is dropped then), NotFound,
+  /// ModalConflict (a gap or an overlap).
+  Result<storage::Upload> append(const std::string& id, std::uint64_t offset,
+                                 std::span<const std::byte> bytes);
+  /// Errors: those of append, Syntax (empty), Corrupt (the digest is another one).
+  Result<Committed> commit(const std::string& id, const std::optional<Digest>& expected,
+                           const std::string& who);
+  Result<void> abandon(const std::string& id);
+
+  Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
+    return store_.programs(page);
+  }
+  Result<std::vector<storage::Revision>> revisions(const std::string& program) {
+    return store_.revisions(program);
+  }
+  Result<storage::Revision> revision(const std::string& program,
+                                     std::optional<std::uint64_t> number) {
+    return store_.revision(program, number);
+  }
+  Result<std::vector<std::byte>> read(const Digest& content, std::uint64_t offset,
+                                      std::uint64_t length) {
+    return store_.read_content(content, offset, length);
+  }
+  Result<void> remove(const std::string& program, const std::string& who);
+
+  static constexpr std::size_t kMaxComment = 1024;
+  /// How much of a text is looked at to find its control.
+  static constexpr std::uint64_t kHead = 64 * 1024;
+
+ private:
+  struct Session {
+    std::mutex mutex;
+    ContentCheck check;
+  };
+  std::shared_ptr<Session> session(const std::string& id);
+  void forget(const std::string& id);
+  Result<void> catch_up(Session& session, const storage::Upload& upload);
+  Result<void> settle_control(storage::Upload& upload);
+  tl::unexpected<Error> drop(const storage::Upload& upload, const Error& error);
+
+  storage::Store& store_;
+  const Clock& clock_;
+  const ControlCatalog& catalog_;
+  AuditTrail& audit_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Session>> sessions_;
+};
+
+}  // namespace dripline::library

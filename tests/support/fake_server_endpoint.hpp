@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "protocol/dds/endpoint.hpp"
+
+namespace dripline::test_support {
+
+/// What was written through a fake endpoint. Outlives it, so tests can look afterwards.
+struct WrittenMessages {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<dds::RecordAck> acks;
+  std::vector<dds::Order> orders;
+  std::vector<dds::BlockData> blocks;
+  std::atomic<int> refusals{0};                     ///< so many writes of blocks fail with Timeout
+  std::function<void(const dds::Order&)> on_order;  ///< plays the gateway, on the writer's thread
+
+  /// Waits until `holds` is true, at most some seconds. The lock is held while it is asked.
+  bool wait(const std::function<bool()>& holds) {
+    std::unique_lock lock(mutex);
+    return changed.wait_for(lock, std::chrono::seconds(10), holds);
+  }
+};
+
+class FakeServerEndpoint final : public dds::ServerEndpoint {
+ public:
+  explicit FakeServerEndpoint(std::shared_ptr<WrittenMessages> written)
+      : written_(std::move(written)) {}
+
+  Result<void> write(const dds::RecordAck& message) override {
+    return keep(written_->acks, message);
+  }
+  Result<void> write(const dds::Order& message) override {
+    auto kept = keep(written_->orders, message);
+    if (written_->on_order) written_->on_order(message);
+    return kept;
+  }
+  Result<void> write(const dds::BlockData& message) override {
+    if (written_->refusals > 0) {
+      --written_->refusals;
+      return fail(Errc::Timeout, "the queue is full");
+    }
+    return keep(written_->blocks, message);
+  }
+  dds::Rejected rejected() const override { return {}; }
+
+ private:
+  template <class Message>
+  Result<void> keep(std::vector<Message>& list, const Message& message) {
+    {
+      const std::lock_guard lock(written_->mutex);
+      list.push_back(message);
+    }
+    written_->changed.notify_all();
+    return {};
+  }
+  std::shared_ptr<WrittenMessages> written_;
+};
+
+}  // namespace dripline::test_support

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/library/audit_trail.hpp"
+#include "server/library/control_catalog.hpp"
+#include "server/library/programs.hpp"
+#include "storage/sqlite_store.hpp"
+#include "tests/support/manual_clock.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::server_test {
+
+/// Two controls; a text that begins with `%C` is for the first, one with `%2` for both.
+class FakeCatalog final : public library::ControlCatalog {
+ public:
+  std::vector<std::string> names() const override { return {"centurion", "tnc155"}; }
+  std::vector<std::string> detect(std::string_view head, std::string_view) const override {
+    if (head.starts_with("%C")) return {"centurion"};
+    if (head.starts_with("%2")) return names();
+    return {};
+  }
+};
+
+inline std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text));
+}
+
+/// A real store in a folder of its own, with the library on top.
+class ServerTest : public testing::Test {
+ protected:
+  using Run = storage::Run;  // and not Google Test's function
+
+  ServerTest() { reopen(); }
+
+  void reopen() {
+    programs_.reset();
+    audit_.reset();
+    store_.reset();
+    auto opened = storage::SqliteStore::open({.file = folder_.path() / "store.sqlite"}, clock_);
+    EXPECT_TRUE(opened) << opened.error().what;
+    store_ = *std::move(opened);
+    audit_ = std::make_unique<library::AuditTrail>(*store_, clock_);
+    programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
+  }
+
+  std::string begin(const std::string& program, const std::string& control = "centurion") {
+    auto upload = programs_->begin({.program = program, .control = control, .comment = {}}, "cam");
+    EXPECT_TRUE(upload) << upload.error().what;
+    return upload ? upload->id : "";
+  }
+  storage::Revision push(const std::string& program, std::string_view text,
+                         const std::string& control = "centurion") {
+    const std::string id = begin(program, control);
+    constexpr std::size_t kPiece = 1 << 20;
+    for (std::size_t at = 0; at < text.size(); at += kPiece) {
+      const auto appended = programs_->append(id, at, bytes_of(text.substr(at, kPiece)));
+      EXPECT_TRUE(appended) << appended.error().what;
+    }
+    auto committed = programs_->commit(id, std::nullopt, "cam");
+    EXPECT_TRUE(committed) << committed.error().what;
+    return committed ? committed->revision : storage::Revision{};
+  }
+  void add_machine(const std::string& name, const std::string& control = "centurion") {
+    storage::Machine machine;
+    machine.name = name;
+    machine.control = control;
+    machine.epoch = 7;
+    machine.first_seen = machine.last_seen = clock_.now();
+    EXPECT_TRUE(store_->save_machine(machine));
+  }
+
+  test_support::TemporaryFolder folder_;
+  test_support::ManualClock clock_;
+  FakeCatalog catalog_;
+  std::unique_ptr<storage::Store> store_;
+  std::unique_ptr<library::AuditTrail> audit_;
+  std::unique_ptr<library::Programs> programs_;
+};
+
+}  // namespace dripline::server_test
