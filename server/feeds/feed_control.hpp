@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+#include "protocol/dds/message.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::feeds {
+
+/// What is known of a machine: the stored part and what its gateway said last.
+struct MachineView {
+  storage::Machine machine;
+  bool is_connected = false;
+  std::optional<dds::Status> status;  ///< absent until one was received since the server started
+};
+
+struct StartRequest {
+  std::string machine;
+  std::string program;
+  std::optional<std::uint64_t> revision;  ///< absent: the latest
+  std::string author;
+};
+
+struct OrderRequest {
+  std::string run;
+  dds::OrderAction action = dds::OrderAction::Hold;  ///< any but Start
+  std::string argument;                              ///< answer: its text; switch: its name
+  double value = 0;                                  ///< overrides: factor; switch: 0 or 1
+};
+
+/// What happened at the machines, told to whoever shows it. Called on worker threads, never two
+/// calls for one machine at once; must return soon.
+struct FeedListener {
+  std::function<void(const MachineView&)> on_machine;
+  std::function<void(const storage::Run&)> on_run;
+  std::function<void(const storage::Record&)> on_record;
+};
+
+/// The machines as the API sees them. Any thread; `start` and `order` wait for the gateway's
+/// answer, at most some seconds.
+class FeedControl {
+ public:
+  virtual ~FeedControl() = default;
+  virtual std::vector<MachineView> machines() const = 0;
+  /// Errors: NotFound.
+  virtual Result<MachineView> machine(const std::string& name) const = 0;
+  /// The run once the gateway has taken it. Errors: NotFound (machine, program, revision),
+  /// Unsupported (the program is for another control), Busy (the machine has a run, or the gateway
+  /// refused: the run's state is then Refused), Timeout (not connected, or no answer in time).
+  virtual Result<storage::Run> start(const StartRequest& request) = 0;
+  /// Errors: NotFound (run), ModalConflict (it has ended), Busy (refused, with the gateway's
+  /// reason), Timeout (not connected, or no answer in time: the outcome is unknown).
+  virtual Result<void> order(const OrderRequest& request) = 0;
+};
+
+}  // namespace dripline::feeds

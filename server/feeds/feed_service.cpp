@@ -1,0 +1,253 @@
+#include "server/feeds/feed_service.hpp"
+
+#include <spdlog/spdlog.h>
+#include <set>
+
+#include "server/feeds/identifiers.hpp"
+
+namespace dripline::feeds {
+namespace {
+
+bool has_ended(const storage::Run& run) {
+  return run.state != storage::RunState::Ordered && run.state != storage::RunState::Active;
+}
+
+}  // namespace
+
+FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
+    : blocks(service.store_, endpoint, service.pool_),
+      records({.store = service.store_,
+               .endpoint = endpoint,
+               .pool = service.pool_,
+               .state_mutex = service.state_mutex_,
+               .on_stored = [&service](const auto& batch) { service.on_stored(batch); }}),
+      orders(endpoint, service.clock_, service.options_.orders,
+             [&service](const dds::Order& order) { service.on_late_start(order); }),
+      watch({.store = service.store_,
+             .clock = service.clock_,
+             .desk = orders,
+             .state_mutex = service.state_mutex_,
+             .on_change = service.listener_.on_run}) {}
+
+FeedService::FeedService(storage::Store& store, const Clock& clock, Options options,
+                         FeedListener listener)
+    : store_(store),
+      clock_(clock),
+      options_(options),
+      listener_(std::move(listener)),
+      pool_(options.workers),
+      board_({.store = store,
+              .clock = clock,
+              .pool = pool_,
+              .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
+
+FeedService::~FeedService() {
+  end();
+}
+
+FeedService::Parts* FeedService::parts() const {
+  return is_ending_ ? nullptr : parts_.load();
+}
+
+dds::ServerHandlers FeedService::handlers() {
+  dds::ServerHandlers handlers;
+  handlers.on_announce = [this](dds::Announce announce) {
+    Parts* parts = this->parts();
+    board_.on_announce(announce);
+    if (parts == nullptr) return;
+    pool_.post([parts, machine = announce.machine, epoch = announce.epoch] {
+      parts->records.greet(machine, epoch);
+    });
+  };
+  handlers.on_lost = [this](const std::string& machine) { board_.on_lost(machine); };
+  handlers.on_status = [this](dds::Status status) {
+    if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
+      parts->orders.on_run_seen(status.run);
+    }
+    board_.on_status(std::move(status));
+  };
+  handlers.on_record = [this](dds::Record record) {
+    if (Parts* parts = this->parts()) parts->records.take(std::move(record));
+  };
+  handlers.on_order_result = [this](const dds::OrderResult& result) {
+    if (Parts* parts = this->parts()) parts->orders.on_result(result);
+  };
+  handlers.on_request = [this](dds::BlockRequest request) {
+    if (Parts* parts = this->parts()) parts->blocks.request(std::move(request));
+  };
+  return handlers;
+}
+
+Result<void> FeedService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint) {
+  endpoint_ = std::move(endpoint);
+  owned_parts_ = std::make_unique<Parts>(*this, *endpoint_);
+  if (auto loaded = board_.load(); !loaded) return loaded;
+  if (auto loaded = owned_parts_->watch.load(); !loaded) return loaded;
+  parts_ = owned_parts_.get();
+  // Machines that announced themselves between open() and now were not greeted.
+  for (const auto& view : board_.views()) {
+    if (view.is_connected) owned_parts_->records.greet(view.machine.name, view.machine.epoch);
+  }
+  pool_.post([this] { tick(); });
+  return {};
+}
+
+void FeedService::stop_waiting() {
+  if (owned_parts_) owned_parts_->orders.stop();
+}
+
+void FeedService::end() {
+  if (is_ending_.exchange(true)) return;
+  stop_waiting();
+  pool_.stop();
+  board_.save();
+  endpoint_.reset();
+}
+
+void FeedService::tick() {
+  if (is_ending_) return;
+  board_.save();
+  owned_parts_->watch.compare(board_.views());
+  pool_.post_after(MachineBoard::kSaveInterval, [this] { tick(); });
+}
+
+std::vector<MachineView> FeedService::machines() const {
+  return board_.views();
+}
+
+Result<MachineView> FeedService::machine(const std::string& name) const {
+  return board_.view(name);
+}
+
+dds::Rejected FeedService::rejected() const {
+  return endpoint_ ? endpoint_->rejected() : dds::Rejected{};
+}
+
+Result<MachineView> FeedService::connected_machine(const std::string& name) const {
+  auto view = board_.view(name);
+  if (!view || view->is_connected) return view;
+  return fail(Errc::Timeout, "machine '{}' is not connected; last seen {}", name,
+              to_iso8601(view->machine.last_seen));
+}
+
+Result<storage::Run> FeedService::make_run(const StartRequest& request, const MachineView& view) {
+  auto revision = store_.revision(request.program, request.revision);
+  if (!revision) return fail(revision.error());
+  if (!revision->control.empty() && revision->control != view.machine.control) {
+    return fail(Errc::Unsupported,
+                "program '{}' revision {} is for control {}; machine '{}' is a {}",
+                revision->program, revision->number, revision->control, request.machine,
+                view.machine.control);
+  }
+  storage::Run run;
+  run.created = clock_.now();
+  run.id = make_run_id(run.created);
+  run.machine = request.machine;
+  run.program = revision->program;
+  run.revision = revision->number;
+  run.content = revision->content;
+  run.size = revision->size;
+  run.control = view.machine.control;
+  run.author = request.author;
+  return run;
+}
+
+Result<storage::Run> FeedService::start(const StartRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  const auto run = make_run(request, *view);
+  if (!run) return run;
+  if (auto created = store_.create_run(*run); !created) return fail(created.error());
+  parts->watch.watch(run->machine, run->id);
+  announce_run(run->id);
+  dds::Order order;
+  order.machine = run->machine;
+  order.action = dds::OrderAction::Start;
+  order.run = run->id;
+  order.program = run->program;
+  order.revision = run->content.hex();
+  order.size = run->size;
+  order.control = run->control;
+  return conclude_start(*run, parts->orders.carry_out(std::move(order)));
+}
+
+Result<storage::Run> FeedService::conclude_start(const storage::Run& run,
+                                                 const Result<void>& outcome) {
+  if (outcome) {
+    spdlog::info("run started machine={} run={} program={} revision={}", run.machine, run.id,
+                 run.program, run.revision);
+    return owned_parts_->watch.settle(run.id, storage::RunState::Active, "");
+  }
+  spdlog::warn("run not started machine={} run={} program={}: {}", run.machine, run.id, run.program,
+               outcome.error().what);
+  // When the server stops, nobody knows yet: the next one finds out.
+  if (outcome.error().code == Errc::Io) return fail(outcome.error());
+  const auto settled =
+      owned_parts_->watch.settle(run.id, storage::RunState::Refused, outcome.error().what);
+  if (!settled) return fail(settled.error());
+  if (settled->state != storage::RunState::Refused) return settled;
+  owned_parts_->watch.forget(run.id);
+  return fail(outcome.error());
+}
+
+Result<void> FeedService::order(const OrderRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto run = store_.run(request.run);
+  if (!run) return fail(run.error());
+  if (has_ended(*run)) {
+    return fail(Errc::ModalConflict, "run {} has ended: {}", run->id,
+                storage::to_string(run->state));
+  }
+  if (const auto view = connected_machine(run->machine); !view) return fail(view.error());
+  dds::Order order;
+  order.machine = run->machine;
+  order.action = request.action;
+  order.run = run->id;
+  order.argument = request.argument;
+  order.value = request.value;
+  spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
+               run->machine, run->id, run->program);
+  return parts->orders.carry_out(std::move(order));
+}
+
+/// The sender was told that nothing came of this start, so nothing may come of it.
+void FeedService::on_late_start(const dds::Order& late) {
+  spdlog::warn("start accepted too late, aborting machine={} run={} program={}", late.machine,
+               late.run, late.program);
+  dds::Order abort;
+  abort.machine = late.machine;
+  abort.action = dds::OrderAction::Abort;
+  abort.run = late.run;
+  pool_.post([this, abort] {
+    if (auto sent = owned_parts_->orders.send(abort); !sent) {
+      spdlog::error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
+                    sent.error().what);
+    }
+  });
+}
+
+void FeedService::on_stored(const storage::RecordBatch& batch) {
+  for (const auto& record : batch.records) listener_.on_record(record);
+  std::set<std::string> changed;
+  for (const auto& beginning : batch.beginnings) changed.insert(beginning.run);
+  for (const auto& ending : batch.endings) {
+    changed.insert(ending.run);
+    owned_parts_->watch.forget(ending.run);
+    owned_parts_->blocks.forget(batch.machine, ending.run);
+    spdlog::info("run ended machine={} run={} state={} executed={} verified={}", batch.machine,
+                 ending.run, storage::to_string(ending.state), ending.counters.executed,
+                 !ending.content_verified   ? "unknown"
+                 : *ending.content_verified ? "yes"
+                                            : "no");
+  }
+  for (const auto& run : changed) announce_run(run);
+}
+
+void FeedService::announce_run(const std::string& run) {
+  if (const auto stored = store_.run(run)) listener_.on_run(*stored);
+}
+
+}  // namespace dripline::feeds

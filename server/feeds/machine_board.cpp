@@ -1,0 +1,154 @@
+#include "server/feeds/machine_board.hpp"
+
+#include <spdlog/spdlog.h>
+#include <optional>
+
+namespace dripline::feeds {
+namespace {
+
+/// A status may come before the announcement; until then the machine is not shown.
+bool is_known(const MachineView& view) {
+  return !view.machine.name.empty();
+}
+
+}  // namespace
+
+Result<void> MachineBoard::load() {
+  auto machines = parts_.store.machines();
+  if (!machines) return fail(machines.error());
+  const std::lock_guard lock(mutex_);
+  for (auto& machine : *machines) {
+    const std::string name = machine.name;
+    MachineView& view = entries_[name].view;
+    if (view.is_connected) {  // it announced itself before we came to this: it knows better
+      view.machine.first_seen = machine.first_seen;
+    } else {
+      view.machine = std::move(machine);
+    }
+  }
+  return {};
+}
+
+void MachineBoard::on_announce(const dds::Announce& announce) {
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_[announce.machine];
+  storage::Machine& machine = entry.view.machine;
+  const UtcTime now = parts_.clock.now();
+  if (machine.name.empty()) {
+    machine.name = announce.machine;
+    machine.first_seen = now;
+  }
+  machine.control = announce.control;
+  machine.description = announce.description;
+  machine.gateway_version = announce.version;
+  machine.epoch = announce.epoch;
+  machine.last_seen = now;
+  entry.view.is_connected = true;
+  entry.machine_is_dirty = true;
+  spdlog::info("machine connected machine={} control={} gateway_version={}", announce.machine,
+               announce.control, announce.version);
+  schedule(entry);
+}
+
+void MachineBoard::on_status(dds::Status status) {
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_[status.machine];
+  entry.view.machine.last_seen = parts_.clock.now();
+  entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
+  entry.view.status = std::move(status);
+  if (is_known(entry.view)) schedule(entry);
+}
+
+void MachineBoard::on_lost(const std::string& machine) {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(machine);
+  if (found == entries_.end() || !found->second.view.is_connected) return;
+  Entry& entry = found->second;
+  entry.view.is_connected = false;
+  entry.machine_is_dirty = true;
+  spdlog::warn("machine lost machine={}", machine);
+  schedule(entry);
+}
+
+std::vector<MachineView> MachineBoard::views() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<MachineView> views;
+  views.reserve(entries_.size());
+  for (const auto& [name, entry] : entries_) {
+    if (is_known(entry.view)) views.push_back(entry.view);
+  }
+  return views;
+}
+
+Result<MachineView> MachineBoard::view(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end() || !is_known(found->second.view)) {
+    return fail(Errc::NotFound, "machine '{}' is not known", name);
+  }
+  return found->second.view;
+}
+
+/// However many changes arrive meanwhile, one task a machine tells the latest.
+void MachineBoard::schedule(Entry& entry) {
+  if (std::exchange(entry.is_scheduled, true) || entry.is_telling) return;
+  parts_.pool.post([this, name = entry.view.machine.name] { tell(name); });
+}
+
+void MachineBoard::tell(const std::string& name) {
+  MachineView view;
+  bool is_dirty = false;
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& entry = entries_.at(name);
+    if (!std::exchange(entry.is_scheduled, false)) return;
+    entry.is_telling = true;
+    is_dirty = entry.machine_is_dirty;
+    view = entry.view;
+  }
+  if (is_dirty) save_machine(name);
+  parts_.on_change(view);
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_.at(name);
+  entry.is_telling = false;
+  if (entry.is_scheduled) parts_.pool.post([this, name] { tell(name); });
+}
+
+void MachineBoard::save_machine(const std::string& name) {
+  storage::Machine machine;
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& entry = entries_.at(name);
+    entry.machine_is_dirty = false;
+    machine = entry.view.machine;
+  }
+  if (auto saved = parts_.store.save_machine(machine); !saved) {
+    spdlog::warn("machine not saved machine={}: {}", name, saved.error().what);
+    const std::lock_guard lock(mutex_);
+    entries_.at(name).machine_is_dirty = true;
+  }
+}
+
+void MachineBoard::save() {
+  std::vector<dds::Status> progressed;
+  std::vector<std::string> dirty;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, entry] : entries_) {
+      if (entry.machine_is_dirty) dirty.push_back(name);
+      if (std::exchange(entry.counters_are_dirty, false)) progressed.push_back(*entry.view.status);
+    }
+  }
+  for (const auto& name : dirty) save_machine(name);
+  for (const auto& status : progressed) {
+    const storage::Counters counters{
+        .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
+    auto saved = parts_.store.update_counters(status.run, counters, status.line, status.sequence);
+    if (!saved && saved.error().code != Errc::NotFound) {
+      spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
+                    saved.error().what);
+    }
+  }
+}
+
+}  // namespace dripline::feeds

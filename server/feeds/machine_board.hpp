@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "server/feeds/feed_control.hpp"
+#include "server/feeds/worker_pool.hpp"
+
+namespace dripline::feeds {
+
+/// What is known of every machine now. Status lives in memory only; its counters go to the run at
+/// most every kSaveInterval. A machine is entered when it announces itself for the first time.
+class MachineBoard {
+ public:
+  static constexpr std::chrono::seconds kSaveInterval{2};
+
+  struct Parts {
+    storage::Store& store;
+    const Clock& clock;
+    WorkerPool& pool;
+    std::function<void(const MachineView&)> on_change;  ///< on a worker, latest state only
+  };
+  explicit MachineBoard(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Reads the stored machines; before anything else.
+  Result<void> load();
+
+  /// These come from DDS threads and return at once.
+  void on_announce(const dds::Announce& announce);
+  void on_status(dds::Status status);
+  void on_lost(const std::string& machine);
+
+  std::vector<MachineView> views() const;
+  Result<MachineView> view(const std::string& name) const;
+  /// Saves what changed: counters of runs, and when a machine was seen last. From a worker.
+  void save();
+
+ private:
+  struct Entry {
+    MachineView view;
+    bool is_scheduled = false;  ///< a change is about to be told
+    bool is_telling = false;
+    bool machine_is_dirty = false;  ///< the stored part changed
+    bool counters_are_dirty = false;
+  };
+  void tell(const std::string& name);
+  void schedule(Entry& entry);
+  void save_machine(const std::string& name);
+
+  Parts parts_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace dripline::feeds

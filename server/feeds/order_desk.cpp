@@ -1,0 +1,128 @@
+#include "server/feeds/order_desk.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "server/feeds/identifiers.hpp"
+
+namespace dripline::feeds {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMaxGivenUp = 64;
+constexpr auto kRetry = 10ms;  ///< before an order is offered again to a full queue
+
+}  // namespace
+
+OrderDesk::OrderDesk(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
+                     std::function<void(const dds::Order&)> on_late_start)
+    : endpoint_(endpoint),
+      clock_(clock),
+      options_(options),
+      on_late_start_(std::move(on_late_start)) {}
+
+void OrderDesk::stamp(dds::Order& order) const {
+  order.id = make_order_id();
+  order.expires = clock_.now() + options_.expiry;
+}
+
+Result<void> OrderDesk::send(dds::Order order) {
+  stamp(order);
+  return write_in_time(order);
+}
+
+Result<void> OrderDesk::carry_out(dds::Order order) {
+  stamp(order);
+  const std::string id = order.id;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_[id] = {.order = order, .result = {}};
+  }
+  const auto written = write_in_time(order);
+  const auto outcome = written ? await(id) : written;
+  const std::lock_guard lock(mutex_);
+  const bool is_unknown = !outcome && outcome.error().code == Errc::Timeout;
+  if (is_unknown && order.action == dds::OrderAction::Start) {
+    given_up_.push_back(std::move(order));
+    if (given_up_.size() > kMaxGivenUp) given_up_.pop_front();
+  }
+  waiting_.erase(id);
+  return outcome;
+}
+
+Result<void> OrderDesk::write_in_time(const dds::Order& order) {
+  for (;;) {
+    auto written = endpoint_.write(order);
+    if (written || written.error().code != Errc::Timeout) return written;
+    if (clock_.now() >= order.expires) return written;
+    std::this_thread::sleep_for(kRetry);
+  }
+}
+
+Result<void> OrderDesk::await(const std::string& id) {
+  std::unique_lock lock(mutex_);
+  const Waiting& waiting = waiting_.at(id);
+  const bool is_decided = changed_.wait_for(lock, options_.expiry + options_.grace, [&] {
+    return waiting.result.has_value() || is_stopping_;
+  });
+  if (waiting.result) {
+    if (waiting.result->accepted) return {};
+    return fail(Errc::Busy, "machine {} refused {}: {}", waiting.order.machine,
+                dds::to_string(waiting.order.action), waiting.result->reason);
+  }
+  if (is_decided) return fail(Errc::Io, "the server is stopping");
+  return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.order.machine,
+              dds::to_string(waiting.order.action),
+              std::chrono::duration<double>(options_.expiry).count());
+}
+
+void OrderDesk::on_result(const dds::OrderResult& result) {
+  std::optional<dds::Order> late;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = waiting_.find(result.id); found != waiting_.end()) {
+      if (found->second.order.machine == result.machine) found->second.result = result;
+    } else if (result.accepted) {
+      const auto given_up = std::ranges::find(given_up_, result.id, &dds::Order::id);
+      if (given_up != given_up_.end()) {
+        late = std::move(*given_up);
+        given_up_.erase(given_up);
+      }
+    }
+  }
+  changed_.notify_all();
+  if (late) on_late_start_(*late);
+}
+
+void OrderDesk::on_run_seen(const std::string& run) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [id, waiting] : waiting_) {
+      const bool is_start =
+          waiting.order.action == dds::OrderAction::Start && waiting.order.run == run;
+      if (!is_start || waiting.result) continue;
+      waiting.result = dds::OrderResult{
+          .machine = waiting.order.machine, .id = id, .accepted = true, .reason = {}};
+    }
+  }
+  changed_.notify_all();
+}
+
+bool OrderDesk::is_waiting_for(const std::string& run) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(waiting_, [&](const auto& entry) {
+    const dds::Order& order = entry.second.order;
+    return order.action == dds::OrderAction::Start && order.run == run;
+  });
+}
+
+void OrderDesk::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace dripline::feeds
