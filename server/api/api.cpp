@@ -1,0 +1,76 @@
+#include "server/api/api.hpp"
+
+#include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
+
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+namespace {
+
+bool is_open_to_all(const Request& request) {
+  const auto& path = request.target.segments;
+  return path.size() == 3 && path[0] == "api" && path[1] == "v1" &&
+         (path[2] == "health" || path[2] == "openapi.json");
+}
+
+}  // namespace
+
+Api::Api(Services services, Token token)
+    : services_(std::move(services)), token_(std::move(token)) {
+  add_server_routes(router_, services_);
+  add_program_routes(router_, services_);
+  add_upload_routes(router_, services_);
+  add_machine_routes(router_, services_);
+  add_run_routes(router_, services_);
+  add_report_routes(router_, services_);
+}
+
+Response Api::handle(Request request) const {
+  if (!is_open_to_all(request)) {
+    if (!is_authorized(token_, request.header("authorization"))) {
+      Response response =
+          error_response({Errc::Denied, "send the server's token: Authorization: Bearer TOKEN"});
+      response.headers.emplace_back("WWW-Authenticate", "Bearer");
+      return response;
+    }
+    request.who = token_.name;
+  }
+  try {
+    return router_.handle(std::move(request));
+  } catch (const std::exception& e) {  // memory, or a mistake of ours: never the end of the server
+    spdlog::error("request failed: {}", e.what());
+    return error_response({Errc::Io, "the server could not answer this request"});
+  }
+}
+
+storage::Page read_page(QueryReader& query) {
+  constexpr std::uint64_t kDefaultLimit = 100;
+  constexpr auto kMaxOffset = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  storage::Page page;
+  page.limit = query.number("limit", kMaxLimit).value_or(kDefaultLimit);
+  page.offset = query.number("offset", kMaxOffset).value_or(0);
+  return page;
+}
+
+feeds::FeedListener publish_to(EventHub& hub) {
+  const auto publish = [&hub](std::string kind, const std::string& machine, const auto& make_json) {
+    if (!hub.has_listeners()) return;
+    hub.publish({.kind = std::move(kind), .machine = machine, .data = to_text(make_json())});
+  };
+  return {.on_machine =
+              [publish](const feeds::MachineView& view) {
+                publish("machine", view.machine.name, [&] { return machine_json(view); });
+              },
+          .on_run =
+              [publish](const storage::Run& run) {
+                publish("run", run.machine, [&] { return run_json(run); });
+              },
+          .on_record =
+              [publish](const storage::Record& record) {
+                publish("record", record.machine, [&] { return record_json(record); });
+              }};
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "server/api/event_hub.hpp"
+#include "server/api/router.hpp"
+#include "server/api/token.hpp"
+#include "server/feeds/feed_control.hpp"
+#include "server/library/audit_trail.hpp"
+#include "server/library/programs.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::api {
+
+/// What `GET /api/v1/server` tells.
+struct ServerFacts {
+  std::string name, version, data_dir;
+  UtcTime started;
+  std::uint32_t dds_domain = 0;
+};
+
+/// What the handlers work with; all must outlive the Api.
+struct Services {
+  library::Programs& programs;
+  feeds::FeedControl& feeds;
+  storage::Store& store;
+  library::AuditTrail& audit;
+  EventHub& events;
+  const Clock& clock;
+  ServerFacts facts;
+  std::function<std::uint64_t()> dds_rejected;
+};
+
+/// The REST API without its sockets: a request in, a response out. Any thread, several at once;
+/// handlers wait for storage and for gateways, so never on a thread that serves sockets.
+class Api {
+ public:
+  Api(Services services, Token token);
+  Api(const Api&) = delete;  // the handlers refer to our services
+  Api& operator=(const Api&) = delete;
+  /// Checks the token, finds the handler and runs it. Never throws.
+  Response handle(Request request) const;
+  const Router& router() const { return router_; }
+
+  /// The largest piece of an upload; a body may be kMaxBody.
+  static constexpr std::uint64_t kMaxPiece = 4 * 1024 * 1024;
+  static constexpr std::uint64_t kMaxBody = kMaxPiece + 64 * 1024;
+
+ private:
+  Services services_;
+  Token token_;
+  Router router_;
+};
+
+/// The listener that turns what the feeds tell into events.
+feeds::FeedListener publish_to(EventHub& hub);
+
+/// The OpenAPI description, as JSON text.
+std::string_view openapi_text();
+
+}  // namespace dripline::api

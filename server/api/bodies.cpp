@@ -1,0 +1,117 @@
+#include "server/api/bodies.hpp"
+
+#include <array>
+
+#include "protocol/base/names.hpp"
+#include "server/api/json_object.hpp"
+
+namespace dripline::api {
+namespace {
+
+constexpr std::size_t kMaxName = 256;      ///< longer ones are refused before they are looked at
+constexpr std::size_t kMaxArgument = 255;  ///< the order's member in the IDL
+
+struct ActionRow {
+  std::string_view name;
+  dds::OrderAction action;
+  std::string_view needs;  ///< n(ame), t(ext), v(alue)
+};
+constexpr std::array kActions{
+    ActionRow{"hold", dds::OrderAction::Hold, ""},
+    ActionRow{"resume", dds::OrderAction::Resume, ""},
+    ActionRow{"abort", dds::OrderAction::Abort, ""},
+    ActionRow{"answer", dds::OrderAction::Answer, "t"},
+    ActionRow{"switch", dds::OrderAction::Switch, "nv"},
+    ActionRow{"feed_override", dds::OrderAction::FeedOverride, "v"},
+    ActionRow{"rapid_override", dds::OrderAction::RapidOverride, "v"},
+    ActionRow{"spindle_override", dds::OrderAction::SpindleOverride, "v"},
+};
+
+Result<const ActionRow*> find_action(std::string_view name) {
+  std::string known;
+  for (const auto& row : kActions) {
+    if (row.name == name) return &row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
+  return fail(Errc::Unsupported, "action '{}' is not known; known are: {}", name, known);
+}
+
+Result<void> check_value(const ActionRow& row, double value) {
+  if (row.action == dds::OrderAction::Switch) {
+    if (value == 0 || value == 1) return {};
+    return fail(Errc::Syntax, "value {} of a switch must be 0 or 1", value);
+  }
+  if (value >= 0 && value <= kMaxOverride) return {};
+  return fail(Errc::LimitExceeded, "value {} of {} must be 0 to {}, 1 is 100 %", value, row.name,
+              kMaxOverride);
+}
+
+}  // namespace
+
+Result<library::UploadRequest> decode_upload(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  library::UploadRequest upload;
+  upload.program = object->required_text("program", kMaxName);
+  upload.control = object->optional_text("control", kMaxName).value_or("");
+  upload.comment = object->optional_text("comment", library::Programs::kMaxComment).value_or("");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_program_name(upload.program); !good) return fail(good.error());
+  return upload;
+}
+
+Result<CommitBody> decode_commit(std::string_view body) {
+  if (body.empty()) return CommitBody{};
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto text = object->optional_text("sha256", kMaxName);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (!text) return CommitBody{};
+  const auto digest = parse_digest(*text);
+  if (!digest) return fail(Errc::Syntax, "member 'sha256': {}", digest.error().what);
+  return CommitBody{.sha256 = *digest};
+}
+
+Result<feeds::StartRequest> decode_start(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  feeds::StartRequest start;
+  start.machine = object->required_text("machine", kMaxName);
+  start.program = object->required_text("program", kMaxName);
+  start.revision = object->optional_unsigned("revision");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_machine_name(start.machine); !good) return fail(good.error());
+  if (auto good = check_program_name(start.program); !good) return fail(good.error());
+  return start;
+}
+
+Result<feeds::OrderRequest> decode_order(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const std::string name = object->required_text("action", kMaxName);
+  const auto text = object->optional_text("text", kMaxArgument);
+  const auto switch_name = object->optional_text("name", kMaxArgument);
+  const auto value = object->optional_number("value");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  const auto row = find_action(name);
+  if (!row) return fail(row.error());
+  const auto mismatch = [&](char letter, bool is_given, std::string_view member) -> Result<void> {
+    const bool is_needed = (*row)->needs.find(letter) != std::string_view::npos;
+    if (is_needed == is_given) return {};
+    return fail(Errc::Syntax, "action {} {} member '{}'", name,
+                is_needed ? "needs" : "does not take", member);
+  };
+  if (auto good = mismatch('t', text.has_value(), "text"); !good) return fail(good.error());
+  if (auto good = mismatch('n', switch_name.has_value(), "name"); !good) return fail(good.error());
+  if (auto good = mismatch('v', value.has_value(), "value"); !good) return fail(good.error());
+  if (value) {
+    if (auto good = check_value(**row, *value); !good) return fail(good.error());
+  }
+  feeds::OrderRequest order;
+  order.action = (*row)->action;
+  order.argument = text.value_or(switch_name.value_or(""));
+  order.value = value.value_or(0);
+  return order;
+}
+
+}  // namespace dripline::api

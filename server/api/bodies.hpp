@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "protocol/base/digest.hpp"
+#include "server/feeds/feed_control.hpp"
+#include "server/library/programs.hpp"
+
+/// The JSON bodies the API takes, decoded and checked. Pure. Errors: Syntax, LimitExceeded,
+/// Unsupported (an unknown action); each names the member.
+namespace dripline::api {
+
+Result<library::UploadRequest> decode_upload(std::string_view body);
+
+struct CommitBody {
+  std::optional<Digest> sha256;
+};
+/// An empty body is an empty object: everything in it is optional.
+Result<CommitBody> decode_commit(std::string_view body);
+
+/// The author is left empty.
+Result<feeds::StartRequest> decode_start(std::string_view body);
+
+/// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
+Result<feeds::OrderRequest> decode_order(std::string_view body);
+inline constexpr double kMaxOverride = 10;
+
+}  // namespace dripline::api

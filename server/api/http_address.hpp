@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::api {
+
+/// Where to listen, from `HOST:PORT`: an IPv4 address, an IPv6 address in brackets, or localhost.
+struct HttpAddress {
+  std::string host = "127.0.0.1";  ///< numeric
+  std::uint16_t port = 8430;       ///< 0: any free one
+  bool is_loopback = true;
+  bool is_ipv6 = false;
+  /// `127.0.0.1:8430`, `[::1]:8430`
+  std::string text() const;
+};
+/// Errors: Syntax.
+Result<HttpAddress> parse_http_address(std::string_view text);
+
+/// Beyond this machine only with TLS: the token would cross the network in clear. Errors: Denied.
+Result<void> check_exposure(const HttpAddress& address, bool has_tls);
+
+}  // namespace dripline::api

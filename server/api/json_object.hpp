@@ -1,0 +1,38 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::api {
+
+/// Reads one JSON object strictly: members of the right type and within their bounds, none twice,
+/// none unknown. The first error found is kept and comes out of finish(), so decoding reads as a
+/// list of members. Nesting is counted before anything is parsed.
+class JsonObject {
+ public:
+  static constexpr int kMaxDepth = 32;
+
+  /// Errors: Syntax (not JSON, not an object, nested too deep, a member twice).
+  static Result<JsonObject> parse(std::string_view text);
+
+  std::string required_text(const std::string& name, std::size_t longest);
+  std::optional<std::string> optional_text(const std::string& name, std::size_t longest);
+  std::optional<std::uint64_t> optional_unsigned(const std::string& name);
+  std::optional<double> optional_number(const std::string& name);
+  /// Errors: Syntax, LimitExceeded; names the member and what was expected.
+  Result<void> finish();
+
+ private:
+  explicit JsonObject(nlohmann::json members) : members_(std::move(members)) {}
+  std::optional<nlohmann::json> take(const std::string& name);
+  void complain(Errc code, std::string what);
+
+  nlohmann::json members_;
+  std::optional<Error> error_;
+};
+
+}  // namespace dripline::api

@@ -1,0 +1,33 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+namespace {
+
+Response list_machines(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  auto list = nlohmann::json::array();
+  for (const auto& view : services.feeds.machines()) list.push_back(machine_json(view));
+  return json_response(200, {{"machines", std::move(list)}});
+}
+
+Response show_machine(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto view = services.feeds.machine(request.parameter("name"));
+  return view ? json_response(200, machine_json(*view)) : error_response(view.error());
+}
+
+}  // namespace
+
+void add_machine_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machines",
+             [&](const Request& request) { return list_machines(services, request); });
+  router.add("GET", "/api/v1/machines/{name}",
+             [&](const Request& request) { return show_machine(services, request); });
+}
+
+}  // namespace dripline::api

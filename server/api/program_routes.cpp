@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "server/api/byte_range.hpp"
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+namespace {
+
+constexpr std::uint64_t kContentPiece = 256 * 1024;
+
+Response list_programs(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto programs = services.programs.list(page);
+  if (!programs) return error_response(programs.error());
+  auto list = nlohmann::json::array();
+  for (const auto& program : *programs) list.push_back(program_json(program));
+  return json_response(200, {{"programs", std::move(list)}});
+}
+
+Response show_program(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const std::string& name = request.parameter("name");
+  // First the latest: it is the one that knows whether the program was removed.
+  const auto latest = services.programs.revision(name, std::nullopt);
+  if (!latest) return error_response(latest.error());
+  const auto revisions = services.programs.revisions(name);
+  if (!revisions) return error_response(revisions.error());
+  auto view = program_json({.latest = *latest, .revisions = revisions->size()});
+  auto list = nlohmann::json::array();
+  for (const auto& revision : *revisions) list.push_back(revision_json(revision));
+  view["revisions"] = std::move(list);
+  return json_response(200, view);
+}
+
+Response remove_program(Services& services, const Request& request) {
+  const auto removed = services.programs.remove(request.parameter("name"), request.who);
+  return removed ? no_content() : error_response(removed.error());
+}
+
+/// Reads `range` of the content piece by piece.
+BodySource content_source(Services& services, const Digest& content, ByteRange range) {
+  return [&services, content, range]() mutable -> Result<std::optional<std::string>> {
+    if (range.length == 0) return std::nullopt;
+    const auto bytes =
+        services.programs.read(content, range.first, std::min(range.length, kContentPiece));
+    if (!bytes) return fail(bytes.error());
+    if (bytes->empty()) return fail(Errc::Corrupt, "content {} is short", content.hex());
+    range.first += bytes->size();
+    range.length -= bytes->size();
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  };
+}
+
+/// The first piece is read before anything is said, so that damage there still is a clear error.
+Result<BodySource> opened(BodySource source) {
+  auto first = source();
+  if (!first) return fail(first.error());
+  auto head = std::make_shared<std::optional<std::string>>(*std::move(first));
+  return [head, source]() -> Result<std::optional<std::string>> {
+    if (!*head) return source();
+    std::string text = *std::exchange(*head, std::nullopt);
+    return text;
+  };
+}
+
+Response unsatisfiable(const Error& error, std::uint64_t size) {
+  constexpr int kRangeNotSatisfiable = 416;
+  if (error.code != Errc::LimitExceeded) return error_response(error);
+  Response response = error_response(kRangeNotSatisfiable, error);
+  response.headers.emplace_back("Content-Range", fmt::format("bytes */{}", size));
+  return response;
+}
+
+Response send_content(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto number = query.number("revision", std::numeric_limits<std::int64_t>::max());
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto revision = services.programs.revision(request.parameter("name"), number);
+  if (!revision) return error_response(revision.error());
+  const auto range = parse_byte_range(request.header("range"), revision->size);
+  if (!range) return unsatisfiable(range.error(), revision->size);
+  const ByteRange wanted = range->value_or(ByteRange{.first = 0, .length = revision->size});
+  auto source = opened(content_source(services, revision->content, wanted));
+  if (!source) return error_response(source.error());
+  Response response;
+  response.content_type = "application/octet-stream";
+  response.source = *std::move(source);
+  response.source_length = wanted.length;
+  response.headers = {{"Accept-Ranges", "bytes"},
+                      {"Dripline-Sha256", revision->content.hex()},
+                      {"Dripline-Revision", std::to_string(revision->number)},
+                      {"Dripline-Size", std::to_string(revision->size)}};
+  if (*range) {
+    constexpr int kPartialContent = 206;
+    response.status = kPartialContent;
+    response.headers.emplace_back("Content-Range",
+                                  fmt::format("bytes {}-{}/{}", wanted.first,
+                                              wanted.first + wanted.length - 1, revision->size));
+  }
+  return response;
+}
+
+}  // namespace
+
+void add_program_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/programs",
+             [&](const Request& request) { return list_programs(services, request); });
+  router.add("GET", "/api/v1/programs/{name}",
+             [&](const Request& request) { return show_program(services, request); });
+  router.add("DELETE", "/api/v1/programs/{name}",
+             [&](const Request& request) { return remove_program(services, request); });
+  router.add("GET", "/api/v1/programs/{name}/content",
+             [&](const Request& request) { return send_content(services, request); });
+}
+
+}  // namespace dripline::api

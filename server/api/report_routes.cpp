@@ -1,0 +1,61 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+#include "server/library/reports.hpp"
+
+namespace dripline::api {
+namespace {
+
+Response list_reports(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  storage::RunFilter filter;
+  filter.machine = query.text("machine");
+  filter.program = query.text("program");
+  filter.with_outputs = true;
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto runs = services.store.runs(filter, page);
+  if (!runs) return error_response(runs.error());
+  auto list = nlohmann::json::array();
+  for (const auto& run : *runs) list.push_back(report_json(run));
+  return json_response(200, {{"reports", std::move(list)}});
+}
+
+std::string content_type(library::ReportFormat format) {
+  switch (format) {
+    case library::ReportFormat::Text:
+      return "text/plain; charset=utf-8";
+    case library::ReportFormat::Csv:
+      return "text/csv; charset=utf-8";
+    case library::ReportFormat::Json:
+      return "application/json";
+  }
+  return "text/plain";
+}
+
+Response send_report(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto format = library::parse_report_format(query.text("format").value_or("text"));
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!format) return error_response(format.error());
+  auto run = services.store.run(request.parameter("run"));
+  if (!run) return error_response(run.error());
+  Response response;
+  response.content_type = content_type(*format);
+  const auto reader =
+      std::make_shared<library::ReportReader>(services.store, *std::move(run), *format);
+  response.source = [reader] { return reader->next(); };
+  return response;
+}
+
+}  // namespace
+
+void add_report_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/reports",
+             [&](const Request& request) { return list_reports(services, request); });
+  router.add("GET", "/api/v1/reports/{run}",
+             [&](const Request& request) { return send_report(services, request); });
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::api {
+
+/// The path and the query of a request line, percent-decoded after they were cut apart, so that a
+/// decoded slash stays inside its segment.
+struct Target {
+  std::vector<std::string> segments;
+  std::map<std::string, std::string> query;
+};
+/// Errors: Syntax (no leading slash, bad escape, NUL, a query name twice), LimitExceeded (longer
+/// than kMaxTarget).
+Result<Target> parse_target(std::string_view text);
+inline constexpr std::size_t kMaxTarget = 4096;
+
+struct Request {
+  std::string method;  ///< GET, POST, PUT, DELETE ...
+  Target target;
+  std::map<std::string, std::string> headers;  ///< names in lower case
+  std::string body;
+  std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
+  std::string who;                                ///< whose token it was; set by the API
+
+  std::string header(const std::string& lower_case_name) const;
+  const std::string& parameter(const std::string& name) const { return parameters.at(name); }
+};
+
+/// Reads the query parameters a handler knows; what it did not ask for is an error in finish().
+class QueryReader {
+ public:
+  explicit QueryReader(const Request& request) : left_(request.target.query) {}
+  std::optional<std::string> text(const std::string& name);
+  /// Without a sign, at most `highest`.
+  std::optional<std::uint64_t> number(const std::string& name, std::uint64_t highest);
+  /// Errors: Syntax (not a number, unknown parameter), LimitExceeded; the first one found.
+  Result<void> finish();
+
+ private:
+  std::map<std::string, std::string> left_;
+  std::optional<Error> error_;
+};
+
+/// All of `text` as a number without sign. Errors: Syntax.
+Result<std::uint64_t> parse_unsigned(std::string_view text);
+
+}  // namespace dripline::api

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+#include "server/api/event_hub.hpp"
+
+namespace dripline::api {
+
+/// Gives a long body piece by piece; nullopt ends it. Called on one worker at a time.
+using BodySource = std::function<Result<std::optional<std::string>>()>;
+
+/// What a handler answers. The body is `body`, or comes from `source`, or is the stream `events`.
+struct Response {
+  int status = 200;
+  std::string content_type;
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string body;
+  BodySource source;
+  std::optional<std::uint64_t> source_length;  ///< when known beforehand
+  std::shared_ptr<EventSubscription> events;
+};
+
+Response json_response(int status, const nlohmann::json& value);
+Response no_content();
+/// `{"error":{"code","message"}}` with the status that belongs to the code.
+Response error_response(const Error& error);
+Response error_response(int status, const Error& error);
+int http_status(Errc code);
+std::string to_text(const nlohmann::json& value);
+
+}  // namespace dripline::api

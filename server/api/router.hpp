@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/api/request.hpp"
+#include "server/api/response.hpp"
+
+namespace dripline::api {
+
+using Handler = std::function<Response(const Request&)>;
+
+/// Finds the handler of a method and a path. Patterns are written as in README.md:
+/// `/api/v1/programs/{name}`; `{name}` matches one segment, never an empty one.
+class Router {
+ public:
+  void add(std::string method, std::string_view pattern, Handler handler);
+  /// Runs the handler. No route: 404, or 405 with Allow when only the method is wrong.
+  Response handle(Request request) const;
+
+  struct Route {
+    std::string method;
+    std::string pattern;
+    std::vector<std::string> segments;
+    Handler handler;
+  };
+  const std::vector<Route>& routes() const { return routes_; }
+
+ private:
+  std::vector<Route> routes_;
+};
+
+}  // namespace dripline::api

@@ -1,0 +1,108 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+namespace {
+
+/// The entries of all pages of a listing.
+template <class List>
+Result<std::uint64_t> count_all(const List& list) {
+  std::uint64_t count = 0;
+  for (;;) {
+    const auto entries = list(storage::Page{.limit = kMaxLimit, .offset = count});
+    if (!entries) return fail(entries.error());
+    count += entries->size();
+    if (entries->size() < kMaxLimit) return count;
+  }
+}
+
+Result<std::uint64_t> count_active_runs(storage::Store& store) {
+  storage::RunFilter filter;
+  filter.state = storage::RunState::Active;
+  return count_all([&](storage::Page page) { return store.runs(filter, page); });
+}
+
+Response describe_server(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto programs = count_all([&](storage::Page page) { return services.programs.list(page); });
+  if (!programs) return error_response(programs.error());
+  const auto active = count_active_runs(services.store);
+  if (!active) return error_response(active.error());
+  const auto machines = services.feeds.machines();
+  const auto connected =
+      std::ranges::count_if(machines, [](const auto& view) { return view.is_connected; });
+  const ServerFacts& facts = services.facts;
+  const std::chrono::duration<double> uptime = services.clock.now() - facts.started;
+  return json_response(
+      200, {{"name", facts.name},
+            {"version", facts.version},
+            {"started", to_iso8601(facts.started)},
+            {"uptime_s", uptime.count()},
+            {"data_dir", facts.data_dir},
+            {"machines", machines.size()},
+            {"machines_connected", connected},
+            {"programs", *programs},
+            {"runs_active", *active},
+            {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
+}
+
+Response list_audit(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto entries = services.audit.entries(page);
+  if (!entries) return error_response(entries.error());
+  auto list = nlohmann::json::array();
+  for (const auto& entry : *entries) list.push_back(audit_json(entry));
+  return json_response(200, {{"entries", std::move(list)}});
+}
+
+/// A listener first hears how every machine stands, then what changes.
+Response open_events(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto machine = query.text("machine");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (machine) {
+    if (const auto known = services.feeds.machine(*machine); !known) {
+      return error_response(known.error());
+    }
+  }
+  Response response;
+  response.events = services.events.subscribe(machine);
+  if (!response.events) {
+    return error_response(
+        {Errc::Busy, fmt::format("{} listeners are connected already: at most {}",
+                                 EventHub::kMaxSubscriptions, EventHub::kMaxSubscriptions)});
+  }
+  for (const auto& view : services.feeds.machines()) {
+    response.events->push(
+        {.kind = "machine", .machine = view.machine.name, .data = to_text(machine_json(view))});
+  }
+  response.content_type = "text/event-stream";
+  return response;
+}
+
+}  // namespace
+
+void add_server_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/health", [](const Request&) {
+    return json_response(200, {{"status", "ok"}});
+  });
+  router.add("GET", "/api/v1/openapi.json", [](const Request&) {
+    Response response;
+    response.content_type = "application/json";
+    response.body = openapi_text();
+    return response;
+  });
+  router.add("GET", "/api/v1/server",
+             [&](const Request& request) { return describe_server(services, request); });
+  router.add("GET", "/api/v1/audit",
+             [&](const Request& request) { return list_audit(services, request); });
+  router.add("GET", "/api/v1/events",
+             [&](const Request& request) { return open_events(services, request); });
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,154 @@
+#include "server/api/views.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dripline::api {
+
+using nlohmann::json;
+
+namespace {
+
+json optional_text(const std::string& text) {
+  return text.empty() ? json(nullptr) : json(text);
+}
+
+json optional_time(const std::optional<UtcTime>& time) {
+  return time ? json(to_iso8601(*time)) : json(nullptr);
+}
+
+json sequence_number(std::int64_t sequence) {
+  return sequence < 0 ? json(nullptr) : json(sequence);
+}
+
+/// X, Y and Z always; the other axes when they are somewhere.
+json position_json(const std::array<double, 9>& position) {
+  constexpr std::string_view kAxes = "XYZABCUVW";
+  constexpr std::size_t kAlways = 3;
+  json axes = json::object();
+  for (std::size_t i = 0; i < kAxes.size(); ++i) {
+    if (i < kAlways || position[i] != 0) axes[std::string(1, kAxes[i])] = position[i];
+  }
+  return axes;
+}
+
+json status_json(const dds::Status& status) {
+  return {{"time", to_iso8601(status.time)},
+          {"execution", dds::to_string(status.execution)},
+          {"mode", dds::to_string(status.mode)},
+          {"run", optional_text(status.run)},
+          {"program", optional_text(status.program)},
+          {"sent", status.sent},
+          {"accepted", status.accepted},
+          {"executed", status.executed},
+          {"total_bytes", status.total_bytes},
+          {"offset", status.offset},
+          {"line", status.line},
+          {"sequence", sequence_number(status.sequence)},
+          {"position", position_json(status.position)},
+          {"feed_mm_per_min", status.feed_mm_per_min},
+          {"spindle_rpm", status.spindle_rpm},
+          {"feed_override", status.feed_override},
+          {"rapid_override", status.rapid_override},
+          {"spindle_override", status.spindle_override},
+          {"buffered_seconds", status.buffered_seconds},
+          {"single_block", status.single_block},
+          {"message", optional_text(status.message)},
+          {"outbox", status.outbox}};
+}
+
+}  // namespace
+
+json upload_json(const storage::Upload& upload, std::uint64_t max_piece) {
+  return {{"id", upload.id},
+          {"program", upload.program},
+          {"received", upload.received},
+          {"max_piece", max_piece}};
+}
+
+json revision_json(const storage::Revision& revision) {
+  return {{"program", revision.program},
+          {"revision", revision.number},
+          {"size", revision.size},
+          {"sha256", revision.content.hex()},
+          {"control", optional_text(revision.control)},
+          {"comment", optional_text(revision.comment)},
+          {"author", optional_text(revision.author)},
+          {"created", to_iso8601(revision.created)}};
+}
+
+json program_json(const storage::ProgramSummary& program) {
+  json view = revision_json(program.latest);
+  view.erase("program");
+  view["name"] = program.latest.program;
+  view["revisions"] = program.revisions;
+  return view;
+}
+
+json machine_json(const feeds::MachineView& view) {
+  return {{"name", view.machine.name},
+          {"control", optional_text(view.machine.control)},
+          {"description", optional_text(view.machine.description)},
+          {"gateway_version", optional_text(view.machine.gateway_version)},
+          {"connected", view.is_connected},
+          {"first_seen", to_iso8601(view.machine.first_seen)},
+          {"last_seen", to_iso8601(view.machine.last_seen)},
+          {"status", view.status ? status_json(*view.status) : json(nullptr)}};
+}
+
+json run_json(const storage::Run& run) {
+  return {{"id", run.id},
+          {"machine", run.machine},
+          {"program", run.program},
+          {"revision", run.revision},
+          {"sha256", run.content.hex()},
+          {"size", run.size},
+          {"control", optional_text(run.control)},
+          {"state", storage::to_string(run.state)},
+          {"sent", run.counters.sent},
+          {"accepted", run.counters.accepted},
+          {"executed", run.counters.executed},
+          {"line", run.line},
+          {"sequence", sequence_number(run.sequence)},
+          {"reason", optional_text(run.reason)},
+          {"content_verified", run.content_verified ? json(*run.content_verified) : json(nullptr)},
+          {"author", optional_text(run.author)},
+          {"created", to_iso8601(run.created)},
+          {"started", optional_time(run.started)},
+          {"ended", optional_time(run.ended)},
+          {"outputs", run.outputs}};
+}
+
+json record_json(const storage::Record& record) {
+  return {{"machine", record.machine},
+          {"epoch", record.epoch},
+          {"number", record.number},
+          {"time", to_iso8601(record.time)},
+          {"run", optional_text(record.run)},
+          {"kind", record.kind},
+          {"block", record.block},
+          {"line", record.line},
+          {"sequence", sequence_number(record.sequence)},
+          {"device", optional_text(record.device)},
+          {"text", record.text}};
+}
+
+json report_json(const storage::Run& run) {
+  return {{"run", run.id},
+          {"machine", run.machine},
+          {"program", run.program},
+          {"revision", run.revision},
+          {"state", storage::to_string(run.state)},
+          {"lines", run.outputs},
+          {"started", optional_time(run.started)},
+          {"ended", optional_time(run.ended)}};
+}
+
+json audit_json(const storage::AuditEntry& entry) {
+  return {{"time", to_iso8601(entry.time)},
+          {"who", entry.who},
+          {"action", entry.action},
+          {"subject", entry.subject},
+          {"detail", entry.detail}};
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "server/feeds/feed_control.hpp"
+#include "storage/store.hpp"
+
+/// The JSON of everything the API shows. Pure; absent values are null, times ISO 8601 UTC.
+namespace dripline::api {
+
+nlohmann::json upload_json(const storage::Upload& upload, std::uint64_t max_piece);
+nlohmann::json revision_json(const storage::Revision& revision);
+nlohmann::json program_json(const storage::ProgramSummary& program);
+nlohmann::json machine_json(const feeds::MachineView& view);
+nlohmann::json run_json(const storage::Run& run);
+nlohmann::json record_json(const storage::Record& record);
+nlohmann::json report_json(const storage::Run& run);
+nlohmann::json audit_json(const storage::AuditEntry& entry);
+
+}  // namespace dripline::api
