@@ -1,0 +1,91 @@
+#include <pthread.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <csignal>
+#include <ctime>
+
+#include "server/app/server.hpp"
+#include "server/app/settings.hpp"
+
+namespace dripline::app {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUnsafe = 2;
+
+Result<void> open_log(const Settings& settings) {
+  const auto level = spdlog::level::from_str(settings.log_level);
+  if (level == spdlog::level::off && settings.log_level != "off") {
+    return fail(Errc::Denied, "log-level '{}' is not debug, info, warn, error or off",
+                settings.log_level);
+  }
+  try {
+    auto logger = settings.log.empty() ? spdlog::stderr_logger_mt("dncd")
+                                       : spdlog::basic_logger_mt("dncd", settings.log);
+    logger->set_level(level);
+    logger->flush_on(spdlog::level::info);
+    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+    spdlog::set_default_logger(std::move(logger));
+  } catch (const spdlog::spdlog_ex& e) {
+    return fail(Errc::Io, "log file: {}", e.what());
+  }
+  return {};
+}
+
+int complain(const Error& error) {
+  fmt::print(stderr, "dncd: {}\n", error.what);
+  return error.code == Errc::Denied ? kUnsafe : kFailed;
+}
+
+/// Blocked in every thread and waited for in this one: no handler code, no races.
+sigset_t block_end_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  return signals;
+}
+
+void serve_until(const sigset_t& signals, Server& server) {
+  constexpr timespec kTidyInterval{.tv_sec = 3600, .tv_nsec = 0};
+  while (sigtimedwait(&signals, nullptr, &kTidyInterval) < 0) {
+    if (errno == EAGAIN) server.tidy();
+  }
+}
+
+int run(const Settings& settings) {
+  const sigset_t signals = block_end_signals();
+  if (auto opened = open_log(settings); !opened) return complain(opened.error());
+  const SystemClock clock;
+  auto server = Server::start(settings, clock);
+  if (!server) {
+    spdlog::error("not started: {}", server.error().what);
+    // Without a log file the line above is on standard error already.
+    if (settings.log.empty()) return server.error().code == Errc::Denied ? kUnsafe : kFailed;
+    return complain(server.error());
+  }
+  spdlog::info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
+  fmt::print("dncd listening at {}\n", (*server)->url());
+  std::fflush(stdout);
+  serve_until(signals, **server);
+  spdlog::info("stopping");
+  server->reset();
+  spdlog::info("stopped");
+  spdlog::shutdown();
+  return 0;
+}
+
+}  // namespace
+}  // namespace dripline::app
+
+int main(int argc, char** argv) {
+  const auto line = dripline::app::read_command_line(argc, argv);
+  if (!line.print.empty()) {
+    fmt::print(line.exit_code == 0 ? stdout : stderr, "{}", line.print);
+    return line.exit_code;
+  }
+  return dripline::app::run(line.settings);
+}

@@ -1,0 +1,148 @@
+#include "server/app/server.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+#include <array>
+
+#include "protocol/dds/endpoint.hpp"
+#include "server/api/api.hpp"
+#include "server/api/http_server.hpp"
+#include "server/feeds/feed_service.hpp"
+#include "server/library/audit_trail.hpp"
+#include "server/library/dialect_catalog.hpp"
+#include "server/library/programs.hpp"
+#include "storage/sqlite_store.hpp"
+
+namespace dripline::app {
+namespace {
+
+constexpr auto kUploadLife = std::chrono::hours(24);
+constexpr const char* kTokenName = "admin";  ///< who, in the audit trail
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "dncd";
+  return name.data();
+}
+
+dds::NetworkOptions network_options(const Settings& settings) {
+  dds::NetworkOptions network;
+  network.domain = settings.dds_domain;
+  network.interface = settings.dds_interface;
+  network.tag = settings.dds_tag;
+  network.discovery_interval_ms = settings.discovery_interval_ms;
+  network.lease_ms = settings.lease_ms;
+  return network;
+}
+
+Result<api::HttpOptions> http_options(const Settings& settings) {
+  const auto address = api::parse_http_address(settings.http);
+  if (!address) return fail(Errc::Denied, "http: {}", address.error().what);
+  if (settings.tls_certificate.empty() != settings.tls_key.empty()) {
+    return fail(Errc::Denied, "tls-certificate and tls-key belong together: give both or none");
+  }
+  api::HttpOptions options;
+  options.address = *address;
+  options.max_body = api::Api::kMaxBody;
+  if (!settings.tls_key.empty()) {
+    options.tls = api::TlsFiles{.certificate = settings.tls_certificate, .key = settings.tls_key};
+  }
+  if (auto safe = api::check_exposure(*address, options.tls.has_value()); !safe) {
+    return fail(safe.error());
+  }
+  return options;
+}
+
+}  // namespace
+
+/// In the order of their making; each may use those above it.
+struct Server::Parts {
+  Parts(StateFolder state_folder, std::unique_ptr<storage::Store> opened, const Settings& settings,
+        const Clock& system_clock, std::string token)
+      : clock(system_clock),
+        folder(std::move(state_folder)),
+        store(std::move(opened)),
+        audit(*store, clock),
+        programs(*store, clock, catalog, audit),
+        feeds(*store, clock, {}, api::publish_to(events)),
+        api({.programs = programs,
+             .feeds = feeds,
+             .store = *store,
+             .audit = audit,
+             .events = events,
+             .clock = clock,
+             .facts = {.name = host_name(),
+                       .version = DRIPLINE_VERSION,
+                       .data_dir = folder.path().string(),
+                       .started = clock.now(),
+                       .dds_domain = settings.dds_domain},
+             .dds_rejected = [this] { return feeds.rejected().messages; }},
+            {.name = kTokenName, .secret = std::move(token)}) {}
+
+  const Clock& clock;
+  StateFolder folder;
+  std::unique_ptr<storage::Store> store;
+  library::DialectCatalog catalog;
+  library::AuditTrail audit;
+  library::Programs programs;
+  api::EventHub events;
+  feeds::FeedService feeds;
+  api::Api api;
+  std::unique_ptr<api::HttpServer> http;
+  std::string url;
+};
+
+Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+Server::~Server() {
+  parts_->folder.withdraw();
+  parts_->feeds.stop_waiting();
+  parts_->events.close();
+  parts_->http.reset();
+  parts_->feeds.end();
+}
+
+Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock) {
+  const auto options = http_options(settings);
+  if (!options) return fail(options.error());
+  auto folder = StateFolder::open(settings.state);
+  if (!folder) return fail(folder.error());
+  auto store = storage::SqliteStore::open({.file = folder->database()}, clock);
+  if (!store) return fail(store.error());
+  auto token = folder->token();
+  if (!token) return fail(token.error());
+  std::unique_ptr<Server> server(new Server(
+      std::make_unique<Parts>(*folder, *std::move(store), settings, clock, *std::move(token))));
+  Parts& parts = *server->parts_;
+  auto endpoint = dds::ServerEndpoint::open(network_options(settings), parts.feeds.handlers());
+  if (!endpoint) return fail(endpoint.error());
+  if (auto begun = parts.feeds.begin(*std::move(endpoint)); !begun) return fail(begun.error());
+  server->tidy();
+  auto http = api::HttpServer::start(*options, [&api = parts.api](api::Request request) {
+    return api.handle(std::move(request));
+  });
+  if (!http) return fail(http.error());
+  parts.http = *std::move(http);
+  api::HttpAddress bound = options->address;
+  bound.port = parts.http->port();
+  parts.url = fmt::format("{}://{}", options->tls ? "https" : "http", bound.text());
+  const auto announced = parts.folder.announce(
+      {.url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag});
+  if (!announced) return fail(announced.error());
+  return server;
+}
+
+const std::string& Server::url() const {
+  return parts_->url;
+}
+
+void Server::tidy() {
+  const auto dropped = parts_->store->drop_uploads_before(parts_->clock.now() - kUploadLife);
+  if (!dropped) {
+    spdlog::warn("abandoned uploads not dropped: {}", dropped.error().what);
+  } else if (*dropped > 0) {
+    spdlog::info("dropped {} abandoned uploads", *dropped);
+  }
+}
+
+}  // namespace dripline::app

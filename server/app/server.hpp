@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "server/app/settings.hpp"
+#include "server/app/state_folder.hpp"
+
+namespace dripline::app {
+
+/// The whole server, put together. The only place that knows all its parts.
+class Server {
+ public:
+  /// Listens and takes part in DDS when it returns. Errors: Denied (unsafe settings), Io, Busy
+  /// (another server uses the folder), Corrupt, Unsupported.
+  static Result<std::unique_ptr<Server>> start(const Settings& settings, const Clock& clock);
+  /// In order: accepts nothing, flushes storage, leaves DDS.
+  ~Server();
+
+  const std::string& url() const;
+  /// Now and then: drops uploads that nobody went on with.
+  void tidy();
+
+ private:
+  struct Parts;
+  explicit Server(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dripline::app

@@ -1,0 +1,97 @@
+#include "server/app/state_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/rand.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace dripline::app {
+namespace {
+
+tl::unexpected<Error> fail_with_errno(const std::filesystem::path& path) {
+  return fail(Errc::Io, "{}: {}", path.string(), std::generic_category().message(errno));
+}
+
+/// Writes a new file, onto the disk, that only its owner can read.
+Result<void> write_private_file(const std::filesystem::path& path, const std::string& text) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (file < 0) return fail_with_errno(path);
+  const bool is_written =
+      ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+      ::fsync(file) == 0;
+  const auto failure = fail_with_errno(path);
+  ::close(file);
+  if (is_written) return {};
+  ::unlink(path.c_str());
+  return failure;
+}
+
+}  // namespace
+
+Result<StateFolder> StateFolder::open(const std::string& path) {
+  std::error_code ec;
+  const bool is_new = std::filesystem::create_directories(path, ec);
+  if (ec) return fail(Errc::Io, "state folder '{}': {}", path, ec.message());
+  if (is_new) std::filesystem::permissions(path, std::filesystem::perms::owner_all, ec);
+  return StateFolder(std::filesystem::absolute(path));
+}
+
+Result<std::string> StateFolder::token() const {
+  struct stat facts {};
+  if (::stat(token_file().c_str(), &facts) != 0) {
+    if (auto made = make_token(); !made) return fail(made.error());
+    if (::stat(token_file().c_str(), &facts) != 0) return fail_with_errno(token_file());
+  }
+  if ((facts.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
+    return fail(Errc::Denied, "{} can be read by others: chmod 600 it, or remove it for a new one",
+                token_file().string());
+  }
+  std::ifstream file(token_file());
+  std::string token;
+  std::getline(file, token);
+  constexpr std::size_t kShortest = 32;
+  if (token.size() < kShortest) {
+    return fail(Errc::Denied, "{} holds a token of {} characters: at least {}",
+                token_file().string(), token.size(), kShortest);
+  }
+  return token;
+}
+
+Result<void> StateFolder::make_token() const {
+  std::array<unsigned char, 32> bytes{};
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
+    return fail(Errc::Io, "no random numbers for a token");
+  }
+  std::string text;
+  for (const unsigned char byte : bytes) fmt::format_to(std::back_inserter(text), "{:02x}", byte);
+  return write_private_file(token_file(), text + "\n");
+}
+
+Result<void> StateFolder::announce(const Announcement& announcement) const {
+  const nlohmann::json json{
+      {"url", announcement.url},
+      {"pid", ::getpid()},
+      {"token_file", token_file().string()},
+      {"dds", {{"domain", announcement.dds_domain}, {"tag", announcement.dds_tag}}}};
+  const auto fresh = path_ / "dncd.json.new";
+  std::error_code ec;
+  std::filesystem::remove(fresh, ec);
+  if (auto written = write_private_file(fresh, json.dump() + "\n"); !written) return written;
+  std::filesystem::rename(fresh, announcement_file(), ec);
+  if (ec) return fail(Errc::Io, "{}: {}", announcement_file().string(), ec.message());
+  return {};
+}
+
+void StateFolder::withdraw() const {
+  std::error_code ec;
+  std::filesystem::remove(announcement_file(), ec);
+}
+
+}  // namespace dripline::app

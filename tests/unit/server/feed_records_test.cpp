@@ -1,0 +1,154 @@
+// What the machines report, and when it is acknowledged.
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/feed_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+/// A store on a disk that is full while `is_full`.
+struct FullDiskStore final : test_support::StoreDecorator {
+  using StoreDecorator::StoreDecorator;
+  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+    if (is_full && !batch.records.empty()) {
+      ++refused;
+      return fail(Errc::Io, "database or disk is full");
+    }
+    return StoreDecorator::store_records(batch);
+  }
+  std::atomic<bool> is_full{false};
+  std::atomic<int> refused{0};
+};
+
+class FeedRecords : public FeedTest {
+ protected:
+  std::string running(const std::string& text) {
+    push("O0100", text);
+    if (!service_) start_service();
+    announce();
+    answer_orders(true);
+    const auto run = start("O0100");
+    EXPECT_TRUE(run) << run.error().what;
+    return run ? run->id : "";
+  }
+};
+
+TEST_F(FeedRecords, AreAcknowledgedOnceTheyAreStored) {
+  const std::string run = running("M30\n");
+  for (std::uint64_t n = 1; n <= 100; ++n) {
+    record(n, run, dds::RecordKind::Output, fmt::format("LINE {}", n));
+  }
+  ASSERT_TRUE(wait_ack(100));
+  const auto stored = store_->records(run, "output", {.limit = 1000, .offset = 0});
+  ASSERT_TRUE(stored);
+  ASSERT_EQ(stored->size(), 100u);
+  EXPECT_EQ(stored->back().text, "LINE 100");
+}
+
+TEST_F(FeedRecords, AreStoredOnceHoweverOftenTheyCome) {
+  const std::string run = running("M30\n");
+  for (int i = 0; i < 3; ++i) {
+    for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
+  }
+  ASSERT_TRUE(wait_ack(5));
+  service_->end();
+  EXPECT_EQ(store_->records(run, "output", {.limit = 1000, .offset = 0})->size(), 5u);
+}
+
+TEST_F(FeedRecords, BehindAGapAreNotAcknowledged) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::Output, "one");
+  record(3, run, dds::RecordKind::Output, "three");
+  ASSERT_TRUE(wait_ack(1));
+  record(2, run, dds::RecordKind::Output, "two");
+  record(3, run, dds::RecordKind::Output, "three");
+  ASSERT_TRUE(wait_ack(3));
+  EXPECT_EQ(store_->records(run, "output", {})->size(), 3u);
+}
+
+TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
+  start_service();
+  announce();
+  record(1, "a-run-of-another-server", dds::RecordKind::Output, "X");
+  record(2, "a-run-of-another-server", dds::RecordKind::RunEnded, completed("X", 1));
+  EXPECT_TRUE(wait_ack(2));
+}
+
+TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
+  FullDiskStore store(*store_);
+  start_service(store);
+  const std::string run = running("M30\n");
+  store.is_full = true;
+  for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (store.refused == 0 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+  EXPECT_GT(store.refused, 0);
+  EXPECT_TRUE(written_->acks.empty());
+  store.is_full = false;
+  EXPECT_TRUE(wait_ack(5));
+  EXPECT_EQ(store_->records(run, "output", {})->size(), 5u);
+  service_.reset();  // before the store it uses
+}
+
+TEST_F(FeedRecords, TellANewcomerWhatIsOnDiskAlready) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::Output, "X");
+  ASSERT_TRUE(wait_ack(1));
+  {
+    const std::lock_guard lock(written_->mutex);
+    written_->acks.clear();
+  }
+  announce();
+  EXPECT_TRUE(wait_ack(1));
+}
+
+TEST_F(FeedRecords, EndARunWithItsCountersAndAVerdictOnItsBytes) {
+  const std::string text = "O1\nM30\n";
+  const std::string run = running(text);
+  record(1, run, dds::RecordKind::RunStarted,
+         dds::encode(dds::RunStartText{
+             .program = "O0100", .revision = sha256(text).hex(), .control = "centurion"}));
+  record(2, run, dds::RecordKind::RunEnded, completed(text, 2));
+  ASSERT_TRUE(wait_ack(2));
+  const auto ended = store_->run(run);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->state, storage::RunState::Completed);
+  EXPECT_EQ(ended->counters.executed, 2u);
+  EXPECT_TRUE(ended->started.has_value());
+  EXPECT_EQ(ended->content_verified, true);
+  EXPECT_TRUE(
+      wait_told(runs_, [](const Run& r) { return r.state == storage::RunState::Completed; }));
+}
+
+TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
+  const std::string text = "O1\nG0 X1\nM30\n";
+  const std::string run = running(text);
+  dds::RunEndText cut;
+  cut.outcome = dds::RunOutcome::Interrupted;
+  cut.reason = "interrupted at block 1";
+  cut.executed = 1;
+  cut.content_length = 5;
+  cut.content_sha256 = sha256(text.substr(0, 5)).hex();
+  record(1, run, dds::RecordKind::RunEnded, dds::encode(cut));
+  ASSERT_TRUE(wait_ack(1));
+  const auto ended = store_->run(run);
+  EXPECT_EQ(ended->state, storage::RunState::Interrupted);
+  EXPECT_EQ(ended->reason, "interrupted at block 1");
+  EXPECT_EQ(ended->content_verified, true);
+}
+
+TEST_F(FeedRecords, SayWhenTheMachineExecutedOtherBytes) {
+  const std::string run = running("O1\nM30\n");
+  record(1, run, dds::RecordKind::RunEnded, completed("O1\nM31\n", 2));
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(store_->run(run)->content_verified, false);
+}
+
+TEST_F(FeedRecords, WithATextNobodyUnderstandsAreStoredAllTheSame) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::RunEnded, "{broken");
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
+}
+
+}  // namespace
+}  // namespace dripline::server_test

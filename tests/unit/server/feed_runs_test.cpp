@@ -1,0 +1,186 @@
+// Starting runs, ordering, and bringing stored states and machines together.
+#include "tests/unit/server/feed_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+class FeedRuns : public FeedTest {
+ protected:
+  void status(const std::string& run, std::uint32_t outbox = 0) {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.time = clock_.now();
+    status.run = run;
+    status.outbox = outbox;
+    network_.on_status(status);
+  }
+  /// An Ordered run of a former life of the server.
+  std::string stored_run() {
+    const auto revision = push("O0100", "M30\n");
+    add_machine("lathe-1");
+    Run run;
+    run.id = "old-run";
+    run.machine = "lathe-1";
+    run.program = revision.program;
+    run.revision = revision.number;
+    run.content = revision.content;
+    run.size = revision.size;
+    run.control = "centurion";
+    run.created = clock_.now();
+    EXPECT_TRUE(store_->create_run(run));
+    return run.id;
+  }
+  /// Waits until the stored run is in this state; the service compares every two seconds.
+  bool wait_state(const std::string& run, storage::RunState state) {
+    return wait_told(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
+  }
+};
+
+TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
+  const auto revision = push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_orders(true);
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, storage::RunState::Active);
+  EXPECT_EQ(run->author, "cam");
+  const dds::Order& order = written_->orders.at(0);
+  EXPECT_EQ(order.action, dds::OrderAction::Start);
+  EXPECT_EQ(order.run, run->id);
+  EXPECT_EQ(order.revision, revision.content.hex());
+  EXPECT_EQ(order.size, 4u);
+  EXPECT_GT(order.expires, clock_.now());
+}
+
+TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_orders(false, "the door is open");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Busy);
+  EXPECT_NE(run.error().what.find("the door is open"), std::string::npos);
+  const auto runs = store_->runs({}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().state, storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLate) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_EQ(store_->runs({}, {})->front().state, storage::RunState::Refused);
+  const dds::Order order = written_->orders.at(0);
+  network_.on_order_result(
+      {.machine = order.machine, .id = order.id, .accepted = true, .reason = {}});
+  ASSERT_TRUE(written_->wait([&] { return written_->orders.size() == 2; }));
+  EXPECT_EQ(written_->orders[1].action, dds::OrderAction::Abort);
+  EXPECT_EQ(written_->orders[1].run, order.run);
+}
+
+TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
+  push("O0100", "M30\n");
+  start_service();
+  EXPECT_EQ(start("O0100").error().code, Errc::NotFound);
+  announce();
+  network_.on_lost("lathe-1");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_NE(run.error().what.find("last seen 2023-11-14T"), std::string::npos) << run.error().what;
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+}
+
+TEST_F(FeedRuns, AreOnlyOfProgramsForTheMachinesControl) {
+  push("H1", "0 BEGIN PGM\n", "tnc155");
+  start_service();
+  announce();
+  const auto run = start("H1");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("tnc155"), std::string::npos);
+}
+
+TEST_F(FeedRuns, AreOneAtATimeOnAMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_orders(true);
+  ASSERT_TRUE(start("O0100"));
+  EXPECT_EQ(start("O0100").error().code, Errc::Busy);
+}
+
+TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_orders(true);
+  const std::string run = start("O0100")->id;
+  ASSERT_TRUE(service_->order(
+      {.run = run, .action = dds::OrderAction::FeedOverride, .argument = {}, .value = 0.5}));
+  EXPECT_EQ(written_->orders.back().value, 0.5);
+  EXPECT_EQ(written_->orders.back().run, run);
+  record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  ASSERT_TRUE(wait_ack(1));
+  const auto late =
+      service_->order({.run = run, .action = dds::OrderAction::Hold, .argument = {}, .value = 0});
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().code, Errc::ModalConflict);
+  EXPECT_EQ(service_->order({.run = "none"}).error().code, Errc::NotFound);
+}
+
+TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
+  const std::string run = stored_run();
+  start_service();
+  announce();
+  status(run);
+  EXPECT_TRUE(wait_state(run, storage::RunState::Active));
+}
+
+TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThem) {
+  const std::string run = stored_run();
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  feeds::OrderDesk desk(endpoint, clock_, {}, [](const dds::Order&) {});
+  std::mutex state_mutex;
+  feeds::RunWatch watch({.store = *store_,
+                         .clock = clock_,
+                         .desk = desk,
+                         .state_mutex = state_mutex,
+                         .on_change = [](const Run&) {}});
+  ASSERT_TRUE(watch.load());
+  feeds::MachineView view;
+  view.machine.name = "lathe-1";
+  view.is_connected = true;
+  view.status.emplace();
+  view.status->outbox = 3;
+  const auto compare_twice = [&] {
+    watch.compare({view});
+    clock_.advance(feeds::RunWatch::kAbsence);
+    watch.compare({view});
+    return store_->run(run)->state;
+  };
+  EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
+  view.is_connected = false;
+  view.status->outbox = 0;
+  EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
+  view.is_connected = true;
+  EXPECT_EQ(compare_twice(), storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
+  start_service();
+  announce();
+  status("", 5);
+  EXPECT_TRUE(wait_told(machines_, [](const feeds::MachineView& view) {
+    return view.is_connected && view.status && view.status->outbox == 5;
+  }));
+  EXPECT_EQ(store_->machine("lathe-1")->control, "centurion");
+}
+
+}  // namespace
+}  // namespace dripline::server_test
