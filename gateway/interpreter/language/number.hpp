@@ -53,13 +53,9 @@ inline double to_double(std::uint64_t digits, int scale) {
   return value;
 }
 
-}  // namespace number_detail
-
-/// Reads [+|-] digits [. digits] at `at` and returns the first character behind it; the caller
-/// looks at `number.fault`. No exponent, no locale. Leading zeros do not count as significant,
-/// trailing ones do. About twice as fast as std::from_chars on the numbers of NC programs.
+/// Numbers with blanks within, with too many digits or with a fault.
 template <NumberRules kRules = NumberRules{}>
-inline const char* read_number(const char* at, const char* end, NumberText& number) {
+const char* read_any_number(const char* at, const char* end, NumberText& number) {
   number = NumberText{};
   const auto skip = [&] {
     if constexpr (kRules.skip_blanks) {
@@ -80,7 +76,7 @@ inline const char* read_number(const char* at, const char* end, NumberText& numb
     const auto digit = static_cast<unsigned>(static_cast<unsigned char>(*at)) - '0';
     if (digit <= 9) {
       if (digits != 0 || digit != 0) ++significant;
-      if (significant <= number_detail::kMaxDigits) digits = digits * 10 + digit;
+      if (significant <= kMaxDigits) digits = digits * 10 + digit;
       number.has_point ? ++trailing : ++leading;
       continue;
     }
@@ -101,15 +97,62 @@ inline const char* read_number(const char* at, const char* end, NumberText& numb
     number.fault = NumberFault::NoDigits;
     return at;
   }
-  if (significant > number_detail::kMaxDigits || trailing > number_detail::kMaxDigits ||
-      leading > number_detail::kMaxWritten) {
+  if (significant > kMaxDigits || trailing > kMaxDigits || leading > kMaxWritten) {
     number.fault = NumberFault::TooManyDigits;
     return at;
   }
   number.leading = static_cast<std::uint8_t>(leading);
   number.trailing = static_cast<std::uint8_t>(trailing);
-  const double value = number_detail::to_double(digits, trailing);
+  const double value = to_double(digits, trailing);
   number.value = number.is_negative ? -value : value;
+  return at;
+}
+
+}  // namespace number_detail
+
+/// Reads [+|-] digits [. digits] at `at` and returns the first character behind it; the caller
+/// looks at `number.fault`. No exponent, no locale. Leading zeros do not count as significant,
+/// trailing ones do. Reads the
+/// usual number in one pass of two tight loops.
+template <NumberRules kRules = NumberRules{}>
+inline const char* read_number(const char* begin, const char* end, NumberText& number) {
+  const auto is_digit = [&](const char* at) {
+    return at != end && static_cast<unsigned char>(*at - '0') <= 9;
+  };
+  const auto is_point = [&](const char* at) {
+    return at != end && (*at == '.' || (kRules.comma_point && *at == ','));
+  };
+  const char* at = begin;
+  const bool has_sign = at != end && (*at == '-' || *at == '+');
+  const bool is_negative = has_sign && *at == '-';
+  if (has_sign) ++at;
+  std::uint64_t digits = 0;
+  const char* const leading_begin = at;
+  for (; is_digit(at); ++at) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+  const auto leading = at - leading_begin;
+  const bool has_point = is_point(at);
+  if (has_point) ++at;
+  const char* const trailing_begin = at;
+  if (has_point) {
+    for (; is_digit(at); ++at) digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+  }
+  const auto trailing = at - trailing_begin;
+  if constexpr (kRules.skip_blanks) {
+    while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  }
+  const bool goes_on = is_point(at) || (kRules.skip_blanks && is_digit(at));
+  const auto written = leading + trailing;
+  if (goes_on || written == 0 || written > number_detail::kMaxDigits) [[unlikely]] {
+    return number_detail::read_any_number<kRules>(begin, end, number);
+  }
+  const double value = number_detail::to_double(digits, static_cast<int>(trailing));
+  number = NumberText{is_negative ? -value : value,
+                      static_cast<std::uint8_t>(leading),
+                      static_cast<std::uint8_t>(trailing),
+                      has_point,
+                      has_sign,
+                      is_negative,
+                      NumberFault::None};
   return at;
 }
 

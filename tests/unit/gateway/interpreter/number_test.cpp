@@ -47,6 +47,11 @@ TEST(Number, BlanksAndCommasAreRulesOfADialect) {
   constexpr NumberRules kBlanks{true, false};
   constexpr NumberRules kComma{false, true};
   EXPECT_EQ(read<kBlanks>(" - 1 . 23 4").value, -1.234);
+  EXPECT_EQ(read<kBlanks>("1 2 .").value, 12);
+  EXPECT_EQ(read<kBlanks>("1. 2 . 3").fault, NumberFault::SecondPoint);
+  std::size_t consumed = 0;
+  EXPECT_EQ(read<kBlanks>("1.5  Z2", &consumed).value, 1.5);
+  EXPECT_EQ(consumed, 5U) << "blanks behind a number are part of it";
   EXPECT_EQ(read<kComma>("20,005").value, 20.005);
   EXPECT_EQ(read("20,005").value, 20);
 }
