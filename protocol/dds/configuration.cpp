@@ -98,14 +98,16 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
   if (auto checked = check_options(options); !checked) return fail(checked.error());
   // ExternalDomainId: the number on the network; the one in this process may be another, so that
   // several ends fit into one process. The watermarks only have to be above what the writers'
-  // history can hold (qos.cpp), since a writer must never wait for an acknowledgement.
+  // history can hold (qos.cpp), since a writer must never wait for an acknowledgement. A closing
+  // endpoint waits for acknowledgements only as long as a live peer needs (Cyclone: 1 s).
   return fmt::format(
       R"(<CycloneDDS><Domain Id="any"><General><Interfaces>{}</Interfaces>)"
       "<AllowMulticast>false</AllowMulticast>{}</General>"
       "<Discovery><ExternalDomainId>{}</ExternalDomainId><Tag>{}</Tag>{}"
       "<SPDPInterval>{}ms</SPDPInterval><LeaseDuration>{}ms</LeaseDuration></Discovery>"
       "<Internal><Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHigh>16MB</WhcHigh>"
-      "<WhcHighInit>16MB</WhcHighInit></Watermarks></Internal></Domain></CycloneDDS>",
+      "<WhcHighInit>16MB</WhcHighInit></Watermarks>"
+      "<WriterLingerDuration>100ms</WriterLingerDuration></Internal></Domain></CycloneDDS>",
       interface_element(options.interface), size_elements(options.interface), options.domain,
       escape_xml(options.tag), place_elements(options, role), options.discovery_interval_ms,
       options.lease_ms);

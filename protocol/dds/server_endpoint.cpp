@@ -3,6 +3,7 @@
 #include <mutex>
 #include <shared_mutex>
 #include <thread>
+#include <utility>
 
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/dds/impl/attachment.hpp"
@@ -48,8 +49,9 @@ class Server final : public ServerEndpoint {
 
   template <class Message>
   Result<void> write_to(const Message& message, std::unique_ptr<Writer<Message>> Attachment::*way) {
+    // Not only after on_announce: a record that overtook it may be acknowledged.
     Attachment* machine = find(message.machine);
-    if (machine == nullptr || !machine->is_ready) {
+    if (machine == nullptr || !(machine->*way)->has_readers()) {
       return fail(Errc::NotFound, "machine {} is not connected", message.machine);
     }
     return (machine->*way)->write(message);
@@ -154,7 +156,7 @@ void Server::handle_lost(const std::string& machine) {
   if (attached == nullptr) return;
   attached->waiting.reset();
   attached->delivered.reset();
-  if (attached->is_ready.exchange(false) && handlers_.on_lost) handlers_.on_lost(machine);
+  if (std::exchange(attached->is_ready, false) && handlers_.on_lost) handlers_.on_lost(machine);
 }
 
 /// The first Announce of a machine makes us attach it; when the gateway hears what was made, it
@@ -199,7 +201,7 @@ void Server::try_ready(Attachment& machine) {
   if (!machine.is_matched_with(machine.waiting->participant)) return;  // the rest is to come
   Announce announce = std::move(machine.waiting->announce);
   machine.waiting.reset();
-  const bool was_ready = machine.is_ready.exchange(true);
+  const bool was_ready = std::exchange(machine.is_ready, true);
   if (was_ready && machine.delivered == announce) return;
   machine.delivered = announce;
   if (handlers_.on_announce) handlers_.on_announce(std::move(announce));

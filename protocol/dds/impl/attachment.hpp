@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <optional>
 
 #include "protocol/dds/impl/domain.hpp"
@@ -23,7 +22,7 @@ struct ServerTopics {
 
 /// The server's entities for one machine, in the machine's partition. They stay for the server's
 /// life: a machine that comes back finds them, and their number is bounded by kMaxMachines.
-/// `is_ready` may be read by any thread; the rest of the state is the watcher's.
+/// The state is the watcher's.
 struct Attachment {
   Entity publisher, subscriber;
   std::unique_ptr<Writer<RecordAck>> ack;
@@ -34,7 +33,7 @@ struct Attachment {
   std::unique_ptr<Reader<OrderResult>> order_result;
   std::unique_ptr<Reader<BlockRequest>> request;
 
-  std::atomic<bool> is_ready = false;
+  bool is_ready = false;              ///< on_announce was called, on_lost not since
   std::optional<Announced> waiting;   ///< heard us, but we are not yet matched with all of it
   std::optional<Announce> delivered;  ///< what on_announce was told last
 

@@ -47,6 +47,8 @@ class Writer {
   Result<void> write(const Message& message) {
     return write(message, [](auto&) {});
   }
+  /// Without one, what is written goes nowhere.
+  bool has_readers() const { return dds_get_matched_subscriptions(entity_.get(), nullptr, 0) > 0; }
   dds_entity_t get() const { return entity_.get(); }
 
  private:

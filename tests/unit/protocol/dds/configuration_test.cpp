@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace dripline::dds {
 namespace {
 
@@ -56,6 +58,7 @@ struct BadOption {
   std::string name;
   void (*spoil)(NetworkOptions&);
   Errc code;
+  friend std::ostream& operator<<(std::ostream& out, const BadOption& c) { return out << c.name; }
 };
 
 class BadNetworkOptions : public testing::TestWithParam<BadOption> {};

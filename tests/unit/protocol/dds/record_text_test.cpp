@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace dripline::dds {
 namespace {
 
@@ -55,6 +57,7 @@ TEST(RecordText, MembersOfNewerVersionsAreIgnored) {
 struct BadText {
   std::string name, text;
   Errc code = Errc::Syntax;
+  friend std::ostream& operator<<(std::ostream& out, const BadText& c) { return out << c.name; }
 };
 
 class BadAlarmText : public testing::TestWithParam<BadText> {};

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace dripline::dds {
 namespace {
 
 struct TextCase {
   std::string name, text;
   bool is_fine;
+  friend std::ostream& operator<<(std::ostream& out, const TextCase& c) { return out << c.name; }
 };
 
 class SendableText : public testing::TestWithParam<TextCase> {};
