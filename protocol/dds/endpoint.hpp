@@ -44,6 +44,10 @@ inline constexpr std::size_t kBlockWindow = 64;
 /// Machines one server attaches; announcements beyond are rejected.
 inline constexpr std::size_t kMaxMachines = 4096;
 
+/// A message written while a connection breaks or comes back can be lost without an error: whoever
+/// needs an answer repeats the message (records, requests, orders with their id, and the answers to
+/// repeated ones) until it has one.
+
 /// Every callback runs on a thread of the endpoint: it must return at once (post to your own
 /// executor) and must not call back into the endpoint or destroy it. Callbacks of different kinds
 /// may run at the same time. After the endpoint's destructor returns, no callback runs any more.
