@@ -159,6 +159,8 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   if (!view) return fail(view.error());
   const auto run = make_run(request, *view);
   if (!run) return run;
+  // It may have announced itself this very moment, and a run needs its machine in the store.
+  if (auto saved = store_.save_machine(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.create_run(*run); !created) return fail(created.error());
   parts->watch.watch(run->machine, run->id);
   announce_run(run->id);

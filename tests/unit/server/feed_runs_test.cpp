@@ -131,7 +131,9 @@ TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
       service_->order({.run = run, .action = dds::OrderAction::Hold, .argument = {}, .value = 0});
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().code, Errc::ModalConflict);
-  EXPECT_EQ(service_->order({.run = "none"}).error().code, Errc::NotFound);
+  feeds::OrderRequest stray;
+  stray.run = "none";
+  EXPECT_EQ(service_->order(stray).error().code, Errc::NotFound);
 }
 
 TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
@@ -179,7 +181,10 @@ TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
   EXPECT_TRUE(wait_told(machines_, [](const feeds::MachineView& view) {
     return view.is_connected && view.status && view.status->outbox == 5;
   }));
-  EXPECT_EQ(store_->machine("lathe-1")->control, "centurion");
+  service_->end();  // saves at the latest now
+  const auto machine = store_->machine("lathe-1");
+  ASSERT_TRUE(machine);
+  EXPECT_EQ(machine->control, "centurion");
 }
 
 }  // namespace

@@ -1,0 +1,209 @@
+// What the handlers answer, without sockets.
+#include "tests/unit/server/api_fixture.hpp"
+
+#include "server/api/views.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+class ApiHandlers : public ApiTest {};
+
+TEST_F(ApiHandlers, AskForTheToken) {
+  expect_error(call("GET", "/api/v1/server", {.body = {}, .headers = {}, .token = "wrong"}), 401,
+               "denied", "token");
+  expect_error(call("GET", "/api/v1/nothing", {.body = {}, .headers = {}, .token = ""}), 401,
+               "denied", "token");
+  EXPECT_EQ(get("/api/v1/server").status, 200);
+}
+
+TEST_F(ApiHandlers, TellTheirHealthToEverybody) {
+  EXPECT_EQ(call("GET", "/api/v1/health", {.body = {}, .headers = {}, .token = ""}).status, 200);
+  EXPECT_EQ(call("GET", "/api/v1/openapi.json", {.body = {}, .headers = {}, .token = ""}).status,
+            200);
+}
+
+TEST_F(ApiHandlers, SayWhatIsWrongWithAPathOrAMethod) {
+  expect_error(get("/api/v1/nothing"), 404, "not_found", "/api/v1/nothing");
+  const auto response = call("PATCH", "/api/v1/programs/O1");
+  expect_error(response, 405, "unsupported", "PATCH");
+  EXPECT_EQ(header(response, "Allow"), "GET, DELETE");
+}
+
+TEST_F(ApiHandlers, TakeAProgramThroughAnUpload) {
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  ASSERT_EQ(upload.status, 201) << upload.body;
+  EXPECT_EQ(json(upload)["max_piece"], api::Api::kMaxPiece);
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  const auto piece = call("PUT", path + "/content?offset=0", {.body = "O1\nM30\n", .headers = {}});
+  ASSERT_EQ(piece.status, 200) << piece.body;
+  EXPECT_EQ(json(get(path))["received"], 7);
+  const auto commit = post(path + "/commit", {{"sha256", sha256("O1\nM30\n").hex()}});
+  ASSERT_EQ(commit.status, 201) << commit.body;
+  EXPECT_EQ(json(commit)["revision"], 1);
+  EXPECT_EQ(json(commit)["author"], "admin");
+  EXPECT_FALSE(json(commit).contains("unchanged"));
+}
+
+TEST_F(ApiHandlers, SayThatACommitChangedNothing) {
+  push("O1", "O1\n");
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  call("PUT", path + "/content?offset=0", {.body = "O1\n", .headers = {}});
+  const auto commit = call("POST", path + "/commit");
+  EXPECT_EQ(commit.status, 200) << commit.body;
+  EXPECT_EQ(json(commit)["unchanged"], true);
+}
+
+TEST_F(ApiHandlers, RefusePiecesThatAreTooLongOrWithoutAPlace) {
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "") + "/content";
+  expect_error(call("PUT", path, {.body = "X", .headers = {}}), 400, "syntax", "offset");
+  expect_error(call("PUT", path + "?offset=-1", {.body = "X", .headers = {}}), 400, "syntax", "-1");
+  expect_error(call("PUT", path + "?offset=0",
+                    {.body = std::string(api::Api::kMaxPiece + 1, 'X'), .headers = {}}),
+               413, "limit_exceeded", "4194304");
+}
+
+TEST_F(ApiHandlers, ListAndShowPrograms) {
+  push("O1", "one\n");
+  push("O1", "two\n");
+  push("O2", "three\n");
+  const Json list = json(get("/api/v1/programs"))["programs"];
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["name"], "O1");
+  EXPECT_EQ(list[0]["revisions"], 2);
+  EXPECT_EQ(json(get("/api/v1/programs?limit=1&offset=1"))["programs"][0]["name"], "O2");
+  const Json program = json(get("/api/v1/programs/O1"));
+  EXPECT_EQ(program["revisions"].size(), 2u);
+  expect_error(get("/api/v1/programs/O9"), 404, "not_found", "O9");
+}
+
+TEST_F(ApiHandlers, RefuseListingsWithBadPages) {
+  expect_error(get("/api/v1/programs?limit=1001"), 413, "limit_exceeded", "1000");
+  expect_error(get("/api/v1/programs?limit=x"), 400, "syntax", "limit");
+  expect_error(get("/api/v1/programs?color=red"), 400, "syntax", "color");
+}
+
+TEST_F(ApiHandlers, RemoveAProgramAndAuditIt) {
+  push("O1", "one\n");
+  EXPECT_EQ(call("DELETE", "/api/v1/programs/O1").status, 204);
+  expect_error(get("/api/v1/programs/O1"), 404, "not_found", "O1");
+  expect_error(call("DELETE", "/api/v1/programs/O1"), 404, "not_found", "O1");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["action"], "program.remove");
+}
+
+TEST_F(ApiHandlers, GiveContentInPieces) {
+  std::string text;
+  while (text.size() < 700'000) text += fmt::format("N{} G01 X1\n", text.size());
+  push("O1", text);
+  const auto response = get("/api/v1/programs/O1/content");
+  EXPECT_EQ(response.source_length, text.size());
+  EXPECT_EQ(header(response, "Dripline-Sha256"), sha256(text).hex());
+  EXPECT_EQ(header(response, "Dripline-Revision"), "1");
+  EXPECT_EQ(header(response, "Dripline-Size"), std::to_string(text.size()));
+  EXPECT_EQ(body(response), text);
+}
+
+TEST_F(ApiHandlers, GiveARangeOfTheContent) {
+  push("O1", "0123456789");
+  const auto response = call("GET", "/api/v1/programs/O1/content?revision=1",
+                             {.body = {}, .headers = {{"range", "bytes=3-5"}}});
+  EXPECT_EQ(response.status, 206);
+  EXPECT_EQ(header(response, "Content-Range"), "bytes 3-5/10");
+  EXPECT_EQ(body(response), "345");
+  const auto outside =
+      call("GET", "/api/v1/programs/O1/content", {.body = {}, .headers = {{"range", "bytes=10-"}}});
+  expect_error(outside, 416, "limit_exceeded", "10 bytes");
+  EXPECT_EQ(header(outside, "Content-Range"), "bytes */10");
+}
+
+TEST_F(ApiHandlers, StartARunAndAuditIt) {
+  const std::string run = stored_run(0);
+  const auto response = post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}});
+  ASSERT_EQ(response.status, 201) << response.body;
+  EXPECT_EQ(json(response)["id"], run);
+  EXPECT_EQ(feeds_.started.at(0).author, "admin");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["subject"], run);
+}
+
+TEST_F(ApiHandlers, SayWhyARunWasNotStarted) {
+  stored_run(0);
+  expect_error(post("/api/v1/runs", {{"machine", "lathe-9"}, {"program", "O0100"}}), 404,
+               "not_found", "lathe-9");
+  feeds_.refusal = Error{Errc::Timeout, "machine 'lathe-1' is not connected"};
+  expect_error(post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}), 504, "timeout",
+               "not connected");
+}
+
+TEST_F(ApiHandlers, PassOrdersOn) {
+  const std::string run = stored_run(0);
+  const auto response =
+      post("/api/v1/runs/" + run + "/orders", {{"action", "feed_override"}, {"value", 0.5}});
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(json(response)["accepted"], true);
+  EXPECT_EQ(feeds_.ordered.at(0).run, run);
+  EXPECT_EQ(feeds_.ordered.at(0).action, dds::OrderAction::FeedOverride);
+  EXPECT_EQ(feeds_.ordered.at(0).value, 0.5);
+}
+
+TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
+  const std::string run = stored_run(3);
+  EXPECT_EQ(json(get("/api/v1/runs/" + run))["outputs"], 3);
+  EXPECT_EQ(json(get("/api/v1/runs?state=ordered&machine=lathe-1"))["runs"].size(), 1u);
+  EXPECT_EQ(json(get("/api/v1/runs?state=completed"))["runs"].size(), 0u);
+  expect_error(get("/api/v1/runs?state=lost"), 400, "syntax", "lost");
+  const Json records = json(get("/api/v1/runs/" + run + "/records?kind=output&limit=2"))["records"];
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[1]["number"], 2);
+  expect_error(get("/api/v1/runs/none/records"), 404, "not_found", "none");
+}
+
+TEST_F(ApiHandlers, WriteReportsAsTextCsvAndJson) {
+  const std::string run = stored_run(2);
+  const std::string path = "/api/v1/reports/" + run + "?format=";
+  EXPECT_EQ(body(get(path + "text")), "X1, \"Z\"\nX2, \"Z\"\n");
+  const std::string csv = body(get(path + "csv"));
+  EXPECT_EQ(csv.substr(0, csv.find('\r')), "number,time,device,block,line,sequence,text");
+  EXPECT_NE(csv.find(",port1,2,2,,\"X2, \"\"Z\"\"\"\r\n"), std::string::npos) << csv;
+  const Json report = json(get(path + "json"));
+  EXPECT_EQ(report["lines"][1]["text"], "X2, \"Z\"");
+  expect_error(get(path + "pdf"), 422, "unsupported", "text, csv, json");
+  EXPECT_EQ(json(get("/api/v1/reports"))["reports"][0]["lines"], 2);
+}
+
+TEST_F(ApiHandlers, WriteAReportOfManyPages) {
+  const std::string text = body(get("/api/v1/reports/" + stored_run(2500) + "?format=json"));
+  const Json report = Json::parse(text, nullptr, false);
+  ASSERT_EQ(report["lines"].size(), 2500u);
+  EXPECT_EQ(report["lines"][2499]["number"], 2500);
+}
+
+TEST_F(ApiHandlers, OpenAnEventStreamWithTheMachinesAsTheyAre) {
+  show_machine("lathe-1");
+  show_machine("lathe-2");
+  const auto response = get("/api/v1/events?machine=lathe-2");
+  ASSERT_TRUE(response.events);
+  const std::string first = response.events->take();
+  EXPECT_EQ(first.find("lathe-1"), std::string::npos);
+  EXPECT_NE(first.find("event: machine\ndata: {"), std::string::npos) << first;
+  const auto listener = api::publish_to(events_);
+  listener.on_machine(feeds_.views[1]);
+  EXPECT_NE(response.events->take().find("lathe-2"), std::string::npos);
+}
+
+TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
+  show_machine("lathe-1");
+  EXPECT_TRUE(json(get("/api/v1/machines/lathe-1"))["status"].is_null());
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.execution = dds::Execution::FeedHold;
+  status.position = {1.5, 0, -3, 0, 0, 90};
+  feeds_.views[0].status = status;
+  const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
+  EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Y", 0.0}, {"Z", -3.0}, {"C", 90.0}}));
+  EXPECT_TRUE(shown["run"].is_null());
+  EXPECT_TRUE(shown["sequence"].is_null());
+}
+
+}  // namespace
+}  // namespace dripline::server_test
