@@ -179,10 +179,13 @@ void PullFeed::ask_window(interpreter::ProgramIndex index, SteadyTime now) {
   const std::uint64_t size = *programs_[index].size;
   const Range window = window_of(programs_[index]);
   const std::uint64_t urgent = cursor_ + window_ / 2;
+  std::size_t allowed = options_.max_in_flight;
+  allowed -= std::min(allowed, in_flight(index, window, now));
   std::optional<Range> open;
   const auto close = [&](bool is_cut) {
     const bool is_worth = open && (is_cut || open->begin < urgent || open->end == size);
     const bool is_taken = !is_worth || send(index, *open, now);
+    if (is_worth && open) allowed -= std::min<std::size_t>(allowed, open->end - open->begin);
     open.reset();
     return is_taken;
   };
@@ -192,11 +195,21 @@ void PullFeed::ask_window(interpreter::ProgramIndex index, SteadyTime now) {
     const bool is_wanted = held < end && is_due({index, begin / kChunk}, now);
     if (open && (!is_wanted || held != open->end) && !close(false)) return;
     if (!is_wanted) continue;
+    if (allowed < kChunk + (open ? open->end - open->begin : 0)) break;
     if (!open) open = Range{held, held};
     open->end = end;
     if (open->end - open->begin + kChunk > options_.request_bytes && !close(true)) return;
   }
   close(false);
+}
+
+std::size_t PullFeed::in_flight(interpreter::ProgramIndex index, Range window, SteadyTime now) {
+  std::size_t bytes = 0;
+  const auto end = asked_.lower_bound({index, (window.end + kChunk - 1) / kChunk});
+  for (auto it = asked_.lower_bound({index, window.begin / kChunk}); it != end; ++it) {
+    if (!is_due(it->first, now)) bytes += kChunk;
+  }
+  return bytes;
 }
 
 bool PullFeed::is_due(ChunkCache::Key key, SteadyTime now) {

@@ -22,6 +22,9 @@ struct PullFeedOptions {
   std::size_t max_window = 4 * 1024 * 1024;
   double target_seconds = 10;  ///< of motion to be asked for ahead
   std::uint32_t request_bytes = 128 * 1024;
+  /// Asked for and not answered, at most: below what the network holds for a live peer
+  /// (dds::kBlockWindow pieces).
+  std::size_t max_in_flight = 40 * ChunkCache::kChunkBytes;
   std::chrono::milliseconds retry{300};  ///< silence after which is asked again; doubles
   std::chrono::milliseconds max_retry{3000};
   int max_failures = 10;  ///< answers "failed" in a row until the program counts as lost
@@ -99,6 +102,7 @@ class PullFeed final : public interpreter::ProgramSource {
   void extend_hash();
   Range window_of(const Program& program) const;
   void ask_window(interpreter::ProgramIndex index, SteadyTime now);
+  std::size_t in_flight(interpreter::ProgramIndex index, Range window, SteadyTime now);
   bool is_due(ChunkCache::Key key, SteadyTime now);
   bool send(interpreter::ProgramIndex index, Range range, SteadyTime now);
   void note_deadline(SteadyTime deadline);

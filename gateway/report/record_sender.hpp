@@ -12,7 +12,8 @@
 namespace dripline::report {
 
 struct SenderOptions {
-  std::uint64_t window = 256;  ///< records sent and not acknowledged, at most
+  /// Records sent and not acknowledged, at most; well below what the network holds for a live peer.
+  std::uint64_t window = 128;
   std::chrono::milliseconds retry{
       500};  ///< silence after which all of them are sent again; doubles
   std::chrono::milliseconds max_retry{5000};

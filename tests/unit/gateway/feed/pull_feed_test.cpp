@@ -134,6 +134,16 @@ TEST_F(PullFeedTest, SizesTheWindowInSecondsOfMotion) {
   EXPECT_NEAR(static_cast<double>(feed.bytes_ahead()), 300'000, 2 * ChunkCache::kChunkBytes);
 }
 
+TEST_F(PullFeedTest, KeepsWhatIsUnderWayBounded) {
+  PullFeedOptions options;
+  PullFeed feed = make(program_text(20'000'000), options);
+  for (int i = 0; i < 20; ++i) feed.poll(now);
+  std::size_t bytes = 0;
+  for (const dds::BlockRequest& request : server.asked) bytes += request.length;
+  EXPECT_LE(bytes, options.max_in_flight);
+  EXPECT_GT(bytes, options.max_in_flight / 2);
+}
+
 TEST_F(PullFeedTest, AskedOnceWhileAnswersAreOnTheirWay) {
   PullFeed feed = make(program_text(1'000'000));
   feed.poll(now);

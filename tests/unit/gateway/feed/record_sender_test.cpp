@@ -64,10 +64,10 @@ TEST_F(RecordSenderTest, KeepsToItsWindow) {
   append(600);
   sender.on_server(true);
   poll(sender);
-  EXPECT_EQ(sent.size(), 256u);
+  EXPECT_EQ(sent.size(), 128u);
   sender.on_ack({"lathe-1", outbox.epoch(), 100}, now);
   poll(sender);
-  EXPECT_EQ(sent.size(), 356u);
+  EXPECT_EQ(sent.size(), 228u);
 }
 
 TEST_F(RecordSenderTest, GoesBackAfterASilence) {

@@ -1,0 +1,145 @@
+#include "gateway/app/execution_recorder.hpp"
+
+#include <utility>
+
+namespace dripline::gateway {
+
+using dds::RecordKind;
+
+void ExecutionRecorder::begin(const report::ActiveRun& run, std::function<Supply()> supply) {
+  run_ = run.run;
+  supply_ = std::move(supply);
+  reached_ = counted_ = {};
+  outputs_ = 0;
+  is_between_blocks_ = true;
+  notice_.clear();
+  probed_.reset();
+  alarm_.reset();
+  has_ended_ = was_aborted_ = false;
+  parts_.witness.reset();
+  parts_.outbox.begin_run(run);
+  append({}, {RecordKind::RunStarted,
+              {},
+              dds::encode(dds::RunStartText{run.program, run.revision, run.control})});
+}
+
+void ExecutionRecorder::end(dds::RunEndText end) {
+  const Supply supply = supply_();
+  reached_.sent = supply.sent;
+  reached_.accepted = supply.accepted;
+  end.sent = reached_.sent;
+  end.accepted = reached_.accepted;
+  end.executed = reached_.executed;
+  end.line = reached_.line;
+  end.sequence = reached_.sequence;
+  interpreter::Origin origin;
+  origin.block = reached_.executed;
+  origin.line = reached_.line;
+  origin.sequence = reached_.sequence;
+  append(origin, {RecordKind::RunEnded, {}, dds::encode(end)});
+  parts_.outbox.end_run();
+}
+
+void ExecutionRecorder::finish() {
+  parts_.journal.clear();
+  run_.clear();
+}
+
+Result<void> ExecutionRecorder::commit() {
+  parts_.outbox.note_progress(reached_);
+  parts_.witness.begin(reached_.executed, outputs_);
+  const auto done = parts_.outbox.commit();
+  trouble_ = done ? std::string() : done.error().what;
+  if (!done) return done;
+  count();
+  return {};
+}
+
+void ExecutionRecorder::count() {
+  if (counted_ != reached_) parts_.journal.write(reached_);
+  counted_ = reached_;
+  parts_.witness.finish();
+}
+
+void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
+  const Supply supply = supply_();
+  reached_ = {supply.sent, supply.accepted, origin.block,
+              origin.line, origin.sequence, origin.offset};
+  is_between_blocks_ = true;
+  if (!parts_.outbox.has_staged_records()) {
+    parts_.witness.begin(reached_.executed, outputs_);
+    count();
+  } else if (parts_.outbox.staged_records() >= kMaxBatch && trouble_.empty()) {
+    (void)commit();  // a failure is kept in trouble()
+  }
+}
+
+void ExecutionRecorder::on_motion_starts(const interpreter::Origin&) {
+  if (is_between_blocks_ && trouble_.empty() && parts_.outbox.has_staged_records()) (void)commit();
+}
+
+void ExecutionRecorder::append(const interpreter::Origin& origin, Report report) {
+  dds::Record record;
+  record.machine = parts_.machine;
+  record.time = parts_.clock.now();
+  record.run = run_;
+  record.kind = report.kind;
+  record.block = origin.block;
+  record.line = origin.line;
+  record.sequence = origin.sequence;
+  record.device = std::move(report.device);
+  record.text = valid_text(report.text, dds::kMaxRecordText);
+  parts_.outbox.append(std::move(record));
+}
+
+void ExecutionRecorder::on_output(const interpreter::Output& output) {
+  ++outputs_;
+  is_between_blocks_ = false;
+  append(output.origin,
+         {RecordKind::Output, std::string(to_text(output.device)), std::string(output.text)});
+}
+
+void ExecutionRecorder::on_open(const interpreter::Open& open) {
+  append(open.origin, {RecordKind::DeviceOpened, std::string(to_text(open.device)),
+                       std::string(open.name.value_or(""))});
+}
+
+void ExecutionRecorder::on_close(const interpreter::Close& close) {
+  append(close.origin, {RecordKind::DeviceClosed, std::string(to_text(close.device)), {}});
+}
+
+void ExecutionRecorder::on_message(const interpreter::Message& message) {
+  notice_ = valid_text(message.text, dds::kMaxRecordText);
+  append(message.origin, {RecordKind::Message, {}, notice_});
+}
+
+void ExecutionRecorder::on_warning(const interpreter::Warning& warning) {
+  append(warning.origin,
+         {RecordKind::Warning, {}, dds::encode(diagnostic_text(warning.diagnostic))});
+}
+
+void ExecutionRecorder::on_probed(const interpreter::Probe& probe) {
+  probed_ = probe;
+  append(probe.origin, {RecordKind::Probe, {}, dds::encode(probe_text(probe))});
+}
+
+void ExecutionRecorder::on_stop(const interpreter::Stop& stop) {
+  const std::string_view text = to_text(stop.kind);
+  if (notice_.empty()) notice_ = text;
+  append(stop.origin, {RecordKind::Stop, {}, std::string(text)});
+}
+
+void ExecutionRecorder::on_alarm(const interpreter::Alarm& alarm) {
+  alarm_ = alarm.diagnostic;
+  append(alarm.origin, {RecordKind::Alarm, {}, dds::encode(diagnostic_text(alarm.diagnostic))});
+}
+
+void ExecutionRecorder::on_end(const interpreter::End&) {
+  has_ended_ = true;
+}
+
+void ExecutionRecorder::on_aborted() {
+  was_aborted_ = true;
+}
+
+}  // namespace dripline::gateway

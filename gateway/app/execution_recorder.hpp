@@ -1,0 +1,96 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "gateway/app/run_texts.hpp"
+#include "gateway/app/witness.hpp"
+#include "gateway/machine/execution_sink.hpp"
+#include "gateway/report/outbox.hpp"
+#include "gateway/report/run_journal.hpp"
+#include "protocol/base/clock.hpp"
+
+namespace dripline::gateway {
+
+/// Writes down what the machine has done, in the order that makes the executed counter exact:
+/// a block that reported something counts as executed only when its records are committed. Reports
+/// without motion between them share one commit; before the next motion they are on disk.
+/// While a commit fails (a full disk) nothing counts, and nothing is lost: `commit` tries again.
+/// One thread: the machine's owner.
+class ExecutionRecorder final : public machine::ExecutionSink {
+ public:
+  struct Parts {
+    std::string machine;
+    report::Outbox& outbox;
+    report::RunJournal& journal;
+    Witness& witness;
+    const Clock& clock;
+  };
+  explicit ExecutionRecorder(const Parts& parts) : parts_(parts) {}
+
+  /// The other two counters, asked for when a block counts as executed.
+  struct Supply {
+    std::uint64_t sent = 0, accepted = 0;
+  };
+  /// A new run; its RunStarted record is staged, not committed.
+  void begin(const report::ActiveRun& run, std::function<Supply()> supply);
+  /// Stages the run's end; its counters and place are filled in here. To be followed by `commit`
+  /// until that succeeds; then `finish`.
+  void end(dds::RunEndText end);
+  void finish();
+
+  /// Commits what is staged, and counts it. Errors: those of the outbox.
+  Result<void> commit();
+  /// Why the last commit failed; empty when it did not.
+  const std::string& trouble() const { return trouble_; }
+  /// At a block's end (records of half a block are not yet committed).
+  bool is_between_blocks() const { return is_between_blocks_; }
+  const report::Progress& executed() const { return counted_; }
+
+  /// What happened since the last call of `take_...`.
+  std::optional<interpreter::Probe> take_probed() { return std::exchange(probed_, std::nullopt); }
+  const std::optional<interpreter::Diagnostic>& alarm() const { return alarm_; }
+  bool has_ended() const { return has_ended_; }
+  bool was_aborted() const { return was_aborted_; }
+  /// Text of the last stop or message, for the operator.
+  const std::string& notice() const { return notice_; }
+  void clear_notice() { notice_.clear(); }
+
+  void on_block_executed(const interpreter::Origin& origin) override;
+  void on_motion_starts(const interpreter::Origin& origin) override;
+  void on_output(const interpreter::Output& output) override;
+  void on_open(const interpreter::Open& open) override;
+  void on_close(const interpreter::Close& close) override;
+  void on_message(const interpreter::Message& message) override;
+  void on_warning(const interpreter::Warning& warning) override;
+  void on_probed(const interpreter::Probe& probe) override;
+  void on_stop(const interpreter::Stop& stop) override;
+  void on_alarm(const interpreter::Alarm& alarm) override;
+  void on_end(const interpreter::End& end) override;
+  void on_aborted() override;
+
+  static constexpr std::size_t kMaxBatch = 256;
+
+ private:
+  struct Report {
+    dds::RecordKind kind = dds::RecordKind::Message;
+    std::string device, text;
+  };
+  void append(const interpreter::Origin& origin, Report report);
+  void count();
+
+  Parts parts_;
+  std::string run_;
+  std::function<Supply()> supply_;
+  report::Progress reached_;  ///< by the machine
+  report::Progress counted_;  ///< in journal and outbox
+  std::uint64_t outputs_ = 0;
+  bool is_between_blocks_ = true;
+  std::string trouble_, notice_;
+  std::optional<interpreter::Probe> probed_;
+  std::optional<interpreter::Diagnostic> alarm_;
+  bool has_ended_ = false, was_aborted_ = false;
+};
+
+}  // namespace dripline::gateway

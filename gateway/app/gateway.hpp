@@ -1,0 +1,114 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/app/execution_recorder.hpp"
+#include "gateway/app/inbox.hpp"
+#include "gateway/app/options.hpp"
+#include "gateway/app/run_session.hpp"
+#include "gateway/report/record_sender.hpp"
+#include "gateway/report/status_publisher.hpp"
+#include "protocol/dds/endpoint.hpp"
+
+namespace dripline::gateway {
+
+/// One machine's gateway: takes orders, runs programs, reports. Everything happens in `turn`, on
+/// one thread; messages come in as values, time as an argument. Without a server it goes on with
+/// the text it has, keeps its records, and takes up where it was when a server is back.
+class Gateway {
+ public:
+  struct Parts {
+    const GatewayOptions& options;
+    const interpreter::Dialect& dialect;
+    interpreter::Setup setup;
+    dds::GatewayEndpoint& endpoint;
+    report::Outbox& outbox;
+    report::RunJournal& journal;
+    Witness& witness;
+    const Clock& clock;
+    std::uint64_t session = 0;  ///< of this process, not zero
+  };
+  /// All references must outlive it.
+  explicit Gateway(Parts parts);
+
+  /// Before the first turn: ends the run that a former process was busy with as interrupted at the
+  /// block it executed last. Errors: those of the outbox.
+  Result<void> recover();
+
+  void receive(Incoming incoming, SteadyTime now);
+  /// Does what is due, for at most about kSlice; returns when to be called again, if nothing comes
+  /// in before.
+  SteadyTime turn(SteadyTime now);
+  bool stop_requested() const { return stop_requested_; }
+
+  /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
+  /// it.
+  Result<void> interrupt_run(const std::string& reason);
+  /// Nothing left to send.
+  bool is_delivered() const { return outbox_.unacknowledged() == 0 && results_.empty(); }
+
+  static constexpr std::chrono::milliseconds kSlice{8};  ///< of work between two looks at the inbox
+  static constexpr std::chrono::milliseconds kTick{10};  ///< while the machine moves in real time
+  static constexpr std::chrono::milliseconds kLongestStep{100};  ///< real time never jumps by more
+
+ private:
+  struct Reply {
+    bool is_accepted = true;
+    std::string reason;
+  };
+  static Reply refuse(std::string reason) { return {false, std::move(reason)}; }
+
+  // gateway_orders.cpp
+  void on_order(const dds::Order& order);
+  Reply carry_out(const dds::Order& order);
+  Reply start(const dds::Order& order);
+  std::optional<Reply> refusal_of_start(const dds::Order& order);
+  Reply operate(const dds::Order& order);
+  Reply set_switch(const dds::Order& order);
+  Reply set_override(const dds::Order& order);
+  void keep_result(const dds::Order& order, const Reply& reply);
+  void answer(const dds::Order& order, const Reply& reply);
+  void send_results();
+
+  // gateway_run.cpp
+  void run_slice(SteadyTime now);
+  bool run_round(double& machine_seconds, SteadyTime& deadline);
+  void commit_reports();
+  bool wait_out_trouble(SteadyTime now);
+  void judge_end();
+  void end_run(dds::RunOutcome outcome, const std::string& reason);
+  void try_to_finish(SteadyTime now);
+
+  // gateway_status.cpp
+  dds::Status status() const;
+  void fill_execution(dds::Status& status) const;
+  dds::Execution execution_of_run(std::string& message) const;
+
+  void announce();
+  SteadyTime next_turn(SteadyTime now) const;
+  bool is_running() const;
+  std::string label() const;
+
+  Parts parts_;
+  report::Outbox& outbox_;
+  ExecutionRecorder recorder_;
+  machine::Machine machine_;
+  report::RecordSender sender_;
+  report::StatusPublisher publisher_;
+  std::unique_ptr<RunSession> session_;
+
+  std::deque<dds::OrderResult> results_;
+  bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
+  bool is_ending_ = false;           ///< the run's last records are staged, not yet on disk
+  bool is_held_by_trouble_ = false;  ///< not by the operator
+  SteadyTime last_step_{}, next_commit_{}, next_sync_{};
+  dds::Execution last_execution_ = dds::Execution::Ready;
+  std::string last_message_;
+};
+
+}  // namespace dripline::gateway

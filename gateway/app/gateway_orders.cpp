@@ -1,0 +1,188 @@
+#include <spdlog/spdlog.h>
+#include <cmath>
+
+#include "gateway/app/gateway.hpp"
+#include "protocol/base/names.hpp"
+
+/// The part of the gateway that takes orders.
+namespace dripline::gateway {
+
+using dds::OrderAction;
+
+namespace {
+
+constexpr std::size_t kMaxResults = 256;  ///< waiting to be sent; the sender of an order asks again
+constexpr std::uint64_t kMaxProgramBytes = 1ULL << 40;
+
+/// The answer to a start is kept under its run as well: another order to start the same run gets
+/// the same answer.
+std::string start_key(const std::string& run) {
+  return "run " + run;
+}
+
+}  // namespace
+
+void Gateway::on_order(const dds::Order& order) {
+  const auto known = outbox_.order_result(order.id);
+  if (!known) {
+    spdlog::error("order {} can not be looked up: {} {}", order.id, known.error().what, label());
+    return;  // its sender tries again
+  }
+  if (*known) return answer(order, {(*known)->is_accepted, (*known)->reason});
+  const Reply reply = carry_out(order);
+  spdlog::info("order {} {} {}{}{} {}", order.id, dds::to_string(order.action),
+               reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
+               reply.reason, label());
+  const bool is_kept = order.action == OrderAction::Start && reply.is_accepted;
+  if (!is_kept) keep_result(order, reply);
+  answer(order, reply);
+}
+
+/// After a kill an order may be carried out twice; that does no harm, because the run it was meant
+/// for has ended then. Records of half a block wait, and so does this.
+void Gateway::keep_result(const dds::Order& order, const Reply& reply) {
+  outbox_.add_order_result(order.id, reply.is_accepted, reply.reason);
+  if (!recorder_.is_between_blocks()) return;
+  const auto done = session_ ? recorder_.commit() : outbox_.commit();
+  if (!done) spdlog::error("order {} not kept: {} {}", order.id, done.error().what, label());
+}
+
+void Gateway::answer(const dds::Order& order, const Reply& reply) {
+  if (results_.size() >= kMaxResults) results_.pop_front();
+  results_.push_back(
+      {parts_.options.machine, order.id, reply.is_accepted, valid_text(reply.reason, kMaxReason)});
+}
+
+void Gateway::send_results() {
+  while (!results_.empty() && parts_.endpoint.write(results_.front())) results_.pop_front();
+}
+
+Gateway::Reply Gateway::carry_out(const dds::Order& order) {
+  if (order.expires < parts_.clock.now())
+    return refuse(fmt::format("the order expired at {}", to_iso8601(order.expires)));
+  if (order.action == OrderAction::Start) return start(order);
+  if (order.action == OrderAction::Switch) return set_switch(order);
+  if (order.action == OrderAction::FeedOverride || order.action == OrderAction::RapidOverride ||
+      order.action == OrderAction::SpindleOverride)
+    return set_override(order);
+  if (!session_ || is_ending_) return refuse("no run is active");
+  if (!order.run.empty() && order.run != session_->run().run)
+    return refuse(fmt::format("run {} is not active, {} is", order.run, session_->run().run));
+  return operate(order);
+}
+
+std::optional<Gateway::Reply> Gateway::refusal_of_start(const dds::Order& order) {
+  const auto known = outbox_.order_result(start_key(order.run));
+  if (known && *known) return Reply{(*known)->is_accepted, (*known)->reason};
+  if (order.run.empty() || order.run.size() > report::RunJournal::kMaxRun)
+    return refuse("a start needs a run of 1 to 40 bytes");
+  if (session_)
+    return refuse(fmt::format("busy with run {} of program {}", session_->run().run,
+                              session_->run().program));
+  if (order.control != parts_.options.control)
+    return refuse(fmt::format("this machine's control is {}, the program is for '{}'",
+                              parts_.options.control, order.control));
+  if (const auto name = check_program_name(order.program); !name) return refuse(name.error().what);
+  if (const auto digest = parse_digest(order.revision); !digest)
+    return refuse(fmt::format("revision: {}", digest.error().what));
+  if (order.size == 0 || order.size > kMaxProgramBytes)
+    return refuse(
+        fmt::format("a program of {} bytes, expected 1 to {}", order.size, kMaxProgramBytes));
+  return std::nullopt;
+}
+
+Gateway::Reply Gateway::start(const dds::Order& order) {
+  if (auto refusal = refusal_of_start(order)) return *refusal;
+  const report::ActiveRun run{order.run, order.program, order.revision, order.control, order.size};
+  interpreter::Setup setup = parts_.setup;
+  setup.switches.block_skip = machine_.panel().block_skip;
+  auto session = RunSession::make({.run = run,
+                                   .gateway_session = parts_.session,
+                                   .machine_name = parts_.options.machine,
+                                   .feed = {},
+                                   .ask =
+                                       [this](const dds::BlockRequest& request) {
+                                         return parts_.endpoint.write(request).has_value();
+                                       },
+                                   .machine = machine_,
+                                   .recorder = recorder_,
+                                   .clock = parts_.clock},
+                                  parts_.dialect, setup);
+  if (!session) return refuse(fmt::format("setup: {}", session.error().what));
+
+  outbox_.discard();
+  recorder_.begin(run, [raw = session->get()] {
+    return ExecutionRecorder::Supply{raw->feed().sent(), raw->accepted()};
+  });
+  outbox_.add_order_result(start_key(order.run), true, "");
+  outbox_.add_order_result(order.id, true, "");
+  if (const auto done = outbox_.commit(); !done) {
+    outbox_.discard();
+    return refuse(fmt::format("the start can not be kept: {}", done.error().what));
+  }
+  parts_.journal.begin(order.run);
+  machine_.begin(parts_.setup.start);
+  session_ = std::move(*session);
+  session_->size_feed(parts_.options.speed.factor);
+  last_step_ = parts_.clock.steady_now();
+  last_message_.clear();
+  return {};
+}
+
+Gateway::Reply Gateway::operate(const dds::Order& order) {
+  switch (order.action) {
+    case OrderAction::Hold:
+      machine_.hold();
+      is_held_by_trouble_ = false;
+      return {};
+    case OrderAction::Resume:
+      if (!recorder_.trouble().empty())
+        return refuse(fmt::format("reports can not be kept: {}", recorder_.trouble()));
+      recorder_.clear_notice();
+      return machine_.resume() ? Reply{} : refuse("the machine is neither held nor stopped");
+    case OrderAction::Abort:
+      machine_.abort();
+      return {};
+    case OrderAction::Answer: {
+      const auto taken = session_->answer(order.argument);
+      return taken ? Reply{} : refuse(taken.error().what);
+    }
+    default:
+      return refuse("not an order this gateway knows");
+  }
+}
+
+Gateway::Reply Gateway::set_switch(const dds::Order& order) {
+  if (order.value != 0 && order.value != 1)
+    return refuse(fmt::format("a switch is 0 or 1, not {}", order.value));
+  machine::OperatorPanel panel = machine_.panel();
+  const bool is_on = order.value == 1;
+  if (order.argument == "single_block") {
+    panel.single_block = is_on;
+  } else if (order.argument == "optional_stop") {
+    panel.optional_stop = is_on;
+  } else if (order.argument == "block_skip") {
+    panel.block_skip = is_on;
+  } else {
+    return refuse(
+        fmt::format("no switch '{}': single_block, optional_stop, block_skip", order.argument));
+  }
+  machine_.set_panel(panel);
+  const bool is_for_next_run = session_ && order.argument == "block_skip";
+  return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
+}
+
+Gateway::Reply Gateway::set_override(const dds::Order& order) {
+  machine::OperatorPanel panel = machine_.panel();
+  double& knob = order.action == OrderAction::FeedOverride    ? panel.feed_override
+                 : order.action == OrderAction::RapidOverride ? panel.rapid_override
+                                                              : panel.spindle_override;
+  knob = order.value;
+  if (!std::isfinite(order.value) || panel.clamped() != panel)
+    return refuse(
+        fmt::format("{} can not be set to {}", dds::to_string(order.action), order.value));
+  machine_.set_panel(panel);
+  return {};
+}
+
+}  // namespace dripline::gateway

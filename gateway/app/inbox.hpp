@@ -1,0 +1,41 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/dds/message.hpp"
+
+namespace dripline::gateway {
+
+struct ServerSeen {
+  bool is_connected = false;
+};
+struct StopRequested {
+  int signal = 0;
+};
+using Incoming =
+    std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested>;
+
+/// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
+/// beyond the bound are dropped, and both are sent again by whoever misses the answer.
+class Inbox {
+ public:
+  /// Any thread; never waits.
+  void post(Incoming incoming);
+  /// The owner: everything posted so far; waits until there is something, or `deadline`.
+  std::vector<Incoming> take(SteadyTime deadline);
+
+  static constexpr std::size_t kMaxBlocks = 160;  ///< of at most 32 KiB each
+  static constexpr std::size_t kMaxOthers = 1024;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Incoming> waiting_;
+  std::size_t blocks_ = 0, others_ = 0;
+};
+
+}  // namespace dripline::gateway

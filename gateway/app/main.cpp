@@ -1,0 +1,203 @@
+#include <pthread.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "gateway/app/gateway.hpp"
+#include "gateway/app/state_folder.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+constexpr int kExitUsage = 2;
+constexpr std::chrono::seconds kFarewell{2};  ///< for the last records to be acknowledged
+
+/// Turns SIGTERM and SIGINT into a message. All threads have them blocked, so only this one gets
+/// them.
+class SignalWatch {
+ public:
+  SignalWatch(Inbox& inbox, const sigset_t& signals)
+      : thread_([&inbox, signals] {
+          int signal = 0;
+          if (::sigwait(&signals, &signal) == 0) inbox.post(StopRequested{signal});
+        }) {}
+  ~SignalWatch() {
+    ::pthread_kill(thread_.native_handle(), SIGTERM);  // ends the wait; nobody reads it any more
+    thread_.join();
+  }
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+ private:
+  std::thread thread_;
+};
+
+sigset_t block_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+Result<std::string> read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+    return fail(Errc::NotFound, "can not read {}", path.string());
+  return std::move(text).str();
+}
+
+Result<interpreter::Setup> read_setup(const GatewayOptions& options,
+                                      const interpreter::Dialect& dialect) {
+  if (!options.setup) return interpreter::Setup{};
+  const auto text = read_text(*options.setup);
+  if (!text) return fail(text.error());
+  auto setup = interpreter::parse_setup(*text, dialect.units);
+  if (!setup)
+    return fail(setup.error().code, "{}: {}", options.setup->string(), setup.error().what);
+  return setup;
+}
+
+void start_log(const GatewayOptions& options) {
+  auto logger = options.log ? spdlog::basic_logger_mt("dncgw", options.log->string())
+                            : spdlog::stderr_logger_mt("dncgw");
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+  logger->set_level(spdlog::level::from_str(options.log_level));
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+std::uint64_t new_session() {
+  std::random_device device;
+  return ((static_cast<std::uint64_t>(device()) << 32) | device()) | 1;
+}
+
+/// Runs until a stop is asked for; then gives the records some time to be acknowledged.
+Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock) {
+  std::optional<SteadyTime> farewell;
+  SteadyTime next = clock.steady_now();
+  for (;;) {
+    for (Incoming& incoming : inbox.take(next))
+      gateway.receive(std::move(incoming), clock.steady_now());
+    if (gateway.stop_requested() && !farewell) {
+      farewell = clock.steady_now() + kFarewell;
+      if (const auto done = gateway.interrupt_run("the gateway was stopped"); !done) return done;
+    }
+    next = gateway.turn(clock.steady_now());
+    if (!farewell) continue;
+    if (gateway.is_delivered() || clock.steady_now() >= *farewell) return {};
+    next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
+  }
+}
+
+Result<void> run(const GatewayOptions& options) {
+  const auto dialect = interpreter::find_dialect(options.control);
+  if (!dialect) return fail(dialect.error());
+  auto setup = read_setup(options, **dialect);
+  if (!setup) return fail(setup.error());
+  auto folder = StateFolder::open(options.state);
+  if (!folder) return fail(folder.error());
+  auto outbox = report::Outbox::open(folder->outbox());
+  if (!outbox) return fail(outbox.error());
+  auto journal = report::RunJournal::open(folder->journal());
+  if (!journal) return fail(journal.error());
+  auto witness = options.witness ? Witness::open(*options.witness) : Result<Witness>(Witness());
+  if (!witness) return fail(witness.error());
+
+  const sigset_t signals = block_stop_signals();  // before DDS starts its threads
+  const SystemClock clock;
+  Inbox inbox;
+  auto endpoint = dds::GatewayEndpoint::open(
+      options.network, options.machine,
+      {.on_order = [&](dds::Order order) { inbox.post(std::move(order)); },
+       .on_ack = [&](dds::RecordAck ack) { inbox.post(std::move(ack)); },
+       .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
+       .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
+  if (!endpoint) return fail(endpoint.error());
+  const SignalWatch watch(inbox, signals);
+  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *witness,
+                   clock, new_session()});
+  if (const auto done = gateway.recover(); !done) return done;
+  spdlog::info("gateway ready machine={} control={} state={} server={} domain={} records={}",
+               options.machine, options.control, options.state.string(), options.network.server,
+               options.network.domain, outbox->unacknowledged());
+  const auto done = serve(gateway, inbox, clock);
+  spdlog::info("gateway stopped machine={} records={}", options.machine, outbox->unacknowledged());
+  return done;
+}
+
+/// Declares the table's rows; what was given on the command line is put into `given`.
+void declare(CLI::App& app, std::vector<std::pair<const OptionRow*, std::string>>& given) {
+  for (const OptionRow& row : option_rows()) {
+    app.add_option_function<std::string>(
+           "--" + std::string(row.key),
+           [&given, &row](const std::string& value) { given.emplace_back(&row, value); },
+           fmt::format("{} [{}]", row.text, row.fallback))
+        ->type_name(std::string(row.type));
+  }
+}
+
+Result<void> configure(const std::string& file,
+                       const std::vector<std::pair<const OptionRow*, std::string>>& given,
+                       GatewayOptions& options) {
+  if (!file.empty()) {
+    const auto text = read_text(file);
+    if (!text) return fail(text.error());
+    if (const auto done = apply_config(*text, options); !done)
+      return fail(done.error().code, "{}: {}", file, done.error().what);
+  }
+  for (const auto& [row, value] : given) {
+    if (const auto done = row->set(options, value); !done)
+      return fail(done.error().code, "--{}: {}", row->key, done.error().what);
+  }
+  return complete(options);
+}
+
+int main(int argc, char** argv) {
+  CLI::App app("The gateway of one machine: runs the programs that a Dripline server feeds it.",
+               "dncgw");
+  std::string file;
+  std::vector<std::pair<const OptionRow*, std::string>> given;
+  app.add_option("--config", file, "TOML file with the same keys; the command line goes first")
+      ->type_name("file");
+  declare(app, given);
+  app.footer("Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitUsage;
+  }
+  GatewayOptions options;
+  if (const auto done = configure(file, given, options); !done) {
+    std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
+    return kExitUsage;
+  }
+  try {
+    start_log(options);
+  } catch (const spdlog::spdlog_ex& error) {
+    std::fprintf(stderr, "dncgw: %s\n", error.what());
+    return 1;
+  }
+  if (const auto done = run(options); !done) {
+    spdlog::critical("{} machine={}", done.error().what, options.machine);
+    if (options.log) std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace dripline::gateway
+
+int main(int argc, char** argv) {
+  return dripline::gateway::main(argc, argv);
+}

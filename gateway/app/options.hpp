@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+#include "protocol/dds/endpoint.hpp"
+
+namespace dripline::gateway {
+
+/// Machine time for real time; no factor: as fast as possible.
+struct Speed {
+  std::optional<double> factor = 1;
+};
+/// "1x", "100x", "0.5x" or "max". Errors: Syntax, LimitExceeded (not above 0, or above 10^6).
+Result<Speed> parse_speed(std::string_view text);
+
+struct GatewayOptions {
+  std::string machine;
+  std::string control;
+  std::filesystem::path state;
+  dds::NetworkOptions network;
+  Speed speed;
+  std::optional<std::filesystem::path> setup, log, witness;
+  std::string log_level = "info";
+  std::string description;
+};
+
+/// One key of the configuration: the command line (--key), the TOML file and the help all read this
+/// table.
+struct OptionRow {
+  std::string_view key;
+  std::string_view type;
+  std::string_view unit;
+  std::string_view fallback;  ///< for people; the values themselves stand in GatewayOptions
+  std::string_view text;
+  Result<void> (*set)(GatewayOptions&, std::string_view value);
+};
+std::span<const OptionRow> option_rows();
+
+/// Sets every key of a TOML text. Errors: Syntax (not TOML, an unknown key, a value that does not
+/// fit), naming the key.
+Result<void> apply_config(std::string_view toml, GatewayOptions& options);
+
+/// What is left out gets its default; what is required is checked. Errors: Syntax, NotFound (no
+/// home folder to put the state in).
+Result<void> complete(GatewayOptions& options);
+
+}  // namespace dripline::gateway

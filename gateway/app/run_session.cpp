@@ -1,0 +1,141 @@
+#include "gateway/app/run_session.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace dripline::gateway {
+
+using interpreter::StepState;
+
+namespace {
+
+interpreter::LocalTime local_time(UtcTime time) {
+  const auto day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss clock(std::chrono::floor<std::chrono::seconds>(time - day));
+  return {static_cast<int>(date.year()),
+          static_cast<int>(static_cast<unsigned>(date.month())),
+          static_cast<int>(static_cast<unsigned>(date.day())),
+          static_cast<int>(clock.hours().count()),
+          static_cast<int>(clock.minutes().count()),
+          static_cast<int>(clock.seconds().count())};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
+                                                     const interpreter::Dialect& dialect,
+                                                     const interpreter::Setup& setup) {
+  std::unique_ptr<RunSession> session(new RunSession(std::move(parts), setup));
+  interpreter::Setup given = setup;
+  given.answers.clear();
+  auto made = dialect.make(given, session->feed_, session->parts_.machine.events());
+  if (!made) return fail(made.error());
+  session->interpreter_ = std::move(*made);
+  return session;
+}
+
+RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
+    : parts_(std::move(parts)),
+      setup_(setup),
+      feed_({parts_.machine_name, parts_.gateway_session, parts_.run.run, parts_.run.size},
+            parts_.feed, parts_.ask) {}
+
+std::size_t RunSession::fill(std::size_t max_blocks) {
+  waits_ = Waits::ForMachine;
+  if (is_over_) return 0;
+  if (has_question_ && !settle_question()) return 0;
+  std::size_t blocks = 0;
+  while (blocks < max_blocks && parts_.machine.has_room()) {
+    switch (interpreter_->step(1)) {
+      case StepState::Ran:
+        ++blocks;
+        break;
+      case StepState::NeedsText:
+        waits_ = Waits::ForText;
+        return blocks;
+      case StepState::NeedsAnswer:
+        has_question_ = true;
+        if (!settle_question()) return blocks;
+        break;
+      case StepState::Ended:
+      case StepState::Alarmed:
+        is_over_ = true;
+        return blocks + 1;
+    }
+  }
+  if (blocks == max_blocks) waits_ = Waits::ForNothing;
+  return blocks;
+}
+
+bool RunSession::settle_question() {
+  const interpreter::Question question = interpreter_->question();
+  return std::visit([this](const auto& asked) { return settle(asked); }, question);
+}
+
+bool RunSession::settle(const interpreter::ProbeQuestion& question) {
+  waits_ = Waits::ForMachine;
+  if (!is_probing_) {
+    parts_.machine.begin_probe(question.probe);
+    is_probing_ = true;
+  }
+  const auto probed = parts_.recorder.take_probed();
+  if (!probed || !probed->result) return false;
+  is_probing_ = false;
+  return give(*probed->result);
+}
+
+bool RunSession::settle(const interpreter::PromptQuestion&) {
+  if (!machine_rests()) return false;
+  if (next_answer_ < setup_.answers.size()) {
+    return give(interpreter::PromptAnswer{setup_.answers[next_answer_++]});
+  }
+  waits_ = Waits::ForOperator;
+  return false;
+}
+
+/// A simulated machine has no inputs wired: they all read low.
+bool RunSession::settle(const interpreter::InputQuestion&) {
+  return machine_rests() && give(false);
+}
+
+bool RunSession::settle(const interpreter::TimeQuestion&) {
+  return machine_rests() && give(setup_.date_time.value_or(local_time(parts_.clock.now())));
+}
+
+bool RunSession::machine_rests() const {
+  return parts_.machine.drained() && parts_.machine.state() == machine::MachineState::Idle;
+}
+
+/// An answer the interpreter can not use leaves the question open; the next one in line, or the
+/// operator, is asked.
+bool RunSession::give(const interpreter::Answer& answer) {
+  const auto taken = interpreter_->answer(answer);
+  if (taken) has_question_ = false;
+  return taken.has_value();
+}
+
+std::string RunSession::prompt() const {
+  if (waits_ != Waits::ForOperator) return {};
+  const auto* question = std::get_if<interpreter::PromptQuestion>(&interpreter_->question());
+  return question == nullptr ? std::string() : question->text;
+}
+
+Result<void> RunSession::answer(const std::string& text) {
+  if (waits_ != Waits::ForOperator) return fail(Errc::Busy, "the program has asked nothing");
+  const auto taken = interpreter_->answer(interpreter::PromptAnswer{text});
+  if (taken) has_question_ = false;
+  return taken;
+}
+
+void RunSession::size_feed(std::optional<double> speed_factor) {
+  if (!speed_factor) return feed_.set_consumption(std::nullopt);
+  const double seconds = parts_.machine.buffered().count() / *speed_factor;
+  const interpreter::Origin& ahead = interpreter_->origin();
+  const interpreter::Origin at = parts_.machine.status().origin;
+  // Across a call or a jump back the distance in bytes says nothing; the last size stays.
+  if (ahead.program != at.program || ahead.offset <= at.offset || seconds <= 0) return;
+  feed_.set_consumption(static_cast<double>(ahead.offset - at.offset) / seconds);
+}
+
+}  // namespace dripline::gateway

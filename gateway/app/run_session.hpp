@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gateway/app/execution_recorder.hpp"
+#include "gateway/feed/pull_feed.hpp"
+#include "gateway/interpreter/registry.hpp"
+#include "gateway/machine/machine.hpp"
+
+namespace dripline::gateway {
+
+/// One run: its text, its interpreter and the questions between interpreter, machine and operator.
+/// The owner fills the machine's queue through it, and lets the machine's time pass by itself.
+/// One thread.
+class RunSession {
+ public:
+  struct Parts {
+    report::ActiveRun run;
+    std::uint64_t gateway_session = 0;
+    std::string machine_name;
+    feed::PullFeedOptions feed;
+    feed::PullFeed::Ask ask;
+    machine::Machine& machine;
+    ExecutionRecorder& recorder;
+    const Clock& clock;
+  };
+  /// Errors: those of Dialect::make. Nothing has happened to the machine then.
+  static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
+                                                  const interpreter::Setup& setup);
+
+  /// Interprets while the machine has room and nothing is waited for; at most `max_blocks`.
+  /// Returns how many blocks that were.
+  std::size_t fill(std::size_t max_blocks);
+
+  enum class Waits { ForNothing, ForText, ForMachine, ForOperator };
+  /// What the interpreter waits for since the last `fill`.
+  Waits waits() const { return waits_; }
+  /// The operator's open question; only while ForOperator.
+  std::string prompt() const;
+  /// Errors: Busy (nothing was asked), Syntax (not an answer to this).
+  Result<void> answer(const std::string& text);
+
+  const report::ActiveRun& run() const { return parts_.run; }
+  feed::PullFeed& feed() { return feed_; }
+  const feed::PullFeed& feed() const { return feed_; }
+  std::uint64_t accepted() const { return interpreter_->blocks(); }
+  /// Tells the feed how fast the program's bytes are used up.
+  void size_feed(std::optional<double> speed_factor);
+
+ private:
+  RunSession(Parts parts, const interpreter::Setup& setup);
+  /// True: the interpreter can go on.
+  bool settle_question();
+  bool settle(const interpreter::ProbeQuestion& question);
+  bool settle(const interpreter::PromptQuestion& question);
+  bool settle(const interpreter::InputQuestion& question);
+  bool settle(const interpreter::TimeQuestion& question);
+  bool give(const interpreter::Answer& answer);
+  bool machine_rests() const;
+
+  Parts parts_;
+  interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
+  std::size_t next_answer_ = 0;
+  feed::PullFeed feed_;
+  std::unique_ptr<interpreter::Interpreter> interpreter_;
+  Waits waits_ = Waits::ForNothing;
+  bool is_over_ = false, has_question_ = false, is_probing_ = false;
+};
+
+}  // namespace dripline::gateway

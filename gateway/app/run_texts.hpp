@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/event.hpp"
+#include "protocol/dds/record_text.hpp"
+
+/// What the interpreter's and machine's words are in records.
+namespace dripline::gateway {
+
+dds::ProbeText probe_text(const interpreter::Probe& probe);
+dds::AlarmText diagnostic_text(const interpreter::Diagnostic& diagnostic);
+std::string_view to_text(interpreter::StopKind kind);
+std::string_view to_text(interpreter::OutputDevice device);
+
+/// Valid UTF-8 of at most `max_bytes`: programs may hold any byte, records only text. What is not
+/// UTF-8 becomes U+FFFD.
+std::string valid_text(std::string_view bytes, std::size_t max_bytes);
+
+/// Reasons and alarm texts are cut at this, so that their JSON always fits a record.
+inline constexpr std::size_t kMaxReason = 512;
+
+}  // namespace dripline::gateway

@@ -1,0 +1,370 @@
+#include "gateway/app/gateway.hpp"
+
+#include <gtest/gtest.h>
+
+#include "gateway/app/state_folder.hpp"
+#include "tests/unit/gateway/app/shop.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+using dds::Execution;
+using dds::OrderAction;
+using dds::RecordKind;
+using dds::RunOutcome;
+using std::chrono::milliseconds;
+
+std::string with_reports(int lines, int moves) {
+  std::string text;
+  for (int i = 0; i < lines; ++i) {
+    for (int m = 0; m < moves; ++m) text += "X" + std::to_string((i + m) % 9) + "\n";
+    text += "OUT LINE " + std::to_string(i) + "\n";
+  }
+  return text + "END\n";
+}
+
+TEST(Gateway, RunsAProgramAndReportsIt) {
+  Shop shop;
+  shop.push("O1", with_reports(100, 3));
+  ASSERT_TRUE(shop.start("O1").accepted);
+  const auto end = shop.ended();
+  EXPECT_EQ(end.outcome, RunOutcome::Completed);
+  EXPECT_EQ(end.executed, 401u);
+  EXPECT_EQ(end.accepted, 401u);
+  EXPECT_EQ(end.sent, shop.programs["O1"].size());
+  EXPECT_EQ(end.content_sha256, sha256(shop.programs["O1"]).hex());
+  EXPECT_EQ(end.content_length, shop.programs["O1"].size());
+  EXPECT_EQ(end.line, 401u);
+  const auto lines = shop.lines();
+  ASSERT_EQ(lines.size(), 100u);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(lines[static_cast<std::size_t>(i)], "LINE " + std::to_string(i));
+  EXPECT_EQ(shop.records.front().kind, RecordKind::RunStarted);
+  EXPECT_EQ(shop.records.back().kind, RecordKind::RunEnded);
+  EXPECT_EQ(shop.witness().blocks_done, 401u);
+  EXPECT_EQ(shop.witness().outputs_done, 100u);
+}
+
+TEST(Gateway, ShowsARunningAndThenACompletedStatus) {
+  Shop shop("1x");
+  shop.push("O1", "X100\nX0\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->feed_mm_per_min > 0; }));
+  EXPECT_EQ(shop.status->execution, Execution::Active);
+  EXPECT_EQ(shop.status->run, "run-1");
+  EXPECT_EQ(shop.status->program, "O1");
+  EXPECT_GT(shop.status->buffered_seconds, 0);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->run.empty(); }));
+  EXPECT_EQ(shop.status->execution, Execution::ProgramCompleted);
+}
+
+TEST(Gateway, RealTimeMotionTakesItsTime) {
+  Shop shop("1x");
+  shop.push("O1", "X100\nX0\nEND\n");  // 200 mm at no more than 5000 mm/min: 2.4 s and more
+  ASSERT_TRUE(shop.start("O1").accepted);
+  const SteadyTime before = shop.clock.steady;
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_GT(shop.clock.steady - before, milliseconds(2000));
+  EXPECT_LT(shop.clock.steady - before, milliseconds(4000));
+}
+
+TEST(Gateway, RefusesWhatItCanNotRun) {
+  Shop shop("1x");
+  shop.push("O1", "X100\nX0\nEND\n");
+  const auto refusal = [&](auto change) {
+    dds::Order order = shop.start_order("O1");
+    change(order);
+    const auto result = shop.send(order);
+    EXPECT_FALSE(result.accepted);
+    return result.reason;
+  };
+  EXPECT_NE(refusal([](auto& o) { o.control = "fanuc"; }).find("fanuc"), std::string::npos);
+  EXPECT_NE(refusal([](auto& o) { o.size = 0; }).find("0 bytes"), std::string::npos);
+  EXPECT_NE(refusal([](auto& o) { o.run.clear(); }).find("run"), std::string::npos);
+  EXPECT_NE(refusal([](auto& o) { o.program = "../O1"; }).find("../O1"), std::string::npos);
+  EXPECT_NE(refusal([](auto& o) { o.revision = "abc"; }).find("revision"), std::string::npos);
+  EXPECT_NE(
+      refusal([&](auto& o) { o.expires = shop.clock.now() - milliseconds(1); }).find("expired"),
+      std::string::npos);
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_NE(refusal([](auto&) {}).find("busy"), std::string::npos);
+  EXPECT_EQ(shop.count(RecordKind::RunStarted), 1u);
+}
+
+TEST(Gateway, TheSameOrderGetsTheSameAnswerEvenAfterARestart) {
+  Shop shop;
+  shop.push("O1", "END\n");
+  const dds::Order start = shop.start_order("O1");
+  EXPECT_TRUE(shop.send(start).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  const std::size_t stored = shop.records.size();
+  shop.clock.steady += std::chrono::seconds(10);  // expired by now, and still known
+  EXPECT_TRUE(shop.send(start).accepted);
+  shop.restart_gateway();
+  EXPECT_TRUE(shop.send(start).accepted);
+  dds::Order again = shop.order(OrderAction::Start);  // another order for the same run
+  const std::string id = again.id;
+  again = start;
+  again.id = id;
+  again.expires = shop.clock.now() + std::chrono::seconds(5);
+  EXPECT_TRUE(shop.send(again).accepted);
+  EXPECT_EQ(shop.records.size(), stored);
+}
+
+TEST(Gateway, HoldsResumesAndAborts) {
+  Shop shop("1x");
+  shop.push("O1", "X400\nX0\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
+  EXPECT_TRUE(shop.send(shop.order(OrderAction::Hold)).accepted);
+  ASSERT_TRUE(shop.run_until([&] {
+    return shop.status->execution == Execution::FeedHold && shop.status->feed_mm_per_min == 0;
+  }));
+  EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  EXPECT_FALSE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
+  EXPECT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  const auto end = shop.ended();
+  EXPECT_EQ(end.outcome, RunOutcome::Aborted);
+  EXPECT_EQ(end.executed, 0u);
+  EXPECT_FALSE(shop.send(shop.order(OrderAction::Hold)).accepted);
+}
+
+TEST(Gateway, OrdersForAnotherRunAreRefused) {
+  Shop shop("1x");
+  shop.push("O1", "X400\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  dds::Order hold = shop.order(OrderAction::Hold);
+  hold.run = "run-77";
+  EXPECT_FALSE(shop.send(hold).accepted);
+}
+
+TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
+  Shop shop("1x");
+  const auto change = [&](OrderAction action, double value, const std::string& name = "") {
+    dds::Order order = shop.order(action);
+    order.value = value;
+    order.argument = name;
+    return shop.send(order).accepted;
+  };
+  EXPECT_TRUE(change(OrderAction::FeedOverride, 0.5));
+  EXPECT_FALSE(change(OrderAction::FeedOverride, 3));
+  EXPECT_FALSE(change(OrderAction::RapidOverride, std::nan("")));
+  EXPECT_TRUE(change(OrderAction::Switch, 1, "single_block"));
+  EXPECT_FALSE(change(OrderAction::Switch, 1, "turbo"));
+  EXPECT_FALSE(change(OrderAction::Switch, 2, "optional_stop"));
+  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->single_block; }));
+  EXPECT_EQ(shop.status->feed_override, 0.5);
+}
+
+TEST(Gateway, StopsBetweenBlocksInSingleBlock) {
+  Shop shop;
+  dds::Order single = shop.order(OrderAction::Switch);
+  single.argument = "single_block";
+  single.value = 1;
+  ASSERT_TRUE(shop.send(single).accepted);
+  shop.push("O1", "X1\nX2\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  for (std::uint64_t block = 1; block <= 2; ++block) {
+    ASSERT_TRUE(shop.run_until([&] {
+      return shop.status->execution == Execution::Interrupted && shop.status->executed == block;
+    })) << block;
+    EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  }
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+}
+
+TEST(Gateway, WaitsAtAProgramStopUntilResumed) {
+  Shop shop;
+  shop.push("O1", "X1\nSTOP\nOUT A\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->execution == Execution::ProgramStopped; }));
+  EXPECT_TRUE(shop.run_until([&] { return shop.count(RecordKind::Stop) == 1; }));
+  EXPECT_TRUE(shop.lines().empty());
+  EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.lines(), std::vector<std::string>{"A"});
+}
+
+TEST(Gateway, AsksTheSetupFirstAndThenTheOperator) {
+  Shop shop;
+  shop.setup.answers = {"5.0"};
+  shop.restart_gateway();
+  shop.push("O1", "ASK FIRST\nASK SECOND\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "SECOND"; }));
+  EXPECT_EQ(shop.status->execution, Execution::Waiting);
+  dds::Order answer = shop.order(OrderAction::Answer);
+  answer.argument = "7";
+  EXPECT_TRUE(shop.send(answer).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"5.0", "7"}));
+}
+
+TEST(Gateway, ProbesTheSetupsWorkpiece) {
+  Shop shop;
+  shop.setup.workpiece.add(interpreter::ProbePlane{interpreter::Axis::X, Length::mm(-3)});
+  shop.restart_gateway();
+  shop.push("O1", "PROBE\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  ASSERT_EQ(shop.count(RecordKind::Probe), 1u);
+  const auto probe = dds::decode_probe(shop.records[1].text).value();
+  EXPECT_TRUE(probe.tripped);
+  EXPECT_DOUBLE_EQ(probe.at.at('X'), -3);
+}
+
+TEST(Gateway, AnAlarmEndsTheRunAtTheBlockBefore) {
+  Shop shop;
+  shop.push("O1", "X1\nOUT A\nBAD\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  const auto end = shop.ended();
+  EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
+  EXPECT_EQ(end.reason, "TOY0001 bad word");
+  EXPECT_EQ(end.executed, 2u);
+  EXPECT_EQ(end.line, 2u);
+  EXPECT_EQ(shop.count(RecordKind::Alarm), 1u);
+  EXPECT_TRUE(shop.start("O1").accepted) << "the next run may begin";
+}
+
+TEST(Gateway, CallsAndJumpsWorkWhileFed) {
+  Shop shop;
+  shop.push("O2", "HELLO\n");
+  shop.push("O1", "OUT A\nCALL O2\nJUMP\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"A", "HELLO", "A", "HELLO", "A", "HELLO"}));
+}
+
+TEST(Gateway, StarvedItWaitsForTextAndGoesOn) {
+  Shop shop;
+  shop.serves_text = false;
+  shop.push("O1", "X1\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->execution == Execution::Waiting; }));
+  EXPECT_NE(shop.status->message.find("waiting for program text"), std::string::npos);
+  shop.serves_text = true;
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+}
+
+TEST(Gateway, WithoutAServerItGoesOnAndReportsLater) {
+  Shop shop("1x");
+  shop.push("O1", with_reports(20, 2));
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->sent == shop.programs["O1"].size(); }));
+  shop.connect(false);
+  const std::size_t before = shop.records.size();
+  ASSERT_TRUE(
+      shop.run_until([&] { return shop.status->execution == Execution::ProgramCompleted; }));
+  EXPECT_EQ(shop.records.size(), before);
+  EXPECT_GT(shop.status->outbox, 0u);
+  shop.connect(true);
+  EXPECT_TRUE(shop.run_until([&] { return shop.count(RecordKind::RunEnded) == 1; }));
+  EXPECT_EQ(shop.lines().size(), 20u);
+}
+
+TEST(Gateway, ARunCutOffEndsOnceAsInterruptedAtTheRightBlock) {
+  for (int turns : {1, 2, 3, 5, 8, 13, 40}) {
+    Shop shop("2x");
+    shop.push("O1", with_reports(50, 2));
+    ASSERT_TRUE(shop.start("O1").accepted);
+    int turn = 0;
+    shop.run_until([&] { return ++turn > turns; });
+    shop.restart_gateway();
+    const auto truth = shop.witness();
+    const auto end = shop.ended();
+    EXPECT_EQ(end.outcome, RunOutcome::Interrupted) << turns;
+    EXPECT_EQ(end.executed, truth.blocks_done) << turns;
+    EXPECT_EQ(shop.lines().size(), truth.outputs_done) << turns;
+    shop.restart_gateway();
+    shop.run_until([&] { return false; }, milliseconds(1000));
+    EXPECT_EQ(shop.count(RecordKind::RunEnded), 1u) << turns;
+  }
+}
+
+TEST(Gateway, AnOrderlyStopEndsTheRunAsInterrupted) {
+  Shop shop("10x");
+  shop.push("O1", with_reports(50, 2));
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->executed > 5; }));
+  ASSERT_TRUE(shop.gateway->interrupt_run("stopped"));
+  EXPECT_TRUE(shop.run_until([&] { return shop.gateway->is_delivered(); }));
+  const auto end = dds::decode_run_end(shop.records.back().text).value();
+  EXPECT_EQ(end.outcome, RunOutcome::Interrupted);
+  EXPECT_EQ(end.reason, "stopped");
+  EXPECT_EQ(end.executed, shop.witness().blocks_done);
+}
+
+TEST(Gateway, AFullDiskHoldsTheMachineAndLosesNothing) {
+  Shop shop("2x");
+  shop.outbox_bytes = 160 * 1024;
+  shop.restart_gateway();
+  std::string text;
+  for (int i = 0; i < 100; ++i)
+    text +=
+        "X" + std::to_string(i % 9) + "\nOUT " + std::to_string(i) + std::string(4000, 'x') + "\n";
+  shop.push("O1", text + "END\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->sent == shop.programs["O1"].size(); },
+                             milliseconds(1)));
+  shop.connect(false);
+  ASSERT_TRUE(shop.run_until(
+      [&] { return shop.status->message.find("reports can not be kept") != std::string::npos; }));
+  const std::uint64_t held_at = shop.status->executed;
+  EXPECT_LT(held_at, 201u);
+  shop.connect(true);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  const auto lines = shop.lines();
+  ASSERT_EQ(lines.size(), 100u);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    EXPECT_EQ(lines[i].substr(0, lines[i].find('x')), std::to_string(i));
+}
+
+TEST(Gateway, TextThatIsNotUtf8IsReportedAsText) {
+  Shop shop;
+  shop.push("O1", "OUT CAF\xe9 \xc3\xa9\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.lines(), std::vector<std::string>{"CAF\xEF\xBF\xBD \xc3\xa9"});
+}
+
+TEST(GatewayOptions, UnknownKeysAndBadValuesAreNamed) {
+  GatewayOptions options;
+  EXPECT_TRUE(apply_config("machine = \"lathe-1\"\ndds-domain = 7\nspeed = \"max\"\n", options));
+  EXPECT_EQ(options.machine, "lathe-1");
+  EXPECT_EQ(options.network.domain, 7u);
+  EXPECT_FALSE(options.speed.factor.has_value());
+  for (const auto& [text, part] : {std::pair{"machnie = \"x\"", "machnie"},
+                                   {"dds-domain = 999", "dds-domain"},
+                                   {"speed = \"fast\"", "speed"},
+                                   {"speed = \"-1x\"", "speed"},
+                                   {"machine = \"Lathe 1\"", "machine"},
+                                   {"machine = [1]", "machine"},
+                                   {"machine", "line 1"}}) {
+    const auto done = apply_config(text, options);
+    ASSERT_FALSE(done) << text;
+    EXPECT_NE(done.error().what.find(part), std::string::npos) << done.error().what;
+  }
+}
+
+TEST(StateFolder, IsOfOneProcessAndNamesIt) {
+  test_support::TemporaryFolder folder;
+  const auto first = StateFolder::open(folder.path() / "a/b");
+  ASSERT_TRUE(first) << first.error().what;
+  const auto second = StateFolder::open(folder.path() / "a/b");
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy);
+  EXPECT_NE(second.error().what.find(std::to_string(::getpid())), std::string::npos);
+}
+
+TEST(Inbox, DropsTextBeyondItsBound) {
+  Inbox inbox;
+  for (std::size_t i = 0; i < 2 * Inbox::kMaxBlocks; ++i) inbox.post(dds::BlockData{});
+  inbox.post(StopRequested{15});
+  EXPECT_EQ(inbox.take({}).size(), Inbox::kMaxBlocks + 1);
+  EXPECT_TRUE(inbox.take({}).empty());
+}
+
+}  // namespace
+}  // namespace dripline::gateway

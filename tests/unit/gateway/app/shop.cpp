@@ -1,0 +1,170 @@
+#include "tests/unit/gateway/app/shop.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "tests/unit/gateway/app/toy_control.hpp"
+
+namespace dripline::gateway {
+
+using std::chrono::milliseconds;
+
+struct Shop::Process {
+  Process(const std::filesystem::path& folder, std::uint64_t outbox_bytes)
+      : outbox(report::Outbox::open(folder / "outbox.sqlite", {.max_bytes = outbox_bytes}).value()),
+        journal(report::RunJournal::open(folder / "run.journal").value()),
+        witness(Witness::open(folder / "witness").value()) {}
+  report::Outbox outbox;
+  report::RunJournal journal;
+  Witness witness;
+};
+
+Shop::Shop(const std::string& speed) {
+  options_.machine = "lathe-1";
+  options_.control = "toy";
+  options_.speed = parse_speed(speed).value();
+  restart_gateway();
+}
+
+Shop::~Shop() = default;
+
+void Shop::restart_gateway() {
+  gateway.reset();
+  process_.reset();
+  process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
+  requests_.clear();
+  Gateway::Parts parts{options_,          toy_control(),     setup, *this, process_->outbox,
+                       process_->journal, process_->witness, clock, 0};
+  parts.session = static_cast<std::uint64_t>(++sessions_);
+  gateway = std::make_unique<Gateway>(std::move(parts));
+  if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);
+  gateway->receive(ServerSeen{is_up}, clock.steady);
+}
+
+void Shop::connect(bool up) {
+  is_up = up;
+  gateway->receive(ServerSeen{up}, clock.steady);
+}
+
+bool Shop::run_until(const std::function<bool()>& done, milliseconds step) {
+  const SteadyTime limit = clock.steady + std::chrono::minutes(1);
+  while (clock.steady < limit) {
+    gateway->turn(clock.steady);
+    serve();
+    if (done()) return true;
+    clock.steady += step;
+  }
+  return false;
+}
+
+dds::Order Shop::order(dds::OrderAction action) {
+  dds::Order order;
+  order.machine = "lathe-1";
+  order.id = "order-" + std::to_string(++orders_);
+  order.expires = clock.now() + std::chrono::seconds(5);
+  order.action = action;
+  return order;
+}
+
+dds::Order Shop::start_order(const std::string& program) {
+  dds::Order start = order(dds::OrderAction::Start);
+  start.run = "run-" + std::to_string(++runs_);
+  start.program = program;
+  start.revision = sha256(programs.at(program)).hex();
+  start.size = programs.at(program).size();
+  start.control = "toy";
+  program_ = program;
+  return start;
+}
+
+dds::OrderResult Shop::send(const dds::Order& order) {
+  results.erase(order.id);
+  gateway->receive(order, clock.steady);
+  run_until([&] { return results.count(order.id) > 0; }, milliseconds(1));
+  return results.at(order.id);
+}
+
+dds::RunEndText Shop::ended() {
+  const std::size_t before = count(dds::RecordKind::RunEnded);
+  const bool has =
+      run_until([&] { return count(dds::RecordKind::RunEnded) > before; }) || !records.empty();
+  if (!has) throw std::runtime_error("no record at all");
+  return dds::decode_run_end(records.back().text).value();
+}
+
+std::vector<std::string> Shop::lines() const {
+  std::vector<std::string> all;
+  for (const dds::Record& record : records) {
+    if (record.kind == dds::RecordKind::Output) all.push_back(record.text);
+  }
+  return all;
+}
+
+std::size_t Shop::count(dds::RecordKind kind) const {
+  std::size_t found = 0;
+  for (const dds::Record& record : records) found += record.kind == kind ? 1 : 0;
+  return found;
+}
+
+Witness::Counts Shop::witness() const {
+  std::ifstream file(folder() / "witness", std::ios::binary);
+  Witness::Counts counts;
+  file.read(reinterpret_cast<char*>(&counts), sizeof counts);
+  return counts;
+}
+
+Result<void> Shop::write(const dds::Announce& message) {
+  announced.push_back(message);
+  return {};
+}
+Result<void> Shop::write(const dds::Status& message) {
+  status = message;
+  return {};
+}
+Result<void> Shop::write(const dds::Record& message) {
+  if (is_up && message.number == records.size() + 1) records.push_back(message);
+  return {};
+}
+Result<void> Shop::write(const dds::OrderResult& message) {
+  results[message.id] = message;
+  return {};
+}
+Result<void> Shop::write(const dds::BlockRequest& message) {
+  if (is_up && serves_text) requests_.push_back(message);
+  return {};
+}
+
+std::string Shop::text_of(const dds::BlockRequest& request) const {
+  const auto found = programs.find(request.program.empty() ? program_ : request.program);
+  return found == programs.end() ? std::string() : found->second;
+}
+
+void Shop::serve() {
+  if (!is_up) return;
+  for (const dds::BlockRequest& request : std::exchange(requests_, {})) {
+    const std::string text = text_of(request);
+    std::size_t at = request.offset;
+    const std::size_t end = std::min<std::size_t>(text.size(), at + request.length);
+    while (at < end) {
+      dds::BlockData data;
+      data.machine = request.machine;
+      data.session = request.session;
+      data.run = request.run;
+      data.program = request.program;
+      data.offset = at;
+      data.total_bytes = text.size();
+      const std::size_t length = std::min(dds::kMaxBlockBytes, end - at);
+      const auto* bytes = reinterpret_cast<const std::byte*>(text.data()) + at;
+      data.bytes.assign(bytes, bytes + length);
+      at += length;
+      data.ends = at == text.size();
+      gateway->receive(data, clock.steady);
+    }
+  }
+  if (!records.empty())
+    gateway->receive(dds::RecordAck{"lathe-1", records.back().epoch, records.back().number},
+                     clock.steady);
+}
+
+}  // namespace dripline::gateway

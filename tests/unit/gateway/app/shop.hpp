@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/app/gateway.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::gateway {
+
+class TestClock final : public Clock {
+ public:
+  UtcTime now() const override { return UtcTime(std::chrono::hours(400'000)) + elapsed(); }
+  SteadyTime steady_now() const override { return steady; }
+  SteadyTime steady{std::chrono::hours(1)};
+
+ private:
+  std::chrono::microseconds elapsed() const {
+    return std::chrono::duration_cast<std::chrono::microseconds>(steady.time_since_epoch());
+  }
+};
+
+/// A gateway with everything around it in a test's hands: its clock, its server and its disk.
+/// The server answers requests and acknowledges records between two turns, while `is_up`.
+class Shop final : public dds::GatewayEndpoint {
+ public:
+  explicit Shop(const std::string& speed = "max");
+  ~Shop() override;
+
+  /// A new process on the same disk, as after a kill (what was not committed is gone).
+  void restart_gateway();
+  void connect(bool is_up);
+  /// Turns of `step` until `done` says so, or a (simulated) minute has passed.
+  bool run_until(const std::function<bool()>& done,
+                 std::chrono::milliseconds step = std::chrono::milliseconds(10));
+
+  void push(const std::string& program, const std::string& text) { programs[program] = text; }
+  dds::Order order(dds::OrderAction action);
+  dds::Order start_order(const std::string& program);
+  /// Sends it and returns its result.
+  dds::OrderResult send(const dds::Order& order);
+  dds::OrderResult start(const std::string& program) { return send(start_order(program)); }
+  /// Runs until the run has ended, and says how.
+  dds::RunEndText ended();
+  std::vector<std::string> lines() const;
+  std::size_t count(dds::RecordKind kind) const;
+
+  Result<void> write(const dds::Announce& message) override;
+  Result<void> write(const dds::Status& message) override;
+  Result<void> write(const dds::Record& message) override;
+  Result<void> write(const dds::OrderResult& message) override;
+  Result<void> write(const dds::BlockRequest& message) override;
+  bool is_connected() const override { return is_up; }
+  dds::Rejected rejected() const override { return {}; }
+
+  TestClock clock;
+  bool is_up = true, serves_text = true;
+  std::map<std::string, std::string> programs;
+  std::vector<dds::Record> records;  ///< stored once each, in order
+  std::vector<dds::Announce> announced;
+  std::optional<dds::Status> status;
+  std::map<std::string, dds::OrderResult> results;
+  std::uint64_t outbox_bytes = 4ULL << 30;
+  interpreter::Setup setup;
+  std::unique_ptr<Gateway> gateway;
+  std::filesystem::path folder() const { return folder_.path(); }
+  Witness::Counts witness() const;
+
+ private:
+  struct Process;
+  void serve();
+  std::string text_of(const dds::BlockRequest& request) const;
+
+  test_support::TemporaryFolder folder_;
+  GatewayOptions options_;
+  std::unique_ptr<Process> process_;
+  std::vector<dds::BlockRequest> requests_;
+  std::string program_;
+  int orders_ = 0, runs_ = 0, sessions_ = 0;
+};
+
+}  // namespace dripline::gateway

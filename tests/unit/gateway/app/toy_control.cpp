@@ -1,0 +1,114 @@
+#include "tests/unit/gateway/app/toy_control.hpp"
+
+#include <charconv>
+
+namespace dripline::gateway {
+namespace {
+
+using namespace interpreter;
+
+class ToyInterpreter final : public Interpreter {
+ public:
+  ToyInterpreter(ProgramSource& source, EventSink& sink) : source_(source), sink_(sink) {}
+
+  StepState step(std::uint64_t max_blocks) override {
+    for (std::uint64_t i = 0; i < max_blocks; ++i) {
+      const StepState state = one_block();
+      if (state != StepState::Ran) return state;
+    }
+    return StepState::Ran;
+  }
+  const Question& question() const override { return question_; }
+  Result<void> answer(const Answer& given) override {
+    if (const auto* text = std::get_if<PromptAnswer>(&given)) answer_ = text->text.value_or("");
+    if (const auto* probed = std::get_if<ProbeResult>(&given))
+      answer_ = probed->tripped ? "tripped" : "free";
+    return {};
+  }
+  std::uint64_t blocks() const override { return blocks_; }
+  const Origin& origin() const override { return origin_; }
+  Snapshot snapshot() const override { return {}; }
+  Result<void> restore(const Snapshot&) override { return fail(Errc::Unsupported, "toy"); }
+
+ private:
+  StepState one_block() {
+    const TextWindow window = source_.fetch(kMainProgram, offset_, 64);
+    if (window.state == TextWindow::State::NotYet) return StepState::NeedsText;
+    origin_ = {blocks_ + 1, offset_, line_ + 1, Origin::kNone, kMainProgram};
+    if (window.state == TextWindow::State::Failed) return alarm(window.reason);
+    const std::string line(window.text.substr(0, window.text.find('\n')));
+    if (line.starts_with("CALL ")) {
+      const ProgramLookup found = source_.find(line.substr(5));
+      if (found.state == ProgramLookup::State::NotYet) return StepState::NeedsText;
+      if (found.state == ProgramLookup::State::NotFound) return alarm("not found");
+      const TextWindow called = source_.fetch(found.program, 0, 8);
+      if (called.state == TextWindow::State::NotYet) return StepState::NeedsText;
+      sink_.on_output({origin_, OutputDevice::File, called.text.substr(0, called.text.find('\n'))});
+    }
+    if (line.starts_with("ASK ")) {
+      if (!answer_) return ask(PromptQuestion{line.substr(4), "P1"});
+      sink_.on_output({origin_, OutputDevice::File, *answer_});
+    }
+    if (line == "PROBE" && !answer_) {
+      Probe probe;
+      probe.origin = origin_;
+      probe.to.set(Axis::X, Length::mm(-10));
+      probe.feed = Feed::per_minute(Length::mm(6000));
+      return ask(ProbeQuestion{probe});
+    }
+    answer_.reset();
+    if (line == "BAD") return alarm("bad word");
+    if (line.starts_with("OUT ")) sink_.on_output({origin_, OutputDevice::File, line.substr(4)});
+    if (line.starts_with("X")) move(line);
+    if (line == "STOP") sink_.on_stop({origin_, StopKind::Program});
+    ++blocks_;
+    const bool jumps = line == "JUMP" && jumps_++ < 2;
+    offset_ = jumps ? 0 : offset_ + line.size() + 1;
+    line_ = jumps ? 0 : line_ + 1;
+    const bool ends = line == "END";
+    if (ends) sink_.on_end({origin_, blocks_, false});
+    sink_.on_block_end(origin_);
+    return ends ? StepState::Ended : StepState::Ran;
+  }
+  void move(const std::string& line) {
+    double x = 0;
+    std::from_chars(line.data() + 1, line.data() + line.size(), x);
+    Line event;
+    event.origin = origin_;
+    event.to.set(Axis::X, Length::mm(x));
+    event.feed = Feed::per_minute(Length::mm(6000));
+    sink_.on_line(event);
+  }
+  StepState ask(Question question) {
+    question_ = std::move(question);
+    return StepState::NeedsAnswer;
+  }
+  StepState alarm(std::string text) {
+    sink_.on_alarm({origin_, {"TOY0001", std::move(text), origin_.line, 1}});
+    return StepState::Alarmed;
+  }
+
+  ProgramSource& source_;
+  EventSink& sink_;
+  std::uint64_t offset_ = 0, line_ = 0, blocks_ = 0;
+  int jumps_ = 0;
+  Origin origin_;
+  Question question_;
+  std::optional<std::string> answer_;
+};
+
+}  // namespace
+
+const Dialect& toy_control() {
+  static const Dialect toy{
+      .name = "toy",
+      .title = "Toy",
+      .likelihood = [](std::string_view, std::string_view) { return 0; },
+      .make = [](const Setup&, ProgramSource& source,
+                 EventSink& sink) -> Result<std::unique_ptr<Interpreter>> {
+        return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(source, sink));
+      }};
+  return toy;
+}
+
+}  // namespace dripline::gateway
