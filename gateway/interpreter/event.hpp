@@ -54,6 +54,8 @@ class Position {
   void mark(Axis axis) { axes_.set(index(axis)); }
   /// No axis has moved any more; values stay.
   void unmark_all() { axes_.reset(); }
+  /// Keeps the value, but the axis is not among `axes`: it has not moved.
+  void unmark(Axis axis) { axes_.reset(index(axis)); }
   bool same_point(const Position& other) const { return value_ == other.value_; }
   friend bool operator==(const Position&, const Position&) = default;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gateway/interpreter/centurion/dialect.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr int kClearLead = 30;
 
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
-  static const std::vector<Dialect> kTable{};
+  static const std::vector<Dialect> kTable{kCenturionDialect};
   return kTable;
 }
 

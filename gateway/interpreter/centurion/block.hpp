@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "gateway/interpreter/centurion/g_codes.hpp"
+#include "gateway/interpreter/centurion/modal_state.hpp"
+#include "gateway/interpreter/centurion/words.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// How far a block has come; a question suspends it between or within stages.
+enum class Stage : std::uint8_t { Start, Items, Execution, AfterMove };
+
+/// What ends the block besides running on to the next one.
+enum class Ending : std::uint8_t { None, Return, Wend, OperatorEnd, EndOfProgram };
+
+struct TextRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  bool empty() const { return begin == end; }
+};
+
+/// One block while it is read and executed. Values are kept, text is not: ranges are offsets within
+/// the block.
+struct Block {
+  static constexpr std::size_t kMostCodes = 16;
+
+  struct Parts {
+    Stage stage = Stage::Start;
+    Ending ending = Ending::None;
+    bool has_code = false;
+    bool is_assignment_only = true;  ///< nothing but parameters set: legal as data after G10
+    bool has_axis_words_before_input = false;
+    std::uint8_t g_count = 0;
+    std::uint8_t m_count = 0;
+    std::uint8_t action = kNoRow;  ///< the G row that decides what the axis words mean
+    std::optional<ProbeUntil> probe;
+    std::uint32_t resume = 0;     ///< offset of the item to go on with
+    AddressSet taken = 0;         ///< words that the G codes of the block take
+    std::optional<int> tool;      ///< of a T word
+    int tool_offset = -1;         ///< its offset digits; -1 when it had none
+    std::optional<double> dwell;  ///< seconds
+    TextRange comment;            ///< the first one
+    JumpKind jump = JumpKind::None;
+    bool jump_is_call_word = false;
+    bool while_condition = false;
+    std::uint32_t jump_number = 0;
+  };
+
+  void clear() {
+    words.clear();
+    parts = Parts{};
+  }
+
+  Words words;
+  Parts parts;
+  std::array<std::uint8_t, kMostCodes> g{};  ///< row indexes, in the order written
+  std::array<std::uint8_t, kMostCodes> m{};  ///< numbers
+};
+
+}  // namespace dripline::interpreter::centurion

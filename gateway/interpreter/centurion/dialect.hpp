@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/registry.hpp"
+
+namespace dripline::interpreter {
+
+/// Milltronics Centurion 5T/6T lathe control.
+extern const Dialect kCenturionDialect;
+
+}  // namespace dripline::interpreter

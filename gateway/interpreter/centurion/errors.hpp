@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+/// What this control calls an error, with its own numbers (spec 25), and below 1100 what it never
+/// had to say. The ids are stable: CEN0549 is the control's error 549.
+namespace dripline::interpreter::centurion {
+
+enum class ErrorCode : std::uint16_t {
+  FileNotOpen = 103,
+  DivisionByZero = 200,
+  FloatingOverflow = 205,
+  InvalidFloating = 207,
+  InvalidProgramNumber = 301,
+  OutOfPosition = 416,
+  IllegalAddress = 501,
+  UndefinedCycle = 502,
+  ReturnWithoutGosub = 503,
+  CoincidentPoints = 504,
+  RadiusTooSmall = 505,
+  ParameterOutOfRange = 517,
+  IllegalStatement = 518,
+  FeedOutOfRange = 519,
+  SpindleOutOfRange = 520,
+  NegativeArcRadius = 521,
+  NegativePolarRadius = 522,
+  IllegalTool = 523,
+  IllegalOffset = 524,
+  DuplicateAddress = 529,
+  LoopCounter = 538,
+  DwellOutOfRange = 539,
+  IllegalDwell = 540,
+  IllegalG10 = 543,
+  TooManyDigits = 544,
+  NestedTooDeep = 546,
+  CommentNotClosed = 547,
+  UnknownGCode = 549,
+  BadNumber = 550,
+  TwoPoints = 551,
+  MissingCloseBracket = 552,
+  MissingOpenBracket = 553,
+  TangentOverflow = 554,
+  MissingSlash = 555,
+  NegativeRoot = 556,
+  UnknownFunction = 557,
+  IllegalRelation = 560,
+  UnresolvedCall = 567,
+  UnresolvedLabel = 568,
+  InputAfterMove = 577,
+  LogArgument = 580,
+  PowerBase = 581,
+  MissingWhile = 601,
+  MissingWend = 602,
+  NoSuchProgram = 603,
+  EmptyProgram = 606,
+  MissingP = 608,
+
+  NotSupported = 1001,  ///< of this control, but not of this version of the interpreter
+  BlockTooLong = 1002,
+  BadCharacter = 1003,
+  TextFailed = 1004,  ///< the source can not give the program's text
+  StatusParameter = 1005,
+  ForcedError = 1006,  ///< G997 with a number that has no text
+};
+
+struct ErrorRow {
+  ErrorCode code;
+  std::string_view id;
+  std::string_view text;
+};
+
+/// The row of `code`; its text is the control's wording, shortened.
+const ErrorRow& error_row(ErrorCode code);
+/// For G997, which forces any number: its row, or that of ForcedError.
+const ErrorRow& error_row_of_number(int number);
+
+}  // namespace dripline::interpreter::centurion

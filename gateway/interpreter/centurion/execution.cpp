@@ -1,0 +1,38 @@
+#include "gateway/interpreter/centurion/execution.hpp"
+
+#include "gateway/interpreter/centurion/flow.hpp"
+#include "gateway/interpreter/centurion/g_functions.hpp"
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/motion.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// Up to and including the move.
+bool execute_move(Run& run) {
+  if (const Answer* answer = run.next_answer()) {
+    finish_probe(run, std::get<ProbeResult>(*answer));
+    run.item_done();
+    return true;
+  }
+  if (!check_words(run) || !apply_modes(run)) return false;
+  if (!apply_machine_functions(run, MTiming::BeforeMove)) return false;
+  if (!apply_one_shots(run)) return false;
+  return sets_coordinates(run) || move(run);
+}
+
+}  // namespace
+
+bool execute_block(Run& run) {
+  Block::Parts& parts = run.block.parts;
+  if (parts.stage == Stage::Execution) {
+    if (!execute_move(run)) return false;
+    parts.stage = Stage::AfterMove;
+  }
+  if (parts.m_count == 0) [[likely]]
+    return true;
+  return apply_machine_functions(run, MTiming::AfterMove) && plan_flow_of_m_codes(run) &&
+         apply_machine_functions(run, MTiming::Flow);
+}
+
+}  // namespace dripline::interpreter::centurion

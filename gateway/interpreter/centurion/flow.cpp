@@ -1,0 +1,322 @@
+#include "gateway/interpreter/centurion/flow.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/centurion/m_codes.hpp"
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/output_text.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr double kMostRepeats = 9999;
+constexpr double kMostRepeatsOfM98 = 999;
+
+std::size_t gosub_base(const ModalState& state) {
+  return state.calls.empty() ? 0 : state.calls.back().gosub_base;
+}
+std::size_t loop_base(const ModalState& state) {
+  if (state.gosubs.size() > gosub_base(state)) return state.gosubs.back().loop_base;
+  return state.calls.empty() ? 0 : state.calls.back().loop_base;
+}
+
+bool refuse_two(Run& run) {
+  return run.fail(ErrorCode::IllegalStatement, 0, "two jumps or ends in one block");
+}
+
+bool plan_call(Run& run) {
+  Block& block = run.block;
+  if (run.options.refuses_loops_and_calls) {
+    return run.fail(ErrorCode::IllegalStatement, 0, "M98 is not allowed in DNC on this control");
+  }
+  if (!block.words.has(Address::P)) return run.fail(ErrorCode::MissingP, 0);
+  const double number = block.words[Address::P];
+  if (!(number >= 1 && number <= 9999) || number != std::trunc(number)) {
+    return run.fail(ErrorCode::InvalidProgramNumber, block.words.column(Address::P),
+                    fmt::format("P{}", number));
+  }
+  block.parts.jump = JumpKind::Call;
+  block.parts.jump_number = static_cast<std::uint32_t>(number);
+  return true;
+}
+
+bool read_passes(Run& run, std::uint32_t& passes) {
+  const Block& block = run.block;
+  passes = 1;
+  if (!block.words.has(Address::L)) return true;
+  const double repeats = block.words[Address::L];
+  const bool is_m98 = block.parts.jump == JumpKind::Call && !block.parts.jump_is_call_word;
+  const double most = is_m98 ? kMostRepeatsOfM98 : kMostRepeats;
+  if (!(repeats >= 0 && repeats <= most) || repeats != std::trunc(repeats)) {
+    return run.fail(ErrorCode::LoopCounter, block.words.column(Address::L),
+                    fmt::format("L{} is not a whole number from 0 to {}", repeats, most));
+  }
+  passes = static_cast<std::uint32_t>(repeats);
+  return true;
+}
+
+/// Zeroes set inside count inside only; spec 8.3.
+void restore_zero(Run& run, const Point& floating_zero) {
+  run.state.floating_zero = floating_zero;
+  run.update_origin();
+}
+
+bool return_from_gosub(Run& run) {
+  ModalState& state = run.state;
+  if (state.gosubs.size() <= gosub_base(state)) return run.fail(ErrorCode::ReturnWithoutGosub, 0);
+  GosubFrame& frame = state.gosubs.back();
+  state.loops.resize(frame.loop_base);
+  restore_zero(run, frame.floating_zero);
+  if (frame.passes_left > 0) {
+    --frame.passes_left;
+    state.at = frame.entry;
+    return true;
+  }
+  state.at = frame.back;
+  state.gosubs.pop_back();
+  return true;
+}
+
+void return_from_call(Run& run) {
+  ModalState& state = run.state;
+  CallFrame& frame = state.calls.back();
+  state.gosubs.resize(frame.gosub_base);
+  state.loops.resize(frame.loop_base);
+  restore_zero(run, frame.floating_zero);
+  if (frame.passes_left > 0) {
+    --frame.passes_left;
+    state.at = frame.entry;
+    return;
+  }
+  state.at = frame.back;
+  state.calls.pop_back();
+}
+
+bool return_to_while(Run& run, std::uint64_t block_offset) {
+  ModalState& state = run.state;
+  if (state.loops.size() <= loop_base(state) || state.loops.back().wend_offset != block_offset) {
+    return run.fail(ErrorCode::MissingWhile, 0);
+  }
+  state.at = state.loops.back().head;
+  state.loops.pop_back();
+  return true;
+}
+
+void end_program(Run& run, std::uint64_t blocks) {
+  close_open_device(run);
+  run.events().on_end({run.origin, blocks, true});
+  run.state.phase = RunPhase::Ended;
+}
+
+bool has_m30(const Run& run) {
+  for (std::uint8_t i = 0; i < run.block.parts.m_count; ++i) {
+    if (m_row(run.block.m[i]).action == MAction::EndAllOff) return true;
+  }
+  return false;
+}
+
+void end_by_code(Run& run) {
+  if (has_m30(run)) all_off(run);
+  if (run.state.calls.empty()) return end_program(run, run.state.blocks + 1);
+  return_from_call(run);
+}
+
+bool request_jump(Run& run, const TextPosition& head) {
+  const Block::Parts& parts = run.block.parts;
+  std::uint32_t passes = 1;
+  if (parts.jump == JumpKind::Call || parts.jump == JumpKind::Gosub) {
+    if (!read_passes(run, passes)) return false;
+    if (passes == 0) return true;
+  }
+  Jump& jump = run.state.jump;
+  jump.kind = parts.jump;
+  jump.is_call_word = parts.jump_is_call_word;
+  jump.condition = parts.while_condition;
+  jump.number = parts.jump_number;
+  jump.passes = passes;
+  jump.from = head;
+  return true;
+}
+
+/// A GOTO out of a loop ends it (spec 13.3, U70).
+void leave_loops(ModalState& state, const TextPosition& to) {
+  while (state.loops.size() > loop_base(state)) {
+    const LoopFrame& loop = state.loops.back();
+    const bool is_inside = loop.head.program == to.program && to.line > loop.head.line &&
+                           to.offset <= loop.wend_offset;
+    if (is_inside) return;
+    state.loops.pop_back();
+  }
+}
+
+JumpOutcome refuse_depth(Run& run) {
+  run.fail(ErrorCode::NestedTooDeep, 0, fmt::format("more than {} levels", kMaxNesting));
+  return JumpOutcome::Failed;
+}
+
+JumpOutcome enter_gosub(Run& run, const TextPosition& entry) {
+  ModalState& state = run.state;
+  if (state.gosubs.size() == kMaxNesting) return refuse_depth(run);
+  state.gosubs.push_back({state.at, entry, state.floating_zero, state.jump.passes - 1,
+                          static_cast<std::uint8_t>(state.loops.size())});
+  state.at = entry;
+  return JumpOutcome::Taken;
+}
+
+JumpOutcome enter_call(Run& run, const TextPosition& entry) {
+  ModalState& state = run.state;
+  if (state.calls.size() == kMaxNesting) return refuse_depth(run);
+  state.calls.push_back({state.at, entry, state.floating_zero, state.jump.passes - 1,
+                         static_cast<std::uint8_t>(state.gosubs.size()),
+                         static_cast<std::uint8_t>(state.loops.size())});
+  state.at = entry;
+  return JumpOutcome::Taken;
+}
+
+JumpOutcome enter_loop(Run& run, const LoopFrame& loop) {
+  ModalState& state = run.state;
+  if (!state.jump.condition) {
+    state.at = loop.next;
+    return JumpOutcome::Taken;
+  }
+  if (state.loops.size() == kMaxNesting) return refuse_depth(run);
+  state.loops.push_back(loop);
+  return JumpOutcome::Taken;
+}
+
+/// Not in the text that was started: the owner's library is asked.
+JumpOutcome call_library(Run& run) {
+  const Jump& jump = run.state.jump;
+  const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", jump.number));
+  run.text.forget();
+  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotFound) {
+    run.fail(jump.is_call_word ? ErrorCode::UnresolvedCall : ErrorCode::NoSuchProgram, 0,
+             fmt::format("O{:04}", jump.number));
+    return JumpOutcome::Failed;
+  }
+  TextPosition entry;
+  entry.program = lookup.program;
+  return enter_call(run, entry);
+}
+
+JumpOutcome refuse_missing(Run& run) {
+  const Jump& jump = run.state.jump;
+  if (jump.kind == JumpKind::While) {
+    run.fail(ErrorCode::MissingWend, 0);
+  } else {
+    run.fail(ErrorCode::UnresolvedLabel, 0, fmt::format("N{}", jump.number));
+  }
+  return JumpOutcome::Failed;
+}
+
+JumpOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop) {
+  switch (run.state.jump.kind) {
+    case JumpKind::Gosub:
+      return enter_gosub(run, found);
+    case JumpKind::Call:
+      return enter_call(run, found);
+    case JumpKind::While:
+      return enter_loop(run, loop);
+    default:
+      leave_loops(run.state, found);
+      run.state.at = found;
+      return JumpOutcome::Taken;
+  }
+}
+
+}  // namespace
+
+bool plan_flow_of_m_codes(Run& run) {
+  Block::Parts& parts = run.block.parts;
+  for (std::uint8_t i = 0; i < parts.m_count; ++i) {
+    const MAction action = m_row(run.block.m[i]).action;
+    const bool is_end = action == MAction::End || action == MAction::EndAllOff;
+    if (!is_end && action != MAction::Call) continue;
+    if (parts.jump != JumpKind::None || parts.ending != Ending::None) return refuse_two(run);
+    if (is_end) {
+      parts.ending = Ending::EndOfProgram;
+    } else if (!plan_call(run)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool leave_block(Run& run) {
+  const Block::Parts& parts = run.block.parts;
+  ModalState& state = run.state;
+  state.at.code_seen |= parts.has_code;
+  if (parts.jump == JumpKind::None && parts.ending == Ending::None) [[likely]] {
+    run.text.advance(state.at);
+    return true;
+  }
+  const TextPosition head = state.at;
+  const std::uint64_t offset = run.text.offset();
+  run.text.advance(state.at);
+  switch (parts.ending) {
+    case Ending::Return:
+      return return_from_gosub(run);
+    case Ending::Wend:
+      return return_to_while(run, offset);
+    case Ending::OperatorEnd:
+      end_program(run, state.blocks + 1);
+      return true;
+    case Ending::EndOfProgram:
+      end_by_code(run);
+      return true;
+    case Ending::None:
+      break;
+  }
+  return request_jump(run, head);
+}
+
+JumpOutcome take_jump(Run& run, TextSearch& search) {
+  ModalState& state = run.state;
+  Jump& jump = state.jump;
+  TextPosition found;
+  LoopFrame loop;
+  TextSearch::Outcome outcome{};
+  if (jump.kind == JumpKind::While) {
+    outcome = search.find_wend(jump.from, state.at, loop);
+  } else if (jump.kind == JumpKind::Call) {
+    outcome = search.find_program(jump.number, found);
+  } else {
+    outcome = search.find_label(state.at, jump.number, found);
+  }
+  JumpOutcome result = JumpOutcome::Failed;
+  switch (outcome) {
+    case TextSearch::Outcome::NotYet:
+      return JumpOutcome::NeedsText;
+    case TextSearch::Outcome::More:
+      return JumpOutcome::More;
+    case TextSearch::Outcome::TooLong:
+      run.fail(ErrorCode::BlockTooLong, 0, "met in a search");
+      break;
+    case TextSearch::Outcome::Failed:
+      run.fail(ErrorCode::TextFailed, 0, run.text.failure());
+      break;
+    case TextSearch::Outcome::Missing:
+      result = jump.kind == JumpKind::Call ? call_library(run) : refuse_missing(run);
+      break;
+    case TextSearch::Outcome::Found:
+      result = arrive_at(run, found, loop);
+      break;
+  }
+  if (result == JumpOutcome::Taken) jump = Jump{};
+  return result;
+}
+
+bool run_off_end(Run& run) {
+  ModalState& state = run.state;
+  if (!state.calls.empty()) {
+    return_from_call(run);
+    return true;
+  }
+  if (state.blocks == 0) return run.fail(ErrorCode::EmptyProgram, 0);
+  end_program(run, state.blocks);
+  return true;
+}
+
+}  // namespace dripline::interpreter::centurion

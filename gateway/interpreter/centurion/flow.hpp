@@ -1,0 +1,23 @@
+#pragma once
+
+#include "gateway/interpreter/centurion/run.hpp"
+#include "gateway/interpreter/centurion/text_search.hpp"
+
+/// Where the program goes on: jumps, loops, subroutines, calls, ends (spec 13).
+namespace dripline::interpreter::centurion {
+
+/// M2, M30, M98 and M99 of the block become its ending or its jump.
+bool plan_flow_of_m_codes(Run& run);
+
+/// Moves on behind the visible block, or to where its ending says; a jump that needs other text is
+/// left in `state.jump`.
+bool leave_block(Run& run);
+
+enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
+/// Takes the jump of `state.jump`.
+JumpOutcome take_jump(Run& run, TextSearch& search);
+
+/// The text of the program that is running has ended without an end code.
+bool run_off_end(Run& run);
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,270 @@
+#include "gateway/interpreter/centurion/g_functions.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/centurion/m_codes.hpp"
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/statements.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr AddressSet kWordsOfAnyBlock = set_of(Address::F, Address::S);
+
+GAction action_of(const Run& run) {
+  const std::uint8_t row = run.block.parts.action;
+  return row == kNoRow ? GAction::None : g_row(row).action;
+}
+
+/// Everything the control keeps as a length of the machine follows the units; the program's own
+/// parameters do not (spec 7.5, U27).
+void change_units(Run& run, Units units) {
+  ModalState& state = run.state;
+  if (state.units == units) return;
+  const double factor =
+      units == Units::Millimetre ? Length::kMillimetresPerInch : 1 / Length::kMillimetresPerInch;
+  for (Point* point : {&state.position, &state.previous, &state.floating_zero, &state.local_zero,
+                       &state.last_arc_center}) {
+    point->x *= factor;
+    point->z *= factor;
+  }
+  for (double* value :
+       {&state.feed[0], &state.feed[1], &state.last_arc_radius, &state.retained.radius,
+        &state.retained.center_x, &state.retained.center_z}) {
+    *value *= factor;
+  }
+  constexpr double kFeetPerMetre = 1000 / (12 * Length::kMillimetresPerInch);
+  state.spindle.surface *= units == Units::Millimetre ? 1 / kFeetPerMetre : kFeetPerMetre;
+  run.parameters.convert_tables(factor);
+  state.units = units;
+  run.update_origin();
+  if (state.has_header) run.sink.on_units({run.origin, units});
+}
+
+bool set_data_mode(Run& run, bool on) {
+  run.state.modes.takes_data = on;
+  if (on) return true;
+  run.update_origin();  // what G10 brought counts from G11 on
+  refresh_tool(run);
+  return true;
+}
+
+bool read_byte_parameter(Run& run) {
+  const double number = run.parameters[1];
+  if (!(number >= 0 && number < kByteCount) || number != std::trunc(number)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
+  }
+  run.parameters[0] = run.parameters.byte(static_cast<int>(number));
+  return true;
+}
+
+bool write_byte_parameter(Run& run) {
+  const double number = run.parameters[1];
+  if (!(number >= 0 && number < kByteCount) || number != std::trunc(number)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
+  }
+  return store_byte(run, static_cast<int>(number), run.parameters[0], 0);
+}
+
+/// G997: error round(P1); 0 is none.
+bool force_error(Run& run) {
+  const double number = std::round(run.parameters[1]);
+  if (number == 0) return true;
+  if (!(number >= 1 && number <= 999)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
+  }
+  return run.fail_as(error_row_of_number(static_cast<int>(number)), 0,
+                     fmt::format("G997 with P1 = {}", number));
+}
+
+bool apply_g(Run& run, const GRow& row) {
+  Modes& modes = run.state.modes;
+  switch (row.action) {
+    case GAction::Motion:
+      modes.motion = static_cast<MotionMode>(row.code);
+      return true;
+    case GAction::DataOn:
+      return set_data_mode(run, true);
+    case GAction::DataOff:
+      return set_data_mode(run, false);
+    case GAction::Inch:
+      change_units(run, Units::Inch);
+      return true;
+    case GAction::Metric:
+      change_units(run, Units::Millimetre);
+      return true;
+    case GAction::InitialLevel:
+      modes.returns_to_clearance = false;
+      return true;
+    case GAction::ClearanceLevel:
+      modes.returns_to_clearance = true;
+      return true;
+    case GAction::CancelToolLength:
+      run.state.tool.offset = 0;
+      return true;
+    case GAction::WorkSystem:
+      modes.work_system = static_cast<std::uint8_t>(row.code - 54);
+      run.update_origin();
+      return true;
+    case GAction::Incremental:
+      modes.is_incremental = true;
+      return true;
+    case GAction::Absolute:
+      modes.is_incremental = false;
+      return true;
+    case GAction::SurfaceSpeed:
+      modes.is_surface_speed = true;
+      return true;
+    case GAction::Revolutions:
+      modes.is_surface_speed = false;
+      return true;
+    case GAction::FeedPerMinute:
+      modes.is_feed_per_revolution = false;
+      return true;
+    case GAction::FeedPerRevolution:
+      modes.is_feed_per_revolution = true;
+      return true;
+    case GAction::ReadByte:
+      return read_byte_parameter(run);
+    case GAction::WriteByte:
+      return write_byte_parameter(run);
+    case GAction::ForceError:
+      return force_error(run);
+    case GAction::FatalError:
+      return run.fail(ErrorCode::DivisionByZero, 0, "G999");
+    case GAction::Beep:
+      run.events().on_message({run.origin, "BEEP"});
+      return true;
+    default:
+      return true;
+  }
+}
+
+/// F belongs to the feed unit in force at the end of the block (spec 10.3, U45).
+bool apply_feed(Run& run) {
+  const double feed = run.block.words[Address::F];
+  const bool is_inch = run.state.units == Units::Inch;
+  const double least = is_inch ? 0.0001 : 0.01;
+  const double most = is_inch ? 999.9999 : 99999.99;
+  // The metric range is one of mm/min; per revolution the least increment counts.
+  const double lowest = run.state.modes.is_feed_per_revolution ? 0.0001 : least;
+  if (!(feed >= lowest && feed <= most)) {
+    return run.fail(ErrorCode::FeedOutOfRange, run.block.words.column(Address::F),
+                    fmt::format("F{} is not in {} to {}", feed, lowest, most));
+  }
+  run.state.feed[run.state.modes.is_feed_per_revolution] = feed;
+  return true;
+}
+
+/// S is the limit on a G50 block, else the speed of the spindle unit in force.
+bool apply_speed(Run& run) {
+  const double speed = run.block.words[Address::S];
+  if (!(speed >= 1 && speed <= 9999)) {
+    return run.fail(ErrorCode::SpindleOutOfRange, run.block.words.column(Address::S),
+                    fmt::format("S{} is not in 1 to 9999", speed));
+  }
+  SpindleModes& spindle = run.state.spindle;
+  if (action_of(run) == GAction::FloatingZero) {
+    spindle.limit = speed;
+  } else if (run.state.modes.is_surface_speed) {
+    spindle.surface = speed;
+  } else {
+    spindle.revolutions = speed;
+  }
+  return true;
+}
+
+/// The present position gets the given coordinates; every G50 ends G52 (spec 8.3, 8.4).
+void set_floating_zero(Run& run) {
+  const Words& words = run.block.words;
+  ModalState& state = run.state;
+  state.local_zero = {};
+  run.update_origin();
+  if (words.has(Address::X)) {
+    state.floating_zero.x += state.position.x - state.origin.x - words[Address::X] / 2;
+  }
+  if (words.has(Address::Z)) {
+    state.floating_zero.z += state.position.z - state.origin.z - words[Address::Z];
+  }
+  run.update_origin();
+}
+
+void set_local_zero(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has(Address::X)) run.state.local_zero.x = words[Address::X] / 2;
+  if (words.has(Address::Z)) run.state.local_zero.z = words[Address::Z];
+  run.update_origin();
+}
+
+bool is_data_block(const Run& run) {
+  const Block& block = run.block;
+  if (block.parts.is_assignment_only && block.words.present() == 0) return true;
+  return block.parts.g_count == 1 && block.parts.m_count == 0 && block.words.present() == 0 &&
+         g_row(block.g[0]).group == ModalGroup::Data;
+}
+
+}  // namespace
+
+bool sets_coordinates(const Run& run) {
+  const GAction action = action_of(run);
+  return action == GAction::FloatingZero || action == GAction::LocalZero;
+}
+
+bool check_words(Run& run) {
+  const Block& block = run.block;
+  AddressSet taken = kWordsOfAnyBlock | block.parts.taken;
+  if (block.parts.action == kNoRow) taken |= kLineWords;
+  if (block.parts.jump == JumpKind::Call || block.parts.jump == JumpKind::Gosub) {
+    taken |= set_of(Address::L);
+  }
+  for (std::uint8_t i = 0; i < block.parts.m_count; ++i) {
+    if (m_row(block.m[i]).action == MAction::Call) taken |= set_of(Address::P, Address::L);
+  }
+  const AddressSet left = block.words.present() & ~taken;
+  if (left == 0) [[likely]]
+    return true;
+  for (std::size_t i = 0; i < kAddressCount; ++i) {
+    const auto address = static_cast<Address>(i);
+    if ((left & set_of(address)) == 0) continue;
+    return run.fail(
+        ErrorCode::IllegalAddress, block.words.column(address),
+        fmt::format("nothing in this block takes {}{}", to_string(address), block.words[address]));
+  }
+  return true;
+}
+
+bool apply_modes(Run& run) {
+  const Block& block = run.block;
+  if (run.state.modes.takes_data && !is_data_block(run)) [[unlikely]] {
+    return run.fail(ErrorCode::IllegalG10, 0, "between G10 and G11 only P n = value");
+  }
+  const SpindleModes before = run.state.spindle;
+  const bool was_surface_speed = run.state.modes.is_surface_speed;
+  for (std::uint8_t i = 0; i < block.parts.g_count; ++i) {
+    if (!apply_g(run, g_row(block.g[i]))) return false;
+  }
+  if (block.words.has(Address::F) && !apply_feed(run)) return false;
+  if (block.words.has(Address::S) && !apply_speed(run)) return false;
+  if (block.parts.tool) apply_tool(run);
+  show_speed_change(run, before, was_surface_speed);
+  return true;
+}
+
+bool apply_one_shots(Run& run) {
+  const Block::Parts& parts = run.block.parts;
+  if (parts.dwell) {
+    run.state.dwell_seconds = *parts.dwell;
+    run.events().on_dwell({run.origin, *parts.dwell, {}});
+  }
+  for (std::uint8_t i = 0; i < parts.g_count; ++i) {
+    if (g_row(run.block.g[i]).action != GAction::ClearFloatingZero) continue;
+    run.state.floating_zero = {};
+    run.update_origin();
+  }
+  if (action_of(run) == GAction::FloatingZero) set_floating_zero(run);
+  if (action_of(run) == GAction::LocalZero) set_local_zero(run);
+  return true;
+}
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "gateway/interpreter/centurion/run.hpp"
+
+/// What the G codes, F and S of a block do before anything moves (spec 12.3, step 3), and the
+/// one-shot functions that act in the place of a move (step 5).
+namespace dripline::interpreter::centurion {
+
+bool apply_modes(Run& run);
+/// Dwell and coordinate settings; leaves moves to motion.hpp.
+bool apply_one_shots(Run& run);
+/// Whether the axis words of the block are a setting, not a way.
+bool sets_coordinates(const Run& run);
+
+/// Words that nothing in the block takes are error 501.
+bool check_words(Run& run);
+
+}  // namespace dripline::interpreter::centurion

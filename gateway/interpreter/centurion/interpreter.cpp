@@ -1,0 +1,205 @@
+#include "gateway/interpreter/centurion/interpreter.hpp"
+
+#include "gateway/interpreter/centurion/block_reader.hpp"
+#include "gateway/interpreter/centurion/execution.hpp"
+#include "gateway/interpreter/centurion/flow.hpp"
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/snapshot.hpp"
+#include "gateway/interpreter/centurion/statements.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+bool fits(const Question& question, const Answer& answer) {
+  if (std::holds_alternative<ProbeQuestion>(question)) {
+    return std::holds_alternative<ProbeResult>(answer);
+  }
+  if (std::holds_alternative<PromptQuestion>(question)) {
+    return std::holds_alternative<PromptAnswer>(answer);
+  }
+  if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
+  return std::holds_alternative<LocalTime>(answer);
+}
+
+}  // namespace
+
+CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState state,
+                                           Parameters parameters, ProgramSource& source,
+                                           EventSink& sink)
+    : run_(std::move(options), source, sink), search_(run_.text) {
+  run_.state = std::move(state);
+  run_.parameters = parameters;
+  run_.update_origin();
+}
+
+StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  run_.text.forget();  // its text was good only until the owner used the source
+  for (std::uint64_t left = max_blocks; left > 0;) {
+    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+      const JumpOutcome outcome = take_jump(run_, search_);
+      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
+      if (outcome == JumpOutcome::More) return StepState::Ran;
+      if (outcome == JumpOutcome::Failed) return paused();
+    }
+    const BlockOutcome outcome = run_block();
+    if (outcome == BlockOutcome::Paused) [[unlikely]]
+      return paused();
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+      return StepState::Ended;
+    if (outcome == BlockOutcome::Finished) --left;
+  }
+  return StepState::Ran;
+}
+
+StepState CenturionInterpreter::paused() {
+  switch (run_.pause) {
+    case Pause::Text:
+      run_.pause = Pause::None;
+      return StepState::NeedsText;
+    case Pause::Question:
+      run_.pause = Pause::None;
+      is_asking_ = true;
+      return StepState::NeedsAnswer;
+    default:
+      break;
+  }
+  run_.pause = Pause::None;
+  run_.events().on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
+  const TextCursor::State loaded = run_.text.load(run_.state.at);
+  if (loaded != TextCursor::State::Ready) [[unlikely]]
+    return meet_line_state(loaded);
+  Block::Parts& parts = run_.block.parts;
+  if (parts.stage == Stage::Start) {
+    if (!begin_block()) [[unlikely]] {
+      return run_off_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+    }
+    if (!run_.state.has_header && !run_.name_is_settled) [[unlikely]]
+      settle_name();
+  }
+  if (parts.stage == Stage::Items) {
+    if (!read_items(run_)) [[unlikely]]
+      return BlockOutcome::Paused;
+    parts.stage = Stage::Execution;
+  }
+  if (!execute_block(run_) || !finish_block()) [[unlikely]]
+    return BlockOutcome::Paused;
+  return BlockOutcome::Finished;
+}
+
+/// No block to be seen: more text is needed, the program is over, or it can not go on.
+CenturionInterpreter::BlockOutcome CenturionInterpreter::meet_line_state(TextCursor::State state) {
+  switch (state) {
+    case TextCursor::State::NotYet:
+      run_.pause = Pause::Text;
+      return BlockOutcome::Paused;
+    case TextCursor::State::EndOfText:
+      return run_off_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+    case TextCursor::State::TooLong:
+      place_origin();
+      run_.fail(ErrorCode::BlockTooLong, 0, "more than 4096 characters");
+      return BlockOutcome::Paused;
+    default:
+      place_origin();
+      run_.fail(ErrorCode::TextFailed, 0, run_.text.failure());
+      return BlockOutcome::Paused;
+  }
+}
+
+void CenturionInterpreter::place_origin() {
+  Origin& origin = run_.origin;
+  origin.block = run_.state.blocks + 1;
+  origin.offset = run_.state.at.offset;
+  origin.line = run_.state.at.line;
+  origin.sequence = Origin::kNone;
+  origin.program = run_.state.at.program;
+}
+
+/// False at the O line of the next program in the file.
+bool CenturionInterpreter::begin_block() {
+  const char* begin = run_.text.begin();
+  const bool is_plain = kind_of(*begin) == CharKind::Letter && upper(*begin) != 'O';
+  if (!is_plain && is_end_of_segment()) [[unlikely]]
+    return false;
+  place_origin();
+  run_.origin.offset = run_.text.offset();
+  run_.block.clear();
+  run_.block.parts.stage = Stage::Items;
+  if (!is_plain && is_skipped()) [[unlikely]] {
+    run_.block.parts.has_code = true;
+    run_.block.parts.resume = run_.offset(run_.text.end());
+  }
+  return true;
+}
+
+bool CenturionInterpreter::is_end_of_segment() const {
+  return run_.state.at.code_seen && read_head(run_.text.begin()).kind == BlockHead::Kind::Program;
+}
+
+bool CenturionInterpreter::is_skipped() const {
+  return run_.options.block_skip && *skip_blanks(run_.text.begin()) == '/';
+}
+
+/// The program's name comes from its first block that is not empty: the O word (block_reader.cpp
+/// has it then) or else the comment; and before that block is executed (spec 3.2).
+void CenturionInterpreter::settle_name() {
+  const char* at = skip_blanks(run_.text.begin());
+  if (*at == '%' || is_end_of_block(*at)) return;
+  const BlockHead head = read_head(at);
+  if (head.kind == BlockHead::Kind::Program) return;
+  if (*at == '(') {
+    const char* close = at;
+    while (*close != ')' && !is_end_of_block(*close)) ++close;
+    if (run_.name.empty() && *close == ')') run_.name.assign(at + 1, close);
+  }
+  run_.name_is_settled = head.kind != BlockHead::Kind::Empty;
+}
+
+bool CenturionInterpreter::finish_block() {
+  if (!leave_block(run_)) return false;
+  run_.sink.on_block_end(run_.origin);
+  ++run_.state.blocks;
+  run_.block.parts.stage = Stage::Start;
+  return true;
+}
+
+Result<void> CenturionInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) return fail(Errc::Syntax, "an answer to another question");
+  if (const auto* prompt = std::get_if<PromptAnswer>(&answer)) {
+    if (prompt->text && !is_input_answer(*prompt->text)) {
+      return fail(Errc::Syntax, "{}: \"{}\" is not a number",
+                  std::get<PromptQuestion>(run_.question).variable, *prompt->text);
+    }
+  }
+  run_.answers.push_back(answer);
+  is_asking_ = false;
+  run_.answers_used = 0;
+  return {};
+}
+
+Snapshot CenturionInterpreter::snapshot() const {
+  invariant(run_.block.parts.stage == Stage::Start, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> CenturionInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.text.forget();
+  run_.block.clear();
+  run_.answers.clear();
+  run_.answers_used = 0;
+  run_.pause = Pause::None;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::centurion

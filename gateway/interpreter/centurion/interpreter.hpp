@@ -1,0 +1,40 @@
+#pragma once
+
+#include "gateway/interpreter/centurion/run.hpp"
+#include "gateway/interpreter/centurion/text_search.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// The Milltronics Centurion lathe control: text to events, one block at a time.
+class CenturionInterpreter final : public Interpreter {
+ public:
+  CenturionInterpreter(ControlOptions options, ModalState state, Parameters parameters,
+                       ProgramSource& source, EventSink& sink);
+
+  StepState step(std::uint64_t max_blocks) override;
+  const Question& question() const override { return run_.question; }
+  Result<void> answer(const Answer& answer) override;
+  std::uint64_t blocks() const override { return run_.state.blocks; }
+  const Origin& origin() const override { return run_.origin; }
+  Snapshot snapshot() const override;
+  Result<void> restore(const Snapshot& snapshot) override;
+
+ private:
+  enum class BlockOutcome : std::uint8_t { Finished, NoBlock, Paused };
+
+  BlockOutcome run_block();
+  BlockOutcome meet_line_state(TextCursor::State state);
+  bool begin_block();
+  bool is_end_of_segment() const;
+  bool is_skipped() const;
+  void settle_name();
+  bool finish_block();
+  StepState paused();
+  void place_origin();
+
+  Run run_;
+  TextSearch search_;
+  bool is_asking_ = false;
+};
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "gateway/interpreter/centurion/m_codes.hpp"
+#include "gateway/interpreter/centurion/run.hpp"
+
+/// M functions, spindle, coolant and tools (spec 9, 10, 12).
+namespace dripline::interpreter::centurion {
+
+/// The M codes of the block that act at `timing`, in numerical order.
+bool apply_machine_functions(Run& run, MTiming timing);
+
+/// The T word: asks for a tool, or for the offsets of the one in use (spec 9.1, U37).
+void apply_tool(Run& run);
+/// Nose radius and type of the active offset, where programs read them (P261, P262).
+void refresh_tool(Run& run);
+
+/// A spindle event when the block's words changed how the turning spindle turns; M3 and M4 of the
+/// same block show it themselves.
+void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_speed);
+void spindle_to(Run& run, SpindleState state);
+void all_off(Run& run);
+
+/// The block's comment, for the operator; nothing when it has none (spec 3.1).
+void show_comment(Run& run);
+
+}  // namespace dripline::interpreter::centurion

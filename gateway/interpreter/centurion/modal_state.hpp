@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "gateway/interpreter/centurion/text_cursor.hpp"
+#include "gateway/interpreter/event.hpp"
+
+/// Everything that stays from one block to the next. Lengths are in program units (`units` says
+/// which), X is a radius, positions are machine coordinates with the tool length left out, unless
+/// said otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+namespace dripline::interpreter::centurion {
+
+struct Point {
+  double x = 0;
+  double z = 0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, CounterClockwise };
+enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
+
+inline constexpr std::size_t kMaxNesting = 50;  ///< calls, subroutines and loops, each
+inline constexpr int kOffsetCount = 24;
+
+/// Words that a later block may leave out (spec 5.4, "Retained words").
+struct RetainedWords {
+  double radius = 0;
+  double start_angle = 0;
+  double end_angle = 0;
+  double center_x = 0;  ///< I
+  double center_z = 0;  ///< K
+  bool has_radius = false;
+};
+
+struct Modes {
+  MotionMode motion = MotionMode::Line;
+  bool is_incremental = false;
+  bool is_feed_per_revolution = false;
+  bool is_surface_speed = false;
+  bool returns_to_clearance = false;  ///< G39
+  bool takes_data = false;            ///< between G10 and G11
+  std::uint8_t work_system = 0;       ///< 0 is G54
+};
+
+struct SpindleModes {
+  SpindleState state = SpindleState::Off;
+  double revolutions = 0;  ///< last S under G97
+  double surface = 0;      ///< last S under G96, feet or metres per minute
+  double limit = 0;        ///< G50 S; 0 = none
+};
+
+struct ToolModes {
+  int pending = 0;
+  int pending_offset = -1;  ///< -1: the T word named none
+  int active = 0;
+  int offset = 0;
+};
+
+/// M98, CALL.
+struct CallFrame {
+  TextPosition back;
+  TextPosition entry;
+  Point floating_zero;
+  std::uint32_t passes_left = 0;
+  std::uint8_t gosub_base = 0;  ///< subroutines and loops of the caller are out of reach
+  std::uint8_t loop_base = 0;
+};
+struct GosubFrame {
+  TextPosition back;
+  TextPosition entry;
+  Point floating_zero;
+  std::uint32_t passes_left = 0;
+  std::uint8_t loop_base = 0;
+};
+struct LoopFrame {
+  TextPosition head;  ///< before the WHILE block
+  TextPosition next;  ///< behind the WEND block
+  std::uint64_t wend_offset = 0;
+};
+
+/// A jump that a block asked for and that needs text of another place; taken before the next block.
+enum class JumpKind : std::uint8_t { None, Goto, Gosub, Call, While };
+struct Jump {
+  JumpKind kind = JumpKind::None;
+  bool is_call_word = false;  ///< CALL, not M98: its own error number
+  bool condition = false;     ///< of WHILE
+  std::uint32_t number = 0;
+  std::uint32_t passes = 1;
+  TextPosition from;  ///< WHILE: before its block
+};
+
+/// Where the rest of the data is: parameters.hpp.
+struct ModalState {
+  RunPhase phase = RunPhase::Running;
+  bool has_header = false;
+  std::uint8_t moved_axes = 0;  ///< bit 0 X, bit 1 Z
+  Units units = Units::Inch;
+  std::uint64_t blocks = 0;
+  TextPosition at;
+
+  Point position;
+  Point previous;
+  Point origin;         ///< of the active coordinates: work system + floating zero + local zero
+  Point floating_zero;  ///< G50
+  Point local_zero;     ///< G52
+  Point last_arc_center;
+  double last_arc_radius = 0;
+  double dwell_seconds = 0;
+  std::array<double, 2> feed{};  ///< per minute, per revolution
+  Modes modes;
+  RetainedWords retained;
+  SpindleModes spindle;
+  Coolant coolant;
+  ToolModes tool;
+  std::optional<OutputDevice> open_device;
+  std::uint64_t random = 0x853c49e6748fea9bu;
+
+  std::vector<CallFrame> calls;
+  std::vector<GosubFrame> gosubs;
+  std::vector<LoopFrame> loops;
+  Jump jump;
+
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  double active_feed() const { return feed[modes.is_feed_per_revolution]; }
+};
+
+}  // namespace dripline::interpreter::centurion

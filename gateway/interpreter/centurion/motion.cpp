@@ -1,0 +1,193 @@
+#include "gateway/interpreter/centurion/motion.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/centurion/arcs.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// Spec 3.3, the wider table: 99999.9999 inch, 99999.999 mm. X counts as a diameter.
+constexpr double kMostInches = 99999.9999;
+constexpr double kMostMillimetres = 99999.999;
+
+/// R and AB from a pole, which is the current point unless the block names one (spec 5.2).
+bool read_polar_target(Run& run, Target& target) {
+  const Words& words = run.block.words;
+  ModalState& state = run.state;
+  if (words.has_any(kEndWords)) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "a line has an end point or R and AB; a corner radius is written \",R\"");
+  }
+  if (words.has(Address::R)) {
+    if (words[Address::R] < 0) {
+      return run.fail(ErrorCode::NegativePolarRadius, words.column(Address::R));
+    }
+    state.retained.radius = words[Address::R];
+    state.retained.has_radius = true;
+  }
+  if (words.has(Address::AB)) state.retained.end_angle = words[Address::AB];
+  Point pole = state.position;
+  if (words.has(Address::XC)) pole.x = state.origin.x + words[Address::XC] / 2;
+  if (words.has(Address::ZC)) pole.z = state.origin.z + words[Address::ZC];
+  if (words.has(Address::I)) pole.x += words[Address::I];
+  if (words.has(Address::K)) pole.z += words[Address::K];
+  target.to = polar(pole, state.retained.radius, state.retained.end_angle);
+  target.named = kBothAxes;
+  return true;
+}
+
+bool refuse_two_of_one_axis(Run& run, Address incremental) {
+  return run.fail(ErrorCode::DuplicateAddress, run.block.words.column(incremental),
+                  fmt::format("{} and its axis in one block", to_string(incremental)));
+}
+
+void line_to(Run& run, const Target& target) {
+  if (target.to == run.state.position) return;
+  const Position to = event_position(run, target.to, target.named);
+  run.events().on_line({run.origin, to, run.active_feed()});
+  arrive(run, target.to);
+}
+
+bool start_probe(Run& run, const Target& target) {
+  if (run.state.modes.motion == MotionMode::Rapid) {
+    return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
+  }
+  if (target.to == run.state.position) return true;
+  ProbeQuestion question;
+  question.probe.origin = run.origin;
+  question.probe.from = event_position(run, run.state.position, target.named);
+  question.probe.to = event_position(run, target.to, target.named);
+  question.probe.until = *run.block.parts.probe;
+  question.probe.feed = run.active_feed();
+  run.events();  // the header comes before anything the question brings about
+  return run.ask(question);
+}
+
+}  // namespace
+
+bool read_target(Run& run, Target& target) {
+  const Words& words = run.block.words;
+  const ModalState& state = run.state;
+  const bool is_machine = run.block.parts.action != kNoRow;
+  const Point zero = is_machine ? Point{} : state.origin;
+  const bool is_incremental = state.modes.is_incremental && !is_machine;
+  target.to = state.position;
+  if (words.has(Address::X)) {
+    const double x = words[Address::X] * 0.5;
+    target.to.x = is_incremental ? target.to.x + x : zero.x + x;
+    target.named.x = true;
+  }
+  if (words.has(Address::Z)) {
+    const double z = words[Address::Z];
+    target.to.z = is_incremental ? target.to.z + z : zero.z + z;
+    target.named.z = true;
+  }
+  if (!words.has_any(set_of(Address::U, Address::W))) return check_target(run, target.to);
+  if (words.has(Address::U)) {
+    if (target.named.x) return refuse_two_of_one_axis(run, Address::U);
+    target.to.x += words[Address::U] * 0.5;
+    target.named.x = true;
+  }
+  if (words.has(Address::W)) {
+    if (target.named.z) return refuse_two_of_one_axis(run, Address::W);
+    target.to.z += words[Address::W];
+    target.named.z = true;
+  }
+  return check_target(run, target.to);
+}
+
+bool move(Run& run) {
+  const Words& words = run.block.words;
+  // AA means nothing to a line (spec 5.2, U11); alone it moves nothing.
+  if (!words.has_any(kEndWords | kPolarWords)) return true;
+  const MotionMode mode = run.state.modes.motion;
+  if (mode >= MotionMode::Clockwise) return move_on_arc(run);
+  Target target;
+  if (words.has_any(kPolarWords)) [[unlikely]] {
+    if (words.has(Address::AA)) run.state.retained.start_angle = words[Address::AA];
+    if (!words.has_any((kEndWords | kPolarWords) & ~set_of(Address::AA))) return true;
+    if (words.has_any(kPolarWords & ~set_of(Address::AA))) {
+      if (!read_polar_target(run, target) || !check_target(run, target.to)) return false;
+    } else if (!read_target(run, target)) {
+      return false;
+    }
+  } else if (!read_target(run, target)) {
+    return false;
+  }
+  if (run.block.parts.probe) [[unlikely]] {
+    return check_feed(run) && start_probe(run, target);
+  }
+  if (mode == MotionMode::Rapid) {
+    rapid_to(run, target.to, target.named);
+    return true;
+  }
+  if (!check_feed(run)) return false;
+  line_to(run, target);
+  return true;
+}
+
+void finish_probe(Run& run, const ProbeResult& result) {
+  Probe probe = std::get<ProbeQuestion>(run.question).probe;
+  probe.origin = run.origin;
+  probe.result = result;
+  const double mm = run.state.mm_per_unit();
+  const Point at{result.at.linear(Axis::X).mm() / mm, result.at.linear(Axis::Z).mm() / mm};
+  probe.result->at = event_position(run, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
+  run.events().on_probe(probe);
+  arrive(run, at);
+}
+
+void rapid_to(Run& run, const Point& to, AxesNamed named) {
+  if (to == run.state.position) return;
+  const Position at = event_position(run, to, named);
+  run.events().on_rapid({run.origin, at});
+  arrive(run, to);
+}
+
+bool check_target(Run& run, const Point& to) {
+  const double most = run.state.units == Units::Inch ? kMostInches : kMostMillimetres;
+  if (std::fabs(to.x) * 2 <= most && std::fabs(to.z) <= most) [[likely]]
+    return true;
+  return run.fail(ErrorCode::TooManyDigits, motion_column(run),
+                  fmt::format("X{} Z{} is beyond {}", to.x * 2, to.z, most));
+}
+
+bool check_feed(Run& run) {
+  if (run.state.active_feed() > 0) [[likely]]
+    return true;
+  return run.fail(ErrorCode::FeedOutOfRange, motion_column(run),
+                  run.state.modes.is_feed_per_revolution ? "no feed per revolution was given"
+                                                         : "no feed per minute was given");
+}
+
+Position event_position(Run& run, const Point& point, AxesNamed named) {
+  ModalState& state = run.state;
+  if (point.x != state.position.x) state.moved_axes |= 1;
+  if (point.z != state.position.z) state.moved_axes |= 2;
+  Position position;
+  position.set(Axis::X, run.length(point.x));
+  position.set(Axis::Z, run.length(point.z));
+  if (!named.x && !(state.moved_axes & 1)) position.unmark(Axis::X);
+  if (!named.z && !(state.moved_axes & 2)) position.unmark(Axis::Z);
+  return position;
+}
+
+void arrive(Run& run, const Point& at) {
+  run.state.previous = run.state.position;
+  run.state.position = at;
+}
+
+std::uint32_t motion_column(const Run& run) {
+  const Words& words = run.block.words;
+  std::uint32_t first = 0;
+  for (std::size_t i = 0; i < kAddressCount; ++i) {
+    const auto address = static_cast<Address>(i);
+    if (!words.has(address) || !((kEndWords | kPolarWords) & set_of(address))) continue;
+    if (first == 0 || words.column(address) < first) first = words.column(address);
+  }
+  return first;
+}
+
+}  // namespace dripline::interpreter::centurion

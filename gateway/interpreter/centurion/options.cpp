@@ -1,0 +1,226 @@
+#include "gateway/interpreter/centurion/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/option.hpp"
+#include "protocol/base/decimal.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+Units units_of(const Setup& setup) {
+  return setup.units.value_or(Units::Inch);
+}
+
+double in_units(Length length, Units units) {
+  return units == Units::Inch ? length.inch() : length.mm();
+}
+
+/// Known to the control, but nothing in this version acts on it: better refused than ignored.
+Result<void> refuse_unused(const Options& options) {
+  for (const std::string_view name : {"custom_g", "custom_m"}) {
+    const OptionValue* option = options.find(name);
+    if (option == nullptr) continue;
+    const auto* list = std::get_if<OptionList>(&option->value);
+    if (list != nullptr && list->empty()) continue;
+    return fail(Errc::Unsupported, "[control] {}: custom codes are not supported yet", name);
+  }
+  return {};
+}
+
+/// One number for both units, or [inch, metric].
+Result<void> read_digits(const Options& options, std::string_view name,
+                         std::array<int, 2>& digits) {
+  const auto values = options.integers(name);
+  if (!values) return fail(values.error());
+  if (values->empty()) return {};
+  const bool is_sane = std::all_of(values->begin(), values->end(),
+                                   [](std::int64_t value) { return value >= 0 && value <= 9; });
+  if (values->size() > 2 || !is_sane) {
+    return fail(Errc::Syntax, "[control] {}: expected 0 to 9, or two of them for inch and metric",
+                name);
+  }
+  digits = {static_cast<int>(values->front()), static_cast<int>(values->back())};
+  return {};
+}
+
+Result<void> read_dnc(const Options& options, ControlOptions& control) {
+  const auto refuses = options.flag("dnc_refusals", false);
+  const auto resolves = options.flag("resolve_dnc", true);
+  if (!refuses) return fail(refuses.error());
+  if (!resolves) return fail(resolves.error());
+  control.refuses_loops_and_calls = *refuses;
+  control.refuses_goto = *refuses && !*resolves;
+  return {};
+}
+
+Result<bool> stored_x_is_diameter(const Options& options) {
+  const auto choice = options.choice("stored_x", {"radius", "diameter"}, 0);
+  if (!choice) return fail(choice.error());
+  return *choice == 1;
+}
+
+Result<void> read_tool_change(const Options& options, ControlOptions& control) {
+  const OptionValue* option = options.find("tool_change");
+  if (option == nullptr) return {};
+  if (const auto* zero = std::get_if<std::int64_t>(&option->value); zero && *zero == 0) return {};
+  const auto position = options.position("tool_change");
+  if (!position) return fail(position.error());
+  const auto is_diameter = stored_x_is_diameter(options);
+  if (!is_diameter) return fail(is_diameter.error());
+  control.tool_change_x_mm = position->linear(Axis::X).mm() / (*is_diameter ? 2 : 1);
+  return {};
+}
+
+Result<void> load_axes(const Position& position, std::string_view what) {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if (!position.has(axis) || axis == Axis::X || axis == Axis::Z) continue;
+    return fail(Errc::Unsupported, "{}: this lathe has no axis {}", what, letter(axis));
+  }
+  return {};
+}
+
+/// G54 to G59, G50 and G52.
+Result<void> load_offset(const OffsetRecord& offset, bool is_diameter, ModalState& state,
+                         Parameters& parameters) {
+  if (auto checked = load_axes(offset.value, offset.name); !checked) return checked;
+  const Point value{in_units(offset.value.linear(Axis::X), state.units) / (is_diameter ? 2 : 1),
+                    in_units(offset.value.linear(Axis::Z), state.units)};
+  if (offset.name == "G50") {
+    state.floating_zero = value;
+  } else if (offset.name == "G52") {
+    state.local_zero = value;
+  } else if (offset.name.size() == 3 && offset.name.starts_with("G5") && offset.name[2] >= '4' &&
+             offset.name[2] <= '9') {
+    const int first = kWorkOffsets + 2 * (offset.name[2] - '4');
+    parameters[first] = value.z;
+    parameters[first + 1] = value.x;
+  } else {
+    return fail(Errc::Unsupported, "offset {}: this control has G54 to G59, G50 and G52",
+                offset.name);
+  }
+  return {};
+}
+
+Result<void> load_tool(const ToolRecord& tool, Units units, Parameters& parameters) {
+  if (tool.number < 1 || tool.number > kOffsetCount) {
+    return fail(Errc::Unsupported, "tool {}: this control has 1 to {}", tool.number, kOffsetCount);
+  }
+  if (tool.tip < 0 || tool.tip > 9) {
+    return fail(Errc::Unsupported, "tool {}: type {} is not 0 to 9", tool.number, tool.tip);
+  }
+  if (auto checked = load_axes(tool.length, "tool length"); !checked) return checked;
+  const auto set = [&](ToolField field, double value) {
+    parameters[Parameters::tool_parameter(tool.number, field)] = value;
+  };
+  set(ToolField::LengthZ, in_units(tool.length.linear(Axis::Z), units));
+  set(ToolField::LengthX, in_units(tool.length.linear(Axis::X), units));
+  set(ToolField::WearZ, in_units(tool.wear.linear(Axis::Z), units));
+  set(ToolField::WearX, in_units(tool.wear.linear(Axis::X), units));
+  set(ToolField::Radius, in_units(tool.radius, units));
+  set(ToolField::WearRadius, in_units(tool.radius_wear, units));
+  set(ToolField::Type, tool.tip);
+  return {};
+}
+
+/// P10 or PB81.
+Result<void> load_variable(const VariableRecord& variable, Parameters& parameters) {
+  const std::string_view name = variable.name;
+  const bool is_byte = name.starts_with("PB");
+  const auto number = parse_decimal(name.substr(is_byte ? 2 : name.starts_with("P") ? 1 : 0));
+  const int count = is_byte ? kByteCount : kParameterCount;
+  const bool is_status = number && number->digits >= kFirstStatus && number->digits <= kLastStatus;
+  if (!name.starts_with("P") || !number || number->scale != 0 || number->digits < 0 ||
+      number->digits >= count || (!is_byte && is_status)) {
+    return fail(Errc::Unsupported,
+                "variable {}: this control has P0 to P199, P371 to P{} and PB0 "
+                "to PB{}",
+                name, kParameterCount - 1, kByteCount - 1);
+  }
+  const int index = static_cast<int>(number->digits);
+  if (!is_byte) {
+    parameters[index] = variable.value;
+    return {};
+  }
+  if (!(variable.value >= 0 && variable.value <= 255)) {
+    return fail(Errc::LimitExceeded, "variable {}: {} is not 0 to 255", name, variable.value);
+  }
+  parameters.byte(index) = static_cast<std::uint8_t>(variable.value);
+  return {};
+}
+
+/// Feed, special flags and the other things of power-on.
+Result<void> load_power_on(const Options& options, ModalState& state, Parameters& parameters) {
+  const auto feed = options.number("power_on_feed", 10);
+  if (!feed) return fail(feed.error());
+  const auto mode = options.choice("power_on_feed_mode", {"per_min", "per_rev"}, 1);
+  if (!mode) return fail(mode.error());
+  state.modes.is_feed_per_revolution = *mode == 1;
+  state.feed[*mode] = *feed;
+  const auto flags = options.integer("special_flags", 0);
+  if (!flags) return fail(flags.error());
+  if (*flags < 0 || *flags > 255) {
+    return fail(Errc::LimitExceeded, "[control] special_flags: {} is not 0 to 255", *flags);
+  }
+  parameters.byte(kSpecialFlags) = static_cast<std::uint8_t>(*flags);
+  return {};
+}
+
+}  // namespace
+
+Result<ControlOptions> read_options(const Setup& setup) {
+  const Options& options = setup.control;
+  auto known = options.check_known({"stored_x", "reference", "tool_change", "power_on_feed",
+                                    "power_on_feed_mode", "special_flags", "leading", "trailing",
+                                    "report_file", "custom_g", "custom_m", "resolve_dnc",
+                                    "dnc_refusals", "pins", "disable_417", "pulse_ms"});
+  if (!known) return fail(known.error());
+  if (auto unused = refuse_unused(options); !unused) return fail(unused.error());
+  if (!setup.switches.mirror.empty()) {
+    return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
+  }
+  ControlOptions control;
+  control.block_skip = setup.switches.block_skip;
+  control.optional_stop = setup.switches.optional_stop;
+  for (auto done : {read_digits(options, "leading", control.leading_digits),
+                    read_digits(options, "trailing", control.trailing_digits),
+                    read_dnc(options, control), read_tool_change(options, control)}) {
+    if (!done) return fail(done.error());
+  }
+  const auto report = options.text("report_file", "REPORT.DAT");
+  if (!report) return fail(report.error());
+  control.report_file = report->empty() ? "REPORT.DAT" : *report;
+  const auto pulse = options.number("pulse_ms", control.pulse_ms);
+  if (!pulse) return fail(pulse.error());
+  control.pulse_ms = *pulse;
+  auto pins = options.integers("pins");
+  if (!pins) return fail(pins.error());
+  control.answers_pins = options.find("pins") != nullptr;
+  control.pins_at_one = std::move(*pins);
+  return control;
+}
+
+Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& parameters) {
+  state.units = units_of(setup);
+  if (auto checked = load_axes(setup.start, "start"); !checked) return checked;
+  state.position = {in_units(setup.start.linear(Axis::X), state.units),
+                    in_units(setup.start.linear(Axis::Z), state.units)};
+  state.previous = state.position;
+  if (auto done = load_power_on(setup.control, state, parameters); !done) return done;
+  const auto is_diameter = stored_x_is_diameter(setup.control);
+  if (!is_diameter) return fail(is_diameter.error());
+  for (const OffsetRecord& offset : setup.offsets) {
+    if (auto done = load_offset(offset, *is_diameter, state, parameters); !done) return done;
+  }
+  for (const ToolRecord& tool : setup.tools) {
+    if (auto done = load_tool(tool, state.units, parameters); !done) return done;
+  }
+  for (const VariableRecord& variable : setup.variables) {
+    if (auto done = load_variable(variable, parameters); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace dripline::interpreter::centurion

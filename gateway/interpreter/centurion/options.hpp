@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/centurion/modal_state.hpp"
+#include "gateway/interpreter/centurion/parameters.hpp"
+#include "gateway/interpreter/setup.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// What a machine's builder and operator have set: the `[control]` options of spec 1.1 that touch
+/// what this version does, and the panel's switches.
+struct ControlOptions {
+  bool block_skip = false;
+  bool optional_stop = false;
+  bool refuses_loops_and_calls = false;  ///< `dnc_refusals`
+  bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
+  double tool_change_x_mm = 0;           ///< machine position of M6, radius
+  double pulse_ms = 150;
+  std::array<int, 2> trailing_digits{4, 3};  ///< of #n without format: inch, metric
+  std::array<int, 2> leading_digits{0, 0};
+  std::string report_file;
+  std::vector<std::int64_t> pins_at_one;
+  bool answers_pins = false;  ///< `pins` was given: nobody need be asked
+};
+
+/// Reads the options. Errors: Syntax, Unsupported (an option this control does not have, or has
+/// but this version does not honour).
+Result<ControlOptions> read_options(const Setup& setup);
+
+/// The control's memory at the start of a run: modes, offsets, tools, parameters.
+/// Errors: Unsupported, naming the record of the setup that this control does not have.
+Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& parameters);
+
+}  // namespace dripline::interpreter::centurion

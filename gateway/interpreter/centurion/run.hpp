@@ -1,0 +1,94 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/centurion/block.hpp"
+#include "gateway/interpreter/centurion/errors.hpp"
+#include "gateway/interpreter/centurion/modal_state.hpp"
+#include "gateway/interpreter/centurion/options.hpp"
+#include "gateway/interpreter/centurion/parameters.hpp"
+#include "gateway/interpreter/centurion/text_cursor.hpp"
+#include "gateway/interpreter/interpreter.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question, Text };
+
+/// One run: what the files of this folder work on. Functions that can not go on give false and
+/// leave the reason in `pause`; a question leaves no trace of the item that asked, which is done
+/// again from its start once the answer is there.
+struct Run {
+  Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
+      : options(std::move(control_options)),
+        source(program_source),
+        sink(event_sink),
+        text(program_source) {}
+
+  /// The sink, after the header has been delivered.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    return sink;
+  }
+
+  /// Offset of `at` in the block, and its 1-based column.
+  std::uint32_t offset(const char* at) const {
+    return static_cast<std::uint32_t>(at - text.begin());
+  }
+  std::uint32_t column(const char* at) const { return offset(at) + 1; }
+
+  /// Both give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
+  [[gnu::cold]] bool fail_as(const ErrorRow& row, std::uint32_t at_column,
+                             std::string_view detail = {});
+  [[gnu::cold]] bool ask(Question asked);
+  /// The answer to the next question of the item in hand, or nullptr when it has yet to be asked.
+  const Answer* next_answer();
+  void begin_item(const char* at) {
+    block.parts.resume = offset(at);
+    answers_used = 0;
+    random_at_item = state.random;
+  }
+  void item_done() {
+    if (!answers.empty()) [[unlikely]]
+      answers.clear();
+    answers_used = 0;
+  }
+
+  /// After a change of anything the active coordinates are made of.
+  void update_origin();
+  Length length(double program_units) const {
+    return Length::mm(program_units * state.mm_per_unit());
+  }
+  Feed active_feed() const {
+    const Length per = length(state.active_feed());
+    return state.modes.is_feed_per_revolution ? Feed::per_revolution(per) : Feed::per_minute(per);
+  }
+
+  const ControlOptions options;
+  ProgramSource& source;
+  EventSink& sink;
+  TextCursor text;
+  ModalState state;
+  Parameters parameters;
+  std::string name;  ///< as the program calls itself; empty when it does not
+  bool name_is_settled = false;
+
+  Block block;
+  Origin origin;
+  std::vector<Answer> answers;  ///< of the item in hand, in the order asked
+  std::size_t answers_used = 0;
+  std::uint64_t random_at_item = 0;  ///< where the item in hand found the random numbers
+  Question question;
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+  std::string scratch;  ///< output text being made
+
+ private:
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,232 @@
+#include "gateway/interpreter/centurion/snapshot.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr std::string_view kDialect = "centurion";
+constexpr std::size_t kMaxName = kMaxBlockBytes;
+
+/// One list of members serves both ways: `visit_state(archive, state)`.
+class Writer {
+ public:
+  template <class T>
+  void operator()(T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+    out.insert(out.end(), bytes, bytes + sizeof value);
+  }
+  bool size(std::size_t& count, std::size_t) {
+    auto stored = static_cast<std::uint32_t>(count);
+    (*this)(stored);
+    return true;
+  }
+  std::vector<std::byte> out;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::vector<std::byte>& bytes) : in(bytes) {}
+  template <class T>
+  void operator()(T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    if (in.size() - at < sizeof value) {
+      is_damaged = true;
+      return;
+    }
+    if constexpr (std::is_same_v<T, bool>) {
+      is_damaged |= static_cast<unsigned char>(in[at]) > 1;
+      value = static_cast<unsigned char>(in[at]) != 0;
+    } else {
+      std::memcpy(&value, in.data() + at, sizeof value);
+    }
+    at += sizeof value;
+  }
+  bool size(std::size_t& count, std::size_t most) {
+    std::uint32_t stored = 0;
+    (*this)(stored);
+    is_damaged |= stored > most;
+    count = is_damaged ? 0 : stored;
+    return !is_damaged;
+  }
+  const std::vector<std::byte>& in;
+  std::size_t at = 0;
+  bool is_damaged = false;
+};
+
+template <class Archive, class... Values>
+void all(Archive& archive, Values&... values) {
+  (archive(values), ...);
+}
+
+template <class Archive>
+void visit(Archive& archive, Point& point) {
+  all(archive, point.x, point.z);
+}
+template <class Archive>
+void visit(Archive& archive, TextPosition& at) {
+  all(archive, at.program, at.after_cr, at.code_seen, at.segment_offset, at.segment_line, at.offset,
+      at.line);
+}
+template <class Archive>
+void visit(Archive& archive, CallFrame& frame) {
+  visit(archive, frame.back);
+  visit(archive, frame.entry);
+  visit(archive, frame.floating_zero);
+  all(archive, frame.passes_left, frame.gosub_base, frame.loop_base);
+}
+template <class Archive>
+void visit(Archive& archive, GosubFrame& frame) {
+  visit(archive, frame.back);
+  visit(archive, frame.entry);
+  visit(archive, frame.floating_zero);
+  all(archive, frame.passes_left, frame.loop_base);
+}
+template <class Archive>
+void visit(Archive& archive, LoopFrame& frame) {
+  visit(archive, frame.head);
+  visit(archive, frame.next);
+  archive(frame.wend_offset);
+}
+template <class Archive>
+void visit(Archive& archive, Origin& origin) {
+  all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
+}
+
+template <class Archive, class Frame>
+void visit_stack(Archive& archive, std::vector<Frame>& stack) {
+  std::size_t count = stack.size();
+  if (!archive.size(count, kMaxNesting)) return;
+  stack.resize(count);
+  for (Frame& frame : stack) visit(archive, frame);
+}
+
+template <class Archive>
+void visit_modes(Archive& archive, ModalState& state) {
+  Modes& modes = state.modes;
+  all(archive, modes.motion, modes.is_incremental, modes.is_feed_per_revolution,
+      modes.is_surface_speed, modes.returns_to_clearance, modes.takes_data, modes.work_system);
+  RetainedWords& retained = state.retained;
+  all(archive, retained.radius, retained.start_angle, retained.end_angle, retained.center_x,
+      retained.center_z, retained.has_radius);
+  SpindleModes& spindle = state.spindle;
+  all(archive, spindle.state, spindle.revolutions, spindle.surface, spindle.limit);
+  all(archive, state.coolant.flood, state.coolant.mist);
+  visit(archive, state.coolant.origin);
+  ToolModes& tool = state.tool;
+  all(archive, tool.pending, tool.pending_offset, tool.active, tool.offset);
+}
+
+template <class Archive>
+void visit_state(Archive& archive, ModalState& state) {
+  all(archive, state.phase, state.has_header, state.moved_axes, state.units, state.blocks);
+  visit(archive, state.at);
+  for (Point* point : {&state.position, &state.previous, &state.origin, &state.floating_zero,
+                       &state.local_zero, &state.last_arc_center}) {
+    visit(archive, *point);
+  }
+  all(archive, state.last_arc_radius, state.dwell_seconds, state.feed[0], state.feed[1],
+      state.random);
+  visit_modes(archive, state);
+  bool is_open = state.open_device.has_value();
+  auto device = state.open_device.value_or(OutputDevice::File);
+  all(archive, is_open, device);
+  state.open_device = is_open ? std::optional<OutputDevice>(device) : std::nullopt;
+  visit_stack(archive, state.calls);
+  visit_stack(archive, state.gosubs);
+  visit_stack(archive, state.loops);
+  Jump& jump = state.jump;
+  all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes);
+  visit(archive, jump.from);
+}
+
+/// Only what is not 0: most are.
+template <class Archive, class Value>
+void visit_sparse(Archive& archive, int count, Value value_at) {
+  std::size_t used = 0;
+  for (int number = 0; number < count; ++number) used += value_at(number) != 0;
+  if (!archive.size(used, static_cast<std::size_t>(count))) return;
+  if constexpr (std::is_same_v<Archive, Writer>) {
+    for (int number = 0; number < count; ++number) {
+      if (value_at(number) != 0) all(archive, number, value_at(number));
+    }
+  } else {
+    for (std::size_t i = 0; i < used; ++i) {
+      int number = 0;
+      archive(number);
+      if (number < 0 || number >= count) archive.is_damaged = true;
+      if (archive.is_damaged) return;
+      archive(value_at(number));
+    }
+  }
+}
+
+template <class Archive>
+void visit_parameters(Archive& archive, Parameters& parameters) {
+  visit_sparse(archive, kParameterCount, [&](int n) -> double& { return parameters[n]; });
+  visit_sparse(archive, kByteCount, [&](int n) -> std::uint8_t& { return parameters.byte(n); });
+}
+
+template <class Archive>
+void visit_name(Archive& archive, std::string& name, bool& is_settled) {
+  std::size_t length = name.size();
+  if (!archive.size(length, kMaxName)) return;
+  name.resize(length);
+  for (char& c : name) archive(c);
+  archive(is_settled);
+}
+
+/// Values that index tables must be in range, whatever the bytes say.
+bool is_plausible(const ModalState& state) {
+  return state.phase <= RunPhase::Alarmed && state.units <= Units::Millimetre &&
+         state.modes.motion <= MotionMode::CounterClockwise && state.modes.work_system < 6 &&
+         state.spindle.state <= SpindleState::Oriented && state.tool.offset >= 0 &&
+         state.tool.offset <= kOffsetCount && state.jump.kind <= JumpKind::While &&
+         state.open_device.value_or(OutputDevice::File) <= OutputDevice::Printer;
+}
+
+}  // namespace
+
+Snapshot take_snapshot(const Run& run) {
+  Writer writer;
+  ModalState state = run.state;
+  Parameters parameters = run.parameters;
+  Origin origin = run.origin;
+  std::string name = run.name;
+  bool is_settled = run.name_is_settled;
+  visit_state(writer, state);
+  visit_parameters(writer, parameters);
+  visit(writer, origin);
+  visit_name(writer, name, is_settled);
+  return {std::string(kDialect), kSnapshotVersion, std::move(writer.out)};
+}
+
+Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
+  if (snapshot.dialect != kDialect || snapshot.version != kSnapshotVersion) {
+    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
+                snapshot.dialect, snapshot.version, kDialect, kSnapshotVersion);
+  }
+  Reader reader(snapshot.bytes);
+  ModalState state;
+  Parameters parameters;
+  Origin origin;
+  std::string name;
+  bool is_settled = false;
+  visit_state(reader, state);
+  visit_parameters(reader, parameters);
+  visit(reader, origin);
+  visit_name(reader, name, is_settled);
+  if (reader.is_damaged || reader.at != snapshot.bytes.size() || !is_plausible(state)) {
+    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
+  }
+  run.state = std::move(state);
+  run.parameters = parameters;
+  run.origin = origin;
+  run.name = std::move(name);
+  run.name_is_settled = is_settled;
+  return {};
+}
+
+}  // namespace dripline::interpreter::centurion

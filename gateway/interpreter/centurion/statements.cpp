@@ -1,0 +1,247 @@
+#include "gateway/interpreter/centurion/statements.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/centurion/expression_reader.hpp"
+#include "gateway/interpreter/centurion/number.hpp"
+#include "gateway/interpreter/centurion/output_text.hpp"
+#include "protocol/base/decimal.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr std::uint32_t kHighestLabel = 99999;
+constexpr std::uint32_t kHighestProgram = 9999;
+
+const char* end_of_block(const char* at) {
+  while (!is_end_of_block(*at)) ++at;
+  return at;
+}
+
+/// One block can jump once.
+bool claim_flow(Run& run, const char* start) {
+  const Block::Parts& parts = run.block.parts;
+  if (parts.jump == JumpKind::None && parts.ending == Ending::None) return true;
+  return run.fail(ErrorCode::IllegalStatement, run.column(start), "a second jump in one block");
+}
+
+bool read_jump(Run& run, JumpKind kind, std::uint32_t limit, const char* start, const char*& at) {
+  if (!claim_flow(run, start)) return false;
+  Block::Parts& parts = run.block.parts;
+  if (!read_whole(run, at, limit, parts.jump_number)) return false;
+  parts.jump = kind;
+  return true;
+}
+
+bool refuse_in_dnc(Run& run, const char* start) {
+  return run.fail(ErrorCode::IllegalStatement, run.column(start),
+                  "not allowed in DNC on this control");
+}
+
+bool read_if(Run& run, const char*& at) {
+  bool holds = false;
+  if (!read_condition(run, at, holds)) return false;
+  take_word(at, "THEN");
+  if (!holds) at = end_of_block(at);
+  return true;
+}
+
+bool read_while(Run& run, const char* start, const char*& at) {
+  if (run.options.refuses_loops_and_calls) return refuse_in_dnc(run, start);
+  if (!claim_flow(run, start)) return false;
+  bool holds = false;
+  if (!read_condition(run, at, holds)) return false;
+  run.block.parts.jump = JumpKind::While;
+  run.block.parts.while_condition = holds;
+  return true;
+}
+
+bool end_with(Run& run, Ending ending, const char* start) {
+  if (!claim_flow(run, start)) return false;
+  run.block.parts.ending = ending;
+  return true;
+}
+
+bool answer_input(Run& run, const PromptQuestion& question, std::uint32_t number,
+                  std::uint32_t column, const char*& at) {
+  const auto& answer = std::get<PromptAnswer>(*run.next_answer());
+  if (!answer.text) {
+    run.block.parts.ending = Ending::OperatorEnd;
+    at = end_of_block(at);
+    return true;
+  }
+  double value = 0;
+  if (answer.text->empty()) {  // ENTER keeps the present value
+    if (!read_parameter(run, number, column, value)) return false;
+  } else {
+    value = parse_decimal(*answer.text)->value();
+  }
+  if (!store_parameter(run, static_cast<int>(number), value, column)) return false;
+  run.events().on_prompt({run.origin, question.text, question.variable, *answer.text});
+  return true;
+}
+
+/// INPUT (prompt) P n
+bool read_input(Run& run, const char* start, const char*& at) {
+  constexpr AddressSet kAxisWords = kEndWords | kPolarWords;
+  if (run.block.words.has_any(kAxisWords)) {
+    return run.fail(ErrorCode::InputAfterMove, run.column(start));
+  }
+  PromptQuestion question;
+  at = skip_blanks(at);
+  if (*at == '(') {
+    const char* text = at + 1;
+    if (!skip_gaps(run, at)) return false;
+    const char* close = text;
+    while (*close != ')') ++close;
+    question.text.assign(text, close);
+  }
+  const std::uint32_t column = run.column(at);
+  if (!take_word(at, "P")) {
+    return run.fail(ErrorCode::IllegalStatement, column, "INPUT needs a parameter");
+  }
+  std::uint32_t number = 0;
+  if (!read_whole(run, at, kParameterCount - 1, number)) return false;
+  question.variable = fmt::format("P{}", number);
+  if (run.answers_used == run.answers.size()) return run.ask(std::move(question));
+  return answer_input(run, question, number, column, at);
+}
+
+/// SET X 3: an axis letter and the number of its output.
+bool read_pin_change(Run& run, bool state, bool is_pulse, const char*& at) {
+  if (!skip_gaps(run, at)) return false;
+  const std::uint32_t column = run.column(at);
+  PinChange change{run.origin, Axis::X, 0, state, {}};
+  if (take_word(at, "Z")) {
+    change.axis = Axis::Z;
+  } else if (!take_word(at, "X")) {
+    return run.fail(ErrorCode::IllegalStatement, column, "an axis X or Z is expected here");
+  }
+  std::uint32_t number = 0;
+  if (!read_whole(run, at, 12, number)) return false;
+  if (number == 0) return run.fail(ErrorCode::ParameterOutOfRange, column, "outputs count from 1");
+  change.output = static_cast<int>(number);
+  if (is_pulse) change.pulse_ms = run.options.pulse_ms;
+  run.events().on_pin(change);
+  return true;
+}
+
+bool begin_probe(Run& run, ProbeUntil until, const char* start) {
+  if (run.block.parts.probe) {
+    return run.fail(ErrorCode::IllegalStatement, run.column(start), "a second PROBE in one block");
+  }
+  run.block.parts.probe = until;
+  return true;
+}
+
+}  // namespace
+
+bool read_statement(Run& run, Keyword keyword, const char* start, const char*& at) {
+  run.block.parts.is_assignment_only = false;
+  switch (keyword) {
+    case Keyword::If:
+      return read_if(run, at);
+    case Keyword::While:
+      return read_while(run, start, at);
+    case Keyword::Wend:
+      return end_with(run, Ending::Wend, start);
+    case Keyword::Return:
+      return end_with(run, Ending::Return, start);
+    case Keyword::Goto:
+      if (run.options.refuses_goto) return refuse_in_dnc(run, start);
+      return read_jump(run, JumpKind::Goto, kHighestLabel, start, at);
+    case Keyword::Gosub:
+      if (run.options.refuses_loops_and_calls) return refuse_in_dnc(run, start);
+      return read_jump(run, JumpKind::Gosub, kHighestLabel, start, at);
+    case Keyword::Call:
+      if (run.options.refuses_loops_and_calls) return refuse_in_dnc(run, start);
+      run.block.parts.jump_is_call_word = true;
+      return read_jump(run, JumpKind::Call, kHighestProgram, start, at);
+    case Keyword::Print:
+      return print_to_screen(run, at);
+    case Keyword::Dprnt:
+      return print_to_device(run, at);
+    case Keyword::Popen:
+      return open_device(run, at);
+    case Keyword::Pclos:
+      close_open_device(run);
+      return true;
+    case Keyword::Input:
+      return read_input(run, start, at);
+    case Keyword::Set:
+      return read_pin_change(run, true, false, at);
+    case Keyword::Clr:
+      return read_pin_change(run, false, false, at);
+    case Keyword::Pulse0:
+      return read_pin_change(run, false, true, at);
+    case Keyword::Pulse1:
+      return read_pin_change(run, true, true, at);
+    case Keyword::Probe1:
+      return begin_probe(run, ProbeUntil::Contact, start);
+    case Keyword::Probe2:
+      return begin_probe(run, ProbeUntil::Release, start);
+    case Keyword::Then:
+    case Keyword::None:
+      return run.fail(ErrorCode::IllegalStatement, run.column(start), to_string(keyword));
+    case Keyword::Hdw:
+    case Keyword::Tana:
+    case Keyword::Tanl:
+    case Keyword::Cgen:
+    case Keyword::Back:
+      break;
+  }
+  return run.fail(ErrorCode::NotSupported, run.column(start), to_string(keyword));
+}
+
+bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
+  ModalState& state = run.state;
+  if (number >= kFirstDataParameter && !state.modes.takes_data) {
+    return run.fail(ErrorCode::ParameterOutOfRange, column,
+                    fmt::format("P{} can be set between G10 and G11 only", number));
+  }
+  if (number == 268) {  // the pending tool: a posted tool change sets it so
+    if (!(value >= 0 && value <= kOffsetCount) || value != std::trunc(value)) {
+      return run.fail(ErrorCode::IllegalTool, column, fmt::format("{}", value));
+    }
+    state.tool.pending = static_cast<int>(value);
+    state.tool.pending_offset = -1;
+    return true;
+  }
+  if (number >= kFirstStatus && number <= kLastStatus &&
+      status_parameter(state, run.parameters, number)) {
+    return run.fail(ErrorCode::StatusParameter, column, fmt::format("P{}", number));
+  }
+  run.parameters[number] = value;
+  return true;
+}
+
+bool store_byte(Run& run, int number, double value, std::uint32_t column) {
+  const double byte = std::round(value);
+  if (!(byte >= 0 && byte <= 255)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, column,
+                    fmt::format("{} is not a byte, 0 to 255", value));
+  }
+  run.parameters.byte(number) = static_cast<std::uint8_t>(byte);
+  return true;
+}
+
+bool assign_parameter(Run& run, double number, const char* start, const char*& at) {
+  double value = 0;
+  if (!check_parameter_number(run, number, kParameterCount, run.column(start))) return false;
+  if (!read_expression(run, at, value)) return false;
+  return store_parameter(run, static_cast<int>(number), value, run.column(start));
+}
+
+bool assign_byte(Run& run, double number, const char* start, const char*& at) {
+  double value = 0;
+  if (!check_parameter_number(run, number, kByteCount, run.column(start))) return false;
+  if (!read_expression(run, at, value)) return false;
+  return store_byte(run, static_cast<int>(number), value, run.column(start));
+}
+
+bool is_input_answer(std::string_view text) {
+  return text.empty() || parse_decimal(text).has_value();
+}
+
+}  // namespace dripline::interpreter::centurion
