@@ -12,7 +12,7 @@ void emit_spindle(Run& run) {
   Spindle event;
   event.origin = run.origin;
   event.state = modes.state;
-  event.revolutions_per_minute = modes.revolutions;
+  event.revolutions_per_minute = modes.state == SpindleState::Off ? 0 : modes.revolutions;
   if (run.state.modes.is_surface_speed && modes.state != SpindleState::Off) {
     event.surface_speed = run.state.units == Units::Inch ? Length::inch(12 * modes.surface)
                                                          : Length::mm(1000 * modes.surface);

@@ -5,11 +5,16 @@
 namespace dripline::interpreter::centurion {
 
 TextCursor::State TextCursor::load_from_source(const TextPosition& position) {
-  std::size_t wanted =
-      1;  // whatever is there: a slow line must not wait for bytes it need not have
+  // Whatever is there: a slow line must not wait for bytes it need not have. A place that was met
+  // before with too little goes on from what it asked for then.
+  const bool is_same_place =
+      wanted_at_.program == position.program && wanted_at_.offset == position.offset;
+  std::size_t wanted = is_same_place ? wanted_ : 1;
+  wanted_at_ = {position.program, position.offset};
   for (;;) {
     const TextWindow window = source_->fetch(position.program, position.offset, wanted);
     forget();
+    wanted_ = wanted;
     if (window.state == TextWindow::State::NotYet) return State::NotYet;
     if (window.state == TextWindow::State::Failed) {
       failure_ = window.reason;

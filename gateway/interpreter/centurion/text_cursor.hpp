@@ -100,6 +100,12 @@ class TextCursor {
   bool is_terminated_ = false;
   std::array<char, kMaxBlockBytes + 1> last_block_{};  ///< a last block without line end, with one
   std::string failure_;
+  struct Place {
+    ProgramIndex program = kMainProgram;
+    std::uint64_t offset = 0;
+  };
+  Place wanted_at_;         ///< where the source was asked last,
+  std::size_t wanted_ = 1;  ///< and for how much
 };
 
 }  // namespace dripline::interpreter::centurion

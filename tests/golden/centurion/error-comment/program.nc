@@ -1,0 +1,2 @@
+(expect CEN0547 2:4)
+X1 (NOT CLOSED

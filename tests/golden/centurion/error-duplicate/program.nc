@@ -1,0 +1,2 @@
+(expect CEN0529 2:7)
+X1 Z1 X2

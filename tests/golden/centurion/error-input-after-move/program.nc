@@ -1,0 +1,2 @@
+(expect CEN0577 2:4)
+X1 INPUT (A) P1

@@ -1,0 +1,2 @@
+(expect CEN0568 2:0)
+GOTO 99

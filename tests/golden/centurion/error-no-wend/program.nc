@@ -1,0 +1,2 @@
+(expect CEN0602 2:0)
+WHILE 1=1

@@ -1,0 +1,2 @@
+(expect CEN0503 2:0)
+RETURN

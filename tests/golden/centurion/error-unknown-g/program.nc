@@ -1,0 +1,3 @@
+(expect CEN0549 3:8)
+G1 X1
+(TEXT) G77

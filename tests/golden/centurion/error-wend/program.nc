@@ -1,0 +1,2 @@
+(expect CEN0601 2:0)
+WEND

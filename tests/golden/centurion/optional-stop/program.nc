@@ -1,0 +1,2 @@
+X1 M1 (MEASURE)
+M0

@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+
+#include "gateway/interpreter/trace/event_tee.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/trace/trace_writer.hpp"
+#include "tests/golden/golden_case.hpp"
+#include "tests/support/event_log.hpp"
+
+/// Every golden program of every dialect: its trace, and that neither the windows its text comes
+/// in nor a restart at any block boundary can be seen in what it does.
+namespace dripline::interpreter {
+namespace {
+
+class Golden : public testing::TestWithParam<GoldenCase> {
+ protected:
+  void SetUp() override {
+    const auto found = find_dialect(GetParam().control);
+    ASSERT_TRUE(found) << found.error().what;
+    dialect_ = *found;
+    setup_ = setup_of(GetParam(), *dialect_);
+    program_ = read_text(GetParam().folder / "program.nc");
+  }
+
+  const Dialect* dialect_ = nullptr;
+  interpreter::Setup setup_;  // qualified: gtest keeps a private member of that name
+  std::string program_;
+};
+
+bool accepts() {
+  const char* accept = std::getenv("DRIPLINE_ACCEPT");
+  return accept != nullptr && std::string_view(accept) == "1";
+}
+
+TEST_P(Golden, TraceIsAsExpected) {
+  MemorySource source(program_, loader_of(GetParam()));
+  std::string trace;
+  std::optional<OfflineOutcome> outcome;
+  {
+    TraceWriter writer([&](std::string_view lines) { trace += lines; }, setup_.start);
+    const auto ran = run_offline(*dialect_, setup_, source, writer);
+    ASSERT_TRUE(ran) << ran.error().what;
+    outcome = *ran;
+  }
+  const auto verdict = verdict_of(program_);
+  ASSERT_EQ(verdict.has_value(), outcome->alarm.has_value())
+      << (outcome->alarm ? outcome->alarm->text : "no alarm");
+  if (verdict) {
+    EXPECT_EQ(outcome->alarm->id, verdict->id) << outcome->alarm->text;
+    EXPECT_EQ(outcome->alarm->line, verdict->line) << outcome->alarm->text;
+    EXPECT_EQ(outcome->alarm->column, verdict->column) << outcome->alarm->text;
+  }
+  const auto expected = GetParam().folder / "expected.jsonl";
+  if (accepts()) {
+    std::ofstream(expected, std::ios::binary) << trace;
+    GTEST_SKIP() << "accepted: review the diff of " << expected;
+  }
+  EXPECT_EQ(trace, read_text(expected));
+}
+
+/// Gives every text in windows of at most `chunk` bytes more than asked for, each only after one
+/// NotYet.
+class SlowSource final : public ProgramSource {
+ public:
+  SlowSource(ProgramSource& whole, std::size_t chunk) : whole_(whole), chunk_(chunk) {}
+
+  TextWindow fetch(ProgramIndex program, std::uint64_t offset, std::size_t min_bytes) override {
+    if (!std::exchange(is_ready_, !is_ready_)) return {};
+    TextWindow window = whole_.fetch(program, offset, min_bytes);
+    const std::size_t size = std::min(window.text.size(), min_bytes + chunk_);
+    window.reaches_end = window.reaches_end && size == window.text.size();
+    text_.assign(window.text.substr(0, size));  // moves at every call, as a window may
+    window.text = text_;
+    return window;
+  }
+  ProgramLookup find(std::string_view name) override {
+    if (!std::exchange(is_ready_, !is_ready_)) return {};
+    return whole_.find(name);
+  }
+
+ private:
+  ProgramSource& whole_;
+  std::size_t chunk_;
+  bool is_ready_ = false;
+  std::string text_;
+};
+
+struct Boundary {
+  Snapshot snapshot;
+  std::size_t events = 0;   ///< logged before it
+  std::size_t answers = 0;  ///< prompts answered before it
+};
+
+/// Steps one block at a time to the end. `on_boundary` sees every block boundary.
+class Stepper {
+ public:
+  Stepper(Interpreter& interpreter, const Setup& setup, std::size_t answers_used = 0)
+      : interpreter_(interpreter), setup_(setup), answers_used_(answers_used) {}
+
+  template <class OnBoundary>
+  void run(OnBoundary on_boundary) {
+    constexpr std::uint64_t kMostSteps = 1'000'000;
+    for (std::uint64_t steps = 0; steps < kMostSteps; ++steps) {
+      switch (interpreter_.step(1)) {
+        case StepState::Ended:
+        case StepState::Alarmed:
+          return;
+        case StepState::Ran:
+          on_boundary(answers_used_);
+          break;
+        case StepState::NeedsText:
+          break;
+        case StepState::NeedsAnswer:
+          answer();
+          break;
+      }
+    }
+    FAIL() << "the program does not end";
+  }
+
+ private:
+  void answer() {
+    const auto& question = interpreter_.question();
+    Answer answer;
+    if (const auto* probe = std::get_if<ProbeQuestion>(&question)) {
+      answer = setup_.workpiece.probe(probe->probe.from, probe->probe.to, probe->probe.until);
+    } else if (std::holds_alternative<PromptQuestion>(question)) {
+      answer = PromptAnswer{setup_.answers.at(answers_used_++)};
+    } else if (std::holds_alternative<InputQuestion>(question)) {
+      answer = false;
+    } else {
+      answer = setup_.date_time.value_or(LocalTime{2000, 1, 1, 0, 0, 0});
+    }
+    ASSERT_TRUE(interpreter_.answer(answer));
+  }
+
+  Interpreter& interpreter_;
+  const Setup& setup_;
+  std::size_t answers_used_;
+};
+
+TEST_P(Golden, WindowsOfTheTextDoNotShow) {
+  MemorySource whole(program_, loader_of(GetParam()));
+  EventLog expected;
+  auto reference = dialect_->make(setup_, whole, expected);
+  ASSERT_TRUE(reference) << reference.error().what;
+  Stepper(**reference, setup_).run([](std::size_t) {});
+  for (const std::size_t chunk : {0, 1, 7, 64}) {
+    SlowSource source(whole, chunk);
+    EventLog log;
+    auto interpreter = dialect_->make(setup_, source, log);
+    Stepper(**interpreter, setup_).run([](std::size_t) {});
+    ASSERT_EQ(log.lines(), expected.lines()) << "with windows of " << chunk << " bytes to spare";
+  }
+}
+
+TEST_P(Golden, RunsOnTheSameFromEveryBlockBoundary) {
+  constexpr std::size_t kMostBoundaries = 150;  // of long programs a sample
+  MemorySource source(program_, loader_of(GetParam()));
+  EventLog whole;
+  std::vector<Boundary> boundaries;
+  auto interpreter = dialect_->make(setup_, source, whole);
+  ASSERT_TRUE(interpreter) << interpreter.error().what;
+  Stepper(**interpreter, setup_).run([&](std::size_t answers) {
+    boundaries.push_back({(*interpreter)->snapshot(), whole.lines().size(), answers});
+  });
+  const std::size_t stride = boundaries.size() / kMostBoundaries + 1;
+  for (std::size_t i = 0; i < boundaries.size(); i += stride) {
+    EventLog rest;
+    auto resumed = dialect_->make(setup_, source, rest);
+    ASSERT_TRUE((*resumed)->restore(boundaries[i].snapshot));
+    EXPECT_EQ((*resumed)->snapshot().digest(), boundaries[i].snapshot.digest());
+    Stepper(**resumed, setup_, boundaries[i].answers).run([](std::size_t) {});
+    const std::vector<std::string> expected(
+        whole.lines().begin() + static_cast<std::ptrdiff_t>(boundaries[i].events),
+        whole.lines().end());
+    ASSERT_EQ(rest.lines(), expected) << "resumed after block " << i + 1;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<GoldenCase>& info) {
+  std::string name = info.param.control + "_" + info.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Golden, testing::ValuesIn(golden_cases()), test_name);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Golden);
+
+}  // namespace
+}  // namespace dripline::interpreter
