@@ -1,0 +1,96 @@
+#pragma once
+
+#include <dripline.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "protocol/base/crc32.hpp"
+
+namespace dripline::dds::fuzz {
+
+/// Fills generated structs from fuzzed bytes, as Cyclone's CDR reader would: texts end within their
+/// arrays, sequences keep their bounds, everything else is arbitrary. Missing bytes read as zero.
+/// The format is that of the corpus: numbers little-endian, texts and sequences after a 16-bit
+/// length.
+class SampleReader {
+ public:
+  explicit SampleReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  void read(dripline_idl_Announce& s) {
+    all(s.machine, s.control, s.version, s.protocol, s.epoch, s.session, s.description, s.heard);
+  }
+  void read(dripline_idl_Status& s) {
+    all(s.machine, s.time_us, s.execution, s.mode, s.run, s.program, s.sent, s.accepted, s.executed,
+        s.total_bytes, s.offset, s.line, s.sequence_number);
+    positions_.resize(std::min<std::size_t>(number<std::uint16_t>(), 9));
+    for (double& value : positions_) one(value);
+    s.position._maximum = s.position._length = static_cast<std::uint32_t>(positions_.size());
+    s.position._buffer = positions_.data();
+    all(s.feed_mm_per_min, s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
+        s.buffered_seconds, s.single_block, s.message, s.outbox);
+  }
+  void read(dripline_idl_Record& s) {
+    all(s.machine, s.epoch, s.number, s.time_us, s.run, s.kind, s.block, s.line, s.sequence_number,
+        s.device, s.text);
+  }
+  void read(dripline_idl_RecordAck& s) { all(s.machine, s.epoch, s.number); }
+  void read(dripline_idl_Order& s) {
+    all(s.machine, s.id, s.expires_us, s.action, s.run, s.program, s.revision, s.size, s.control,
+        s.argument, s.value);
+  }
+  void read(dripline_idl_OrderResult& s) { all(s.machine, s.id, s.accepted, s.reason); }
+  void read(dripline_idl_BlockRequest& s) {
+    all(s.machine, s.session, s.run, s.program, s.offset, s.length);
+  }
+  void read(dripline_idl_BlockData& s) {
+    all(s.machine, s.session, s.run, s.program, s.status, s.offset, s.total_bytes, s.ends);
+    const auto bytes = take(std::min<std::size_t>(number<std::uint16_t>(), 32768));
+    block_.assign(bytes.begin(), bytes.end());
+    s.bytes._maximum = s.bytes._length = static_cast<std::uint32_t>(block_.size());
+    s.bytes._buffer = block_.data();
+    // A fuzzer does not find checksums: zero stands for the right one.
+    one(s.crc);
+    if (s.crc == 0) s.crc = crc32(std::as_bytes(std::span(block_)));
+    one(s.reason);
+  }
+
+ private:
+  std::span<const std::uint8_t> take(std::size_t wanted) {
+    const auto result = bytes_.first(std::min(wanted, bytes_.size()));
+    bytes_ = bytes_.subspan(result.size());
+    return result;
+  }
+  template <class T>
+  T number() {
+    T value{};
+    const auto bytes = take(sizeof value);
+    if (!bytes.empty()) std::memcpy(&value, bytes.data(), bytes.size());
+    return value;
+  }
+  template <class T>
+  void one(T& value) {
+    value = number<T>();
+  }
+  void one(bool& value) { value = (number<std::uint8_t>() & 1) != 0; }
+  template <std::size_t N>
+  void one(char (&field)[N]) {
+    const auto bytes = take(std::min<std::size_t>(number<std::uint16_t>(), N - 1));
+    if (!bytes.empty()) std::memcpy(field, bytes.data(), bytes.size());
+    field[bytes.size()] = '\0';
+  }
+  template <class... T>
+  void all(T&... members) {
+    (one(members), ...);
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::vector<double> positions_;
+  std::vector<std::uint8_t> block_;
+};
+
+}  // namespace dripline::dds::fuzz
