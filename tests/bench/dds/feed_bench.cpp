@@ -174,9 +174,9 @@ int main(int argc, char** argv) {
     Server().run(network(argv[2]));
   }
   if (argc < 3) give_up("DOMAIN SECONDS [WINDOW_KIB REQUEST_KIB]");
-  const std::uint64_t window = (argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 512) * 1024;
+  const std::uint64_t window = (argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 768) * 1024;
   const auto request =
-      static_cast<std::uint32_t>((argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 128) * 1024);
+      static_cast<std::uint32_t>((argc > 4 ? std::strtoul(argv[4], nullptr, 10) : 256) * 1024);
   const pid_t server = start_server(argv[0], argv[1]);
   Gateway(window, request).run(network(argv[1]), std::atoi(argv[2]));
   kill(server, SIGKILL);

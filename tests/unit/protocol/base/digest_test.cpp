@@ -38,5 +38,15 @@ TEST(Crc32, MatchesThePublishedCheckValue) {
   EXPECT_EQ(crc32(std::as_bytes(std::span(text))), 0xCBF43926u);
 }
 
+TEST(Crc32, IsTheSameHoweverTheBytesAreCut) {
+  std::string text(1000, 'x');
+  for (std::size_t i = 0; i < text.size(); ++i) text[i] = static_cast<char>(i * 7);
+  const auto bytes = std::as_bytes(std::span(text));
+  for (const std::size_t cut : {0u, 1u, 15u, 16u, 255u, 999u, 1000u}) {
+    EXPECT_EQ(crc32(bytes.subspan(cut), crc32(bytes.first(cut))), crc32(bytes)) << cut;
+  }
+  EXPECT_EQ(crc32({}), 0u);
+}
+
 }  // namespace
 }  // namespace dripline
