@@ -78,10 +78,8 @@ int run(int argc, char** argv) {
   add_run_commands(app, context);
   add_report_commands(app, context);
   add_server_commands(app, context);
-#ifdef DRIPLINE_OFFLINE
   add_check_command(app, context);
   add_trace_command(app, context);
-#endif
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   try {

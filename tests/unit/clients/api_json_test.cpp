@@ -52,7 +52,8 @@ TEST(ApiJson, NamesWhatIsMissingOrOfTheWrongKind) {
   json.erase("executed");
   EXPECT_EQ(from_json<client::Run>(json).error().what, "member \"executed\" is missing");
   json["executed"] = "many";
-  EXPECT_EQ(from_json<client::Run>(json).error().what, "member \"executed\" is not a whole number >= 0");
+  EXPECT_EQ(from_json<client::Run>(json).error().what,
+            "member \"executed\" is not a whole number >= 0");
   auto machine = test_support::machine_json("lathe-1");
   machine["status"] = status_json();
   machine["status"]["feed_override"] = nullptr;

@@ -79,7 +79,9 @@ TEST(DncHelp, IsThereForEveryVerb) {
                                                        {"report", "show"},
                                                        {"report", "export"},
                                                        {"server"},
-                                                       {"server", "status"}};
+                                                       {"server", "status"},
+                                                       {"check"},
+                                                       {"trace"}};
   for (auto words : verbs) {
     const std::string last = words.empty() ? "" : words.back();
     words.push_back("--help");

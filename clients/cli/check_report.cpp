@@ -1,0 +1,153 @@
+#include "clients/cli/check_report.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "clients/cli/table.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+using interpreter::Axis;
+using interpreter::AxisExtent;
+using interpreter::Diagnostic;
+using interpreter::Summary;
+using Json = nlohmann::ordered_json;
+
+bool is_inch(const Summary& summary) {
+  return summary.units == interpreter::Units::Inch;
+}
+
+std::string_view unit_name(const Summary& summary) {
+  return is_inch(summary) ? "in" : "mm";
+}
+
+double length(const Summary& summary, Length value) {
+  return is_inch(summary) ? value.inch() : value.mm();
+}
+
+/// As the program would write it.
+AxisExtent programmed(const Summary& summary, Axis axis, const AxisExtent& extent) {
+  if (interpreter::is_rotary(axis)) return extent;
+  const double diameter = axis == Axis::X && summary.x_is_diameter ? 2 : 1;
+  return {diameter * length(summary, Length::mm(extent.least)),
+          diameter * length(summary, Length::mm(extent.most))};
+}
+
+/// The first message's place is what editors jump to.
+std::string place(const std::string& file, const Diagnostic& diagnostic) {
+  std::string text = fmt::format("{}:{}", file, diagnostic.line);
+  if (diagnostic.column > 0) text += fmt::format(":{}", diagnostic.column);
+  return text;
+}
+
+std::string diagnostic_line(const CheckReport& report, const Diagnostic& diagnostic,
+                            std::string_view kind) {
+  return fmt::format("{}: {} {}: {}\n", place(report.file, diagnostic), kind, diagnostic.id,
+                     printable(diagnostic.text));
+}
+
+double blocks_per_second(const CheckReport& report) {
+  if (report.elapsed_seconds <= 0) return 0;
+  return static_cast<double>(report.summary.blocks) / report.elapsed_seconds;
+}
+
+void add_extents(Details& details, const Summary& summary) {
+  for (const Axis axis : interpreter::kAllAxes) {
+    const auto& extent = summary.extents[static_cast<std::size_t>(axis)];
+    if (!extent) continue;
+    const AxisExtent shown = programmed(summary, axis, *extent);
+    const bool is_diameter = axis == Axis::X && summary.x_is_diameter;
+    details.add(std::string(1, interpreter::letter(axis)),
+                fmt::format("{:.4f} to {:.4f} {}{}", shown.least, shown.most,
+                            interpreter::is_rotary(axis) ? "degrees" : unit_name(summary),
+                            is_diameter ? " diameter" : ""));
+  }
+}
+
+std::string verdict(const CheckReport& report, bool has_colour) {
+  const auto& summary = report.summary;
+  const auto place_text = summary.alarm ? fmt::format(" in line {}", summary.alarm->line) : "";
+  const std::string text =
+      summary.ended ? "reaches its end" : fmt::format("raises an alarm{}", place_text);
+  return styled(text, summary.ended ? Style::Good : Style::Bad, has_colour);
+}
+
+Json diagnostic_json(const Diagnostic& diagnostic) {
+  return {{"code", std::string(diagnostic.id)},
+          {"text", diagnostic.text},
+          {"line", diagnostic.line},
+          {"column", diagnostic.column}};
+}
+
+/// Six decimals, as the trace has them: more would be noise of the conversion.
+double rounded(double value) {
+  return std::round(value * 1e6) / 1e6 + 0.0;
+}
+
+Json extents_json(const Summary& summary) {
+  Json extents = Json::object();
+  for (const Axis axis : interpreter::kAllAxes) {
+    const auto& extent = summary.extents[static_cast<std::size_t>(axis)];
+    if (!extent) continue;
+    const AxisExtent shown = programmed(summary, axis, *extent);
+    extents[std::string(1, interpreter::letter(axis))] = {{"min", rounded(shown.least)},
+                                                          {"max", rounded(shown.most)}};
+  }
+  return extents;
+}
+
+}  // namespace
+
+std::string check_text(const CheckReport& report, bool has_colour) {
+  const auto& summary = report.summary;
+  std::string text;
+  for (const auto& warning : summary.warnings) {
+    text += diagnostic_line(report, warning, "warning");
+  }
+  if (const auto more = summary.warning_count - summary.warnings.size(); more > 0) {
+    text += fmt::format("{}: {} more warnings\n", report.file, more);
+  }
+  if (summary.alarm) text += diagnostic_line(report, *summary.alarm, "alarm");
+  text += fmt::format("{}: {}\n", report.file, verdict(report, has_colour));
+  Details details;
+  details.add("control", summary.control);
+  details.add("program", summary.program.value_or(""));
+  details.add("blocks", std::to_string(summary.blocks));
+  details.add("moves", fmt::format("{}, {:.3f} {} rapid, {:.3f} {} at feed", summary.moves,
+                                   length(summary, summary.rapid_length), unit_name(summary),
+                                   length(summary, summary.feed_length), unit_name(summary)));
+  details.add("time", duration_text(std::round(summary.seconds)) +
+                          " estimated, without acceleration, stops and tool changes");
+  add_extents(details, summary);
+  details.add("warnings", std::to_string(summary.warning_count));
+  details.add("checked in", fmt::format("{:.2f} s, {:.0f} blocks/s", report.elapsed_seconds,
+                                        blocks_per_second(report)));
+  return text + details.render(has_colour);
+}
+
+Json check_json(const CheckReport& report) {
+  const auto& summary = report.summary;
+  Json json{{"file", report.file}, {"control", summary.control}, {"program", nullptr}};
+  if (summary.program) json["program"] = *summary.program;
+  json["ended"] = summary.ended;
+  json["blocks"] = summary.blocks;
+  json["moves"] = summary.moves;
+  json["units"] = std::string(unit_name(summary));
+  json["x"] = summary.x_is_diameter ? "diameter" : "radius";
+  json["rapid_length"] = rounded(length(summary, summary.rapid_length));
+  json["feed_length"] = rounded(length(summary, summary.feed_length));
+  json["seconds"] = rounded(summary.seconds);
+  json["extents"] = extents_json(summary);
+  json["warnings"] = Json::array();
+  for (const auto& warning : summary.warnings) json["warnings"].push_back(diagnostic_json(warning));
+  json["warning_count"] = summary.warning_count;
+  json["alarm"] = summary.alarm ? diagnostic_json(*summary.alarm) : Json(nullptr);
+  json["elapsed_seconds"] = rounded(report.elapsed_seconds);
+  json["blocks_per_second"] = std::round(blocks_per_second(report));
+  return json;
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "clients/cli/mapped_file.hpp"
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/setup.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::cli {
+
+/// What `check` and `trace` are asked for.
+struct OfflineCommand {
+  std::string file;
+  std::string control;  ///< empty: found out from the text and the file's name
+  std::string setup;    ///< empty: everything at its default
+};
+
+/// A program on disk with everything its interpretation needs.
+class OfflineProgram {
+ public:
+  /// Errors: Io, Unsupported, Syntax, NotFound; all are usage errors (exit status 2). A control
+  /// that can not be told from the text is NotFound, with the candidates.
+  static Result<OfflineProgram> open(const OfflineCommand& command);
+
+  const interpreter::Dialect& dialect() const { return *dialect_; }
+  const interpreter::Setup& setup() const { return setup_; }
+  std::string_view text() const { return file_.text(); }
+  /// Called programs come from the setup's library, or from the program's own folder when the setup
+  /// names none. Must not outlive this object.
+  interpreter::MemorySource source() const;
+
+ private:
+  OfflineProgram(MappedFile file, const interpreter::Dialect& dialect)
+      : file_(std::move(file)), dialect_(&dialect) {}
+  MappedFile file_;
+  const interpreter::Dialect* dialect_;
+  interpreter::Setup setup_;
+  std::string library_;
+};
+
+}  // namespace dripline::cli

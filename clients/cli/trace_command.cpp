@@ -1,0 +1,68 @@
+#include <unistd.h>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/offline_options.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/trace/trace_writer.hpp"
+
+namespace dripline::cli {
+namespace {
+
+/// Standard output without a second buffer; the trace comes in large pieces.
+class TraceOutput {
+ public:
+  void write(std::string_view text) {
+    while (!text.empty() && !error_) {
+      const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) {
+        error_ = Error{Errc::Io, std::string("the trace can not be written to standard output: ") +
+                                     std::strerror(errno)};
+        return;
+      }
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+
+int trace(const OfflineCommand& command) {
+  auto program = OfflineProgram::open(command);
+  if (!program) return complain(program.error());
+  std::signal(SIGPIPE, SIG_DFL);  // `dnc trace FILE | head` ends with head
+  TraceOutput output;
+  interpreter::TraceWriter writer([&output](std::string_view text) { output.write(text); },
+                                  program->setup().start);
+  auto source = program->source();
+  const auto outcome =
+      interpreter::run_offline(program->dialect(), program->setup(), source, writer);
+  writer.flush();
+  if (output.error()) return complain(*output.error());
+  if (!outcome) return complain_offline(outcome.error());
+  return outcome->ended ? kExitOk : kExitNo;
+}
+
+}  // namespace
+
+void add_trace_command(CLI::App& app, Context& context) {
+  auto* command =
+      app.add_subcommand("trace", "Print what a program on disk does, one JSON object a line");
+  auto options = std::make_shared<OfflineCommand>();
+  add_offline_options(*command, *options);
+  command->footer(
+      "No server is needed. Positions are in the program's units. Called programs come from the "
+      "setup's\nlibrary, or from FILE's folder.\n\nExit status: 0 the end was reached, 1 an alarm "
+      "(the last object), 2 usage, unreadable file, unknown control.\n\nExample:\n  dnc trace "
+      "--control centurion --setup lathe.toml shaft.nc");
+  command->callback([&context, options] { context.status = trace(*options); });
+}
+
+}  // namespace dripline::cli
