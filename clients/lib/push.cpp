@@ -83,7 +83,9 @@ class Push {
         if (upload->received > offset_) back_off_.reset();
         return move_to(upload->received);
       }
-      if (!can_help_to_retry(upload.error())) return failed(upload.error());
+      if (can_help_to_retry(upload.error())) continue;
+      // A server that refuses the content drops the upload: the first refusal says why.
+      return failed(may_be_offset ? failure : upload.error());
     }
   }
 

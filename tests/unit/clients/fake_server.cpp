@@ -230,6 +230,7 @@ class FakeServer::Impl {
     const PieceFault fault = piece_faults.front();
     piece_faults.pop_front();
     upload.bytes += request.body.substr(0, fault.keep);
+    if (fault.drops_upload) uploads.erase(request.matches[1]);
     if (fault.status != 0) return answer_error(response, fault.status, fault.code);
     cut(response);
   }

@@ -24,6 +24,7 @@ class FakeServer {
     std::size_t keep = 0;  ///< bytes of the piece that are stored
     int status = 0;        ///< answer with this error, or cut the connection when 0
     std::string code;      ///< of the error
+    bool drops_upload = false;
   };
   void fail_piece(PieceFault fault);
   /// The commit happens, but its answer is lost.

@@ -75,9 +75,9 @@ TEST_F(Push, SaysWhenNothingChanged) {
 }
 
 TEST_F(Push, GoesOnWhereTheServerStoppedReceiving) {
-  server.fail_piece({0, 0, ""});
-  server.fail_piece({1'000'001, 0, ""});
-  server.fail_piece({4 * 1024 * 1024, 0, ""});
+  server.fail_piece({});
+  server.fail_piece({1'000'001, 0, "", false});
+  server.fail_piece({4 * 1024 * 1024, 0, "", false});
   const std::string text = long_program();
   const auto revision = push(text);
   ASSERT_TRUE(revision) << revision.error().what;
@@ -86,20 +86,27 @@ TEST_F(Push, GoesOnWhereTheServerStoppedReceiving) {
 }
 
 TEST_F(Push, TriesAgainWhenTheServerIsBusy) {
-  server.fail_piece({0, 409, "busy"});
+  server.fail_piece({0, 409, "busy", false});
   const auto revision = push("M30\n");
   ASSERT_TRUE(revision) << revision.error().what;
   EXPECT_EQ(server.content("O0200"), "M30\n");
 }
 
 TEST_F(Push, EndsAtOnceWhenAPieceIsRefused) {
-  server.fail_piece({0, 413, "limit_exceeded"});
+  server.fail_piece({0, 413, "limit_exceeded", false});
   const auto revision = push("M30\n");
   ASSERT_FALSE(revision);
   EXPECT_EQ(revision.error().kind, Failure::Kind::Refused);
   EXPECT_EQ(revision.error().what, "fake: limit_exceeded");
   EXPECT_EQ(server.pieces_received(), 1);
   EXPECT_EQ(server.uploads_open(), 0);
+}
+
+TEST_F(Push, SaysWhyWhenTheServerDropsTheUploadWithTheRefusal) {
+  server.fail_piece({0, 422, "unsupported", true});
+  const auto revision = push("hello\n");
+  ASSERT_FALSE(revision);
+  EXPECT_EQ(revision.error().what, "fake: unsupported");
 }
 
 TEST_F(Push, FindsACommitWhoseAnswerWasLost) {
@@ -112,7 +119,7 @@ TEST_F(Push, FindsACommitWhoseAnswerWasLost) {
 
 TEST_F(Push, GivesUpAfterTheStatedAttempts) {
   options.retry.attempts = 3;
-  for (int i = 0; i < 20; ++i) server.fail_piece({0, 0, ""});
+  for (int i = 0; i < 20; ++i) server.fail_piece({});
   const auto revision = push("M30\n");
   ASSERT_FALSE(revision);
   EXPECT_EQ(revision.error().kind, Failure::Kind::Unreachable);
