@@ -12,10 +12,11 @@ namespace sqlite = storage::sqlite;
 
 namespace {
 
+/// 63 bits: the stores of both ends keep signed numbers.
 std::uint64_t new_epoch() {
   std::random_device device;
   std::uint64_t epoch = 0;
-  while (epoch == 0) epoch = (static_cast<std::uint64_t>(device()) << 32) | device();
+  while (epoch == 0) epoch = ((static_cast<std::uint64_t>(device()) << 32) | device()) >> 1;
   return epoch;
 }
 

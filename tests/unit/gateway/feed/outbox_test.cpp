@@ -135,6 +135,14 @@ TEST_F(OutboxTest, ARunEndsTogetherWithItsRecord) {
   EXPECT_FALSE(open().active_run().has_value());
 }
 
+TEST_F(OutboxTest, EveryEpochFitsASignedNumber) {
+  Outbox outbox = open();
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(outbox.begin_epoch());
+    EXPECT_LT(outbox.epoch(), 1ULL << 63);
+  }
+}
+
 TEST_F(OutboxTest, RemembersHowOrdersWereAnswered) {
   {
     Outbox outbox = open();
