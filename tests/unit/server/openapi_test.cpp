@@ -1,0 +1,115 @@
+// The description of the API against the API: every route is described, everything described is a
+// route, and the real answers follow the schemas.
+#include <set>
+
+#include "tests/support/json_schema.hpp"
+#include "tests/unit/server/api_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+class OpenApi : public ApiTest {
+ protected:
+  OpenApi() : document_(json(get("/api/v1/openapi.json"))) {}
+
+  /// The schema of an answer; null when it is described as something other than JSON.
+  Json schema_of(const std::string& method, const std::string& pattern, int status) {
+    std::string verb;
+    for (const char c : method) verb += static_cast<char>(c - 'A' + 'a');
+    const Json& responses = document_["paths"][pattern][verb]["responses"];
+    const std::string key = status < 400 ? std::to_string(status) : "default";
+    EXPECT_TRUE(responses.contains(key)) << method << " " << pattern << " " << status;
+    const Json content = responses.value(key, Json::object()).value("content", Json::object());
+    return content.value("application/json", Json::object()).value("schema", Json(nullptr));
+  }
+  void expect_described(const std::string& method, const std::string& pattern,
+                        const api::Response& response) {
+    covered_.insert(method + " " + pattern);
+    const Json schema = schema_of(method, pattern, response.status);
+    if (schema.is_null() || response.status == 204) return;
+    const Json answer = json(response);
+    EXPECT_EQ(test_support::schema_violation(document_, schema, answer), "")
+        << method << " " << pattern << " " << answer.dump();
+  }
+
+  Json document_;
+  std::set<std::string> covered_;
+};
+
+TEST_F(OpenApi, DescribesEveryRouteAndNothingElse) {
+  std::set<std::string> described;
+  for (const auto& [path, item] : document_["paths"].items()) {
+    for (const auto& [verb, operation] : item.items()) {
+      std::string method;
+      for (const char c : verb) method += static_cast<char>(c - 'a' + 'A');
+      described.insert(method + " " + path);
+      EXPECT_TRUE(operation.contains("summary")) << method << " " << path;
+    }
+  }
+  std::set<std::string> routed;
+  for (const auto& route : api_->router().routes())
+    routed.insert(route.method + " " + route.pattern);
+  EXPECT_EQ(described, routed);
+}
+
+TEST_F(OpenApi, FitsTheRealAnswers) {
+  const std::string run = stored_run(3);
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.run = run;
+  feeds_.views[0].status = status;
+
+  expect_described("GET", "/api/v1/health", get("/api/v1/health"));
+  expect_described("GET", "/api/v1/openapi.json", get("/api/v1/openapi.json"));
+  expect_described("GET", "/api/v1/server", get("/api/v1/server"));
+  expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
+  expect_described("GET", "/api/v1/programs/{name}", get("/api/v1/programs/O0100"));
+  expect_described("GET", "/api/v1/programs/{name}/content", get("/api/v1/programs/O0100/content"));
+  const auto upload = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
+  expect_described("POST", "/api/v1/uploads", upload);
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  expect_described("GET", "/api/v1/uploads/{id}", get(path));
+  expect_described("PUT", "/api/v1/uploads/{id}/content",
+                   call("PUT", path + "/content?offset=0", {.body = "M30\n", .headers = {}}));
+  const auto commit = call("POST", path + "/commit");
+  EXPECT_EQ(commit.status, 201);
+  expect_described("POST", "/api/v1/uploads/{id}/commit", commit);
+  const auto given_up = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
+  expect_described("DELETE", "/api/v1/uploads/{id}",
+                   call("DELETE", "/api/v1/uploads/" + json(given_up).value("id", "")));
+  expect_described("GET", "/api/v1/machines", get("/api/v1/machines"));
+  expect_described("GET", "/api/v1/machines/{name}", get("/api/v1/machines/lathe-1"));
+  expect_described("POST", "/api/v1/runs",
+                   post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}));
+  expect_described("GET", "/api/v1/runs", get("/api/v1/runs"));
+  expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/" + run));
+  expect_described("POST", "/api/v1/runs/{id}/orders",
+                   post("/api/v1/runs/" + run + "/orders", {{"action", "hold"}}));
+  expect_described("GET", "/api/v1/runs/{id}/records", get("/api/v1/runs/" + run + "/records"));
+  expect_described("GET", "/api/v1/reports", get("/api/v1/reports"));
+  expect_described("GET", "/api/v1/reports/{run}", get("/api/v1/reports/" + run + "?format=json"));
+  expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
+  expect_described("GET", "/api/v1/events", get("/api/v1/events"));
+  expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
+  for (const auto& route : api_->router().routes()) {
+    EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
+        << route.method << " " << route.pattern << " is not covered by this test";
+  }
+}
+
+TEST_F(OpenApi, FitsTheErrorsOfEveryStatus) {
+  expect_described("GET", "/api/v1/server",
+                   call("GET", "/api/v1/server", {.body = {}, .headers = {}, .token = "wrong"}));
+  expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/none"));
+  expect_described("POST", "/api/v1/runs", call("POST", "/api/v1/runs"));
+  expect_described("POST", "/api/v1/uploads",
+                   post("/api/v1/uploads", {{"program", "O1"}, {"control", "fagor"}}));
+}
+
+TEST_F(OpenApi, IsRefusedWithAKeywordNobodyChecks) {
+  EXPECT_NE(test_support::schema_violation(document_, Json{{"type", "string"}, {"oneOf", 1}}, "x"),
+            "");
+}
+
+}  // namespace
+}  // namespace dripline::server_test

@@ -1,0 +1,99 @@
+#include "server/app/settings.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <fstream>
+
+#include "server/app/server.hpp"
+#include "server/app/state_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace dripline::app {
+namespace {
+
+CommandLine read(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "dncd");
+  return read_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(Settings, HaveDefaultsAndComeFromTheCommandLine) {
+  const auto line = read({"--dds-domain", "7", "--http", "127.0.0.1:0"});
+  EXPECT_EQ(line.print, "");
+  EXPECT_EQ(line.settings.dds_domain, 7u);
+  EXPECT_EQ(line.settings.http, "127.0.0.1:0");
+  EXPECT_EQ(line.settings.lease_ms, 2000u);
+  EXPECT_EQ(line.settings.state, default_state_folder());
+}
+
+TEST(Settings, OfTheCommandLineWinOverTheFile) {
+  const test_support::TemporaryFolder folder;
+  const auto path = folder.path() / "dncd.toml";
+  std::ofstream(path) << "dds-domain = 3\ndds-tag = \"shop\"\n";
+  const auto line = read({"--config", path.c_str(), "--dds-domain", "7"});
+  EXPECT_EQ(line.settings.dds_domain, 7u);
+  EXPECT_EQ(line.settings.dds_tag, "shop");
+}
+
+TEST(Settings, OfAFileAreCheckedByKeyTypeAndRange) {
+  Settings settings;
+  const auto says = [&](const char* toml) {
+    const auto applied = apply_toml(settings, toml);
+    return applied ? std::string("taken") : applied.error().what;
+  };
+  EXPECT_EQ(says("\nlease-ms = 500"), "taken");
+  EXPECT_NE(says("\ncolour = 1").find("line 2: key 'colour' is not known"), std::string::npos);
+  EXPECT_NE(says("lease-ms = \"x\"").find("whole number"), std::string::npos);
+  EXPECT_NE(says("http = 1").find("must be a string"), std::string::npos);
+  EXPECT_NE(says("dds-domain = 231").find("0 to 230"), std::string::npos);
+  EXPECT_NE(says("dds-domain = ").find("line 1"), std::string::npos);
+}
+
+TEST(Settings, WithWrongUseEndWithTwo) {
+  EXPECT_EQ(read({"--colour"}).exit_code, 2);
+  EXPECT_EQ(read({"--dds-domain", "231"}).exit_code, 2);
+  EXPECT_EQ(read({"--config", "/nowhere/dncd.toml"}).exit_code, 2);
+  const auto help = read({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const auto& row : setting_rows()) {
+    EXPECT_NE(help.print.find("--" + std::string(row.name)), std::string::npos) << row.name;
+  }
+}
+
+TEST(StateFolder, MakesATokenOnceForItsOwnerAlone) {
+  const test_support::TemporaryFolder parent;
+  const auto folder = StateFolder::open(parent.path() / "a" / "state");
+  ASSERT_TRUE(folder) << folder.error().what;
+  const auto token = folder->token();
+  ASSERT_TRUE(token);
+  EXPECT_EQ(token->size(), 64u);
+  EXPECT_EQ(folder->token().value(), *token);
+  struct stat facts {};
+  ASSERT_EQ(::stat(folder->token_file().c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0777u, 0600u);
+  std::filesystem::permissions(folder->token_file(), std::filesystem::perms{0644});
+  EXPECT_EQ(folder->token().error().code, Errc::Denied);
+}
+
+TEST(StateFolder, RefusesAnEmptyToken) {
+  const test_support::TemporaryFolder parent;
+  const auto folder = StateFolder::open(parent.path());
+  std::ofstream(folder->token_file()).flush();
+  std::filesystem::permissions(folder->token_file(), std::filesystem::perms{0600});
+  EXPECT_EQ(folder->token().error().code, Errc::Denied);
+}
+
+TEST(Server, IsNotStartedWithUnsafeSettings) {
+  const test_support::TemporaryFolder folder;
+  const SystemClock clock;
+  Settings settings;
+  settings.state = folder.path() / "state";
+  settings.http = "0.0.0.0:0";
+  EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied);
+  settings.http = "127.0.0.1:0";
+  settings.tls_key = "key.pem";
+  EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied);
+  EXPECT_FALSE(std::filesystem::exists(settings.state));
+}
+
+}  // namespace
+}  // namespace dripline::app
