@@ -22,8 +22,8 @@ std::string random_hex() {
 
 std::string make_run_id(UtcTime now) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
-  return fmt::format("{:%Y%m%d-%H%M%S}-{}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)), random_hex<4>());
+  return fmt::format("{}-{:%Y%m%d-%H%M%S}", random_hex<4>(),
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
 }
 
 std::string make_order_id() {
