@@ -57,7 +57,11 @@ class Terms {
     return operator_at(at_, behind_);
   }
   void take() { at_ = behind_; }
-  bool fault(MathFault fault) { return here(code_of(fault), language::to_string(fault)); }
+  bool fault(MathFault fault) {
+    // The other texts already say it all.
+    return here(code_of(fault),
+                fault == MathFault::Undefined ? language::to_string(fault) : std::string_view{});
+  }
 
   bool close_bracket() {
     if (!skip_gaps(run_, at_)) return false;

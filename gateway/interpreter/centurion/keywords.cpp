@@ -64,8 +64,9 @@ constexpr std::array kOperators{
 
 template <class Table>
 auto take_spelling(const Table& table, const char*& at) -> decltype(table[0].meaning) {
+  const char first = kind_of(*at) == CharKind::Letter ? upper(*at) : *at;
   for (const auto& spelling : table) {
-    if (take_word(at, spelling.text)) return spelling.meaning;
+    if (spelling.text[0] == first && take_word(at, spelling.text)) return spelling.meaning;
   }
   return {};
 }
