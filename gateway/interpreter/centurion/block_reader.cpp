@@ -27,7 +27,7 @@ bool refuse_number(Run& run, const char* start, const Number& number) {
   switch (number.fault) {
     case NumberFault::TooManyDigits:
       return run.fail(ErrorCode::TooManyDigits, run.column(start));
-    case NumberFault::TwoPoints:
+    case NumberFault::SecondPoint:
       return run.fail(ErrorCode::TwoPoints, run.column(start));
     default:
       return run.fail(ErrorCode::BadNumber, run.column(start), "a number is expected here");
@@ -338,11 +338,12 @@ bool read_items(Run& run) {
     const char letter = upper(*start);
     at = behind;
     if (letter == 'X' || letter == 'Z') [[likely]] {
-      if (!add_word(run, address_of(letter), {start, number.value, number.digits})) return false;
+      if (!add_word(run, address_of(letter), {start, number.value, digits_of(number)}))
+        return false;
       continue;
     }
     if (letter == 'P' || letter == 'G') run.begin_item(start);  // may hold an expression
-    if (!add_item(run, {start, number.value, number.digits}, at)) return false;
+    if (!add_item(run, {start, number.value, digits_of(number)}, at)) return false;
     run.item_done();
   }
 }

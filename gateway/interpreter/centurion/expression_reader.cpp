@@ -108,7 +108,7 @@ class Terms {
     switch (number.fault) {
       case NumberFault::TooManyDigits:
         return here(ErrorCode::TooManyDigits, {});
-      case NumberFault::TwoPoints:
+      case NumberFault::SecondPoint:
         return here(ErrorCode::TwoPoints, {});
       default:
         return here(ErrorCode::BadNumber, {});
@@ -270,15 +270,15 @@ bool read_word_value(Run& run, const char*& at, double& value, unsigned& digits)
   const char* start = at;
   const Number number = read_number(at);
   value = number.value;
-  digits = number.digits;
+  digits = digits_of(number);
   switch (number.fault) {
     case NumberFault::None:
       return true;
     case NumberFault::TooManyDigits:
       return run.fail(ErrorCode::TooManyDigits, run.column(start));
-    case NumberFault::TwoPoints:
+    case NumberFault::SecondPoint:
       return run.fail(ErrorCode::TwoPoints, run.column(start));
-    case NumberFault::Missing:
+    case NumberFault::NoDigits:
       break;
   }
   return run.fail(ErrorCode::BadNumber, run.column(start), "a number is expected here");

@@ -1,10 +1,10 @@
 #include "gateway/interpreter/centurion/output_text.hpp"
 
 #include <fmt/core.h>
+#include <array>
 #include <cmath>
 
 #include "gateway/interpreter/centurion/expression_reader.hpp"
-#include "gateway/interpreter/centurion/number.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -13,6 +13,8 @@ constexpr int kPrintableParameters = 500;
 constexpr int kAsciiFormat = 0;
 constexpr int kTimeFormat = -1;
 constexpr int kDateFormat = -2;
+/// For as many decimals as #n[LT] can ask for.
+constexpr std::array<double, 10> kPowersOfTen{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
 bool append_clock(Run& run, int format) {
   const Answer* answer = run.next_answer();
