@@ -45,6 +45,7 @@ void Gateway::run_slice(SteadyTime now) {
 
 /// Some blocks in, some actions out. False: nothing more can be done in this slice.
 bool Gateway::run_round(double& machine_seconds, SteadyTime& deadline) {
+  if (recorder_.alarm() || recorder_.was_aborted()) return false;  // nothing more counts
   const std::size_t blocks = session_->fill(kBlocksPerRound);
   const machine::MachineStatus before = machine_.status();
   const double used = machine_.advance(machine::Seconds{machine_seconds}, kActionsPerRound).count();

@@ -133,6 +133,7 @@ void RunSession::size_feed(std::optional<double> speed_factor) {
   const double seconds = parts_.machine.buffered().count() / *speed_factor;
   const interpreter::Origin& ahead = interpreter_->origin();
   const interpreter::Origin at = parts_.machine.status().origin;
+  if (ahead.block == 0) return feed_.set_consumption(0);
   // Across a call or a jump back the distance in bytes says nothing; the last size stays.
   if (ahead.program != at.program || ahead.offset <= at.offset || seconds <= 0) return;
   feed_.set_consumption(static_cast<double>(ahead.offset - at.offset) / seconds);

@@ -46,7 +46,7 @@ class RunSession {
   feed::PullFeed& feed() { return feed_; }
   const feed::PullFeed& feed() const { return feed_; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }
-  /// Tells the feed how fast the program's bytes are used up.
+  /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
   void size_feed(std::optional<double> speed_factor);
 
  private:

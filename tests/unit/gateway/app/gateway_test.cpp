@@ -131,6 +131,29 @@ TEST(Gateway, HoldsResumesAndAborts) {
   EXPECT_FALSE(shop.send(shop.order(OrderAction::Hold)).accepted);
 }
 
+TEST(Gateway, InterpretsNothingMoreAfterAnAbort) {
+  Shop shop("1x");
+  std::string text;
+  for (int i = 0; i < 50'000; ++i) text += i % 2 == 0 ? "X1\n" : "X2\n";
+  shop.push("O1", text + "END\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  constexpr std::uint64_t kFull = machine::Machine::kQueuedActions;
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->accepted > kFull; }));
+  EXPECT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  EXPECT_LT(shop.ended().accepted, kFull + 1000);
+}
+
+TEST(Gateway, AsksOnlyForSecondsOfMotionAhead) {
+  Shop shop("1x");
+  std::string text;
+  for (int i = 0; i < 200'000; ++i) text += i % 2 == 0 ? "X10\n" : "X20\n";
+  shop.push("O1", text + "END\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->executed > 3; }));
+  EXPECT_GT(shop.status->sent, 32'000u);
+  EXPECT_LT(shop.status->sent, 300'000u);
+}
+
 TEST(Gateway, OrdersForAnotherRunAreRefused) {
   Shop shop("1x");
   shop.push("O1", "X400\nEND\n");
