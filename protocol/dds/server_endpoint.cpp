@@ -156,6 +156,7 @@ void Server::handle_lost(const std::string& machine) {
   if (attached == nullptr) return;
   attached->waiting.reset();
   attached->delivered.reset();
+  attached->gateway.clear();
   if (std::exchange(attached->is_ready, false) && handlers_.on_lost) handlers_.on_lost(machine);
 }
 
@@ -169,7 +170,12 @@ void Server::handle_announced(const std::string& machine, Arrived arrived) {
   }
   Attachment* attached = attach(machine);
   if (attached == nullptr) return;
-  if (arrived.heard != domain_.key) return handle_lost(machine);  // does not hear us (any more)
+  if (arrived.heard != domain_.key) {
+    // Ours does not hear us any more; or a successor of ours does not yet, and then nothing is said
+    // of the predecessor before the successor is there.
+    if (attached->gateway == source->participant) handle_lost(machine);
+    return;
+  }
   attached->waiting = Announced{std::move(arrived.announce), source->participant};
 }
 
@@ -200,6 +206,7 @@ std::vector<Attachment*> Server::waiting_machines() const {
 void Server::try_ready(Attachment& machine) {
   if (!machine.is_matched_with(machine.waiting->participant)) return;  // the rest is to come
   Announce announce = std::move(machine.waiting->announce);
+  machine.gateway = std::move(machine.waiting->participant);
   machine.waiting.reset();
   const bool was_ready = std::exchange(machine.is_ready, true);
   if (was_ready && machine.delivered == announce) return;

@@ -35,6 +35,7 @@ struct Attachment {
 
   bool is_ready = false;              ///< on_announce was called, on_lost not since
   std::optional<Announced> waiting;   ///< heard us, but we are not yet matched with all of it
+  std::string gateway;                ///< participant of the one that is ready
   std::optional<Announce> delivered;  ///< what on_announce was told last
 
   /// `handlers` and `rejections` must outlive the attachment.
