@@ -11,6 +11,8 @@ namespace {
 using enum ErrorCode;
 
 constexpr std::array kRows{
+    ErrorRow{FileNotFound, "CEN0002", "file not found"},
+    ErrorRow{DiskFull, "CEN0101", "disk write error, parts memory full"},
     ErrorRow{FileNotOpen, "CEN0103", "file not open"},
     ErrorRow{DivisionByZero, "CEN0200", "division by zero"},
     ErrorRow{FloatingOverflow, "CEN0205", "floating point overflow"},

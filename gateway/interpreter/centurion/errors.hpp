@@ -8,6 +8,8 @@
 namespace dripline::interpreter::centurion {
 
 enum class ErrorCode : std::uint16_t {
+  FileNotFound = 2,
+  DiskFull = 101,
   FileNotOpen = 103,
   DivisionByZero = 200,
   FloatingOverflow = 205,

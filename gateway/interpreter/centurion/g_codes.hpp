@@ -53,6 +53,8 @@ enum class GAction : std::uint8_t {
   Revolutions,
   FeedPerMinute,
   FeedPerRevolution,
+  SaveParameters,
+  LoadParameters,
   ReadByte,
   WriteByte,
   ForceError,

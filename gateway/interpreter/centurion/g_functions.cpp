@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/parameter_files.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -125,6 +126,10 @@ bool apply_g(Run& run, const GRow& row) {
     case GAction::FeedPerRevolution:
       modes.is_feed_per_revolution = true;
       return true;
+    case GAction::SaveParameters:
+      return save_parameters(run);
+    case GAction::LoadParameters:
+      return load_parameters(run);
     case GAction::ReadByte:
       return read_byte_parameter(run);
     case GAction::WriteByte:

@@ -93,6 +93,14 @@ struct Jump {
   TextPosition from;  ///< WHILE: before its block
 };
 
+/// What G990 wrote: a file Qnnnn of the control's RAM drive, for as long as the run lasts.
+struct ParameterFile {
+  std::uint32_t number = 0;
+  std::vector<double> values;
+};
+inline constexpr std::size_t kMaxParameterFiles = 64;
+inline constexpr int kUserParameters = 100;
+
 /// Where the rest of the data is: parameters.hpp.
 struct ModalState {
   RunPhase phase = RunPhase::Running;
@@ -122,6 +130,7 @@ struct ModalState {
   std::vector<CallFrame> calls;
   std::vector<GosubFrame> gosubs;
   std::vector<LoopFrame> loops;
+  std::vector<ParameterFile> files;
   Jump jump;
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }

@@ -95,6 +95,20 @@ void visit(Archive& archive, Origin& origin) {
   all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
 }
 
+template <class Archive>
+void visit_files(Archive& archive, std::vector<ParameterFile>& files) {
+  std::size_t count = files.size();
+  if (!archive.size(count, kMaxParameterFiles)) return;
+  files.resize(count);
+  for (ParameterFile& file : files) {
+    archive(file.number);
+    std::size_t length = file.values.size();
+    if (!archive.size(length, kUserParameters)) return;
+    file.values.resize(length);
+    for (double& value : file.values) archive(value);
+  }
+}
+
 template <class Archive, class Frame>
 void visit_stack(Archive& archive, std::vector<Frame>& stack) {
   std::size_t count = stack.size();
@@ -137,6 +151,7 @@ void visit_state(Archive& archive, ModalState& state) {
   visit_stack(archive, state.calls);
   visit_stack(archive, state.gosubs);
   visit_stack(archive, state.loops);
+  visit_files(archive, state.files);
   Jump& jump = state.jump;
   all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes);
   visit(archive, jump.from);
