@@ -1,0 +1,136 @@
+// `dnc` as its users type it: what it prints, what it exits with, what it leaves behind.
+#include <gtest/gtest.h>
+#include <fstream>
+#include <sstream>
+
+#include "tests/integration/system.hpp"
+#include "tests/support/program_generator.hpp"
+
+namespace dripline::integration {
+namespace {
+
+using test_support::Finished;
+
+class Cli : public testing::Test {
+ protected:
+  Finished dnc(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
+    return test_support::run_to_end(std::move(arguments), system.folder() / "dnc.out");
+  }
+  nlohmann::json dnc_json(std::vector<std::string> arguments) {
+    arguments.push_back("--json");
+    const auto done = dnc(std::move(arguments));
+    EXPECT_EQ(done.status, 0) << done.output;
+    const auto json = nlohmann::json::parse(done.output, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << done.output;
+    return json;
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(system.folder() / name, std::ios::binary) << text;
+    return system.folder() / name;
+  }
+  std::string read(const std::string& name) {
+    std::ifstream file(system.folder() / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  void start_all() {
+    system.start_server();
+    system.start_gateway();
+    system.wait_connected();
+  }
+  System system;
+};
+
+std::string report_program(std::uint64_t lines) {
+  std::string text;
+  test_support::write_report_program(lines, 2, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+TEST_F(Cli, AProgramGoesInRunsAndItsReportComesOut) {
+  start_all();
+  const std::string text = report_program(25);
+  const auto pushed =
+      dnc({"program", "push", write("part.nc", text), "--name", "O0300", "--control", "centurion"});
+  EXPECT_EQ(pushed.status, 0) << pushed.output;
+  const auto ran = dnc({"run", "start", "lathe-1", "O0300", "--follow"});
+  EXPECT_EQ(ran.status, 0) << ran.output;
+  EXPECT_NE(ran.output.find("completed"), std::string::npos) << ran.output;
+
+  const auto report = dnc({"report", "show", "latest"});
+  EXPECT_NE(report.output.find("LINE 00025"), std::string::npos) << report.output;
+  EXPECT_EQ(
+      dnc({"report", "export", "latest", "--format", "csv", "-o", system.folder() / "report.csv"})
+          .status,
+      0);
+  EXPECT_NE(read("report.csv").find("LINE 00001"), std::string::npos);
+  EXPECT_EQ(dnc({"program", "pull", "O0300", "-o", system.folder() / "back.nc"}).status, 0);
+  EXPECT_EQ(read("back.nc"), text);
+}
+
+TEST_F(Cli, EveryListingSpeaksJson) {
+  start_all();
+  dnc({"program", "push", write("part.nc", report_program(2)), "--name", "O0300", "--control",
+       "centurion"});
+  dnc({"run", "start", "lathe-1", "O0300", "--follow"});
+  EXPECT_EQ(dnc_json({"program", "list"})["programs"].size(), 1u);
+  EXPECT_EQ(dnc_json({"program", "show", "O0300"}).value("name", ""), "O0300");
+  EXPECT_EQ(dnc_json({"machine", "list"})["machines"].size(), 1u);
+  EXPECT_EQ(dnc_json({"machine", "status", "lathe-1"}).value("name", ""), "lathe-1");
+  EXPECT_EQ(dnc_json({"run", "list"})["runs"].size(), 1u);
+  EXPECT_EQ(dnc_json({"run", "show", "latest"}).value("state", ""), "completed");
+  EXPECT_EQ(dnc_json({"report", "list"})["reports"].size(), 1u);
+  EXPECT_TRUE(dnc_json({"server", "status"}).contains("version"));
+}
+
+TEST_F(Cli, ARunThatAlarmsEndsWithStatusOne) {
+  start_all();
+  dnc({"program", "push", write("bad.nc", "O0400\nG20\nG0 X1 Z1\nP1=1/0\nM30\n"), "--name", "O0400",
+       "--control", "centurion"});
+  const auto ran = dnc({"run", "start", "lathe-1", "O0400", "--follow"});
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.output.find("CEN"), std::string::npos) << ran.output;
+}
+
+TEST_F(Cli, ErrorsNameTheThing) {
+  start_all();
+  const auto missing = dnc({"program", "show", "O7777"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.output.find("O7777"), std::string::npos) << missing.output;
+  const auto unreadable = dnc({"program", "push", "/no/such/file.nc"});
+  EXPECT_EQ(unreadable.status, 2);
+  EXPECT_NE(unreadable.output.find("/no/such/file.nc"), std::string::npos) << unreadable.output;
+  const auto no_machine = dnc({"run", "start", "lathe-9", "O7777"});
+  EXPECT_EQ(no_machine.status, 1);
+  EXPECT_NE(no_machine.output.find("lathe-9"), std::string::npos) << no_machine.output;
+}
+
+TEST_F(Cli, WithoutAServerItSaysWhereItLooked) {
+  const auto done = test_support::run_to_end(
+      {program_path("dnc"), "--server", "http://127.0.0.1:1", "program", "list"},
+      system.folder() / "dnc.out");
+  EXPECT_EQ(done.status, 3) << done.output;
+  EXPECT_NE(done.output.find("127.0.0.1:1"), std::string::npos) << done.output;
+}
+
+TEST_F(Cli, ProgressIsSilentInAPipe) {
+  start_all();
+  const auto pushed = dnc({"program", "push", write("part.nc", report_program(2)), "--name",
+                           "O0300", "--control", "centurion"});
+  EXPECT_EQ(pushed.output.find('\r'), std::string::npos) << pushed.output;
+  EXPECT_EQ(pushed.output.find('\x1b'), std::string::npos) << pushed.output;
+}
+
+TEST_F(Cli, TheServerRefusesToListenBeyondLoopbackWithoutTls) {
+  const auto done =
+      test_support::run_to_end({program_path("dncd"), "--state", system.server_state(), "--http",
+                                "0.0.0.0:0", "--dds-domain", "90"},
+                               system.folder() / "dncd.out", std::chrono::seconds(10));
+  EXPECT_EQ(done.status, 2) << done.output;
+  EXPECT_NE(done.output.find("TLS"), std::string::npos) << done.output;
+}
+
+}  // namespace
+}  // namespace dripline::integration
