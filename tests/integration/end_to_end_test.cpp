@@ -104,7 +104,7 @@ TEST_F(EndToEnd, AnAbortedRunSaysHowFarItCame) {
             200);
   const auto run = system->wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "aborted") << run.dump();
-  EXPECT_EQ(run.value("executed", 0u), system->witness().executed);
+  EXPECT_EQ(run.value("executed", 0u), system->witness().blocks_done);
 }
 
 TEST_F(EndToEnd, AProgramAlarmEndsTheRunWithItsCode) {

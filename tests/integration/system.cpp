@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -105,9 +106,13 @@ void System::wait_connected(const std::string& machine) {
   ASSERT_TRUE(connected) << "the server does not see " << machine << "\n" << gateway_->output();
 }
 
-RestClient System::rest() const {
+std::string System::url() const {
   const auto location =
       nlohmann::json::parse(read_file(server_state() / "dncd.json"), nullptr, false);
+  return location.is_object() ? location.value("url", "") : "http://127.0.0.1:1";
+}
+
+RestClient System::rest() const {
   std::string token = read_file(server_state() / "token");
   while (!token.empty() && token.back() == '\n') token.pop_back();
   return RestClient(url(), token);
@@ -152,6 +157,14 @@ std::vector<std::string> System::report_lines(const std::string& id) const {
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
+}
+
+System::Witness System::witness() const {
+  const std::string bytes = read_file(folder() / "witness");
+  Witness witness;
+  static_assert(std::is_trivially_copyable_v<Witness>);
+  if (bytes.size() >= sizeof witness) std::memcpy(&witness, bytes.data(), sizeof witness);
+  return witness;
 }
 
 }  // namespace dripline::integration

@@ -21,7 +21,8 @@ class System {
     std::vector<std::string> server_arguments;
     std::vector<std::string> gateway_arguments;
   };
-  explicit System(Options options = {});
+  System() : System(Options{}) {}
+  explicit System(Options options);
 
   void start_server();
   void start_gateway(const std::string& machine = "lathe-1");
@@ -45,9 +46,11 @@ class System {
   std::vector<std::string> report_lines(const std::string& id) const;
 
   /// What the simulated machine truly did in its last run, from a file that only its lowest level
-  /// writes.
+  /// writes. An effect on disk and a count in memory can not change at one instant, so the truth
+  /// lies between done and begun.
   struct Witness {
-    std::uint64_t executed = 0, outputs = 0;
+    std::uint64_t blocks_done = 0, outputs_done = 0;
+    std::uint64_t blocks_begun = 0, outputs_begun = 0;
   };
   Witness witness() const;
 
