@@ -61,8 +61,8 @@ TEST_F(EndToEnd, EveryReportLineIsStoredOnceAndInOrder) {
 }
 
 TEST_F(EndToEnd, ARunKeepsTheRevisionItBeganWith) {
-  start({.speed = "20x", .server_arguments = {}, .gateway_arguments = {}});
-  const std::string first = report_program(60, 4);
+  start({.speed = "1x", .server_arguments = {}, .gateway_arguments = {}});
+  const std::string first = report_program(60, 9);
   system->push("O0300", first);
   const std::string id = system->start_run("O0300");
   ASSERT_TRUE(test_support::eventually([&] { return system->run(id).value("executed", 0u) > 3; }));
@@ -76,8 +76,8 @@ TEST_F(EndToEnd, ARunKeepsTheRevisionItBeganWith) {
 }
 
 TEST_F(EndToEnd, HoldStopsMotionAndResumeGoesOn) {
-  start({.speed = "10x", .server_arguments = {}, .gateway_arguments = {}});
-  system->push("O0300", report_program(40, 4));
+  start({.speed = "1x", .server_arguments = {}, .gateway_arguments = {}});
+  system->push("O0300", report_program(60, 9));
   const std::string id = system->start_run("O0300");
   const auto order = [&](const char* action) {
     const auto reply = system->rest().post("/api/v1/runs/" + id + "/orders", {{"action", action}});
@@ -87,7 +87,7 @@ TEST_F(EndToEnd, HoldStopsMotionAndResumeGoesOn) {
     return system->rest().get("/api/v1/machines/lathe-1").json()["status"].value("execution", "");
   };
   order("hold");
-  EXPECT_TRUE(test_support::eventually([&] { return execution() == "feed_hold"; })) << execution();
+  EXPECT_TRUE(test_support::eventually([&] { return execution() == "FEED_HOLD"; })) << execution();
   const auto held_at = system->run(id).value("executed", 0u);
   order("resume");
   const auto run = system->wait_ended(id);
@@ -96,7 +96,7 @@ TEST_F(EndToEnd, HoldStopsMotionAndResumeGoesOn) {
 }
 
 TEST_F(EndToEnd, AnAbortedRunSaysHowFarItCame) {
-  start({.speed = "10x", .server_arguments = {}, .gateway_arguments = {}});
+  start({.speed = "1x", .server_arguments = {}, .gateway_arguments = {}});
   system->push("O0300", report_program(4000, 4));
   const std::string id = system->start_run("O0300");
   ASSERT_TRUE(test_support::eventually([&] { return system->run(id).value("executed", 0u) > 5; }));
