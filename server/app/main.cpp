@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <pthread.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -38,6 +39,16 @@ int complain(const Error& error) {
   return error.code == Errc::Denied ? kUnsafe : kFailed;
 }
 
+/// Uploads pass through in pieces of some MiB, on several threads. Left alone, glibc raises its
+/// threshold and keeps such pieces in an arena per thread: 100 MiB resident after the first GiB. So
+/// large blocks go back to the system at once.
+void keep_memory_small() {
+  constexpr int kMapFrom = 256 * 1024;
+  constexpr int kArenas = 2;
+  ::mallopt(M_MMAP_THRESHOLD, kMapFrom);
+  ::mallopt(M_ARENA_MAX, kArenas);
+}
+
 /// Blocked in every thread and waited for in this one: no handler code, no races.
 sigset_t block_end_signals() {
   sigset_t signals;
@@ -57,6 +68,7 @@ void serve_until(const sigset_t& signals, Server& server) {
 }
 
 int run(const Settings& settings) {
+  keep_memory_small();
   const sigset_t signals = block_end_signals();
   if (auto opened = open_log(settings); !opened) return complain(opened.error());
   const SystemClock clock;
