@@ -98,8 +98,11 @@ std::vector<dds::Record> RecordKeeper::take_batch(Lane& lane) {
     lane.waiting.pop_front();
   }
   std::ranges::stable_sort(records, {}, &dds::Record::number);
-  const auto doubled = std::ranges::unique(records, {}, &dds::Record::number);
-  records.erase(doubled.begin(), doubled.end());
+  // Not ranges::unique: clang 14 can not parse libstdc++'s.
+  const auto is_same = [](const dds::Record& a, const dds::Record& b) {
+    return a.number == b.number;
+  };
+  records.erase(std::unique(records.begin(), records.end(), is_same), records.end());
   return records;
 }
 

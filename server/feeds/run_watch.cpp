@@ -36,10 +36,11 @@ void RunWatch::compare(const std::vector<MachineView>& machines) {
     const std::lock_guard lock(mutex_);
     runs = runs_;
   }
-  for (const auto& [run, watched] : runs) {
+  for (const auto& entry : runs) {
+    const std::string& machine = entry.second.machine;
     const auto view = std::ranges::find_if(
-        machines, [&](const MachineView& m) { return m.machine.name == watched.machine; });
-    if (view != machines.end()) judge(run, *view);
+        machines, [&](const MachineView& m) { return m.machine.name == machine; });
+    if (view != machines.end()) judge(entry.first, *view);
   }
 }
 
