@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/interpreter/registry.hpp"
+
 namespace dripline::gateway {
 namespace {
 
 constexpr std::string_view kVersion = "0.1.0";
 
-/// Lathe controls drive X and Z; all others get a mill.
 machine::MachineLimits limits_of(std::string_view control) {
-  return control == "centurion" ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
+  const auto dialect = interpreter::find_dialect(control);
+  const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
+  return is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
 }
 
 }  // namespace

@@ -37,8 +37,11 @@ dds::Status Gateway::status() const {
   status.machine = parts_.options.machine;
   status.time = parts_.clock.now();
   const machine::MachineStatus now = machine_.status();
-  for (std::size_t i = 0; i < status.position.size(); ++i)
-    status.position[i] = now.position.raw(static_cast<interpreter::Axis>(i));
+  for (std::size_t i = 0; i < status.position.size(); ++i) {
+    const auto axis = static_cast<interpreter::Axis>(i);
+    status.position[i] = now.position.raw(axis);
+    if (machine_.limits().axis(axis)) status.axes |= static_cast<std::uint16_t>(1U << i);
+  }
   status.feed_mm_per_min = now.feed_per_minute;
   status.spindle_rpm = now.spindle_rpm;
   status.feed_override = machine_.panel().feed_override;

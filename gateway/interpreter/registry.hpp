@@ -10,6 +10,9 @@
 
 namespace dripline::interpreter {
 
+/// What the control moves: decides the axes of a simulated machine.
+enum class MachineKind : std::uint8_t { Mill, Lathe };
+
 /// One control family. A new dialect is a new folder and one line in registry.cpp.
 struct Dialect {
   std::string_view name;   ///< as in configurations and `--control`
@@ -23,6 +26,7 @@ struct Dialect {
                                                EventSink& sink);
   /// Units of the control's own memory at power on: of a setup file that names none.
   Units units = Units::Millimetre;
+  MachineKind machine = MachineKind::Mill;
 };
 
 std::span<const Dialect> dialects();

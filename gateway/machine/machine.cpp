@@ -35,6 +35,10 @@ Machine::Machine(const MachineLimits& limits, interpreter::Workpiece workpiece, 
 
 Machine::~Machine() = default;
 
+const MachineLimits& Machine::limits() const {
+  return parts_->limits;
+}
+
 void Machine::begin(const interpreter::Position& at) {
   parts_->executor.begin(at);
 }

@@ -67,6 +67,8 @@ class Machine {
   /// panel.
   void begin(const interpreter::Position& at);
 
+  const MachineLimits& limits() const;
+
   // -- what the interpreter does --------------------------------------------------------------
   /// Hand this to the interpreter. Events after an alarm or abort are dropped until `begin`.
   interpreter::EventSink& events();

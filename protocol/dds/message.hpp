@@ -85,6 +85,7 @@ struct Status {
   bool single_block = false;
   std::string message;
   std::uint32_t outbox = 0;
+  std::uint16_t axes = 0;  ///< bit set over `position`, bit 0 = X
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -21,12 +21,11 @@ json sequence_number(std::int64_t sequence) {
 }
 
 /// X, Y and Z always; the other axes when they are somewhere.
-json position_json(const std::array<double, 9>& position) {
+json position_json(const dds::Status& status) {
   constexpr std::string_view kAxes = "XYZABCUVW";
-  constexpr std::size_t kAlways = 3;
   json axes = json::object();
   for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    if (i < kAlways || position[i] != 0) axes[std::string(1, kAxes[i])] = position[i];
+    if ((status.axes >> i & 1) != 0) axes[std::string(1, kAxes[i])] = status.position[i];
   }
   return axes;
 }
@@ -44,7 +43,7 @@ json status_json(const dds::Status& status) {
           {"offset", status.offset},
           {"line", status.line},
           {"sequence", sequence_number(status.sequence)},
-          {"position", position_json(status.position)},
+          {"position", position_json(status)},
           {"feed_mm_per_min", status.feed_mm_per_min},
           {"spindle_rpm", status.spindle_rpm},
           {"feed_override", status.feed_override},

@@ -60,7 +60,8 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kCenturionDialect{"centurion", "Milltronics Centurion 5T/6T (lathe)", &likelihood,
-                                &make, Units::Inch};
+const Dialect kCenturionDialect{"centurion", "Milltronics Centurion 5T/6T (lathe)",
+                                &likelihood, &make,
+                                Units::Inch, MachineKind::Lathe};
 
 }  // namespace dripline::interpreter

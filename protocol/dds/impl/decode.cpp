@@ -94,6 +94,7 @@ Result<Status> decode(const dripline_idl_Status& s) {
   m.single_block = s.single_block;
   m.message = members.text(s.message, "message");
   m.outbox = s.outbox;
+  m.axes = s.axes;
   return members.finish(std::move(m));
 }
 

@@ -92,6 +92,7 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   s.buffered_seconds = m.buffered_seconds;
   s.single_block = m.single_block;
   s.outbox = m.outbox;
+  s.axes = m.axes;
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")

@@ -198,9 +198,10 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   status.machine = "lathe-1";
   status.execution = dds::Execution::FeedHold;
   status.position = {1.5, 0, -3, 0, 0, 90};
+  status.axes = 0b100101;  // X, Z and C
   feeds_.views[0].status = status;
   const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
-  EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Y", 0.0}, {"Z", -3.0}, {"C", 90.0}}));
+  EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Z", -3.0}, {"C", 90.0}}));
   EXPECT_TRUE(shown["run"].is_null());
   EXPECT_TRUE(shown["sequence"].is_null());
 }

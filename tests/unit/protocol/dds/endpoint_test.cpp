@@ -27,6 +27,7 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
   status.line = 6;
   status.sequence = 70;
   status.position = {1.5, 0, -2.25, 0, 0, 0, 0, 0, 9};
+  status.axes = 0b100000101;
   status.feed_mm_per_min = 120.5;
   status.spindle_rpm = 1500;
   status.feed_override = 0.8;
