@@ -56,11 +56,16 @@ Response order_run(Services& services, const Request& request) {
   if (!order) return error_response(order.error());
   order->run = request.parameter("id");
   const auto done = services.feeds.order(*order);
+  // Without an answer it may have been carried out all the same.
+  const bool is_unknown = !done && done.error().code == Errc::Timeout;
+  if (done || is_unknown) {
+    services.audit.write({.who = request.who,
+                          .action = fmt::format("run.{}", dds::to_string(order->action)),
+                          .subject = order->run,
+                          .detail = fmt::format("{} {} {}", order->argument, order->value,
+                                                is_unknown ? "not answered" : "accepted")});
+  }
   if (!done) return error_response(done.error());
-  services.audit.write({.who = request.who,
-                        .action = fmt::format("run.{}", dds::to_string(order->action)),
-                        .subject = order->run,
-                        .detail = fmt::format("{} {}", order->argument, order->value)});
   return json_response(200, {{"accepted", true}});
 }
 
