@@ -42,9 +42,9 @@ void add_program(Details& details, const client::MachineStatus& status) {
 }  // namespace
 
 Style style_of_execution(const std::string& execution) {
-  if (execution == "Active") return Style::Busy;
-  if (execution == "Ready" || execution == "ProgramCompleted") return Style::Good;
-  if (execution == "Interrupted" || execution == "Stopped") return Style::Bad;
+  if (execution == "ACTIVE") return Style::Busy;
+  if (execution == "READY" || execution == "PROGRAM_COMPLETED") return Style::Good;
+  if (execution == "INTERRUPTED" || execution == "STOPPED") return Style::Bad;
   return Style::Plain;
 }
 
@@ -78,7 +78,7 @@ std::string place_text(const client::MachineStatus& status) {
 
 double fraction_executed(const client::MachineStatus& status) {
   if (status.total_bytes == 0) return 0;
-  if (status.execution == "ProgramCompleted") return 1;
+  if (status.execution == "PROGRAM_COMPLETED") return 1;
   return std::min(1.0,
                   static_cast<double>(status.offset) / static_cast<double>(status.total_bytes));
 }

@@ -8,6 +8,7 @@
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/progress.hpp"
+#include "clients/cli/standard_output.hpp"
 #include "clients/cli/value_text.hpp"
 #include "clients/lib/pull.hpp"
 #include "clients/lib/push.hpp"
@@ -34,11 +35,6 @@ int ended(const client::Failure& failure, const char* what) {
   if (!is_interrupted()) return complain(failure);
   fmt::print(stderr, "dnc: {} was ended; nothing was changed\n", what);
   return kExitInterrupted;
-}
-
-Result<void> write_to_stdout(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size()) return {};
-  return fail(Errc::Io, "standard output can not be written: {}", std::strerror(errno));
 }
 
 }  // namespace
@@ -83,6 +79,7 @@ int pull(Context& context, const PullCommand& command) {
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
   client::PullOptions options{command.name, command.revision, retry_policy(), {}};
+  StandardOutput output;
   const bool to_stdout = command.output == "-";
   const std::string path = command.output.empty() ? command.name : command.output;
   const SteadyTime begun = clock.steady_now();
@@ -92,9 +89,12 @@ int pull(Context& context, const PullCommand& command) {
       progress.update(done, total);
       return !is_interrupted();
     };
-    return to_stdout ? pull_program(*client, options, write_to_stdout)
-                     : pull_program_to_file(*client, options, path);
+    return to_stdout
+               ? pull_program(*client, options,
+                              [&output](std::string_view bytes) { return output.write(bytes); })
+               : pull_program_to_file(*client, options, path);
   }();
+  if (output.error()) return output.complain();
   if (!pulled) return ended(pulled.error(), "the pull");
   if (!to_stdout) {
     const std::string line = revision_line("Pulled", *pulled, seconds_since(begun, clock));

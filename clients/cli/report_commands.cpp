@@ -5,6 +5,7 @@
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/machine_text.hpp"
 #include "clients/cli/run_reference.hpp"
+#include "clients/cli/standard_output.hpp"
 #include "clients/cli/value_text.hpp"
 #include "clients/lib/output_file.hpp"
 
@@ -56,6 +57,14 @@ int list(Context& context, const ListCommand& command) {
   return kExitOk;
 }
 
+int print_report(client::Client& client, const std::string& run, const std::string& format) {
+  StandardOutput output;
+  auto printed = client.export_report(
+      run, format, [&output](std::string_view bytes) { return output.write(bytes).has_value(); });
+  if (output.error()) return output.complain();
+  return printed ? kExitOk : complain(printed.error());
+}
+
 int show(Context& context, const std::string& reference) {
   auto client = context.connect();
   if (!client) return context.status;
@@ -66,11 +75,7 @@ int show(Context& context, const std::string& reference) {
                               short_id(run->id), run->program, run->revision, run->machine,
                               run->state, run->outputs));
   }
-  const char* format = context.wants_json ? "json" : "text";
-  auto shown = client->export_report(run->id, format, [](std::string_view bytes) {
-    return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
-  });
-  return shown ? kExitOk : complain(shown.error());
+  return print_report(*client, run->id, context.wants_json ? "json" : "text");
 }
 
 int export_to_file(client::Client& client, const client::Run& run, const ExportCommand& command) {
@@ -96,10 +101,7 @@ int export_report(Context& context, const ExportCommand& command) {
   if (!command.output.empty() && command.output != "-") {
     return export_to_file(*client, *run, command);
   }
-  auto exported = client->export_report(run->id, command.format, [](std::string_view bytes) {
-    return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
-  });
-  return exported ? kExitOk : complain(exported.error());
+  return print_report(*client, run->id, command.format);
 }
 
 void add_export(CLI::App& group, Context& context) {

@@ -1,51 +1,28 @@
-#include <unistd.h>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <memory>
-#include <optional>
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/offline_options.hpp"
+#include "clients/cli/standard_output.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
 #include "gateway/interpreter/trace/trace_writer.hpp"
 
 namespace dripline::cli {
 namespace {
 
-/// Standard output without a second buffer; the trace comes in large pieces.
-class TraceOutput {
- public:
-  void write(std::string_view text) {
-    while (!text.empty() && !error_) {
-      const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) {
-        error_ = Error{Errc::Io, std::string("the trace can not be written to standard output: ") +
-                                     std::strerror(errno)};
-        return;
-      }
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
-  const std::optional<Error>& error() const { return error_; }
-
- private:
-  std::optional<Error> error_;
-};
-
 int trace(const OfflineCommand& command) {
   auto program = OfflineProgram::open(command);
   if (!program) return complain(program.error());
   std::signal(SIGPIPE, SIG_DFL);  // `dnc trace FILE | head` ends with head
-  TraceOutput output;
-  interpreter::TraceWriter writer([&output](std::string_view text) { output.write(text); },
-                                  program->setup().start);
+  StandardOutput output;
+  interpreter::TraceWriter writer(
+      [&output](std::string_view text) { (void)output.write(text).has_value(); },
+      program->setup().start);
   auto source = program->source();
   const auto outcome =
       interpreter::run_offline(program->dialect(), program->setup(), source, writer);
   writer.flush();
-  if (output.error()) return complain(*output.error());
+  if (output.error()) return output.complain();
   if (!outcome) return complain_offline(outcome.error());
   return outcome->ended ? kExitOk : kExitNo;
 }

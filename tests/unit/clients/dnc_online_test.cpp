@@ -116,6 +116,18 @@ TEST_F(DncOnline, ExportsAReport) {
   EXPECT_TRUE(shown.ends_with("\n\nreport as text\n")) << shown;
 }
 
+TEST_F(DncOnline, SaysThatStandardOutputIsFull) {
+  server.set_run(run_json("aa11", "completed"));
+  const auto full = test_support::run_to_end(
+      {"/bin/sh", "-c",
+       "exec \"$0\" --server \"$1\" --token-file \"$2\" report export latest >/dev/full", DNC_PATH,
+       server.url(), dnc.write("token", FakeServer::kToken)},
+      dnc.folder() / "full.txt");
+  EXPECT_EQ(full.status, 2);
+  EXPECT_NE(full.output.find("standard output can not be written"), std::string::npos)
+      << full.output;
+}
+
 TEST_F(DncOnline, FollowsARunToItsEnd) {
   server.set_machine(machine_json("lathe-1"));
   server.set_run(run_json("aa11", "active"));

@@ -22,7 +22,7 @@ client::Run run() {
 
 client::MachineStatus status() {
   client::MachineStatus status;
-  status.execution = "Active";
+  status.execution = "ACTIVE";
   status.run = "0192aabbccdd";
   status.program = "O0200";
   status.sent = 1'500'000;
@@ -43,7 +43,7 @@ TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
   active.state = "active";
   active.executed = 0;
   EXPECT_EQ(run_line(active, &machine),
-            "O0200 on lathe-1 [########........]  50 %  Active  sent 1.5 MB  accepted 120000  "
+            "O0200 on lathe-1 [########........]  50 %  ACTIVE  sent 1.5 MB  accepted 120000  "
             "executed 100000  line 100001 N42  X 12.500 Z -3.000  F 200");
 }
 
@@ -69,6 +69,14 @@ TEST(OutcomeLine, SaysHowTheRunWent) {
             "lines, last line 7; CEN0103 bad word");
 }
 
+TEST(FractionExecuted, FollowsTheTextAndEndsAtOne) {
+  client::MachineStatus machine = status();
+  EXPECT_DOUBLE_EQ(fraction_executed(machine), 0.5);
+  machine.execution = "PROGRAM_COMPLETED";
+  EXPECT_EQ(fraction_executed(machine), 1);
+  EXPECT_EQ(fraction_executed(client::MachineStatus{}), 0);
+}
+
 TEST(StatusLine, SaysWhatAMachineDoes) {
   client::Machine machine;
   machine.name = "lathe-1";
@@ -78,7 +86,7 @@ TEST(StatusLine, SaysWhatAMachineDoes) {
   machine.status = status();
   machine.status->message = "HELLO";
   EXPECT_EQ(status_line(machine),
-            "lathe-1  Active  O0200  50 %  line 100001 N42  X 12.500 Z -3.000  F 200 mm/min  "
+            "lathe-1  ACTIVE  O0200  50 %  line 100001 N42  X 12.500 Z -3.000  F 200 mm/min  "
             "HELLO");
 }
 
