@@ -1,6 +1,6 @@
 #include "clients/cli/machine_text.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "clients/cli/progress.hpp"
@@ -116,19 +116,24 @@ Details machine_details(const client::Machine& machine) {
   return details;
 }
 
-std::string run_line(const client::Run& run, const client::MachineStatus* status) {
+std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status) {
   if (status == nullptr) {
-    return fmt::format("{} on {}  {}  {} of {} sent  {} blocks executed", run.program, run.machine,
-                       run.state, bytes_text(run.sent), bytes_text(run.size), run.executed);
+    return {fmt::format("{} on {}  {}  {} of {} sent  {} blocks executed", run.program, run.machine,
+                        run.state, bytes_text(run.sent), bytes_text(run.size), run.executed)};
   }
   const double fraction = fraction_executed(*status);
-  return fmt::format(
-      "{} on {} {} {:3.0f} %  {}  sent {}  accepted {}  executed {}  {}  {}  "
-      "F {:.0f}{}",
-      run.program, run.machine, render_bar(fraction, kBarCells), fraction * 100, status->execution,
-      bytes_text(std::max(run.sent, status->sent)), std::max(run.accepted, status->accepted),
-      std::max(run.executed, status->executed), place_text(*status), position_text(*status),
-      status->feed_mm_per_min, with_text("", status->message));
+  return {fmt::format("{} on {} {} {:3.0f} %  {}  {}{}", run.program, run.machine,
+                      render_bar(fraction, kBarCells), fraction * 100, status->execution,
+                      place_text(*status), with_text("", status->message)),
+          fmt::format("sent {}  accepted {}  executed {}  {}  F {:.0f}",
+                      bytes_text(std::max(run.sent, status->sent)),
+                      std::max(run.accepted, status->accepted),
+                      std::max(run.executed, status->executed), position_text(*status),
+                      status->feed_mm_per_min)};
+}
+
+std::string run_line(const client::Run& run, const client::MachineStatus* status) {
+  return fmt::format("{}", fmt::join(run_lines(run, status), "  "));
 }
 
 std::string outcome_line(const client::Run& run) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "clients/cli/table.hpp"
 #include "clients/lib/api_types.hpp"
@@ -22,7 +23,10 @@ double fraction_executed(const client::MachineStatus& status);
 std::string status_line(const client::Machine& machine);
 Details machine_details(const client::Machine& machine);
 
-/// One line of how the run stands; `status` is the machine's when it speaks of this run, or null.
+/// How the run stands, as lines that fit a terminal of 80 columns; `status` is the machine's when
+/// it speaks of this run, or null.
+std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
+/// The same as one line.
 std::string run_line(const client::Run& run, const client::MachineStatus* status);
 /// How the run ended, in one line.
 std::string outcome_line(const client::Run& run);

@@ -96,9 +96,9 @@ class RunWatch {
   void show() {
     if (style_ == WatchStyle::Silent) return;
     if (context_.wants_json) return show_json();
-    const std::string line = run_line(run_, status_of_run());
-    if (area_.is_live()) return area_.show({line});
     const auto* status = status_of_run();
+    if (area_.is_live()) return area_.show(run_lines(run_, status));
+    const std::string line = run_line(run_, status);
     const std::string key = run_.state + (status ? status->execution + status->message : "");
     if (!log_.is_worth_a_line(key, line, clock_.steady_now())) return;
     print(printable(line));

@@ -43,8 +43,15 @@ TEST(RunLine, ShowsAllThreeCountersAndThePlace) {
   active.state = "active";
   active.executed = 0;
   EXPECT_EQ(run_line(active, &machine),
-            "O0200 on lathe-1 [########........]  50 %  ACTIVE  sent 1.5 MB  accepted 120000  "
-            "executed 100000  line 100001 N42  X 12.500 Z -3.000  F 200");
+            "O0200 on lathe-1 [########........]  50 %  ACTIVE  line 100001 N42  "
+            "sent 1.5 MB  accepted 120000  executed 100000  X 12.500 Z -3.000  F 200");
+}
+
+TEST(RunLines, FitAnOrdinaryTerminal) {
+  auto machine = status();
+  machine.position["Y"] = 0;
+  client::Run active = run();
+  for (const auto& line : run_lines(active, &machine)) EXPECT_LT(columns(line), 80u) << line;
 }
 
 TEST(RunLine, ManagesWithoutAStatus) {
