@@ -1,6 +1,10 @@
 #include "protocol/dds/configuration.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <span>
+
+#include "protocol/base/crc32.hpp"
 
 namespace dripline::dds {
 namespace {
@@ -79,23 +83,41 @@ std::string size_elements(const std::string& interface) {
          "<FragmentSize>65000B</FragmentSize>";
 }
 
-std::string host_and_port(const NetworkOptions& options) {
-  const bool has_port = options.server.find(':') != std::string::npos;
-  return has_port ? options.server
-                  : fmt::format("{}:{}", options.server, server_port(options.domain));
+/// A port given with the server is that of its first cell.
+Result<std::string> server_place(const NetworkOptions& options, std::uint32_t cell) {
+  const auto colon = options.server.find(':');
+  if (colon == std::string::npos) {
+    return fmt::format("{}:{}", options.server, server_port(options.domain, cell));
+  }
+  const char* const end = options.server.data() + options.server.size();
+  std::uint16_t port = 0;
+  const auto read = std::from_chars(options.server.data() + colon + 1, end, port);
+  if (read.ec != std::errc{} || read.ptr != end || port == 0 || port > 65535 - 2 * kCells) {
+    return fail(Errc::Syntax, "DDS server '{}' is not host or host:port", options.server);
+  }
+  return fmt::format("{}:{}", options.server.substr(0, colon), port + 2 * cell);
 }
 
-std::string place_elements(const NetworkOptions& options, Role role) {
-  if (role == Role::Server) return "<ParticipantIndex>0</ParticipantIndex>";
+Result<std::string> place_elements(const NetworkOptions& options, Role role, std::uint32_t cell) {
+  if (role == Role::Server) return fmt::format("<ParticipantIndex>{}</ParticipantIndex>", cell);
+  const auto place = server_place(options, cell);
+  if (!place) return fail(place.error());
   return fmt::format(
       "<ParticipantIndex>none</ParticipantIndex><Peers><Peer Address=\"{}\"/></Peers>",
-      escape_xml(host_and_port(options)));
+      escape_xml(*place));
 }
 
 }  // namespace
 
-Result<std::string> domain_configuration(const NetworkOptions& options, Role role) {
+std::uint32_t cell_of(const std::string& machine) {
+  return crc32(std::as_bytes(std::span(machine))) % kCells;
+}
+
+Result<std::string> domain_configuration(const NetworkOptions& options, Role role,
+                                         std::uint32_t cell) {
   if (auto checked = check_options(options); !checked) return fail(checked.error());
+  const auto place = place_elements(options, role, cell);
+  if (!place) return fail(place.error());
   // ExternalDomainId: the number on the network; the one in this process may be another, so that
   // several ends fit into one process. The watermarks only have to be above what the writers'
   // history can hold (qos.cpp), since a writer must never wait for an acknowledgement. A closing
@@ -109,8 +131,7 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
       "<WhcHighInit>16MB</WhcHighInit></Watermarks>"
       "<WriterLingerDuration>100ms</WriterLingerDuration></Internal></Domain></CycloneDDS>",
       interface_element(options.interface), size_elements(options.interface), options.domain,
-      escape_xml(options.tag), place_elements(options, role), options.discovery_interval_ms,
-      options.lease_ms);
+      escape_xml(options.tag), *place, options.discovery_interval_ms, options.lease_ms);
 }
 
 }  // namespace dripline::dds

@@ -21,10 +21,11 @@ struct SecurityFiles {
 };
 
 struct NetworkOptions {
-  std::uint32_t domain = 0;          ///< 0..230
-  std::string interface = "lo";      ///< network interface name or address
-  std::string server = "127.0.0.1";  ///< gateways: where the server listens (host or host:port)
-  std::string tag;                   ///< systems with different tags do not see each other
+  std::uint32_t domain = 0;      ///< 0..230
+  std::string interface = "lo";  ///< network interface name or address
+  /// Gateways: where the server listens, host or host:port. It uses 16 ports from there.
+  std::string server = "127.0.0.1";
+  std::string tag;  ///< systems with different tags do not see each other
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;  ///< a silent peer is given up after this
   std::optional<SecurityFiles> security;

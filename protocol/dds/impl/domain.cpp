@@ -35,14 +35,14 @@ bool is_taken(std::uint16_t port) {
 
 }  // namespace
 
-Result<Domain> open_domain(const NetworkOptions& options, Role role) {
-  auto configuration = domain_configuration(options, role);
+Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32_t cell) {
+  auto configuration = domain_configuration(options, role, cell);
   if (!configuration) return fail(configuration.error());
   Qos qos(dds_create_qos());
   if (options.security) {
     if (auto added = add_security(*options.security, qos.get()); !added) return fail(added.error());
   }
-  const std::uint16_t port = server_port(options.domain);
+  const std::uint16_t port = server_port(options.domain, cell);
   if (role == Role::Server && is_taken(port)) {
     return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
                 options.domain, port);

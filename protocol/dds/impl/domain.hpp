@@ -6,7 +6,7 @@
 
 namespace dripline::dds {
 
-/// One end's own domain (sockets and threads) and its participant. Every endpoint has its own, so
+/// A gateway's or cell's own domain (sockets and threads) and its participant. Each has its own, so
 /// several in one process talk over the network as separate processes do.
 struct Domain {
   Entity domain, participant;  // in this order: the participant goes first
@@ -14,7 +14,7 @@ struct Domain {
 };
 
 /// Errors: Busy (server: another holds its port), Io, and those of the configuration.
-Result<Domain> open_domain(const NetworkOptions& options, Role role);
+Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32_t cell);
 
 template <class Message>
 Result<Entity> create_topic(const Domain& domain) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <set>
 
 namespace dripline::dds {
 namespace {
@@ -12,7 +13,7 @@ bool contains(const std::string& text, std::string_view part) {
 }
 
 TEST(DomainConfiguration, ServerHasAFixedPlaceAndNoPeers) {
-  const auto xml = domain_configuration({}, Role::Server);
+  const auto xml = domain_configuration({}, Role::Server, 0);
   ASSERT_TRUE(xml);
   EXPECT_TRUE(contains(*xml, "<ParticipantIndex>0<"));
   EXPECT_FALSE(contains(*xml, "<Peer"));
@@ -21,7 +22,7 @@ TEST(DomainConfiguration, ServerHasAFixedPlaceAndNoPeers) {
 TEST(DomainConfiguration, GatewayHasTheServerAsItsOnlyPeer) {
   NetworkOptions options;
   options.domain = 3;
-  const auto xml = domain_configuration(options, Role::Gateway);
+  const auto xml = domain_configuration(options, Role::Gateway, 0);
   ASSERT_TRUE(xml);
   EXPECT_TRUE(contains(*xml, "<ParticipantIndex>none<"));
   EXPECT_TRUE(contains(*xml, R"(<Peer Address="127.0.0.1:8160"/>)"));
@@ -30,12 +31,32 @@ TEST(DomainConfiguration, GatewayHasTheServerAsItsOnlyPeer) {
 TEST(DomainConfiguration, APortGivenWithTheServerIsKept) {
   NetworkOptions options;
   options.server = "dnc.example:9000";
-  EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway), "\"dnc.example:9000\""));
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 0), "\"dnc.example:9000\""));
+}
+
+TEST(DomainConfiguration, EachCellHasItsOwnPorts) {
+  NetworkOptions options;
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 3), "<ParticipantIndex>3<"));
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 3), "\"127.0.0.1:7416\""));
+  options.server = "dnc.example:9000";
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Gateway, 3), "\"dnc.example:9006\""));
+}
+
+// The cell of a machine is part of the protocol: it must never change.
+TEST(CellOf, StaysWhatItAlwaysWas) {
+  EXPECT_EQ(cell_of("lathe-1"), 5U);
+  EXPECT_EQ(cell_of("lathe-2"), 7U);
+}
+
+TEST(CellOf, UsesEveryCell) {
+  std::set<std::uint32_t> cells;
+  for (int i = 0; i < 100; ++i) cells.insert(cell_of(fmt::format("m{}", i)));
+  EXPECT_EQ(cells.size(), kCells);
 }
 
 TEST(DomainConfiguration, NeverUsesMulticastAndStaysOnLoopbackByDefault) {
   for (const Role role : {Role::Server, Role::Gateway}) {
-    const auto xml = domain_configuration({}, role);
+    const auto xml = domain_configuration({}, role, 0);
     EXPECT_TRUE(contains(*xml, R"(<NetworkInterface name="lo" multicast="false"/>)"));
     EXPECT_TRUE(contains(*xml, "<AllowMulticast>false<"));
   }
@@ -44,14 +65,14 @@ TEST(DomainConfiguration, NeverUsesMulticastAndStaysOnLoopbackByDefault) {
 TEST(DomainConfiguration, AnAddressSelectsTheInterfaceByAddress) {
   NetworkOptions options;
   options.interface = "192.168.1.5";
-  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server), "address=\"192.168.1.5\""));
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 0), "address=\"192.168.1.5\""));
 }
 
 TEST(DomainConfiguration, OptionsCanNotBreakOutOfTheirPlace) {
   NetworkOptions options;
   options.tag = "</Tag>&\"";
-  EXPECT_TRUE(
-      contains(*domain_configuration(options, Role::Server), "<Tag>&lt;/Tag&gt;&amp;&quot;</Tag>"));
+  EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 0),
+                       "<Tag>&lt;/Tag&gt;&amp;&quot;</Tag>"));
 }
 
 struct BadOption {
@@ -66,7 +87,7 @@ class BadNetworkOptions : public testing::TestWithParam<BadOption> {};
 TEST_P(BadNetworkOptions, AreRefused) {
   NetworkOptions options;
   GetParam().spoil(options);
-  const auto xml = domain_configuration(options, Role::Gateway);
+  const auto xml = domain_configuration(options, Role::Gateway, 0);
   ASSERT_FALSE(xml);
   EXPECT_EQ(xml.error().code, GetParam().code);
 }
@@ -77,6 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{"domain", [](NetworkOptions& o) { o.domain = 231; }, Errc::LimitExceeded},
         BadOption{"interface", [](NetworkOptions& o) { o.interface = "e th"; }, Errc::Syntax},
         BadOption{"server", [](NetworkOptions& o) { o.server = ""; }, Errc::Syntax},
+        BadOption{"port", [](NetworkOptions& o) { o.server = "host:70000"; }, Errc::Syntax},
         BadOption{"tag", [](NetworkOptions& o) { o.tag = "a\nb"; }, Errc::Syntax},
         BadOption{"discovery", [](NetworkOptions& o) { o.discovery_interval_ms = 1; },
                   Errc::LimitExceeded},

@@ -15,7 +15,7 @@ struct Rogue {
   std::unique_ptr<Writer<Message>> writer;
 
   void open(const NetworkOptions& options, Role role, const std::string& machine) {
-    domain = open_domain(options, role).value();
+    domain = open_domain(options, role, cell_of(machine)).value();
     topic = create_topic<Message>(domain).value();
     const Qos partition = partition_qos(partition_of(machine));
     publisher = Entity(dds_create_publisher(domain.participant.get(), partition.get(), nullptr));

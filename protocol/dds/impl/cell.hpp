@@ -1,0 +1,97 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <shared_mutex>
+#include <thread>
+
+#include "protocol/dds/endpoint.hpp"
+#include "protocol/dds/impl/attachment.hpp"
+
+namespace dripline::dds {
+
+/// What all cells of a server have in common.
+struct ServerShared {
+  ServerHandlers handlers;
+  Rejections rejections;
+  std::atomic<std::size_t> machines = 0;  ///< attached so far
+};
+
+/// One of the kCells parts of a server: a domain of its own, with the machines that belong to it.
+///
+/// Threads: DDS threads deliver status, records, results and requests. `watcher_` does what must
+/// not be done in a listener: it attaches machines, looks who is matched, and calls on_announce and
+/// on_lost. Nothing holds a mutex while it calls into DDS or a handler.
+class Cell {
+ public:
+  /// `shared` must outlive the cell.
+  static Result<std::unique_ptr<Cell>> open(const NetworkOptions& options, std::uint32_t number,
+                                            ServerShared& shared);
+  ~Cell();
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+
+  /// As ServerEndpoint::write, for a machine of this cell.
+  Result<void> write(const RecordAck& message) { return write_to(message, &Attachment::ack); }
+  Result<void> write(const Order& message) { return write_to(message, &Attachment::order); }
+  Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
+
+ private:
+  /// An Announce as it arrived.
+  struct Arrived {
+    Announce announce;
+    std::string heard;                 ///< the server its gateway is matched with
+    dds_instance_handle_t writer = 0;  ///< where it came from
+  };
+  /// News of machines, the latest each: an Announce, or none when the machine is gone.
+  using News = std::map<std::string, std::optional<Arrived>>;
+
+  Cell(Domain domain, ServerTopics topics, std::uint32_t number, ServerShared& shared)
+      : domain_(std::move(domain)), topics_(std::move(topics)), number_(number), shared_(shared) {}
+
+  template <class Message>
+  Result<void> write_to(const Message& message, std::unique_ptr<Writer<Message>> Attachment::*way) {
+    // Not only after on_announce: a record that overtook it may be acknowledged.
+    Attachment* machine = find(message.machine);
+    if (machine == nullptr || !(machine->*way)->has_readers()) {
+      return fail(Errc::NotFound, "machine {} is not connected", message.machine);
+    }
+    return (machine->*way)->write(message);
+  }
+  Attachment* find(const std::string& machine) const {
+    std::shared_lock lock(machines_mutex_);
+    const auto found = machines_.find(machine);
+    return found != machines_.end() ? found->second.get() : nullptr;
+  }
+
+  Result<void> start();
+  void post(const std::string& machine, std::optional<Arrived> news);
+  void wake_watcher();
+  void watch(const std::stop_token& stop);
+  void handle_lost(const std::string& machine);
+  void handle_announced(const std::string& machine, Arrived arrived);
+  Attachment* attach(const std::string& machine);
+  void try_ready(Attachment& machine);
+  std::vector<Attachment*> waiting_machines() const;
+
+  // Order matters: the listeners of readers and writers use what is above them.
+  Domain domain_;
+  ServerTopics topics_;
+  std::uint32_t number_;
+  ServerShared& shared_;
+
+  std::mutex news_mutex_;
+  std::condition_variable_any news_came_;
+  News news_;
+  bool matches_changed_ = false;
+
+  Entity subscriber_;
+  mutable std::shared_mutex machines_mutex_;
+  std::map<std::string, std::unique_ptr<Attachment>> machines_;  // only the watcher adds
+  std::unique_ptr<Reader<Announce>> announces_;
+  std::jthread watcher_;
+};
+
+}  // namespace dripline::dds
