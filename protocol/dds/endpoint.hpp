@@ -21,7 +21,7 @@ struct SecurityFiles {
 };
 
 struct NetworkOptions {
-  std::uint32_t domain = 0;      ///< 0..230
+  std::uint32_t domain = 0;  ///< 0..230; to 100 for a server, above are ports the system hands out
   std::string interface = "lo";  ///< network interface name or address
   /// Gateways: where the server listens, host or host:port. It uses 16 ports from there.
   std::string server = "127.0.0.1";

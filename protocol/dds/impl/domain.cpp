@@ -42,10 +42,13 @@ Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32
   if (options.security) {
     if (auto added = add_security(*options.security, qos.get()); !added) return fail(added.error());
   }
-  const std::uint16_t port = server_port(options.domain, cell);
-  if (role == Role::Server && is_taken(port)) {
-    return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
-                options.domain, port);
+  if (role == Role::Server) {
+    const std::uint16_t first = server_port(options.domain, cell);
+    for (const int port : {first + 0, first + 1}) {
+      if (!is_taken(static_cast<std::uint16_t>(port))) continue;
+      return fail(Errc::Busy, "DDS domain {}: UDP port {} is in use (another server?)",
+                  options.domain, port);
+    }
   }
   auto domain = create_domain(*configuration);
   if (!domain) return fail(domain.error());

@@ -21,6 +21,9 @@ using namespace std::chrono_literals;
 
 inline constexpr auto kDeadline = 10s;  // how long a loaded machine may take, not how long it takes
 
+// Domains from 101 on would reach into the ports the system gives to anybody.
+inline constexpr std::uint32_t kDomains = 100;
+
 /// What callbacks delivered, in order; the test's thread waits for it.
 template <class T>
 class Inbox {
@@ -90,7 +93,7 @@ class Network : public testing::Test {
   Network() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     options_.tag = fmt::format("{}-{}.{}", getpid(), info->test_suite_name(), info->name());
-    options_.domain = static_cast<std::uint32_t>(getpid()) % 200;
+    options_.domain = static_cast<std::uint32_t>(getpid()) % kDomains;
     options_.discovery_interval_ms = 50;
     options_.lease_ms = 1000;
   }
@@ -105,7 +108,7 @@ class Network : public testing::Test {
         return server;
       }
       if (opened.error().code != Errc::Busy) throw std::runtime_error(opened.error().what);
-      options_.domain = (options_.domain + 1) % 200;
+      options_.domain = (options_.domain + 1) % kDomains;
     }
     throw std::runtime_error("no free domain");
   }
