@@ -72,15 +72,15 @@ void System::start_server() {
   ASSERT_TRUE(listens) << server_->output();
 }
 
-void System::start_gateway(const std::string& machine) {
-  gateway_.reset();
+std::vector<std::string> System::gateway_command(const std::string& machine,
+                                                 const std::string& state) const {
   std::vector<std::string> command{program_path("dncgw"),
                                    "--machine",
                                    machine,
                                    "--control",
                                    "centurion",
                                    "--state",
-                                   folder() / "gateway" / machine,
+                                   folder() / state / machine,
                                    "--speed",
                                    options_.speed,
                                    "--dds-domain",
@@ -92,12 +92,21 @@ void System::start_gateway(const std::string& machine) {
                                    "--lease-ms",
                                    kLease,
                                    "--log",
-                                   folder() / "dncgw.log",
+                                   folder() / (state + ".log"),
                                    "--witness",
-                                   folder() / "witness"};
+                                   folder() / (state + ".witness")};
   command.insert(command.end(), options_.gateway_arguments.begin(),
                  options_.gateway_arguments.end());
-  gateway_.emplace(std::move(command), folder() / "dncgw.out");
+  return command;
+}
+
+void System::start_gateway(const std::string& machine) {
+  gateway_.reset();
+  gateway_.emplace(gateway_command(machine, "gateway"), folder() / "gateway.out");
+}
+
+ChildProcess System::second_gateway(const std::string& machine) const {
+  return ChildProcess(gateway_command(machine, "second"), folder() / "second.out");
 }
 
 void System::wait_connected(const std::string& machine) {
@@ -160,7 +169,7 @@ std::vector<std::string> System::report_lines(const std::string& id) const {
 }
 
 System::Witness System::witness() const {
-  const std::string bytes = read_file(folder() / "witness");
+  const std::string bytes = read_file(folder() / "gateway.witness");
   Witness witness;
   static_assert(std::is_trivially_copyable_v<Witness>);
   if (bytes.size() >= sizeof witness) std::memcpy(&witness, bytes.data(), sizeof witness);

@@ -26,6 +26,8 @@ class System {
 
   void start_server();
   void start_gateway(const std::string& machine = "lathe-1");
+  /// Another gateway that claims the same machine, with a state of its own, beside the first.
+  test_support::ChildProcess second_gateway(const std::string& machine = "lathe-1") const;
   void wait_connected(const std::string& machine = "lathe-1");
 
   test_support::ChildProcess& server() { return *server_; }
@@ -55,6 +57,9 @@ class System {
   Witness witness() const;
 
  private:
+  std::vector<std::string> gateway_command(const std::string& machine,
+                                           const std::string& state) const;
+
   test_support::TemporaryFolder folder_;
   Options options_;
   int domain_;
