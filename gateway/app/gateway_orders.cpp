@@ -23,6 +23,10 @@ std::string start_key(const std::string& run) {
 }  // namespace
 
 void Gateway::on_order(const dds::Order& order) {
+  if (order.session != 0 && order.session != parts_.session) {
+    spdlog::warn("order {} is for another gateway of this name {}", order.id, label());
+    return;
+  }
   const auto known = outbox_.order_result(order.id);
   if (!known) {
     spdlog::error("order {} can not be looked up: {} {}", order.id, known.error().what, label());

@@ -35,6 +35,7 @@ Execution execution_of(MachineState state) {
 dds::Status Gateway::status() const {
   dds::Status status;
   status.machine = parts_.options.machine;
+  status.session = parts_.session;
   status.time = parts_.clock.now();
   const machine::MachineStatus now = machine_.status();
   for (std::size_t i = 0; i < status.position.size(); ++i) {

@@ -86,6 +86,7 @@ struct Status {
   std::string message;
   std::uint32_t outbox = 0;
   std::uint16_t axes = 0;  ///< bit set over `position`, bit 0 = X
+  std::uint64_t session = 0;
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -115,6 +116,7 @@ struct Order {
   std::uint64_t size = 0;
   std::string control, argument;
   double value = 0;
+  std::uint64_t session = 0;  ///< 0: whichever gateway hears it
   friend bool operator==(const Order&, const Order&) = default;
 };
 

@@ -15,6 +15,8 @@ namespace dripline::feeds {
 struct MachineView {
   storage::Machine machine;
   bool is_connected = false;
+  std::uint64_t session = 0;  ///< of the gateway that spoke last; orders are meant for this one
+  bool is_contested = false;  ///< two gateways say that they are this machine
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
 };
 

@@ -157,6 +157,10 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
+  if (view->is_contested) {
+    return fail(Errc::Busy, "two gateways say that they are machine '{}'; stop one of them",
+                request.machine);
+  }
   const auto run = make_run(request, *view);
   if (!run) return run;
   // It may have announced itself this very moment, and a run needs its machine in the store.
@@ -172,6 +176,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   order.revision = run->content.hex();
   order.size = run->size;
   order.control = run->control;
+  order.session = view->session;
   return conclude_start(*run, parts->orders.carry_out(std::move(order)));
 }
 

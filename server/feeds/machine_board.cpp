@@ -1,10 +1,13 @@
 #include "server/feeds/machine_board.hpp"
 
 #include <spdlog/spdlog.h>
+#include <algorithm>
 #include <optional>
 
 namespace dripline::feeds {
 namespace {
+
+constexpr std::size_t kMaxSessions = 8;
 
 /// A status may come before the announcement; until then the machine is not shown.
 bool is_known(const MachineView& view) {
@@ -44,6 +47,7 @@ void MachineBoard::on_announce(const dds::Announce& announce) {
   machine.epoch = announce.epoch;
   machine.last_seen = now;
   entry.view.is_connected = true;
+  hear(entry, announce.session);
   entry.machine_is_dirty = true;
   spdlog::info("machine connected machine={} control={} gateway_version={}", announce.machine,
                announce.control, announce.version);
@@ -54,9 +58,35 @@ void MachineBoard::on_status(dds::Status status) {
   const std::lock_guard lock(mutex_);
   Entry& entry = entries_[status.machine];
   entry.view.machine.last_seen = parts_.clock.now();
+  hear(entry, status.session);
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
   entry.view.status = std::move(status);
   if (is_known(entry.view)) schedule(entry);
+}
+
+/// A restarted gateway has a new session, and the old one is never heard again. When it is, there
+/// are two.
+void MachineBoard::hear(Entry& entry, std::uint64_t session) {
+  if (session == 0 || session == entry.view.session) return;
+  auto& earlier = entry.earlier_sessions;
+  if (std::ranges::find(earlier, session) != earlier.end()) {
+    const SteadyTime now = parts_.clock.steady_now();
+    if (now >= entry.contested_until) {
+      spdlog::error("two gateways say that they are machine={}: stop one of them",
+                    entry.view.machine.name);
+    }
+    entry.contested_until = now + kContested;
+    std::erase(earlier, session);
+  }
+  if (entry.view.session != 0) earlier.push_back(entry.view.session);
+  if (earlier.size() > kMaxSessions) earlier.pop_front();
+  entry.view.session = session;
+}
+
+MachineView MachineBoard::shown(const Entry& entry) const {
+  MachineView view = entry.view;
+  view.is_contested = parts_.clock.steady_now() < entry.contested_until;
+  return view;
 }
 
 void MachineBoard::on_lost(const std::string& machine) {
@@ -75,7 +105,7 @@ std::vector<MachineView> MachineBoard::views() const {
   std::vector<MachineView> views;
   views.reserve(entries_.size());
   for (const auto& [name, entry] : entries_) {
-    if (is_known(entry.view)) views.push_back(entry.view);
+    if (is_known(entry.view)) views.push_back(shown(entry));
   }
   return views;
 }
@@ -86,7 +116,7 @@ Result<MachineView> MachineBoard::view(const std::string& name) const {
   if (found == entries_.end() || !is_known(found->second.view)) {
     return fail(Errc::NotFound, "machine '{}' is not known", name);
   }
-  return found->second.view;
+  return shown(found->second);
 }
 
 /// However many changes arrive meanwhile, one task a machine tells the latest.

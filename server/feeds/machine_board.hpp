@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -18,6 +19,9 @@ namespace dripline::feeds {
 class MachineBoard {
  public:
   static constexpr std::chrono::seconds kSaveInterval{2};
+  /// A machine stays contested this long after the last sign of a second gateway; they speak every
+  /// second.
+  static constexpr std::chrono::seconds kContested{3};
 
   struct Parts {
     storage::Store& store;
@@ -43,11 +47,15 @@ class MachineBoard {
  private:
   struct Entry {
     MachineView view;
+    std::deque<std::uint64_t> earlier_sessions;  ///< that spoke before, the newest kMaxSessions
+    SteadyTime contested_until{};
     bool is_scheduled = false;  ///< a change is about to be told
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
     bool counters_are_dirty = false;
   };
+  void hear(Entry& entry, std::uint64_t session);
+  MachineView shown(const Entry& entry) const;
   void tell(const std::string& name);
   void schedule(Entry& entry);
   void save_machine(const std::string& name);

@@ -95,6 +95,7 @@ Result<Status> decode(const dripline_idl_Status& s) {
   m.message = members.text(s.message, "message");
   m.outbox = s.outbox;
   m.axes = s.axes;
+  m.session = s.session;
   return members.finish(std::move(m));
 }
 
@@ -134,6 +135,7 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.control = members.text(s.control, "control");
   m.argument = members.text(s.argument, "argument");
   m.value = s.value;
+  m.session = s.session;
   return members.finish(std::move(m));
 }
 

@@ -93,6 +93,7 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   s.single_block = m.single_block;
   s.outbox = m.outbox;
   s.axes = m.axes;
+  s.session = m.session;
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")
@@ -138,6 +139,7 @@ Result<void> encode(const Order& m, dripline_idl_Order& s) {
   s.action = number(m.action);
   s.size = m.size;
   s.value = m.value;
+  s.session = m.session;
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.id, m.id, "id")
