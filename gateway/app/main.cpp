@@ -1,4 +1,5 @@
 #include <pthread.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -12,6 +13,7 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/state_folder.hpp"
+#include "protocol/base/one_line.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -67,10 +69,29 @@ Result<interpreter::Setup> read_setup(const GatewayOptions& options,
   return setup;
 }
 
+/// The message, on one line whatever is in it.
+class OneLineMessage final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& entry, const std::tm&,
+              spdlog::memory_buf_t& to) override {
+    const std::string line = one_line({entry.payload.data(), entry.payload.size()});
+    to.append(line.data(), line.data() + line.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<OneLineMessage>();
+  }
+};
+
+std::unique_ptr<spdlog::formatter> log_formatter() {
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<OneLineMessage>('*').set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %*");
+  return formatter;
+}
+
 void start_log(const GatewayOptions& options) {
   auto logger = options.log ? spdlog::basic_logger_mt("dncgw", options.log->string())
                             : spdlog::stderr_logger_mt("dncgw");
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+  logger->set_formatter(log_formatter());
   logger->set_level(spdlog::level::from_str(options.log_level));
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));
