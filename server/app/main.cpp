@@ -1,11 +1,14 @@
 #include <malloc.h>
 #include <pthread.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <csignal>
 #include <ctime>
 
+#include "protocol/base/one_line.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
 
@@ -14,6 +17,25 @@ namespace {
 
 constexpr int kFailed = 1;
 constexpr int kUnsafe = 2;
+
+/// The message, on one line whatever is in it.
+class OneLineMessage final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& entry, const std::tm&,
+              spdlog::memory_buf_t& to) override {
+    const std::string line = one_line({entry.payload.data(), entry.payload.size()});
+    to.append(line.data(), line.data() + line.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<OneLineMessage>();
+  }
+};
+
+std::unique_ptr<spdlog::formatter> log_formatter() {
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<OneLineMessage>('*').set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %*");
+  return formatter;
+}
 
 Result<void> open_log(const Settings& settings) {
   const auto level = spdlog::level::from_str(settings.log_level);
@@ -26,7 +48,7 @@ Result<void> open_log(const Settings& settings) {
                                        : spdlog::basic_logger_mt("dncd", settings.log);
     logger->set_level(level);
     logger->flush_on(spdlog::level::info);
-    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
+    logger->set_formatter(log_formatter());
     spdlog::set_default_logger(std::move(logger));
   } catch (const spdlog::spdlog_ex& e) {
     return fail(Errc::Io, "log file: {}", e.what());
@@ -71,6 +93,7 @@ int run(const Settings& settings) {
   keep_memory_small();
   const sigset_t signals = block_end_signals();
   if (auto opened = open_log(settings); !opened) return complain(opened.error());
+  ::umask(S_IRWXG | S_IRWXO);  // programs, reports and the token are the owner's alone
   const SystemClock clock;
   auto server = Server::start(settings, clock);
   if (!server) {

@@ -33,6 +33,17 @@ Result<void> write_private_file(const std::filesystem::path& path, const std::st
   return failure;
 }
 
+/// Whoever looks sees the file as a whole or not at all, also after a kill half-way.
+Result<void> replace_private_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path fresh = path.string() + ".new";
+  std::error_code ec;
+  std::filesystem::remove(fresh, ec);
+  if (auto written = write_private_file(fresh, text); !written) return written;
+  std::filesystem::rename(fresh, path, ec);
+  if (ec) return fail(Errc::Io, "{}: {}", path.string(), ec.message());
+  return {};
+}
+
 }  // namespace
 
 Result<StateFolder> StateFolder::open(const std::string& path) {
@@ -71,7 +82,7 @@ Result<void> StateFolder::make_token() const {
   }
   std::string text;
   for (const unsigned char byte : bytes) fmt::format_to(std::back_inserter(text), "{:02x}", byte);
-  return write_private_file(token_file(), text + "\n");
+  return replace_private_file(token_file(), text + "\n");
 }
 
 Result<void> StateFolder::announce(const Announcement& announcement) const {
@@ -80,13 +91,7 @@ Result<void> StateFolder::announce(const Announcement& announcement) const {
       {"pid", ::getpid()},
       {"token_file", token_file().string()},
       {"dds", {{"domain", announcement.dds_domain}, {"tag", announcement.dds_tag}}}};
-  const auto fresh = path_ / "dncd.json.new";
-  std::error_code ec;
-  std::filesystem::remove(fresh, ec);
-  if (auto written = write_private_file(fresh, json.dump() + "\n"); !written) return written;
-  std::filesystem::rename(fresh, announcement_file(), ec);
-  if (ec) return fail(Errc::Io, "{}: {}", announcement_file().string(), ec.message());
-  return {};
+  return replace_private_file(announcement_file(), json.dump() + "\n");
 }
 
 void StateFolder::withdraw() const {
