@@ -29,6 +29,11 @@ storage::Record to_stored(const dds::Record& record) {
           .text = record.text};
 }
 
+/// No later try can store these: something in them is not what a gateway writes.
+bool is_hopeless(const Error& error) {
+  return error.code == Errc::Syntax || error.code == Errc::LimitExceeded;
+}
+
 /// What was behind a gap has not been stored; it comes again.
 void leave_out_behind(std::uint64_t stored, storage::RecordBatch& batch) {
   if (batch.records.back().number <= stored) return;
@@ -81,10 +86,17 @@ void RecordKeeper::commit(const std::string& machine) {
   }
   storage::RecordBatch batch = to_batch(records);
   const auto stored = store(batch);
-  if (!stored) return put_back(machine, std::move(records), stored.error());
-  leave_out_behind(*stored, batch);
-  parts_.on_stored(batch);
-  succeed(machine, batch.epoch, *stored);
+  if (!stored && !is_hopeless(stored.error())) {
+    return put_back(machine, std::move(records), stored.error());
+  }
+  if (stored) {
+    leave_out_behind(*stored, batch);
+    parts_.on_stored(batch);
+    succeed(machine, batch.epoch, *stored);
+  } else {  // not acknowledged; and those that wait behind them are not held up
+    spdlog::error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
+                  stored.error().what);
+  }
   parts_.pool.post([this, machine] { commit(machine); });
 }
 

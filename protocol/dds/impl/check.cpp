@@ -9,6 +9,11 @@
 namespace dripline::dds {
 namespace {
 
+/// Epochs are kept as signed numbers at both ends.
+bool is_epoch(std::uint64_t epoch) {
+  return epoch >= 1 && epoch <= INT64_MAX;
+}
+
 /// Collects the verdicts on the members of one message; the first failure stays.
 class Verdict {
  public:
@@ -49,7 +54,11 @@ class Verdict {
 }  // namespace
 
 Result<void> check(const Announce& m) {
-  return Verdict("announce").machine(m.machine).word("control", m.control).result();
+  return Verdict("announce")
+      .machine(m.machine)
+      .word("control", m.control)
+      .that(is_epoch(m.epoch), "epoch", "is out of range")
+      .result();
 }
 
 Result<void> check(const Status& m) {
@@ -69,6 +78,7 @@ Result<void> check(const Status& m) {
 Result<void> check(const Record& m) {
   return Verdict("record")
       .machine(m.machine)
+      .that(is_epoch(m.epoch), "epoch", "is out of range")
       .that(m.number >= 1, "number", "is not positive")
       .word("run", m.run)
       .word("device", m.device)

@@ -89,6 +89,18 @@ TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
   service_.reset();  // before the store it uses
 }
 
+TEST_F(FeedRecords, ThatCanNeverBeStoredDoNotHoldUpTheOthers) {
+  const std::string run = running("M30\n");
+  dds::Record impossible;
+  impossible.machine = "lathe-1";
+  impossible.epoch = 1ULL << 63;
+  impossible.number = 1;
+  network_.on_record(impossible);
+  record(1, run, dds::RecordKind::Output, "X");
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(written_->acks.back().epoch, kEpoch);
+}
+
 TEST_F(FeedRecords, TellANewcomerWhatIsOnDiskAlready) {
   const std::string run = running("M30\n");
   record(1, run, dds::RecordKind::Output, "X");

@@ -50,6 +50,15 @@ TEST(Decode, RefusesBytesThatComeWithAFailure) {
   EXPECT_FALSE(decode(sample));
 }
 
+TEST(Decode, RefusesAnEpochThatNoStoreCanKeep) {
+  const Record message = record("lathe-1", 1);
+  auto sample = sample_of(message);
+  sample.epoch = 1ULL << 63;
+  EXPECT_FALSE(decode(sample));
+  sample.epoch = 0;
+  EXPECT_FALSE(decode(sample));
+}
+
 TEST(Decode, RefusesEnumeratorsWithoutMeaning) {
   const Status message = status();
   auto sample = sample_of(message);
