@@ -12,12 +12,17 @@ namespace sqlite = storage::sqlite;
 
 namespace {
 
-/// 63 bits: the stores of both ends keep signed numbers.
-std::uint64_t new_epoch() {
+/// The stores of both ends keep signed numbers: 62 bits leave room for all epochs that follow.
+std::uint64_t first_epoch() {
   std::random_device device;
-  std::uint64_t epoch = 0;
-  while (epoch == 0) epoch = ((static_cast<std::uint64_t>(device()) << 32) | device()) >> 1;
-  return epoch;
+  return (((static_cast<std::uint64_t>(device()) << 32) | device()) >> 2) + 1;
+}
+
+/// Greater, because the records of a run are read in the order of their epochs; at random, because
+/// a copy of this outbox may have to begin a new one as well.
+std::uint64_t epoch_after(std::uint64_t epoch) {
+  std::random_device device;
+  return epoch + 1 + device();
 }
 
 }  // namespace
@@ -52,7 +57,7 @@ Result<void> Outbox::load() {
 }
 
 Result<void> Outbox::create() {
-  epoch_ = new_epoch();
+  epoch_ = first_epoch();
   auto insert = database_.prepare("INSERT INTO outbox VALUES (1, ?1, 0)");
   if (!insert) return fail(insert.error());
   return insert->bind(epoch_).run();
@@ -220,7 +225,7 @@ Result<void> Outbox::begin_epoch() {
   if (const auto done = flush(); !done) return done;
   auto transaction = sqlite::Transaction::begin(database_);
   if (!transaction) return fail(transaction.error());
-  const std::uint64_t epoch = new_epoch();
+  const std::uint64_t epoch = epoch_after(epoch_);
   const std::uint64_t base = acknowledged_;
   {
     // Every number stays below all that follow it, so no two rows ever meet.

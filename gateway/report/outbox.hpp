@@ -26,7 +26,7 @@ class Outbox {
   /// Creates the file with a new epoch when there is none. Errors: Io, Corrupt, Unsupported.
   static Result<Outbox> open(const std::filesystem::path& file, const OutboxOptions& options = {});
 
-  /// Random, 1 to 2^63 - 1; changes only when the numbers begin anew.
+  /// Random, 1 to 2^63 - 1; grows, and only when the numbers begin anew.
   std::uint64_t epoch() const { return epoch_; }
   /// Of the last committed record.
   std::uint64_t last_number() const { return last_number_; }

@@ -22,12 +22,15 @@ void RecordSender::on_server(bool is_connected) {
 }
 
 void RecordSender::on_ack(const dds::RecordAck& ack, SteadyTime now) {
-  if (ack.epoch != outbox_.epoch()) return;
+  const bool is_decided = foreign_acks_ >= options_.foreign_acks;  // poll begins a new epoch
+  if (ack.epoch != outbox_.epoch() || is_decided) return;
   const std::uint64_t before = outbox_.acknowledged();
-  // A server that names a number we never gave, or again and again less than another one confirmed,
-  // has another past than we have.
-  const bool is_foreign = ack.number > outbox_.last_number() || ack.number < before;
-  foreign_acks_ = is_foreign ? foreign_acks_ + 1 : 0;
+  // A server that names, again and again, less than another one confirmed has another past than we
+  // have. One that names a number we never gave even has records of ours that we have lost: waiting
+  // until our numbers reach it would make it confirm records it never saw.
+  const bool is_ahead = ack.number > outbox_.last_number();
+  const bool is_foreign = is_ahead || ack.number < before;
+  foreign_acks_ = is_ahead ? options_.foreign_acks : is_foreign ? foreign_acks_ + 1 : 0;
   if (is_foreign || ack.number == before) return;
   outbox_.acknowledge(ack.number);
   sent_ = std::max(sent_, ack.number);
@@ -38,8 +41,8 @@ void RecordSender::on_ack(const dds::RecordAck& ack, SteadyTime now) {
 Result<void> RecordSender::poll(SteadyTime now) {
   next_poll_.reset();
   if (foreign_acks_ >= options_.foreign_acks) {
-    foreign_acks_ = 0;
     if (const auto done = outbox_.begin_epoch(); !done) return done;
+    foreign_acks_ = 0;
     epoch_changed_ = true;
     go_back();
   }

@@ -120,6 +120,28 @@ TEST_F(RecordSenderTest, AServerWithAnotherPastGetsANewEpoch) {
   EXPECT_EQ(outbox.unacknowledged(), 2u);
 }
 
+TEST_F(RecordSenderTest, AServerThatIsAheadOfUsGetsANewEpochAtOnce) {
+  RecordSender sender = make();
+  append(2);
+  sender.on_server(true);
+  const std::uint64_t before = outbox.epoch();
+  sender.on_ack({"lathe-1", before, 3}, now);
+  append(5);  // our numbers pass the one it named
+  sender.on_ack({"lathe-1", before, 3}, now);
+  poll(sender);
+  EXPECT_TRUE(sender.take_epoch_change());
+  EXPECT_EQ(outbox.unacknowledged(), 7u);
+}
+
+TEST_F(RecordSenderTest, TheRecordsOfALaterEpochAreReadAfterThoseOfAnEarlierOne) {
+  for (int i = 0; i < 20; ++i) {
+    const std::uint64_t before = outbox.epoch();
+    ASSERT_TRUE(outbox.begin_epoch());
+    EXPECT_GT(outbox.epoch(), before);
+    EXPECT_LT(outbox.epoch(), 1ULL << 63);
+  }
+}
+
 class LossyLink : public RecordSenderTest, public testing::WithParamInterface<unsigned> {};
 
 TEST_P(LossyLink, DeliversEveryRecordOnceAndInOrder) {
