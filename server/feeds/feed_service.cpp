@@ -27,7 +27,8 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
              .clock = service.clock_,
              .desk = orders,
              .state_mutex = service.state_mutex_,
-             .on_change = service.listener_.on_run}) {}
+             .on_change = service.listener_.on_run,
+             .on_unwanted = [&service](const auto& run) { service.abort_unwanted(run); }}) {}
 
 FeedService::FeedService(storage::Store& store, const Clock& clock, Options options,
                          FeedListener listener)
@@ -222,18 +223,25 @@ Result<void> FeedService::order(const OrderRequest& request) {
 
 /// The sender was told that nothing came of this start, so nothing may come of it.
 void FeedService::on_late_start(const dds::Order& late) {
-  spdlog::warn("start accepted too late, aborting machine={} run={} program={}", late.machine,
-               late.run, late.program);
+  storage::Run run;
+  run.machine = late.machine;
+  run.id = late.run;
+  run.program = late.program;
+  pool_.post([this, run] { abort_unwanted(run); });
+}
+
+void FeedService::abort_unwanted(const storage::Run& run) {
+  spdlog::warn("start accepted too late, aborting machine={} run={} program={}", run.machine,
+               run.id, run.program);
+  owned_parts_->blocks.forget(run.machine, run.id);
   dds::Order abort;
-  abort.machine = late.machine;
+  abort.machine = run.machine;
   abort.action = dds::OrderAction::Abort;
-  abort.run = late.run;
-  pool_.post([this, abort] {
-    if (auto sent = owned_parts_->orders.send(abort); !sent) {
-      spdlog::error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
-                    sent.error().what);
-    }
-  });
+  abort.run = run.id;
+  if (auto sent = owned_parts_->orders.send(abort); !sent) {
+    spdlog::error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
+                  sent.error().what);
+  }
 }
 
 void FeedService::on_stored(const storage::RecordBatch& batch) {

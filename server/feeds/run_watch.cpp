@@ -42,6 +42,17 @@ void RunWatch::compare(const std::vector<MachineView>& machines) {
         machines, [&](const MachineView& m) { return m.machine.name == machine; });
     if (view != machines.end()) judge(entry.first, *view);
   }
+  for (const auto& view : machines) {
+    const bool shows_run = view.is_connected && view.status && !view.status->run.empty();
+    if (shows_run && !runs.contains(view.status->run)) look_for_unwanted(view);
+  }
+}
+
+/// The start was taken, but neither its result nor a status came through in time.
+void RunWatch::look_for_unwanted(const MachineView& view) {
+  const auto run = parts_.store.run(view.status->run);
+  if (!run || run->state != storage::RunState::Refused) return;
+  if (run->machine == view.machine.name) parts_.on_unwanted(*run);
 }
 
 void RunWatch::judge(const std::string& run, const MachineView& view) {

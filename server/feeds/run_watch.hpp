@@ -17,7 +17,8 @@ namespace dripline::feeds {
 /// restart of the server, a lost order result or a gateway that lost its memory:
 /// a run that a machine shows is active; one that a connected machine with an empty outbox does not
 /// show for kAbsence was never begun (Ordered: Refused) or was cut off without a record of it
-/// (Active: Interrupted). Everything else is left to the gateway's own records.
+/// (Active: Interrupted). A refused run that a machine shows all the same is unwanted. Everything
+/// else is left to the gateway's own records.
 class RunWatch {
  public:
   static constexpr std::chrono::seconds kAbsence{15};
@@ -28,6 +29,8 @@ class RunWatch {
     const OrderDesk& desk;
     std::mutex& state_mutex;
     std::function<void(const storage::Run&)> on_change;
+    /// A machine shows a run whose starter was told that nothing came of it; at every comparison.
+    std::function<void(const storage::Run&)> on_unwanted;
   };
   explicit RunWatch(Parts parts) : parts_(std::move(parts)) {}
 
@@ -48,6 +51,7 @@ class RunWatch {
     std::optional<SteadyTime> absent_since;
   };
   void judge(const std::string& run, const MachineView& view);
+  void look_for_unwanted(const MachineView& view);
   bool is_absent_for_long(const std::string& run, bool is_absent);
   void give_up(const std::string& run);
 

@@ -83,6 +83,18 @@ TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLa
   EXPECT_EQ(written_->orders[1].run, order.run);
 }
 
+TEST_F(FeedRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  ASSERT_FALSE(start("O0100"));  // taken by the gateway, but its answer was lost with the link
+  const std::string run = store_->runs({}, {})->front().id;
+  status(run);
+  ASSERT_TRUE(written_->wait([&] { return written_->orders.size() >= 2; }));
+  EXPECT_EQ(written_->orders[1].action, dds::OrderAction::Abort);
+  EXPECT_EQ(written_->orders[1].run, run);
+}
+
 TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
   push("O0100", "M30\n");
   start_service();
@@ -153,7 +165,8 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
                          .clock = clock_,
                          .desk = desk,
                          .state_mutex = state_mutex,
-                         .on_change = [](const Run&) {}});
+                         .on_change = [](const Run&) {},
+                         .on_unwanted = [](const Run&) {}});
   ASSERT_TRUE(watch.load());
   feeds::MachineView view;
   view.machine.name = "lathe-1";
