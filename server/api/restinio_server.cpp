@@ -103,8 +103,17 @@ class BodyStream : public std::enable_shared_from_this<BodyStream<Output>> {
     }
     append(**std::move(piece));
     builder_.flush([self = this->shared_from_this()](const auto& ec) {
-      if (!ec) self->pool_.post([self] { self->pull(); });
+      if (!ec) self->pool_.post([self] { self->pull_on(); });
     });
+  }
+
+  /// The answer has begun: all that is left when a piece fails is to break it off.
+  void pull_on() {
+    try {
+      pull();
+    } catch (const std::exception& e) {
+      spdlog::error("answer broken off: {}", e.what());
+    }
   }
 
  private:
@@ -228,7 +237,7 @@ class RestinioServer final : public HttpServer {
         pool_(options.handler_threads),
         server_(restinio::external_io_context(io_), settings()) {
     server_.open_sync();
-    thread_ = std::thread([this] { io_.run(); });
+    thread_ = std::thread([this] { serve(); });
   }
 
   ~RestinioServer() override {
@@ -266,6 +275,18 @@ class RestinioServer final : public HttpServer {
       settings.tls_context(tls_context(*options_.tls));
     }
     return settings;
+  }
+
+  /// One connection's failure (want of memory, a mistake of ours) must not end all others.
+  void serve() {
+    for (;;) {
+      try {
+        io_.run();
+        return;
+      } catch (const std::exception& e) {
+        spdlog::error("connection failed: {}", e.what());
+      }
+    }
   }
 
   restinio::request_handling_status_t accept(restinio::request_handle_t request) {

@@ -1,5 +1,6 @@
 #include "server/feeds/worker_pool.hpp"
 
+#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace dripline::feeds {
@@ -45,7 +46,14 @@ void WorkerPool::stop() {
 }
 
 void WorkerPool::work() {
-  for (Task task; take(task); task = nullptr) task();
+  for (Task task; take(task); task = nullptr) {
+    try {
+      task();
+    } catch (const std::exception& e) {  // want of memory, or a mistake of ours
+      spdlog::error("task failed, tried again: {}", e.what());
+      post_after(kRetry, std::move(task));
+    }
+  }
 }
 
 bool WorkerPool::take(Task& task) {

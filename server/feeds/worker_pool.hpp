@@ -13,10 +13,12 @@ namespace dripline::feeds {
 
 /// A fixed number of threads for work that may wait for storage or for a gateway. Tasks begin in
 /// the order they were posted, delayed ones when their time has come. Whoever posts keeps the
-/// number of its own waiting tasks bounded.
+/// number of its own waiting tasks bounded. A task that throws is tried again after kRetry: it must
+/// not end the server, nor may what it serves stand still for ever.
 class WorkerPool {
  public:
   using Task = std::function<void()>;
+  static constexpr std::chrono::milliseconds kRetry{500};
   explicit WorkerPool(unsigned threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
