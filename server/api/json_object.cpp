@@ -29,6 +29,9 @@ bool is_too_deep(std::string_view text) {
 }  // namespace
 
 Result<JsonObject> JsonObject::parse(std::string_view text) {
+  if (text.size() > kMaxBytes) {
+    return fail(Errc::LimitExceeded, "a JSON body of {} bytes: at most {}", text.size(), kMaxBytes);
+  }
   if (is_too_deep(text)) {
     return fail(Errc::Syntax, "the body is JSON nested deeper than {} levels", kMaxDepth);
   }

@@ -15,8 +15,10 @@ namespace dripline::api {
 class JsonObject {
  public:
   static constexpr int kMaxDepth = 32;
+  /// A parsed text takes many times its size; no body of ours comes near this.
+  static constexpr std::size_t kMaxBytes = 64 * 1024;
 
-  /// Errors: Syntax (not JSON, not an object, nested too deep, a member twice).
+  /// Errors: Syntax (not JSON, not an object, nested too deep, a member twice), LimitExceeded.
   static Result<JsonObject> parse(std::string_view text);
 
   std::string required_text(const std::string& name, std::size_t longest);

@@ -64,6 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                  R"({"program":"O1","comment":")" + std::string(2000, 'x') + "\"}",
                  Errc::LimitExceeded, "2000"},
         BodyCase{"deep", upload, kDeep, Errc::Syntax, "nested deeper than 32"},
+        BodyCase{"long", upload, R"({"program":[)" + std::string(70'000, '1') + "]}",
+                 Errc::LimitExceeded, "at most 65536"},
         BodyCase{"deep_inside", start, R"({"machine":)" + kDeep + "}", Errc::Syntax, "nested"},
         BodyCase{"brackets_in_a_string",
                  upload,
