@@ -84,19 +84,20 @@ void RunWatch::give_up(const std::string& id) {
   const std::lock_guard lock(parts_.state_mutex);
   const auto run = parts_.store.run(id);
   if (!run && run.error().code != Errc::NotFound) return;  // tried again at the next comparison
-  forget(id);
-  if (!run) return;
-  const bool was_ordered = run->state == storage::RunState::Ordered;
-  if (!was_ordered && run->state != storage::RunState::Active) return;
+  const bool was_ordered = run && run->state == storage::RunState::Ordered;
+  const bool was_active = run && run->state == storage::RunState::Active;
+  if (!was_ordered && !was_active) return forget(id);
   const auto state = was_ordered ? storage::RunState::Refused : storage::RunState::Interrupted;
   const std::string reason = was_ordered ? "the gateway never confirmed the start"
                                          : "the gateway does not know this run any more";
   spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
                reason);
   if (auto set = parts_.store.set_run_state(id, state, reason); !set) {
+    // Still watched, so this too is tried again: or the machine would be busy for ever.
     spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
     return;
   }
+  forget(id);
   if (const auto changed = parts_.store.run(id)) parts_.on_change(*changed);
 }
 

@@ -1,4 +1,5 @@
 // Starting runs, ordering, and bringing stored states and machines together.
+#include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/feed_fixture.hpp"
 
 namespace dripline::server_test {
@@ -185,6 +186,41 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
   view.is_connected = true;
   EXPECT_EQ(compare_twice(), storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
+  struct FullDisk final : test_support::StoreDecorator {
+    using StoreDecorator::StoreDecorator;
+    Result<void> set_run_state(const std::string& id, storage::RunState state,
+                               const std::string& reason) override {
+      if (is_full) return fail(Errc::Io, "disk full");
+      return StoreDecorator::set_run_state(id, state, reason);
+    }
+    bool is_full = true;
+  };
+  const std::string run = stored_run();
+  FullDisk store(*store_);
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  feeds::OrderDesk desk(endpoint, clock_, {}, [](const dds::Order&) {});
+  std::mutex state_mutex;
+  feeds::RunWatch watch({.store = store,
+                         .clock = clock_,
+                         .desk = desk,
+                         .state_mutex = state_mutex,
+                         .on_change = [](const Run&) {},
+                         .on_unwanted = [](const Run&) {}});
+  ASSERT_TRUE(watch.load());
+  feeds::MachineView view;
+  view.machine.name = "lathe-1";
+  view.is_connected = true;
+  view.status.emplace();
+  watch.compare({view});
+  clock_.advance(feeds::RunWatch::kAbsence);
+  watch.compare({view});
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Ordered);
+  store.is_full = false;
+  watch.compare({view});
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Refused);
 }
 
 TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
