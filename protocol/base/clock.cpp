@@ -1,6 +1,7 @@
 #include "protocol/base/clock.hpp"
 
 #include <fmt/chrono.h>
+#include <ctime>
 
 namespace dripline {
 
@@ -11,8 +12,9 @@ UtcTime SystemClock::now() const {
 std::string to_iso8601(UtcTime time) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
   const auto micros = (time - seconds).count();
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)), micros);
+  // Not by way of the system clock's nanoseconds: times from outside can lie beyond their range.
+  const auto whole = static_cast<std::time_t>(seconds.time_since_epoch().count());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(whole), micros);
 }
 
 }  // namespace dripline

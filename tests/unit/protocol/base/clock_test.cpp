@@ -1,0 +1,24 @@
+#include "protocol/base/clock.hpp"
+
+#include <gtest/gtest.h>
+
+namespace dripline {
+namespace {
+
+UtcTime at(std::int64_t microseconds) {
+  return UtcTime{std::chrono::microseconds{microseconds}};
+}
+
+TEST(ToIso8601, ShowsMicrosecondsOfUtc) {
+  EXPECT_EQ(to_iso8601(at(0)), "1970-01-01T00:00:00.000000Z");
+  EXPECT_EQ(to_iso8601(at(1'700'000'000'000'001)), "2023-11-14T22:13:20.000001Z");
+  EXPECT_EQ(to_iso8601(at(-1)), "1969-12-31T23:59:59.999999Z");
+}
+
+TEST(ToIso8601, TakesEveryTimeThatAMessageCanHold) {
+  EXPECT_EQ(to_iso8601(at(INT64_MAX)), "294247-01-10T04:00:54.775807Z");
+  EXPECT_NE(to_iso8601(at(INT64_MIN)), "");
+}
+
+}  // namespace
+}  // namespace dripline
