@@ -19,7 +19,8 @@ LiveArea LiveArea::on_stderr() {
 
 std::size_t LiveArea::width() const {
   const int width = terminal_().width;
-  return width > 1 ? static_cast<std::size_t>(width - 1) : 1;
+  // Room for the ^C that a terminal echoes: on a new line it would leave the old one behind.
+  return width > 3 ? static_cast<std::size_t>(width - 3) : 1;
 }
 
 std::string LiveArea::erasure() const {

@@ -14,10 +14,10 @@ void add_row(Table& table, const client::Machine& machine) {
   const bool has_run = !status.run.empty();
   table.add({machine.name, machine.control,
              machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad),
-             Cell(status.execution, style_of_execution(status.execution)), status.program,
+             execution_cell(machine), status.program,
              has_run ? fmt::format("{:.0f}", fraction_executed(status) * 100) : "",
              has_run ? std::to_string(status.executed) : "", position_text(status),
-             time_text(machine.last_seen)});
+             time_text(machine.last_seen), machine.connected ? status.message : ""});
 }
 
 int list_machines(Context& context) {
@@ -41,7 +41,8 @@ int list_machines(Context& context) {
                {"DONE %", Align::Right},
                {"BLOCKS", Align::Right},
                {"POSITION mm"},
-               {"LAST SEEN"}});
+               {"LAST SEEN"},
+               {"MESSAGE"}});
   for (const auto& machine : *machines) add_row(table, machine);
   context.print(table);
   return kExitOk;

@@ -15,9 +15,19 @@ std::string percent(double factor) {
   return fmt::format("{:.0f} %", factor * 100);
 }
 
-/// ", name: text" when there is a text.
-std::string with_text(std::string_view name, const std::string& text) {
-  return text.empty() ? std::string() : fmt::format("  {}{}", name, text);
+std::string after_gap(const std::string& text) {
+  return text.empty() ? std::string() : "  " + text;
+}
+
+/// What an operator types next, when the run waits for one.
+std::string next_step(const client::Run& run, const client::MachineStatus& status) {
+  if (status.execution == "WAIT" && status.message.starts_with("asks: ")) {
+    return fmt::format("dnc run answer {} TEXT answers it", short_id(run.id));
+  }
+  constexpr std::string_view kStopped[] = {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD",
+                                           "INTERRUPTED"};
+  if (std::ranges::find(kStopped, status.execution) == std::end(kStopped)) return {};
+  return fmt::format("dnc run resume {} goes on", short_id(run.id));
 }
 
 void add_motion(Details& details, const client::MachineStatus& status) {
@@ -92,9 +102,9 @@ std::string status_line(const client::Machine& machine) {
     line += fmt::format("  {} {:3.0f} %  {}", status.program, fraction_executed(status) * 100,
                         place_text(status));
   }
-  line += with_text("", position_text(status));
-  line += fmt::format("  F {:.0f} mm/min", status.feed_mm_per_min);
-  return line + with_text("", status.message);
+  line += after_gap(status.message);
+  line += after_gap(position_text(status));
+  return line + fmt::format(" mm  F {:.0f} mm/min", status.feed_mm_per_min);
 }
 
 Details machine_details(const client::Machine& machine) {
@@ -107,7 +117,7 @@ Details machine_details(const client::Machine& machine) {
   details.add("last seen", time_text(machine.last_seen));
   if (!machine.status) return details;
   const auto& status = *machine.status;
-  details.add("execution", Cell(status.execution, style_of_execution(status.execution)));
+  details.add("execution", execution_cell(machine));
   details.add("mode", status.mode);
   add_program(details, status);
   add_motion(details, status);
@@ -116,20 +126,35 @@ Details machine_details(const client::Machine& machine) {
   return details;
 }
 
+Cell execution_cell(const client::Machine& machine) {
+  if (!machine.status) return {"", Style::Plain};
+  const std::string& last = machine.status->execution;
+  if (machine.connected) return {last, style_of_execution(last)};
+  return {fmt::format("UNAVAILABLE (last {})", last), Style::Bad};
+}
+
+std::string count_text(std::uint64_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status) {
   if (status == nullptr) {
-    return {fmt::format("{} on {}  {}  {} of {} sent  {} blocks executed", run.program, run.machine,
-                        run.state, bytes_text(run.sent), bytes_text(run.size), run.executed)};
+    return {fmt::format("{} on {}  {}  {} of {} sent  {} executed", run.program, run.machine,
+                        run.state, bytes_text(run.sent), bytes_text(run.size),
+                        count_text(run.executed, "block"))};
   }
   const double fraction = fraction_executed(*status);
-  return {fmt::format("{} on {} {} {:3.0f} %  {}  {}{}", run.program, run.machine,
-                      render_bar(fraction, kBarCells), fraction * 100, status->execution,
-                      place_text(*status), with_text("", status->message)),
-          fmt::format("sent {}  accepted {}  executed {}  {}  F {:.0f}",
-                      bytes_text(std::max(run.sent, status->sent)),
-                      std::max(run.accepted, status->accepted),
-                      std::max(run.executed, status->executed), position_text(*status),
-                      status->feed_mm_per_min)};
+  std::vector<std::string> lines{
+      fmt::format("{} on {} {} {:3.0f} %  {}  {}{}", run.program, run.machine,
+                  render_bar(fraction, kBarCells), fraction * 100, status->execution,
+                  place_text(*status), after_gap(status->message)),
+      fmt::format("sent {}  accepted {}  executed {}  {}  F {:.0f}",
+                  bytes_text(std::max(run.sent, status->sent)),
+                  std::max(run.accepted, status->accepted),
+                  std::max(run.executed, status->executed), position_text(*status),
+                  status->feed_mm_per_min)};
+  if (auto hint = next_step(run, *status); !hint.empty()) lines.push_back(std::move(hint));
+  return lines;
 }
 
 std::string run_line(const client::Run& run, const client::MachineStatus* status) {
@@ -137,11 +162,12 @@ std::string run_line(const client::Run& run, const client::MachineStatus* status
 }
 
 std::string outcome_line(const client::Run& run) {
-  std::string line = fmt::format("Run {} of {} on {} {}: {} blocks executed", short_id(run.id),
-                                 run.program, run.machine, run.state, run.executed);
+  std::string line =
+      fmt::format("Run {} of {} on {} {}: {} executed", short_id(run.id), run.program, run.machine,
+                  run.state, count_text(run.executed, "block"));
   const double seconds = seconds_between(run.started, run.ended);
   if (seconds > 0) line += " in " + duration_text(seconds);
-  if (run.outputs > 0) line += fmt::format(", {} report lines", run.outputs);
+  if (run.outputs > 0) line += ", " + count_text(run.outputs, "report line");
   if (run.content_verified) {
     line += *run.content_verified ? ", content verified" : ", CONTENT NOT WHAT WAS APPROVED";
   }

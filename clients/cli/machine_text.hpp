@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clients/cli/table.hpp"
@@ -21,10 +23,14 @@ std::string place_text(const client::MachineStatus& status);
 double fraction_executed(const client::MachineStatus& status);
 /// One line of what the machine does now.
 std::string status_line(const client::Machine& machine);
+/// What it executes; of a machine that is not connected only the last that was heard.
+Cell execution_cell(const client::Machine& machine);
+/// "1 block", "2 blocks"
+std::string count_text(std::uint64_t count, std::string_view thing);
 Details machine_details(const client::Machine& machine);
 
 /// How the run stands, as lines that fit a terminal of 80 columns; `status` is the machine's when
-/// it speaks of this run, or null.
+/// it speaks of this run, or null. When the run waits for an operator, the last says what to type.
 std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
 /// The same as one line.
 std::string run_line(const client::Run& run, const client::MachineStatus* status);

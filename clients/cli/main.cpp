@@ -54,15 +54,23 @@ void let_options_follow(CLI::App& app) {
   }
 }
 
+/// "dnc run resume": where the help is of what was typed, as far as it is known.
+std::string typed_verbs(const CLI::App& app) {
+  std::string text = app.get_name();
+  for (const auto* verb : app.get_subcommands()) text += " " + typed_verbs(*verb);
+  return text;
+}
+
 /// Help and version are no errors; everything else is a usage error.
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
   if (end.get_exit_code() == 0) return app.exit(end);
   const auto unknown = app.remaining(true);
   // CLI11 says only that a verb is missing when there is one that it does not know.
   if (dynamic_cast<const CLI::RequiredError*>(&end) != nullptr && !unknown.empty()) {
-    std::fprintf(stderr, "dnc: '%s' is not known here\nSee dnc --help.\n", unknown.front().c_str());
+    std::fprintf(stderr, "dnc: '%s' is not known here\nSee %s --help.\n", unknown.front().c_str(),
+                 typed_verbs(app).c_str());
   } else {
-    std::fprintf(stderr, "dnc: %s\nSee dnc --help.\n", end.what());
+    std::fprintf(stderr, "dnc: %s\nSee %s --help.\n", end.what(), typed_verbs(app).c_str());
   }
   return kExitUsage;
 }

@@ -71,9 +71,9 @@ int show(Context& context, const std::string& reference) {
   auto run = find_run(*client, reference);
   if (!run) return complain(run.error());
   if (!context.wants_json) {
-    context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {} lines\n\n",
+    context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
                               short_id(run->id), run->program, run->revision, run->machine,
-                              run->state, run->outputs));
+                              run->state, count_text(run->outputs, "line")));
   }
   return print_report(*client, run->id, context.wants_json ? "json" : "text");
 }

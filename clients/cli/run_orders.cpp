@@ -1,5 +1,6 @@
 #include "clients/cli/run_orders.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,17 @@ struct OrderCommand {
   std::optional<double> feed, rapid, spindle;  ///< per cent
 };
 
+/// "hold", "feed override 50 %", "single_block on"
+std::string order_text(const client::OrderRequest& order) {
+  if (order.action == "switch") {
+    return fmt::format("{} {}", order.name.value_or(""), order.value == 1.0 ? "on" : "off");
+  }
+  std::string text = order.action;
+  std::ranges::replace(text, '_', ' ');
+  if (order.value) text += fmt::format(" {:.4g} %", *order.value * 100);
+  return text;
+}
+
 /// Gives the orders one after the other, as long as the machine takes them.
 int give(Context& context, const std::string& reference,
          const std::vector<client::OrderRequest>& orders) {
@@ -27,7 +39,7 @@ int give(Context& context, const std::string& reference,
   for (const auto& order : orders) {
     auto given = client->order(run->id, order);
     if (!given) return complain(given.error());
-    context.print(fmt::format("{}: {} took it (run {}, {})\n", order.action, run->machine,
+    context.print(fmt::format("{} took {} (run {} of {})\n", run->machine, order_text(order),
                               short_id(run->id), run->program));
   }
   return kExitOk;
@@ -62,7 +74,7 @@ void add_switch(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
   auto options = std::make_shared<OrderCommand>();
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("NAME", options->name, "single_block, optional_stop, block_skip or dry_run")
+  command->add_option("NAME", options->name, "single_block, optional_stop or block_skip")
       ->required();
   command->add_option("STATE", options->state, "on or off")
       ->required()

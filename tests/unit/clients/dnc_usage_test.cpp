@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{"no_verb", {}, 2, "subcommand is required"},
         UsageCase{"unknown_verb", {"dance"}, 2, "dance"},
         UsageCase{"group_without_verb", {"program"}, 2, "subcommand is required"},
-        UsageCase{"missing_argument", {"program", "pull"}, 2, "NAME is required"},
+        UsageCase{"missing_argument", {"program", "pull"}, 2, "See dnc program pull --help."},
         UsageCase{"unknown_option", {"run", "list", "--colour", "red"}, 2, "--colour"},
         UsageCase{"wrong_number", {"run", "start", "m", "p", "--revision", "two"}, 2, "two"},
         UsageCase{"wrong_format", {"report", "export", "r", "--format", "xml"}, 2, "xml"},

@@ -54,6 +54,48 @@ TEST(RunLines, FitAnOrdinaryTerminal) {
   for (const auto& line : run_lines(active, &machine)) EXPECT_LT(columns(line), 80u) << line;
 }
 
+TEST(RunLines, SayFirstWhatIsAskedAndHowToAnswer) {
+  auto machine = status();
+  machine.execution = "WAIT";
+  machine.message = "asks: DEPTH";
+  const auto lines = run_lines(run(), &machine);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(lines[0].ends_with("WAIT  line 100001 N42  asks: DEPTH")) << lines[0];
+  EXPECT_EQ(lines[2], "dnc run answer 0192aabb TEXT answers it");
+}
+
+TEST(RunLines, SayHowAStoppedRunGoesOn) {
+  auto machine = status();
+  for (const char* stopped : {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD", "INTERRUPTED"}) {
+    machine.execution = stopped;
+    EXPECT_EQ(run_lines(run(), &machine).back(), "dnc run resume 0192aabb goes on");
+  }
+  machine.execution = "WAIT";
+  machine.message = "waiting for program text";
+  EXPECT_EQ(run_lines(run(), &machine).size(), 2u);
+}
+
+TEST(ExecutionCell, SaysWhatIsKnownOfAMachineThatIsAway) {
+  client::Machine machine;
+  machine.status = status();
+  EXPECT_EQ(execution_cell(machine).text, "UNAVAILABLE (last ACTIVE)");
+  machine.connected = true;
+  EXPECT_EQ(execution_cell(machine).text, "ACTIVE");
+}
+
+TEST(FractionExecuted, IsAllOnceTheProgramIsCompleted) {
+  auto machine = status();
+  EXPECT_EQ(fraction_executed(machine), 0.5);
+  machine.execution = "PROGRAM_COMPLETED";
+  EXPECT_EQ(fraction_executed(machine), 1);
+}
+
+TEST(StyleOfExecution, KnowsTheWordsOfTheServer) {
+  EXPECT_EQ(style_of_execution("ACTIVE"), Style::Busy);
+  EXPECT_EQ(style_of_execution("READY"), Style::Good);
+  EXPECT_EQ(style_of_execution("STOPPED"), Style::Bad);
+}
+
 TEST(RunLine, ManagesWithoutAStatus) {
   client::Run ordered = run();
   ordered.state = "ordered";
@@ -66,6 +108,10 @@ TEST(OutcomeLine, SaysHowTheRunWent) {
   EXPECT_EQ(outcome_line(run()),
             "Run 0192aabb of O0200 on lathe-1 completed: 200000 blocks executed in 1:06, 12 report "
             "lines, content verified");
+  client::Run short_one = run();
+  short_one.executed = short_one.outputs = 1;
+  EXPECT_NE(outcome_line(short_one).find("1 block executed in 1:06, 1 report line,"),
+            std::string::npos);
   client::Run alarmed = run();
   alarmed.state = "alarmed";
   alarmed.reason = "CEN0103 bad word";
@@ -93,8 +139,8 @@ TEST(StatusLine, SaysWhatAMachineDoes) {
   machine.status = status();
   machine.status->message = "HELLO";
   EXPECT_EQ(status_line(machine),
-            "lathe-1  ACTIVE  O0200  50 %  line 100001 N42  X 12.500 Z -3.000  F 200 mm/min  "
-            "HELLO");
+            "lathe-1  ACTIVE  O0200  50 %  line 100001 N42  HELLO  X 12.500 Z -3.000 mm  F 200 "
+            "mm/min");
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(LiveArea, RedrawsAllItsLines) {
 
 TEST(LiveArea, CutsLinesThatWouldWrap) {
   FakeTerminal fake;
-  fake.terminal.width = 6;
+  fake.terminal.width = 8;
   LiveArea area = fake.area();
   area.show({"1234567"});
   EXPECT_EQ(fake.written, "1234\u2026");
