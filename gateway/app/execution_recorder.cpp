@@ -12,7 +12,7 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, std::function<Supply
   reached_ = counted_ = {};
   outputs_ = 0;
   is_between_blocks_ = true;
-  notice_.clear();
+  clear_notice();
   probed_.reset();
   alarm_.reset();
   has_ended_ = was_aborted_ = false;
@@ -109,8 +109,8 @@ void ExecutionRecorder::on_close(const interpreter::Close& close) {
 }
 
 void ExecutionRecorder::on_message(const interpreter::Message& message) {
-  notice_ = valid_text(message.text, dds::kMaxRecordText);
-  append(message.origin, {RecordKind::Message, {}, notice_});
+  message_ = valid_text(message.text, dds::kMaxRecordText);
+  append(message.origin, {RecordKind::Message, {}, message_});
 }
 
 void ExecutionRecorder::on_warning(const interpreter::Warning& warning) {
@@ -125,7 +125,9 @@ void ExecutionRecorder::on_probed(const interpreter::Probe& probe) {
 
 void ExecutionRecorder::on_stop(const interpreter::Stop& stop) {
   const std::string_view text = to_text(stop.kind);
-  if (notice_.empty()) notice_ = text;
+  // Of the latest stop: an earlier one, such as a tool change that did not wait, is over.
+  notice_ = std::string(text);
+  if (!message_.empty()) notice_ += ": " + message_;
   append(stop.origin, {RecordKind::Stop, {}, std::string(text)});
 }
 

@@ -55,7 +55,10 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   bool was_aborted() const { return was_aborted_; }
   /// Text of the last stop or message, for the operator.
   const std::string& notice() const { return notice_; }
-  void clear_notice() { notice_.clear(); }
+  void clear_notice() {
+    notice_.clear();
+    message_.clear();
+  }
 
   void on_block_executed(const interpreter::Origin& origin) override;
   void on_motion_starts(const interpreter::Origin& origin) override;
@@ -87,7 +90,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   report::Progress counted_;  ///< in journal and outbox
   std::uint64_t outputs_ = 0;
   bool is_between_blocks_ = true;
-  std::string trouble_, notice_;
+  std::string trouble_, notice_, message_;
   std::optional<interpreter::Probe> probed_;
   std::optional<interpreter::Diagnostic> alarm_;
   bool has_ended_ = false, was_aborted_ = false;

@@ -20,6 +20,16 @@ std::string start_key(const std::string& run) {
   return "run " + run;
 }
 
+std::string range_of(OrderAction override) {
+  using Panel = machine::OperatorPanel;
+  if (override == OrderAction::FeedOverride)
+    return fmt::format("0 to {:.4g} %", Panel::kMaxFeedOverride * 100);
+  if (override == OrderAction::RapidOverride)
+    return fmt::format("0 to {:.4g} %", Panel::kMaxRapidOverride * 100);
+  return fmt::format("{:.4g} to {:.4g} %", Panel::kMinSpindleOverride * 100,
+                     Panel::kMaxSpindleOverride * 100);
+}
+
 }  // namespace
 
 void Gateway::on_order(const dds::Order& order) {
@@ -142,8 +152,13 @@ Gateway::Reply Gateway::operate(const dds::Order& order) {
     case OrderAction::Resume:
       if (!recorder_.trouble().empty())
         return refuse(fmt::format("reports can not be kept: {}", recorder_.trouble()));
-      recorder_.clear_notice();
-      return machine_.resume() ? Reply{} : refuse("the machine is neither held nor stopped");
+      if (machine_.resume()) {
+        recorder_.clear_notice();
+        return {};
+      }
+      if (session_->waits() == RunSession::Waits::ForOperator)
+        return refuse(fmt::format("the program waits for an answer to: {}", session_->prompt()));
+      return refuse("the machine is neither held nor stopped");
     case OrderAction::Abort:
       machine_.abort();
       return {};
@@ -183,8 +198,7 @@ Gateway::Reply Gateway::set_override(const dds::Order& order) {
                                                               : panel.spindle_override;
   knob = order.value;
   if (!std::isfinite(order.value) || panel.clamped() != panel)
-    return refuse(
-        fmt::format("{} can not be set to {}", dds::to_string(order.action), order.value));
+    return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
   machine_.set_panel(panel);
   return {};
 }

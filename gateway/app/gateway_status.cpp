@@ -82,7 +82,7 @@ Execution Gateway::execution_of_run(std::string& message) const {
   message.clear();
   if (state == MachineState::Idle) {
     if (session_->waits() == RunSession::Waits::ForOperator) {
-      message = session_->prompt();
+      message = "asks: " + session_->prompt();
       return Execution::Waiting;
     }
     if (session_->waits() == RunSession::Waits::ForText) {

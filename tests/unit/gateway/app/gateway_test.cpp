@@ -204,6 +204,7 @@ TEST(Gateway, WaitsAtAProgramStopUntilResumed) {
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->execution == Execution::ProgramStopped; }));
   EXPECT_TRUE(shop.run_until([&] { return shop.count(RecordKind::Stop) == 1; }));
+  EXPECT_EQ(shop.status->message, "program stop");
   EXPECT_TRUE(shop.lines().empty());
   EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
@@ -216,8 +217,10 @@ TEST(Gateway, AsksTheSetupFirstAndThenTheOperator) {
   shop.restart_gateway();
   shop.push("O1", "ASK FIRST\nASK SECOND\nEND\n");
   ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "SECOND"; }));
+  ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "asks: SECOND"; }));
   EXPECT_EQ(shop.status->execution, Execution::Waiting);
+  EXPECT_EQ(shop.send(shop.order(OrderAction::Resume)).reason,
+            "the program waits for an answer to: SECOND");
   dds::Order answer = shop.order(OrderAction::Answer);
   answer.argument = "7";
   EXPECT_TRUE(shop.send(answer).accepted);
