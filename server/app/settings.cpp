@@ -142,6 +142,7 @@ Result<void> apply_toml(Settings& settings, std::string_view text) {
 }
 
 std::string default_state_folder() {
+  if (std::string named = environment("DRIPLINE_STATE"); !named.empty()) return named;
   if (::geteuid() == 0) return "/var/lib/dripline";
   if (const std::string xdg = environment("XDG_STATE_HOME"); !xdg.empty()) return xdg + "/dripline";
   return environment("HOME") + "/.local/state/dripline";

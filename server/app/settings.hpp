@@ -48,7 +48,8 @@ struct CommandLine {
 /// The command line wins over the file named by --config, that over the defaults.
 CommandLine read_command_line(int argc, const char* const* argv);
 
-/// $XDG_STATE_HOME/dripline, ~/.local/state/dripline, as root /var/lib/dripline.
+/// As dnc and dncgw find it: $DRIPLINE_STATE, as root /var/lib/dripline, $XDG_STATE_HOME/dripline,
+/// ~/.local/state/dripline.
 std::string default_state_folder();
 
 }  // namespace dripline::app

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <cstdlib>
 #include <fstream>
 
 #include "server/app/server.hpp"
@@ -23,6 +24,13 @@ TEST(Settings, HaveDefaultsAndComeFromTheCommandLine) {
   EXPECT_EQ(line.settings.http, "127.0.0.1:0");
   EXPECT_EQ(line.settings.lease_ms, 2000u);
   EXPECT_EQ(line.settings.state, default_state_folder());
+}
+
+TEST(Settings, FindTheStateFolderWhereDncLooksForIt) {
+  ::setenv("DRIPLINE_STATE", "/named/by/all", 1);
+  EXPECT_EQ(read({}).settings.state, "/named/by/all");
+  EXPECT_EQ(read({"--state", "/told"}).settings.state, "/told");
+  ::unsetenv("DRIPLINE_STATE");
 }
 
 TEST(Settings, OfTheCommandLineWinOverTheFile) {
