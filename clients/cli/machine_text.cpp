@@ -103,8 +103,8 @@ std::string status_line(const client::Machine& machine) {
                         place_text(status));
   }
   line += after_gap(status.message);
-  line += after_gap(position_text(status));
-  return line + fmt::format(" mm  F {:.0f} mm/min", status.feed_mm_per_min);
+  if (!status.position.empty()) line += after_gap(position_text(status) + " mm");
+  return line + fmt::format("  F {:.0f} mm/min", status.feed_mm_per_min);
 }
 
 Details machine_details(const client::Machine& machine) {
