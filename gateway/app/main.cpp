@@ -7,13 +7,13 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <thread>
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/one_line.hpp"
+#include "protocol/base/random.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -98,8 +98,7 @@ void start_log(const GatewayOptions& options) {
 }
 
 std::uint64_t new_session() {
-  std::random_device device;
-  return ((static_cast<std::uint64_t>(device()) << 32) | device()) | 1;
+  return random_number() | 1;  // never zero
 }
 
 /// Runs until a stop is asked for; then gives the records some time to be acknowledged.

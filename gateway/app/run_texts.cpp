@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "protocol/base/utf8.hpp"
+
 namespace dripline::gateway {
 namespace {
 
@@ -11,26 +13,6 @@ std::map<char, double> axes_of(const interpreter::Position& position) {
     if (position.has(axis)) axes[interpreter::letter(axis)] = position.raw(axis);
   }
   return axes;
-}
-
-/// Bytes of the UTF-8 sequence at the front of `text`, 0 when it is none.
-std::size_t sequence_length(std::string_view text) {
-  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = at(0);
-  const std::size_t length = lead < 0x80                    ? 1
-                             : lead >= 0xC2 && lead <= 0xDF ? 2
-                             : lead >= 0xE0 && lead <= 0xEF ? 3
-                             : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                            : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((at(i) & 0xC0) != 0x80) return 0;
-  }
-  if (lead == 0xE0 && at(1) < 0xA0) return 0;  // overlong
-  if (lead == 0xED && at(1) > 0x9F) return 0;  // surrogate
-  if (lead == 0xF0 && at(1) < 0x90) return 0;  // overlong
-  if (lead == 0xF4 && at(1) > 0x8F) return 0;  // beyond U+10FFFF
-  return length;
 }
 
 }  // namespace
@@ -68,7 +50,7 @@ std::string valid_text(std::string_view bytes, std::size_t max_bytes) {
   static constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
   std::string text;
   while (!bytes.empty()) {
-    const std::size_t length = sequence_length(bytes);
+    const std::size_t length = utf8_length(bytes);
     const std::string_view piece = length == 0 ? kReplacement : bytes.substr(0, length);
     if (text.size() + piece.size() > max_bytes) break;
     text.append(piece);

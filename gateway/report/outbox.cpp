@@ -1,9 +1,9 @@
 #include "gateway/report/outbox.hpp"
 
 #include <algorithm>
-#include <random>
 
 #include "gateway/report/outbox_schema.hpp"
+#include "protocol/base/random.hpp"
 #include "storage/sqlite/transaction.hpp"
 
 namespace dripline::report {
@@ -14,15 +14,13 @@ namespace {
 
 /// The stores of both ends keep signed numbers: 62 bits leave room for all epochs that follow.
 std::uint64_t first_epoch() {
-  std::random_device device;
-  return (((static_cast<std::uint64_t>(device()) << 32) | device()) >> 2) + 1;
+  return (random_number() >> 2) + 1;
 }
 
 /// Greater, because the records of a run are read in the order of their epochs; at random, because
 /// a copy of this outbox may have to begin a new one as well.
 std::uint64_t epoch_after(std::uint64_t epoch) {
-  std::random_device device;
-  return epoch + 1 + device();
+  return epoch + 1 + (random_number() >> 32);
 }
 
 }  // namespace

@@ -1,19 +1,20 @@
 #include "server/app/state_folder.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
-#include <openssl/rand.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "protocol/base/random.hpp"
+
 namespace dripline::app {
 namespace {
+
+constexpr std::size_t kTokenBytes = 32;
 
 tl::unexpected<Error> fail_with_errno(const std::filesystem::path& path) {
   return fail(Errc::Io, "{}: {}", path.string(), std::generic_category().message(errno));
@@ -76,13 +77,7 @@ Result<std::string> StateFolder::token() const {
 }
 
 Result<void> StateFolder::make_token() const {
-  std::array<unsigned char, 32> bytes{};
-  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    return fail(Errc::Io, "no random numbers for a token");
-  }
-  std::string text;
-  for (const unsigned char byte : bytes) fmt::format_to(std::back_inserter(text), "{:02x}", byte);
-  return replace_private_file(token_file(), text + "\n");
+  return replace_private_file(token_file(), random_hex(kTokenBytes) + "\n");
 }
 
 Result<void> StateFolder::announce(const Announcement& announcement) const {

@@ -1,9 +1,9 @@
 #include "storage/impl/upload_repository.hpp"
 
 #include <algorithm>
-#include <random>
 
 #include "protocol/base/names.hpp"
+#include "protocol/base/random.hpp"
 #include "storage/impl/content.hpp"
 #include "storage/impl/program_repository.hpp"
 
@@ -41,10 +41,10 @@ std::string label_of(const std::string& id) {
   return fmt::format("upload {}", id);
 }
 
-/// 128 random bits: nobody guesses another one's upload.
+/// Nobody guesses another one's upload.
 std::string new_upload_id() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+  constexpr std::size_t kBytes = 16;
+  return random_hex(kBytes);
 }
 
 Result<void> drop_upload(sqlite::Database& database, const std::string& id, std::int64_t content) {

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/base/utf8.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
@@ -38,25 +40,6 @@ void append_large(std::string& out, double value) {
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   out += text;
-}
-
-/// How many bytes of a valid UTF-8 character begin `text`; 0 when it begins with none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  const unsigned second = byte(1);
-  // Too long forms, surrogates and what is beyond U+10FFFF are told by the second byte.
-  if (lead == 0xE0 && second < 0xA0) return 0;
-  if (lead == 0xED && second > 0x9F) return 0;
-  if (lead == 0xF0 && second < 0x90) return 0;
-  if (lead == 0xF4 && second > 0x8F) return 0;
-  return length;
 }
 
 void append_escaped(std::string& out, char c) {
