@@ -8,7 +8,7 @@
 namespace dripline::cli {
 
 std::optional<client::Client> Context::connect() {
-  auto address = client::locate_server(location, client::process_environment, ::geteuid() == 0);
+  auto address = client::locate_server(location, process_environment, ::geteuid() == 0);
   if (!address) {
     complain(address.error());
     status = address.error().code == Errc::NotFound ? kExitUnreachable : kExitUsage;

@@ -1,6 +1,5 @@
 #include "clients/lib/server_location.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -116,27 +115,12 @@ Result<std::string> find_token(const LocationOptions& options, const Environment
 
 }  // namespace
 
-std::optional<std::string> process_environment(std::string_view name) {
-  const char* value = std::getenv(std::string(name).c_str());
-  if (value == nullptr || *value == '\0') return std::nullopt;
-  return std::string(value);
-}
-
-Result<std::string> state_directory(const LocationOptions& options, const Environment& environment,
-                                    bool is_root) {
-  if (options.state_dir) return *options.state_dir;
-  if (auto state = environment("DRIPLINE_STATE")) return *state;
-  if (is_root) return std::string("/var/lib/dripline");
-  if (auto state = environment("XDG_STATE_HOME")) return *state + "/dripline";
-  if (auto home = environment("HOME")) return *home + "/.local/state/dripline";
-  return fail(Errc::NotFound, "no state folder: HOME is not set, expected --state DIR");
-}
-
 Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
                                     bool is_root) {
   auto url = named_url(options, environment);
   if (!url) return fail(url.error());
-  auto state = state_directory(options, environment, is_root);
+  auto state = options.state_dir ? Result<std::string>(*options.state_dir)
+                                 : default_state_folder(environment, is_root);
   if (!state && !*url) return fail(state.error());
   std::optional<LocalServer> local;
   if (state) {

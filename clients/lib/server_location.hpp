@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "clients/lib/server_address.hpp"
 #include "protocol/base/result.hpp"
+#include "protocol/base/state_location.hpp"
 
 namespace dripline::client {
 
@@ -17,17 +16,6 @@ struct LocationOptions {
   std::optional<std::string> ca_file;     ///< --ca FILE
   std::optional<std::string> state_dir;   ///< --state DIR
 };
-
-/// The environment comes in through this, so that tests own it; nullopt for an unset or empty
-/// variable.
-using Environment = std::function<std::optional<std::string>(std::string_view name)>;
-std::optional<std::string> process_environment(std::string_view name);
-
-/// The folder where a server started by this user keeps its state: --state, DRIPLINE_STATE, then
-/// /var/lib/dripline for root, then XDG_STATE_HOME/dripline, then ~/.local/state/dripline.
-/// Errors: NotFound (none of them says anything).
-Result<std::string> state_directory(const LocationOptions& options, const Environment& environment,
-                                    bool is_root);
 
 /// Finds the server. Address: --server, DRIPLINE_SERVER, then `url` of STATE/dncd.json, which a
 /// local server writes. Token: --token-file, DRIPLINE_TOKEN (the token itself), then `token_file`

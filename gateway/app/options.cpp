@@ -4,10 +4,9 @@
 #include <unistd.h>
 #include <array>
 #include <charconv>
-#include <cstdlib>
-#include <sstream>
 
 #include "protocol/base/names.hpp"
+#include "protocol/base/state_location.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -128,19 +127,6 @@ const OptionRow* find_row(std::string_view key) {
   return nullptr;
 }
 
-/// As the server's: for root /var/lib, otherwise below the user's state folder.
-Result<std::filesystem::path> default_state() {
-  const auto variable = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
-  if (const auto named = variable("DRIPLINE_STATE"); !named.empty()) return named;
-  if (::geteuid() == 0) return std::filesystem::path("/var/lib/dripline");
-  if (const auto state = variable("XDG_STATE_HOME"); !state.empty()) return state / "dripline";
-  if (const auto home = variable("HOME"); !home.empty()) return home / ".local/state/dripline";
-  return fail(Errc::NotFound, "no home folder: name one with --state");
-}
-
 }  // namespace
 
 std::span<const OptionRow> option_rows() {
@@ -183,9 +169,9 @@ Result<void> complete(GatewayOptions& options) {
   if (options.machine.empty()) return fail(Errc::Syntax, "--machine NAME is required");
   if (options.control.empty()) return fail(Errc::Syntax, "--control NAME is required");
   if (!options.state.empty()) return {};
-  const auto state = default_state();
+  const auto state = default_state_folder(process_environment, ::geteuid() == 0);
   if (!state) return fail(state.error());
-  options.state = *state / "gateways" / options.machine;
+  options.state = std::filesystem::path(*state) / "gateways" / options.machine;
   return {};
 }
 

@@ -4,10 +4,11 @@
 #include <unistd.h>
 #include <array>
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
+
+#include "protocol/base/state_location.hpp"
 
 namespace dripline::app {
 namespace {
@@ -77,11 +78,6 @@ Result<void> apply_file(Settings& settings, const std::string& path) {
   return {};
 }
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? std::string() : std::string(value);
-}
-
 /// Command-line values wait here, so that those that were given can be put over the file's.
 struct Given {
   std::map<std::string_view, std::string> texts;
@@ -118,6 +114,10 @@ void apply_given(const CLI::App& program, const Given& given, Settings& settings
 
 constexpr int kUsageError = 2;
 
+CommandLine wrong_use(const Error& error) {
+  return {.settings = {}, .print = "dncd: " + error.what + "\n", .exit_code = kUsageError};
+}
+
 }  // namespace
 
 std::span<const SettingRow> setting_rows() {
@@ -141,16 +141,10 @@ Result<void> apply_toml(Settings& settings, std::string_view text) {
   return {};
 }
 
-std::string default_state_folder() {
-  if (std::string named = environment("DRIPLINE_STATE"); !named.empty()) return named;
-  if (::geteuid() == 0) return "/var/lib/dripline";
-  if (const std::string xdg = environment("XDG_STATE_HOME"); !xdg.empty()) return xdg + "/dripline";
-  return environment("HOME") + "/.local/state/dripline";
-}
-
 CommandLine read_command_line(int argc, const char* const* argv) {
   CommandLine line;
-  line.settings.state = default_state_folder();
+  const auto state = default_state_folder(process_environment, ::geteuid() == 0);
+  if (state) line.settings.state = *state;
   CLI::App program("dncd: the Dripline server. Keeps NC programs, feeds machines, stores reports.",
                    "dncd");
   program.set_version_flag("--version", std::string("dncd ") + DRIPLINE_VERSION);
@@ -173,13 +167,11 @@ CommandLine read_command_line(int argc, const char* const* argv) {
     return line;
   }
   if (!config.empty()) {
-    if (auto applied = apply_file(line.settings, config); !applied) {
-      line.print = "dncd: " + applied.error().what + "\n";
-      line.exit_code = kUsageError;
-      return line;
-    }
+    if (auto applied = apply_file(line.settings, config); !applied)
+      return wrong_use(applied.error());
   }
   apply_given(program, given, line.settings);
+  if (!state && line.settings.state.empty()) return wrong_use(state.error());
   return line;
 }
 

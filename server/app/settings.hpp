@@ -12,7 +12,7 @@ namespace dripline::app {
 
 /// Everything that can be told to dncd. The defaults are here, the rest in the table below.
 struct Settings {
-  std::string state;
+  std::string state;  ///< default: default_state_folder (protocol/base/state_location.hpp)
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
   std::uint32_t dds_domain = 0;
@@ -47,9 +47,5 @@ struct CommandLine {
 };
 /// The command line wins over the file named by --config, that over the defaults.
 CommandLine read_command_line(int argc, const char* const* argv);
-
-/// As dnc and dncgw find it: $DRIPLINE_STATE, as root /var/lib/dripline, $XDG_STATE_HOME/dripline,
-/// ~/.local/state/dripline.
-std::string default_state_folder();
 
 }  // namespace dripline::app

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <cstdlib>
 #include <fstream>
 
+#include "protocol/base/state_location.hpp"
 #include "server/app/server.hpp"
 #include "server/app/state_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,7 +25,8 @@ TEST(Settings, HaveDefaultsAndComeFromTheCommandLine) {
   EXPECT_EQ(line.settings.dds_domain, 7u);
   EXPECT_EQ(line.settings.http, "127.0.0.1:0");
   EXPECT_EQ(line.settings.lease_ms, 2000u);
-  EXPECT_EQ(line.settings.state, default_state_folder());
+  EXPECT_EQ(line.settings.state,
+            default_state_folder(process_environment, ::geteuid() == 0).value());
 }
 
 TEST(Settings, FindTheStateFolderWhereDncLooksForIt) {
