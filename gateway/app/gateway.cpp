@@ -9,8 +9,6 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr std::string_view kVersion = "0.1.0";
-
 machine::MachineLimits limits_of(std::string_view control) {
   const auto dialect = interpreter::find_dialect(control);
   const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
@@ -157,7 +155,7 @@ void Gateway::announce() {
   dds::Announce message;
   message.machine = parts_.options.machine;
   message.control = parts_.options.control;
-  message.version = kVersion;
+  message.version = DRIPLINE_VERSION;
   message.epoch = outbox_.epoch();
   message.session = parts_.session;
   message.description = parts_.options.description;

@@ -185,6 +185,7 @@ Result<void> configure(const std::string& file,
 int main(int argc, char** argv) {
   CLI::App app("The gateway of one machine: runs the programs that a Dripline server feeds it.",
                "dncgw");
+  app.set_version_flag("--version", "dncgw " DRIPLINE_VERSION);
   std::string file;
   std::vector<std::pair<const OptionRow*, std::string>> given;
   app.add_option("--config", file, "TOML file with the same keys; the command line goes first")
