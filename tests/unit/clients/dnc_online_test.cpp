@@ -3,6 +3,7 @@
 
 #include "tests/unit/clients/dnc_process.hpp"
 #include "tests/unit/clients/fake_server.hpp"
+#include "tests/unit/clients/server_json.hpp"
 
 namespace dripline {
 namespace {

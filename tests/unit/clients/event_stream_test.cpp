@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/clients/fake_server.hpp"
+#include "tests/unit/clients/server_json.hpp"
 
 namespace dripline::client {
 namespace {

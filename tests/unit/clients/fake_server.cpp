@@ -1,16 +1,19 @@
 #include "tests/unit/clients/fake_server.hpp"
 
 #include <httplib.h>
-#include <condition_variable>
 #include <deque>
 #include <map>
 #include <mutex>
 #include <thread>
 
 #include "protocol/base/digest.hpp"
+#include "tests/unit/clients/fake_event_stream.hpp"
+#include "tests/unit/clients/server_json.hpp"
 
 namespace dripline::test_support {
 
+using httplib::Request;
+using httplib::Response;
 using nlohmann::json;
 
 namespace {
@@ -19,28 +22,20 @@ struct StoredUpload {
   std::string program, bytes;
 };
 
-void answer(httplib::Response& response, int status, const json& body) {
+void answer(Response& response, int status, const json& body) {
   response.status = status;
   response.set_content(body.dump(), "application/json");
 }
 
-void answer_error(httplib::Response& response, int status, const std::string& code) {
+void answer_error(Response& response, int status, const std::string& code) {
   answer(response, status, {{"error", {{"code", code}, {"message", "fake: " + code}}}});
 }
 
 /// Begins an answer and cuts the connection.
-void cut(httplib::Response& response) {
+void cut(Response& response) {
   response.status = 200;
   response.set_content_provider(100, "application/json",
                                 [](std::size_t, std::size_t, httplib::DataSink&) { return false; });
-}
-
-json revision_json(const std::string& program, const std::string& name_key, std::uint64_t number,
-                   const std::string& content) {
-  return {{name_key, program},      {"revision", number},
-          {"size", content.size()}, {"sha256", sha256(content).hex()},
-          {"control", "centurion"}, {"comment", nullptr},
-          {"author", "test"},       {"created", "2026-11-21T07:40:06.123456Z"}};
 }
 
 }  // namespace
@@ -48,31 +43,28 @@ json revision_json(const std::string& program, const std::string& name_key, std:
 class FakeServer::Impl {
  public:
   Impl() {
-    server_.set_pre_routing_handler(
-        [](const httplib::Request& request, httplib::Response& response) {
-          if (request.path == "/api/v1/health" ||
-              request.get_header_value("Authorization") == std::string("Bearer ") + kToken) {
-            return httplib::Server::HandlerResponse::Unhandled;
-          }
-          answer_error(response, 401, "denied");
-          return httplib::Server::HandlerResponse::Handled;
-        });
+    server_.set_pre_routing_handler([](const Request& request, Response& response) {
+      if (request.path == "/api/v1/health" ||
+          request.get_header_value("Authorization") == std::string("Bearer ") + kToken) {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
+      answer_error(response, 401, "denied");
+      return httplib::Server::HandlerResponse::Handled;
+    });
     // Pings of one another wait a tenth of a second on Nagle's algorithm otherwise.
     server_.set_tcp_nodelay(true);
     add_program_routes();
     add_upload_routes();
+    add_machine_routes();
     add_run_routes();
+    add_output_routes();
     port_ = server_.bind_to_any_port("127.0.0.1");
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     while (!server_.is_running()) std::this_thread::yield();
   }
 
   ~Impl() {
-    {
-      const std::lock_guard lock(mutex);
-      is_stopped_ = true;
-    }
-    changed_.notify_all();
+    events.stop();
     server_.stop();
     thread_.join();
   }
@@ -84,18 +76,13 @@ class FakeServer::Impl {
   std::map<std::string, std::string> digests;  ///< by program and number, as first stored
   std::map<std::string, StoredUpload> uploads;
   std::deque<PieceFault> piece_faults;
-  bool loses_commit = false, cuts_events = false;
+  bool loses_commit = false;
   int content_cuts = 0, pieces = 0;
   std::size_t longest_piece = 0;
   std::vector<json> runs;
   std::map<std::string, json> machines;
   std::function<void(const std::string&, const json&)> order_handler;
-
-  void publish(const std::string& text) {
-    const std::lock_guard lock(mutex);
-    events_.push_back(text);
-    changed_.notify_all();
-  }
+  FakeEventStream events;
 
   std::uint64_t add(const std::string& name, const std::string& content) {
     auto& revisions = programs[name];
@@ -106,24 +93,20 @@ class FakeServer::Impl {
 
  private:
   void add_program_routes() {
-    server_.Get("/api/v1/health", [](const httplib::Request&, httplib::Response& response) {
+    server_.Get("/api/v1/health", [](const Request&, Response& response) {
       answer(response, 200, {{"status", "ok"}});
     });
     server_.Get("/api/v1/programs",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  list(request, response);
-                });
-    server_.Get(R"(/api/v1/programs/([^/]+))",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  show(request.matches[1], response);
-                });
-    server_.Get(R"(/api/v1/programs/([^/]+)/content)",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  give_content(request, response);
-                });
+                [this](const Request& request, Response& response) { list(request, response); });
+    server_.Get(R"(/api/v1/programs/([^/]+))", [this](const Request& request, Response& response) {
+      show(request.matches[1], response);
+    });
+    server_.Get(
+        R"(/api/v1/programs/([^/]+)/content)",
+        [this](const Request& request, Response& response) { give_content(request, response); });
   }
 
-  void list(const httplib::Request& request, httplib::Response& response) {
+  void list(const Request& request, Response& response) {
     const std::lock_guard lock(mutex);
     const auto limit = std::stoul(request.get_param_value("limit"));
     auto offset = std::stoul(request.get_param_value("offset"));
@@ -141,7 +124,7 @@ class FakeServer::Impl {
     answer(response, 200, {{"programs", all}});
   }
 
-  void show(const std::string& name, httplib::Response& response) {
+  void show(const std::string& name, Response& response) {
     const std::lock_guard lock(mutex);
     const auto found = programs.find(name);
     if (found == programs.end()) return answer_error(response, 404, "not_found");
@@ -156,7 +139,7 @@ class FakeServer::Impl {
     answer(response, 200, program);
   }
 
-  void give_content(const httplib::Request& request, httplib::Response& response) {
+  void give_content(const Request& request, Response& response) {
     const std::lock_guard lock(mutex);
     const std::string name = request.matches[1];
     const auto number = std::stoul(request.get_param_value("revision"));
@@ -177,35 +160,29 @@ class FakeServer::Impl {
   }
 
   void add_upload_routes() {
-    server_.Post("/api/v1/uploads",
-                 [this](const httplib::Request& request, httplib::Response& response) {
-                   const std::lock_guard lock(mutex);
-                   const std::string id = "u" + std::to_string(++upload_count_);
-                   uploads[id] = {json::parse(request.body).at("program"), ""};
-                   answer_upload(response, 201, id);
-                 });
-    server_.Get(R"(/api/v1/uploads/(\w+))",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  const std::lock_guard lock(mutex);
-                  answer_upload(response, 200, request.matches[1]);
-                });
-    server_.Delete(R"(/api/v1/uploads/(\w+))",
-                   [this](const httplib::Request& request, httplib::Response& response) {
-                     const std::lock_guard lock(mutex);
-                     uploads.erase(request.matches[1]);
-                     response.status = 204;
-                   });
-    server_.Put(R"(/api/v1/uploads/(\w+)/content)",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  take_piece(request, response);
-                });
+    server_.Post("/api/v1/uploads", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      const std::string id = "u" + std::to_string(++upload_count_);
+      uploads[id] = {json::parse(request.body).at("program"), ""};
+      answer_upload(response, 201, id);
+    });
+    server_.Get(R"(/api/v1/uploads/(\w+))", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      answer_upload(response, 200, request.matches[1]);
+    });
+    server_.Delete(R"(/api/v1/uploads/(\w+))", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      uploads.erase(request.matches[1]);
+      response.status = 204;
+    });
+    server_.Put(
+        R"(/api/v1/uploads/(\w+)/content)",
+        [this](const Request& request, Response& response) { take_piece(request, response); });
     server_.Post(R"(/api/v1/uploads/(\w+)/commit)",
-                 [this](const httplib::Request& request, httplib::Response& response) {
-                   commit(request, response);
-                 });
+                 [this](const Request& request, Response& response) { commit(request, response); });
   }
 
-  void answer_upload(httplib::Response& response, int status, const std::string& id) {
+  void answer_upload(Response& response, int status, const std::string& id) {
     const auto found = uploads.find(id);
     if (found == uploads.end()) return answer_error(response, 404, "not_found");
     answer(response, status,
@@ -215,7 +192,7 @@ class FakeServer::Impl {
             {"max_piece", 4 * 1024 * 1024}});
   }
 
-  void take_piece(const httplib::Request& request, httplib::Response& response) {
+  void take_piece(const Request& request, Response& response) {
     const std::lock_guard lock(mutex);
     auto& upload = uploads[request.matches[1]];
     ++pieces;
@@ -235,7 +212,7 @@ class FakeServer::Impl {
     cut(response);
   }
 
-  void commit(const httplib::Request& request, httplib::Response& response) {
+  void commit(const Request& request, Response& response) {
     const std::lock_guard lock(mutex);
     const auto found = uploads.find(request.matches[1]);
     if (found == uploads.end()) return answer_error(response, 404, "not_found");
@@ -255,88 +232,68 @@ class FakeServer::Impl {
     answer(response, 201, revision_json(upload.program, "program", number, upload.bytes));
   }
 
-  void add_run_routes() {
-    server_.Get("/api/v1/machines", [this](const httplib::Request&, httplib::Response& response) {
+  void add_machine_routes() {
+    server_.Get("/api/v1/machines", [this](const Request&, Response& response) {
       const std::lock_guard lock(mutex);
       json all = json::array();
       for (const auto& [name, machine] : machines) all.push_back(machine);
       answer(response, 200, {{"machines", all}});
     });
-    server_.Get(R"(/api/v1/machines/([\w-]+))",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  const std::lock_guard lock(mutex);
-                  const auto found = machines.find(request.matches[1]);
-                  if (found == machines.end()) return answer_error(response, 404, "not_found");
-                  answer(response, 200, found->second);
-                });
-    server_.Get("/api/v1/runs",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  const std::lock_guard lock(mutex);
-                  json all = json::array();
-                  const auto limit = std::stoul(request.get_param_value("limit"));
-                  for (auto i = std::stoul(request.get_param_value("offset"));
-                       i < runs.size() && all.size() < limit; ++i) {
-                    all.push_back(runs[i]);
-                  }
-                  answer(response, 200, {{"runs", all}});
-                });
-    server_.Post("/api/v1/runs",
-                 [this](const httplib::Request& request, httplib::Response& response) {
-                   const std::lock_guard lock(mutex);
-                   if (order_handler) order_handler("", json::parse(request.body));
-                   if (runs.empty()) return answer_error(response, 404, "not_found");
-                   answer(response, 201, runs.front());
-                 });
-    server_.Get(R"(/api/v1/runs/([\w-]+))",
-                [this](const httplib::Request& request, httplib::Response& response) {
-                  const std::lock_guard lock(mutex);
-                  for (const auto& run : runs) {
-                    if (run["id"] == request.matches[1].str()) return answer(response, 200, run);
-                  }
-                  answer_error(response, 404, "not_found");
-                });
+    server_.Get(R"(/api/v1/machines/([\w-]+))", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      const auto found = machines.find(request.matches[1]);
+      if (found == machines.end()) return answer_error(response, 404, "not_found");
+      answer(response, 200, found->second);
+    });
+  }
+
+  void add_run_routes() {
+    server_.Get("/api/v1/runs", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      json all = json::array();
+      const auto limit = std::stoul(request.get_param_value("limit"));
+      for (auto i = std::stoul(request.get_param_value("offset"));
+           i < runs.size() && all.size() < limit; ++i) {
+        all.push_back(runs[i]);
+      }
+      answer(response, 200, {{"runs", all}});
+    });
+    server_.Post("/api/v1/runs", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      if (order_handler) order_handler("", json::parse(request.body));
+      if (runs.empty()) return answer_error(response, 404, "not_found");
+      answer(response, 201, runs.front());
+    });
+    server_.Get(R"(/api/v1/runs/([\w-]+))", [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      for (const auto& run : runs) {
+        if (run["id"] == request.matches[1].str()) return answer(response, 200, run);
+      }
+      answer_error(response, 404, "not_found");
+    });
     server_.Post(R"(/api/v1/runs/([\w-]+)/orders)",
-                 [this](const httplib::Request& request, httplib::Response& response) {
+                 [this](const Request& request, Response& response) {
                    const std::lock_guard lock(mutex);
                    if (order_handler) order_handler(request.matches[1], json::parse(request.body));
                    answer(response, 200, {{"accepted", true}});
                  });
-    server_.Get(R"(/api/v1/reports/([\w-]+))", [](const httplib::Request& request,
-                                                  httplib::Response& response) {
+  }
+
+  void add_output_routes() {
+    server_.Get(R"(/api/v1/reports/([\w-]+))", [](const Request& request, Response& response) {
       response.set_content("report as " + request.get_param_value("format") + "\n", "text/plain");
     });
-    server_.Get("/api/v1/events", [this](const httplib::Request&, httplib::Response& response) {
+    server_.Get("/api/v1/events", [this](const Request&, Response& response) {
       response.set_chunked_content_provider(
           "text/event-stream",
           [this, next = std::size_t{0}](std::size_t, httplib::DataSink& sink) mutable {
-            return send_events(sink, next);
+            return events.send(sink, next);
           });
     });
   }
 
-  bool send_events(httplib::DataSink& sink, std::size_t& next) {
-    std::unique_lock lock(mutex);
-    if (next == 0) sink.write(": hello\n\n", 9);
-    changed_.wait(lock, [&] { return is_stopped_ || cuts_events || next < events_.size(); });
-    if (is_stopped_ || std::exchange(cuts_events, false)) return false;
-    const std::string text = events_[next++];
-    lock.unlock();
-    return sink.write(text.data(), text.size());
-  }
-
- public:
-  void cut_events() {
-    const std::lock_guard lock(mutex);
-    cuts_events = true;
-    changed_.notify_all();
-  }
-
- private:
   httplib::Server server_;
   std::thread thread_;
-  std::condition_variable changed_;
-  std::vector<std::string> events_;
-  bool is_stopped_ = false;
   int upload_count_ = 0;
   int port_ = 0;
 };
@@ -369,7 +326,7 @@ void FakeServer::corrupt_content(const std::string& program) {
 }
 
 void FakeServer::cut_events_once() {
-  impl_->cut_events();
+  impl_->events.cut();
 }
 
 void FakeServer::add_program(const std::string& name, const std::string& content) {
@@ -420,46 +377,12 @@ void FakeServer::set_machine(const json& machine) {
 }
 
 void FakeServer::publish(const std::string& name, const json& data) {
-  impl_->publish("event: " + name + "\ndata: " + data.dump() + "\n\n");
+  impl_->events.publish("event: " + name + "\ndata: " + data.dump() + "\n\n");
 }
 
 void FakeServer::on_order(std::function<void(const std::string&, const json&)> handler) {
   const std::lock_guard lock(impl_->mutex);
   impl_->order_handler = std::move(handler);
-}
-
-json machine_json(const std::string& name) {
-  return {{"name", name},
-          {"control", "centurion"},
-          {"description", "a lathe"},
-          {"gateway_version", "0.1.0"},
-          {"connected", true},
-          {"first_seen", "2026-11-21T07:00:00Z"},
-          {"last_seen", "2026-11-21T07:40:06.123456Z"},
-          {"status", nullptr}};
-}
-
-json run_json(const std::string& id, const std::string& state) {
-  return {{"id", id},
-          {"machine", "lathe-1"},
-          {"program", "O0200"},
-          {"revision", 1},
-          {"sha256", std::string(64, 'a')},
-          {"size", 1000},
-          {"control", "centurion"},
-          {"state", state},
-          {"sent", 1000},
-          {"accepted", 50},
-          {"executed", 42},
-          {"line", 42},
-          {"sequence", nullptr},
-          {"reason", nullptr},
-          {"content_verified", nullptr},
-          {"author", "test"},
-          {"created", "2026-11-21T07:40:00Z"},
-          {"started", "2026-11-21T07:40:01Z"},
-          {"ended", state == "completed" ? json("2026-11-21T07:41:06Z") : json(nullptr)},
-          {"outputs", 3}};
 }
 
 }  // namespace dripline::test_support

@@ -56,8 +56,4 @@ class FakeServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// JSON of a machine and of a run, as the server's README describes them.
-nlohmann::json machine_json(const std::string& name);
-nlohmann::json run_json(const std::string& id, const std::string& state);
-
 }  // namespace dripline::test_support

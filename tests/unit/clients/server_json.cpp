@@ -1,0 +1,51 @@
+#include "tests/unit/clients/server_json.hpp"
+
+#include "protocol/base/digest.hpp"
+
+namespace dripline::test_support {
+
+using nlohmann::json;
+
+json revision_json(const std::string& program, const std::string& name_key, std::uint64_t number,
+                   const std::string& content) {
+  return {{name_key, program},      {"revision", number},
+          {"size", content.size()}, {"sha256", sha256(content).hex()},
+          {"control", "centurion"}, {"comment", nullptr},
+          {"author", "test"},       {"created", "2026-11-21T07:40:06.123456Z"}};
+}
+
+json machine_json(const std::string& name) {
+  return {{"name", name},
+          {"control", "centurion"},
+          {"description", "a lathe"},
+          {"gateway_version", "0.1.0"},
+          {"connected", true},
+          {"first_seen", "2026-11-21T07:00:00Z"},
+          {"last_seen", "2026-11-21T07:40:06.123456Z"},
+          {"status", nullptr}};
+}
+
+json run_json(const std::string& id, const std::string& state) {
+  return {{"id", id},
+          {"machine", "lathe-1"},
+          {"program", "O0200"},
+          {"revision", 1},
+          {"sha256", std::string(64, 'a')},
+          {"size", 1000},
+          {"control", "centurion"},
+          {"state", state},
+          {"sent", 1000},
+          {"accepted", 50},
+          {"executed", 42},
+          {"line", 42},
+          {"sequence", nullptr},
+          {"reason", nullptr},
+          {"content_verified", nullptr},
+          {"author", "test"},
+          {"created", "2026-11-21T07:40:00Z"},
+          {"started", "2026-11-21T07:40:01Z"},
+          {"ended", state == "completed" ? json("2026-11-21T07:41:06Z") : json(nullptr)},
+          {"outputs", 3}};
+}
+
+}  // namespace dripline::test_support

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace dripline::test_support {
+
+/// Things as the server's README describes them.
+nlohmann::json machine_json(const std::string& name);
+nlohmann::json run_json(const std::string& id, const std::string& state);
+
+/// A revision of a program. Revisions are told apart by `program`; as the program's newest one its
+/// name stands under `name`.
+nlohmann::json revision_json(const std::string& program, const std::string& name_key,
+                             std::uint64_t number, const std::string& content);
+
+}  // namespace dripline::test_support
