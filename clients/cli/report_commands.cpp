@@ -12,8 +12,6 @@
 namespace dripline::cli {
 namespace {
 
-constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
-
 struct ListCommand {
   client::ReportQuery query;
   std::uint64_t limit = 20;

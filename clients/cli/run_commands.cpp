@@ -11,8 +11,6 @@
 namespace dripline::cli {
 namespace {
 
-constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
-
 struct StartCommand {
   client::RunRequest request;
   bool follows = false, waits = false;

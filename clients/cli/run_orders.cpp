@@ -10,8 +10,6 @@
 namespace dripline::cli {
 namespace {
 
-constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
-
 struct OrderCommand {
   std::string run;
   std::string text, name, state;

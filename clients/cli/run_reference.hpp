@@ -6,6 +6,9 @@
 
 namespace dripline::cli {
 
+/// What the help of every verb says about its run.
+inline constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
+
 /// The run that `reference` means: a full id, a prefix that fits only one run, or `latest`.
 /// Failures: those of the calls; Refused with NotFound (none fits) or ModalConflict (several fit;
 /// named).
