@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gateway/interpreter/trace/event_words.hpp"
+
 namespace dripline::gateway {
 
 using dds::RecordKind;
@@ -95,17 +97,18 @@ void ExecutionRecorder::append(const interpreter::Origin& origin, Report report)
 void ExecutionRecorder::on_output(const interpreter::Output& output) {
   ++outputs_;
   is_between_blocks_ = false;
-  append(output.origin,
-         {RecordKind::Output, std::string(to_text(output.device)), std::string(output.text)});
+  append(output.origin, {RecordKind::Output, std::string(interpreter::word_of(output.device)),
+                         std::string(output.text)});
 }
 
 void ExecutionRecorder::on_open(const interpreter::Open& open) {
-  append(open.origin, {RecordKind::DeviceOpened, std::string(to_text(open.device)),
+  append(open.origin, {RecordKind::DeviceOpened, std::string(interpreter::word_of(open.device)),
                        std::string(open.name.value_or(""))});
 }
 
 void ExecutionRecorder::on_close(const interpreter::Close& close) {
-  append(close.origin, {RecordKind::DeviceClosed, std::string(to_text(close.device)), {}});
+  append(close.origin,
+         {RecordKind::DeviceClosed, std::string(interpreter::word_of(close.device)), {}});
 }
 
 void ExecutionRecorder::on_message(const interpreter::Message& message) {

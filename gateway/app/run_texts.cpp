@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "gateway/interpreter/trace/event_words.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {
@@ -20,7 +21,7 @@ std::map<char, double> axes_of(const interpreter::Position& position) {
 dds::ProbeText probe_text(const interpreter::Probe& probe) {
   dds::ProbeText text;
   text.to = axes_of(probe.to);
-  text.until = probe.until == interpreter::ProbeUntil::Contact ? "contact" : "release";
+  text.until = interpreter::word_of(probe.until);
   if (probe.result) {
     text.tripped = probe.result->tripped;
     text.at = axes_of(probe.result->at);
@@ -57,22 +58,6 @@ std::string valid_text(std::string_view bytes, std::size_t max_bytes) {
     bytes.remove_prefix(length == 0 ? 1 : length);
   }
   return text;
-}
-
-std::string_view to_text(interpreter::OutputDevice device) {
-  switch (device) {
-    case interpreter::OutputDevice::File:
-      return "file";
-    case interpreter::OutputDevice::Port1:
-      return "port1";
-    case interpreter::OutputDevice::Port2:
-      return "port2";
-    case interpreter::OutputDevice::Screen:
-      return "screen";
-    case interpreter::OutputDevice::Printer:
-      return "printer";
-  }
-  return "file";
 }
 
 }  // namespace dripline::gateway

@@ -12,7 +12,6 @@ namespace dripline::gateway {
 dds::ProbeText probe_text(const interpreter::Probe& probe);
 dds::AlarmText diagnostic_text(const interpreter::Diagnostic& diagnostic);
 std::string_view to_text(interpreter::StopKind kind);
-std::string_view to_text(interpreter::OutputDevice device);
 
 /// Valid UTF-8 of at most `max_bytes`: programs may hold any byte, records only text. What is not
 /// UTF-8 becomes U+FFFD.

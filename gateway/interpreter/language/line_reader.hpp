@@ -68,7 +68,6 @@ class LineReader {
 
   /// Why the last call said Failed.
   const std::string& reason() const { return reason_; }
-  std::size_t max_line_bytes() const { return rules_.max_bytes; }
 
  private:
   std::size_t available() const { return static_cast<std::size_t>(end_ - cursor_); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+
 namespace dripline::interpreter {
 namespace {
 
@@ -18,21 +20,6 @@ Length distance(const Position& from, const Position& to) {
     (is_rotary(axis) ? rotary : linear) += delta * delta;
   }
   return Length::mm(std::sqrt(linear > 0 ? linear : rotary));
-}
-
-struct ArcAxes {
-  Axis first, second, third;
-};
-ArcAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return {Axis::Z, Axis::X, Axis::Y};
-    case Plane::YZ:
-      return {Axis::Y, Axis::Z, Axis::X};
-    case Plane::XY:
-      break;
-  }
-  return {Axis::X, Axis::Y, Axis::Z};
 }
 
 }  // namespace
@@ -111,7 +98,7 @@ void CheckSummary::on_line(const Line& line) {
 
 /// An arc reaches beyond its ends where it passes a quarter of its circle.
 void CheckSummary::extend_arc(const Arc& arc) {
-  const ArcAxes axes = axes_of(arc.plane);
+  const PlaneAxes axes = axes_of(arc.plane);
   const double first = last_.raw(axes.first) - arc.center_first.mm();
   const double second = last_.raw(axes.second) - arc.center_second.mm();
   const double radius = std::hypot(first, second);
@@ -131,10 +118,10 @@ void CheckSummary::extend_arc(const Arc& arc) {
 }
 
 void CheckSummary::on_arc(const Arc& arc) {
-  const ArcAxes axes = axes_of(arc.plane);
+  const PlaneAxes axes = axes_of(arc.plane);
   const Length radius = hypot(last_.linear(axes.first) - arc.center_first,
                               last_.linear(axes.second) - arc.center_second);
-  const Length rise = arc.to.linear(axes.third) - last_.linear(axes.third);
+  const Length rise = arc.to.linear(axes.normal) - last_.linear(axes.normal);
   extend_arc(arc);
   cut(hypot(radius * arc.sweep.radians(), rise), arc.feed);
   move_to(arc.to);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/trace/event_words.hpp"
 #include "gateway/interpreter/trace/number_text.hpp"
 
 namespace dripline::interpreter {
@@ -12,89 +14,6 @@ constexpr std::size_t kFlushAt = 32 * 1024;
 constexpr double kNoMove = 1e-7;
 constexpr double kMillimetresPerFoot = 12 * Length::kMillimetresPerInch;
 constexpr double kMillimetresPerMetre = 1000;
-
-std::string_view name_of(Units units) {
-  return units == Units::Inch ? "in" : "mm";
-}
-std::string_view name_of(Turn turn) {
-  return turn == Turn::Clockwise ? "cw" : "ccw";
-}
-std::string_view name_of(ProbeUntil until) {
-  return until == ProbeUntil::Contact ? "contact" : "release";
-}
-
-std::string_view name_of(SpindleState state) {
-  switch (state) {
-    case SpindleState::Clockwise:
-      return "cw";
-    case SpindleState::CounterClockwise:
-      return "ccw";
-    case SpindleState::Oriented:
-      return "oriented";
-    case SpindleState::Off:
-      break;
-  }
-  return "off";
-}
-
-std::string_view name_of(StopKind kind) {
-  switch (kind) {
-    case StopKind::Optional:
-      return "optional";
-    case StopKind::ToolChange:
-      return "tool_change";
-    case StopKind::Operator:
-      return "operator";
-    case StopKind::Program:
-      break;
-  }
-  return "program";
-}
-
-std::string_view name_of(OutputDevice device) {
-  switch (device) {
-    case OutputDevice::Port1:
-      return "port1";
-    case OutputDevice::Port2:
-      return "port2";
-    case OutputDevice::Screen:
-      return "screen";
-    case OutputDevice::Printer:
-      return "printer";
-    case OutputDevice::File:
-      break;
-  }
-  return "file";
-}
-
-std::string_view name_of(Feed::Per per) {
-  switch (per) {
-    case Feed::Per::Revolution:
-      return "rev";
-    case Feed::Per::Move:
-      return "move";
-    case Feed::Per::Minute:
-      break;
-  }
-  return "min";
-}
-
-struct PlaneAxes {
-  std::string_view name;
-  Axis first;
-  Axis second;
-};
-PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return {"ZX", Axis::Z, Axis::X};
-    case Plane::YZ:
-      return {"YZ", Axis::Y, Axis::Z};
-    case Plane::XY:
-      break;
-  }
-  return {"XY", Axis::X, Axis::Y};
-}
 
 }  // namespace
 
@@ -182,7 +101,7 @@ void TraceWriter::feed(const Feed& feed) {
   append_number(buffer_,
                 feed.per() == Feed::Per::Move ? feed.moves_per_minute() : in_units(feed.length()));
   buffer_ += ",\"per\":\"";
-  buffer_ += name_of(feed.per());
+  buffer_ += word_of(feed.per());
   buffer_ += "\"}";
 }
 
@@ -214,7 +133,7 @@ void TraceWriter::on_program(const ProgramHeader& header) {
   } else {
     buffer_ += ",\"name\":null";
   }
-  member("units", name_of(header.units));
+  member("units", word_of(header.units));
   if (header.x_is_diameter) member("x", std::string_view("diameter"));
   end();
 }
@@ -222,7 +141,7 @@ void TraceWriter::on_program(const ProgramHeader& header) {
 void TraceWriter::on_units(const UnitsChange& change) {
   is_inch_ = change.units == Units::Inch;
   begin("units", change.origin);
-  member("units", name_of(change.units));
+  member("units", word_of(change.units));
   end();
 }
 
@@ -251,7 +170,7 @@ void TraceWriter::arc_center(const Arc& arc) {
   buffer_ += ',';
   coordinate(x_is_second ? axes.first : axes.second, x_is_second ? first : second);
   buffer_ += '}';
-  member("plane", axes.name);
+  member("plane", word_of(arc.plane));
 }
 
 void TraceWriter::on_arc(const Arc& arc) {
@@ -259,7 +178,7 @@ void TraceWriter::on_arc(const Arc& arc) {
   begin("arc", arc.origin);
   position("to", arc.to);
   arc_center(arc);
-  member("direction", name_of(arc.turn));
+  member("direction", word_of(arc.turn));
   member("sweep", arc.sweep.degrees());
   feed(arc.feed);
   end();
@@ -286,7 +205,7 @@ void TraceWriter::on_dwell(const Dwell& dwell) {
 
 void TraceWriter::on_spindle(const Spindle& spindle) {
   begin("spindle", spindle.origin);
-  member("state", name_of(spindle.state));
+  member("state", word_of(spindle.state));
   if (spindle.surface_speed) {
     // As every control is programmed: feet or metres a minute.
     member("surface_speed",
@@ -335,7 +254,7 @@ void TraceWriter::on_probe(const Probe& probe) {
   moves_to(at);
   begin("probe", probe.origin);
   position("to", probe.to);
-  member("until", name_of(probe.until));
+  member("until", word_of(probe.until));
   buffer_ += ",\"result\":{\"tripped\":";
   buffer_ += probe.result->tripped ? "true" : "false";
   position("at", at);
@@ -345,21 +264,21 @@ void TraceWriter::on_probe(const Probe& probe) {
 
 void TraceWriter::on_output(const Output& output) {
   begin("output", output.origin);
-  member("device", name_of(output.device));
+  member("device", word_of(output.device));
   member("text", output.text);
   end();
 }
 
 void TraceWriter::on_open(const Open& open) {
   begin("open", open.origin);
-  member("device", name_of(open.device));
+  member("device", word_of(open.device));
   if (open.name) member("name", *open.name);
   end();
 }
 
 void TraceWriter::on_close(const Close& close) {
   begin("close", close.origin);
-  member("device", name_of(close.device));
+  member("device", word_of(close.device));
   end();
 }
 
@@ -379,7 +298,7 @@ void TraceWriter::on_prompt(const Prompt& prompt) {
 
 void TraceWriter::on_stop(const Stop& stop) {
   begin("stop", stop.origin);
-  member("kind", name_of(stop.kind));
+  member("kind", word_of(stop.kind));
   end();
 }
 

@@ -18,7 +18,6 @@ class Intake final : public interpreter::EventSink {
   void end_probe(const Coordinates& at);
   /// Takes nothing more until begin().
   void close() { is_closed_ = true; }
-  const Coordinates& end_point() const { return end_; }
 
   void on_rapid(const interpreter::Rapid& event) override;
   void on_line(const interpreter::Line& event) override;

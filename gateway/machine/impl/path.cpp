@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
+
+#include "gateway/interpreter/geometry/plane_axes.hpp"
 
 namespace dripline::machine::impl {
 
@@ -13,7 +14,6 @@ using interpreter::kAxisCount;
 namespace {
 
 constexpr double kPi = Angle::kPi;
-constexpr std::size_t kX = 0, kY = 1, kZ = 2;
 
 bool is_rotary_axis(std::size_t axis) {
   return interpreter::is_rotary(static_cast<Axis>(axis));
@@ -31,18 +31,6 @@ double way(const Coordinates& from, const Coordinates& to) {
 
 double arc_length_in_plane(const Circle& circle) {
   return std::fabs(circle.sweep) * (circle.radius + circle.radius_change / 2);
-}
-
-std::pair<std::size_t, std::size_t> axes_of(interpreter::Plane plane) {
-  switch (plane) {
-    case interpreter::Plane::XY:
-      return {kX, kY};
-    case interpreter::Plane::ZX:
-      return {kZ, kX};
-    case interpreter::Plane::YZ:
-      return {kY, kZ};
-  }
-  return {kX, kY};
 }
 
 /// How far from the programmed end the turn would end, as a share of the circle.
@@ -150,7 +138,9 @@ Path arc_path(const Coordinates& from, const interpreter::Arc& arc) {
   path.to = from;
   take_over(path.to, arc.to);
   Circle& circle = path.circle;
-  std::tie(circle.first, circle.second) = axes_of(arc.plane);
+  const auto axes = interpreter::axes_of(arc.plane);
+  circle.first = static_cast<std::size_t>(axes.first);
+  circle.second = static_cast<std::size_t>(axes.second);
   circle.center_first = arc.center_first.mm();
   circle.center_second = arc.center_second.mm();
   const auto polar = [&circle](const Coordinates& point) {
