@@ -96,6 +96,7 @@ class Gateway {
     auto opened = dds::GatewayEndpoint::open(options, "bench", std::move(handlers));
     if (!opened) give_up(opened.error().what);
     dds::Announce announce;
+    announce.epoch = 1;
     announce.machine = "bench";
     announce.control = "centurion";
     if (auto written = (*opened)->write(announce); !written) give_up(written.error().what);

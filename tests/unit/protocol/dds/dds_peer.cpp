@@ -88,6 +88,7 @@ int play_gateway(const dds::NetworkOptions& options, std::uint64_t session) {
   dds::Announce announce;
   announce.machine = "lathe-1";
   announce.control = "centurion";
+  announce.epoch = 7;
   announce.session = session;
   must(gateway->write(announce));
   const std::jthread worker([&](const std::stop_token& stop) { answers.run(stop); });
