@@ -21,7 +21,7 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
                .pool = service.pool_,
                .state_mutex = service.state_mutex_,
                .on_stored = [&service](const auto& batch) { service.on_stored(batch); }}),
-      orders(endpoint, service.clock_, service.options_.orders,
+      orders(endpoint, service.clock_, service.order_options(),
              [&service](const dds::Order& order) { service.on_late_start(order); }),
       watch({.store = service.store_,
              .clock = service.clock_,
@@ -29,6 +29,15 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
              .state_mutex = service.state_mutex_,
              .on_change = service.listener_.on_run,
              .on_unwanted = [&service](const auto& run) { service.abort_unwanted(run); }}) {}
+
+OrderDesk::Options FeedService::order_options() const {
+  OrderDesk::Options options = options_.orders;
+  options.session_of = [this](const std::string& machine) {
+    const auto view = board_.view(machine);
+    return view ? view->session : 0;
+  };
+  return options;
+}
 
 FeedService::FeedService(storage::Store& store, const Clock& clock, Options options,
                          FeedListener listener)

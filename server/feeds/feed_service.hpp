@@ -61,6 +61,7 @@ class FeedService final : public FeedControl {
   Parts* parts() const;
   void on_stored(const storage::RecordBatch& batch);
   void on_late_start(const dds::Order& order);
+  OrderDesk::Options order_options() const;
   void abort_unwanted(const storage::Run& run);
   void tick();
   void announce_run(const std::string& run);

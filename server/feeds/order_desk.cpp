@@ -63,11 +63,20 @@ Result<void> OrderDesk::write_in_time(const dds::Order& order) {
 }
 
 Result<void> OrderDesk::await(const std::string& id) {
+  const auto expiry = std::chrono::steady_clock::now() + options_.expiry;
+  const auto limit = expiry + options_.grace;
   std::unique_lock lock(mutex_);
   const Waiting& waiting = waiting_.at(id);
-  const bool is_decided = changed_.wait_for(lock, options_.expiry + options_.grace, [&] {
-    return waiting.result.has_value() || is_stopping_;
-  });
+  const auto is_settled = [&] { return waiting.result.has_value() || is_stopping_; };
+  for (auto next = std::chrono::steady_clock::now() + options_.repeat; next < expiry;
+       next += options_.repeat) {
+    if (changed_.wait_until(lock, next, is_settled)) break;
+    dds::Order again = waiting.order;
+    lock.unlock();
+    repeat(std::move(again));
+    lock.lock();
+  }
+  const bool is_decided = changed_.wait_until(lock, limit, is_settled);
   if (waiting.result) {
     if (waiting.result->accepted) return {};
     return fail(Errc::Busy, "machine {} refused {}: {}", waiting.order.machine,
@@ -77,6 +86,12 @@ Result<void> OrderDesk::await(const std::string& id) {
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.order.machine,
               dds::to_string(waiting.order.action),
               std::chrono::duration<double>(options_.expiry).count());
+}
+
+void OrderDesk::repeat(dds::Order order) {
+  if (order.session != 0 && options_.session_of) order.session = options_.session_of(order.machine);
+  // A full queue or a machine that went away: the next round tries again, until the limit.
+  [[maybe_unused]] const auto written = endpoint_.write(order);
 }
 
 void OrderDesk::on_result(const dds::OrderResult& result) {

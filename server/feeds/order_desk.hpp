@@ -22,6 +22,12 @@ class OrderDesk {
   struct Options {
     std::chrono::milliseconds expiry{5000};
     std::chrono::milliseconds grace{1000};  ///< for a result given just before the expiry
+    /// An order without an answer is sent again, with the same id, to the gateway that speaks now:
+    /// the first may have been lost with a connection, or been meant for a gateway that has just
+    /// been replaced.
+    std::chrono::milliseconds repeat{250};
+    /// The session that speaks for a machine now; absent: orders keep theirs.
+    std::function<std::uint64_t(const std::string& machine)> session_of{};
   };
   /// `on_late_start`: a start was accepted after its sender gave up; called on a DDS thread.
   OrderDesk(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
@@ -50,6 +56,7 @@ class OrderDesk {
   void stamp(dds::Order& order) const;
   Result<void> write_in_time(const dds::Order& order);
   Result<void> await(const std::string& id);
+  void repeat(dds::Order order);
 
   dds::ServerEndpoint& endpoint_;
   const Clock& clock_;

@@ -223,6 +223,24 @@ TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   EXPECT_EQ(store_->run(run)->state, storage::RunState::Refused);
 }
 
+TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  feeds::OrderDesk::Options options;
+  options.repeat = std::chrono::milliseconds(5);
+  options.session_of = [](const std::string&) { return std::uint64_t{2}; };
+  feeds::OrderDesk desk(endpoint, clock_, options, [](const dds::Order&) {});
+  written_->on_order = [&](const dds::Order& heard) {
+    if (heard.session != 2) return;  // the first is gone
+    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Order order;
+  order.machine = "lathe-1";
+  order.action = dds::OrderAction::Start;
+  order.session = 1;
+  EXPECT_TRUE(desk.carry_out(order));
+  EXPECT_EQ(written_->orders.at(0).id, written_->orders.back().id) << "the same order, said again";
+}
+
 TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
   start_service();
   announce();
