@@ -18,13 +18,14 @@ constexpr auto kReadLimit = 120s;   ///< for a whole request, also on a slow lin
 constexpr auto kWriteLimit = 60s;   ///< for one write to a client that does not read
 constexpr auto kHandleLimit = 60s;  ///< longer than any handler waits
 
-struct PlainTraits : restinio::default_single_thread_traits_t {
+// One thread serves the sockets, but the last reference to a connection may be dropped on a
+// handler's thread. The single-thread traits count connections without a mutex: never use them here.
+struct PlainTraits : restinio::default_traits_t {
   using request_handler_t =
       std::function<restinio::request_handling_status_t(restinio::request_handle_t)>;
   static constexpr bool use_connection_count_limiter = true;
 };
-struct TlsTraits : restinio::single_thread_tls_traits_t<restinio::asio_timer_manager_t,
-                                                        restinio::null_logger_t> {
+struct TlsTraits : restinio::default_tls_traits_t {
   using request_handler_t = PlainTraits::request_handler_t;
   static constexpr bool use_connection_count_limiter = true;
 };
