@@ -134,6 +134,17 @@ struct RecordBatch {
   std::vector<RunEnding> endings;
 };
 
+/// A serial line to a machine's control, as configured.
+struct Port {
+  std::string name;
+  std::string machine;        ///< the machine at its end
+  std::string address;        ///< /dev/ttyUSB0, tcp://host:port, rfc2217://host:port
+  std::string line_template;  ///< a control's usual line, may be empty
+  std::vector<std::pair<std::string, std::string>> settings;  ///< key, value; over the template's
+  std::string rules;  ///< what a text from the control means (TOML), may be empty
+  bool is_enabled = true;
+};
+
 struct AuditEntry {
   UtcTime time;
   std::string who, action, subject, detail;

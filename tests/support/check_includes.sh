@@ -7,6 +7,7 @@ cd "$(dirname "$0")/../.."
 table='
 protocol/base: protocol/base
 protocol/wire: protocol/base protocol/wire
+protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage: protocol/base storage
@@ -17,9 +18,10 @@ gateway/report: protocol gateway/interpreter gateway/machine gateway/report stor
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base storage gateway/interpreter server/library
 server/feeds: protocol storage gateway/interpreter server/library server/feeds
-server/api: protocol storage gateway/interpreter server/library server/feeds server/api
+server/serial: protocol storage gateway/interpreter server/library server/feeds server/serial
+server/api: protocol storage gateway/interpreter server/library server/feeds server/serial server/api
 server/app: protocol storage server
-clients: protocol/base gateway/interpreter clients
+clients: protocol/base protocol/wire protocol/serial gateway/interpreter clients
 '
 folder_of() {  # the longest row that $1 lies under
   local best=""

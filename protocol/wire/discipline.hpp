@@ -1,0 +1,156 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+#include "protocol/wire/line_settings.hpp"
+
+/// Line disciplines as byte state machines: no socket, no clock, no thread. One object is one end
+/// of one line for as long as the line is open; both ends of every protocol exist.
+namespace dripline::wire {
+
+/// Since the line was opened. Time is an input.
+using LineTime = std::chrono::nanoseconds;
+
+enum class Role : std::uint8_t {
+  Host,     ///< the DNC side
+  Control,  ///< the machine's side
+};
+
+/// Modem lines as we see them.
+struct InputLines {
+  bool cts = true, dsr = true, dcd = true;
+  friend bool operator==(const InputLines&, const InputLines&) = default;
+};
+/// Modem lines as we set them.
+struct OutputLines {
+  bool rts = true, dtr = true;
+  friend bool operator==(const OutputLines&, const OutputLines&) = default;
+};
+/// What the UART says of a character instead of, or with, the character.
+enum class LineFault : std::uint8_t { Parity, Framing, Overrun, Break };
+
+/// What one end wants of the other, for protocols that can say so.
+struct TransferRequest {
+  enum class Kind : std::uint8_t {
+    SendProgram,  ///< the other end wants a program: answer with begin_send or refuse
+    TakeProgram,  ///< the other end is about to send one: begin_receive or refuse
+    Directory,    ///< the other end wants the list: begin_send with the list, or refuse
+  };
+  Kind kind = Kind::SendProgram;
+  std::string name;  ///< as the protocol says it ("15"); empty: whichever is next
+};
+
+struct TextReceived {
+  std::string text;  ///< program text as it is kept: ASCII, LF behind each block
+};
+struct TransferBegan {
+  bool is_receiving = false;
+  std::string name;  ///< when the protocol tells
+};
+/// The last text of a transfer has been delivered, in a checked protocol: accepted by the other
+/// end.
+struct TransferEnded {
+  bool is_receiving = false;
+};
+/// The other end holds us, or lets us go on.
+struct FlowChanged {
+  bool is_stopped = false;
+};
+/// In a checked protocol: so much of the text offered for this transfer is accepted by the other
+/// end. Cumulative.
+struct TextAccepted {
+  std::uint64_t bytes = 0;
+};
+/// The transfer in progress is over and did not work. The object is idle again.
+struct TransferFailed {
+  Error error;
+};
+/// Something was wrong and told; the transfer goes on (a repeated block, a parity error in an
+/// unchecked text, whose character was replaced by '?').
+struct LineTrouble {
+  Error error;
+};
+using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChanged, TextAccepted,
+                           TransferFailed, LineTrouble, TransferRequest>;
+
+enum class Phase : std::uint8_t { Idle, Sending, Receiving, Requesting };
+
+/// What a port's listing shows of it.
+struct LineState {
+  Phase phase = Phase::Idle;
+  bool is_stopped = false;              ///< by the other end
+  bool is_stopping = false;             ///< we hold the other end
+  std::string_view waiting_for;         ///< "DC1", "ACK", "CTS", ...; empty: for nothing
+  bool may_wait_without_limit = false;  ///< the protocol demands it of this wait
+};
+
+/// One end of a line.
+///
+/// The owner (protocol/serial, or a test) calls, whenever something happened:
+/// `receive`, `fault`, `lines`, `tick`; then `transmit` as often as the line can take characters;
+/// then `take_events`. `now` never goes backwards. Cutting the received bytes into other pieces
+/// gives the same events, apart from how TextReceived is cut.
+///
+/// Bounds: what `room()` says is all the text it keeps (at most 64 KiB); events are taken after
+/// each call; TextReceived that its owner can not keep is held off by `set_ready(false)`. Not
+/// thread-safe.
+class Discipline {
+ public:
+  virtual ~Discipline() = default;
+
+  // From the line
+  virtual void receive(std::span<const std::byte> bytes, LineTime now) = 0;
+  virtual void fault(LineFault fault, LineTime now) = 0;
+  virtual void lines(InputLines lines, LineTime now) = 0;
+  /// The time named by `deadline()` has come.
+  virtual void tick(LineTime now) = 0;
+
+  // To the line
+  /// Puts the characters that may leave now into `room`, returns how many. The owner hands them to
+  /// the driver at once and never has more than two character times with the driver, so nothing
+  /// can be called back and nothing needs to be. Control characters of our own (DC3, ACK) go first
+  /// and also leave while the other end holds us.
+  virtual std::size_t transmit(std::span<std::byte> room, LineTime now) = 0;
+  virtual OutputLines output_lines() const = 0;
+  /// When `tick` is wanted, or `transmit` again after a pause of ours.
+  virtual std::optional<LineTime> deadline() const = 0;
+
+  // The owner's wishes
+  /// Errors: Busy (a transfer is in progress), Unsupported (this protocol can not begin here).
+  virtual Result<void> begin_send(std::string_view name, LineTime now) = 0;
+  /// Text that `offer` takes now.
+  virtual std::size_t room() const = 0;
+  /// More text of the transfer being sent: ASCII, LF behind each block; at most `room()` bytes.
+  /// `is_last` with the last piece, which may be empty. Errors: Syntax (a character that the line's
+  /// code does not have, named with its line; the transfer has then failed), LimitExceeded (more
+  /// than room()), ModalConflict (nothing is being sent).
+  virtual Result<void> offer(std::string_view text, bool is_last, LineTime now) = 0;
+  /// Expects a transfer, or answers a TakeProgram. Errors: as begin_send.
+  virtual Result<void> begin_receive(std::string_view name, LineTime now) = 0;
+  /// Asks the other end (a control asks its host). Errors: Busy, Unsupported.
+  virtual Result<void> request(const TransferRequest& request, LineTime now) = 0;
+  /// Answers a request with no; shown to the operator where the protocol can.
+  virtual Result<void> refuse(std::string_view reason, LineTime now) = 0;
+  /// Room for received text, or not: XOFF, RTS off, a withheld ACK.
+  virtual void set_ready(bool is_ready, LineTime now) = 0;
+  /// Ends the transfer in progress, telling the other end where the protocol can. Idle afterwards.
+  virtual void abort(LineTime now) = 0;
+
+  virtual LineState state() const = 0;
+  /// Everything since the last call, in order.
+  virtual std::vector<Event> take_events() = 0;
+};
+
+/// Errors: Unsupported (settings that exclude each other, named).
+Result<std::unique_ptr<Discipline>> make_discipline(const LineSettings& settings, Role role);
+
+}  // namespace dripline::wire

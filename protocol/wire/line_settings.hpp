@@ -1,0 +1,118 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+
+/// What a serial line must be told so that both ends understand each other, in the words shops use.
+namespace dripline::wire {
+
+enum class Parity : std::uint8_t { None, Even, Odd, Mark, Space };
+enum class StopBits : std::uint8_t { One, OneAndHalf, Two };
+
+/// How the receiver holds the sender, and how transfers are begun and checked.
+enum class Flow : std::uint8_t {
+  None,           ///< paced by delays only
+  XonXoff,        ///< the receiver sends DC3 to stop, DC1 to go on
+  RtsCts,         ///< the receiver drops its RTS, which is our CTS
+  DcCodes,        ///< DC1/DC3 start and stop the reader, DC2/DC4 the punch
+  Xmodem,         ///< 128-byte blocks, checksum or CRC
+  Heidenhain,     ///< TNC standard interface: DC1, lines, ETX, EOT
+  HeidenhainBcc,  ///< TNC blockwise transfer: headings, one block at a time, BCC, ACK/NAK
+  TapeReader,     ///< we are the reader of a tape control: character by character, with a stop code
+};
+/// How characters stand on the line. Parity that the UART makes is `parity`; the codes below have
+/// their own in the 8 bits.
+enum class CharacterCode : std::uint8_t {
+  Ascii,  ///< 7 bits as they are; bit 8 clear when sent, dropped when received
+  Iso,    ///< ISO 840 / RS-358: 7 bits and even parity in bit 8
+  Eia,    ///< RS-244-A: odd parity in track 5
+};
+/// What ends a block on the line. Programs are kept with LF.
+enum class EndOfBlock : std::uint8_t { Lf, Cr, CrLf, LfCr, LfCrCr };
+
+/// The characters and rules of a TNC's blockwise transfer; a machine parameter each.
+struct HeidenhainSettings {
+  char heading = '%';  ///< type letter of headings we send; '%', 'H' and 'D' are taken
+  char soh = 1, stx = 2, etx = 3, eot = 4, ack = 6, nak = 21, etb = 23;
+  bool line_end_in_block = false;  ///< CR LF between text and ETB; always accepted
+  bool bcc_is_printable = false;   ///< a blank before ETB keeps the BCC at or above 0x20
+  bool sends_dc1_after_block = false;
+};
+
+/// How a tape reader in our hands behaves.
+struct ReaderSettings {
+  double characters_per_second = 300;
+  bool stops_at_end_of_block = false;  ///< the control runs the reader block by block
+};
+
+/// One line's settings. Defaults are those of a plain 9600 8N1 line with XON/XOFF.
+struct LineSettings {
+  unsigned baud = 9600;
+  unsigned data_bits = 8;  ///< 7 or 8
+  Parity parity = Parity::None;
+  StopBits stop_bits = StopBits::One;
+  Flow flow = Flow::XonXoff;
+  CharacterCode code = CharacterCode::Ascii;
+  EndOfBlock end_of_block = EndOfBlock::CrLf;
+  unsigned leader = 0;   ///< blank characters (NUL) before a program
+  unsigned trailer = 0;  ///< and behind it
+  std::optional<char>
+      start_character;                ///< sent before the text, dropped when received (tape start)
+  std::optional<char> end_character;  ///< sent behind the text, ends what is received (EOF, ETX)
+  bool wait_for_xon = false;          ///< a transfer begins when the control sends DC1
+  std::chrono::milliseconds line_delay{0};       ///< pause behind each end of block
+  std::chrono::microseconds character_delay{0};  ///< pause behind each character
+  /// Silence that ends what a control punches without an end character.
+  std::chrono::milliseconds idle_end{2000};
+  /// For the other end's answer (ACK, first NAK, DC1), and for XON after XOFF; nullopt: no limit,
+  /// which a drip feed to a control that is holding needs.
+  std::optional<std::chrono::milliseconds> answer_limit = std::chrono::milliseconds{10000};
+  std::optional<std::chrono::milliseconds> hold_limit;
+  unsigned retries = 10;   ///< of one block of a checked protocol; a TNC's is 3
+  bool xmodem_crc = true;  ///< as receiver: ask for CRC first, then fall back to the checksum
+  HeidenhainSettings heidenhain;
+  ReaderSettings reader;
+};
+
+/// Bit times of one character, its start bit included; 1.5 stop bits count as 1.5.
+double bits_per_character(const LineSettings& settings);
+/// The line's own rate.
+double characters_per_second(const LineSettings& settings);
+std::chrono::nanoseconds character_time(const LineSettings& settings);
+
+/// The short form "9600e72" or "57600n81": baud, parity (n e o m s), data bits, stop bits
+/// (1, 1.5, 2). Changes these four only. Errors: Syntax, LimitExceeded.
+Result<void> apply_short_form(std::string_view text, LineSettings& settings);
+std::string short_form(const LineSettings& settings);
+
+/// One key of a port's settings: the row drives parser, errors, help and listings.
+struct SettingRow {
+  std::string_view key;   ///< "baud", "flow", "line_delay_ms" ...
+  std::string_view type;  ///< for people: "number", "none|xonxoff|rtscts|..."
+  std::string_view text;  ///< what it decides, one line
+  /// Errors: Syntax, LimitExceeded, naming key, value and limit.
+  Result<void> (*set)(LineSettings& settings, std::string_view value);
+  std::string (*get)(const LineSettings& settings);  ///< as `set` reads it
+};
+std::span<const SettingRow> setting_rows();
+/// Errors: NotFound (the key), and those of the row; `settings` is then unchanged.
+Result<void> set_value(LineSettings& settings, std::string_view key, std::string_view value);
+
+/// A control's usual line, ready to be used.
+struct LineTemplate {
+  std::string_view name;     ///< "tnc155", "centurion", "prototrak", "tektronix1704", "fanuc" ...
+  std::string_view title;    ///< for people
+  std::string_view control;  ///< dialect that the machine speaks, may be empty
+  LineSettings settings;
+};
+std::span<const LineTemplate> line_templates();
+/// Errors: NotFound, naming the known ones.
+Result<const LineTemplate*> find_template(std::string_view name);
+
+}  // namespace dripline::wire
