@@ -1,7 +1,6 @@
 #include "gateway/interpreter/centurion/snapshot.hpp"
 
-#include <cstring>
-#include <type_traits>
+#include "gateway/interpreter/impl/state_archive.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -9,56 +8,12 @@ namespace {
 constexpr std::string_view kDialect = "centurion";
 constexpr std::size_t kMaxName = kMaxBlockBytes;
 
-/// One list of members serves both ways: `visit_state(archive, state)`.
-class Writer {
- public:
-  template <class T>
-  void operator()(T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    out.insert(out.end(), bytes, bytes + sizeof value);
-  }
-  bool size(std::size_t& count, std::size_t) {
-    auto stored = static_cast<std::uint32_t>(count);
-    (*this)(stored);
-    return true;
-  }
-  std::vector<std::byte> out;
-};
-
-class Reader {
- public:
-  explicit Reader(const std::vector<std::byte>& bytes) : in(bytes) {}
-  template <class T>
-  void operator()(T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    if (in.size() - at < sizeof value) {
-      is_damaged = true;
-      return;
-    }
-    if constexpr (std::is_same_v<T, bool>) {
-      is_damaged |= static_cast<unsigned char>(in[at]) > 1;
-      value = static_cast<unsigned char>(in[at]) != 0;
-    } else {
-      std::memcpy(&value, in.data() + at, sizeof value);
-    }
-    at += sizeof value;
-  }
-  bool size(std::size_t& count, std::size_t most) {
-    std::uint32_t stored = 0;
-    (*this)(stored);
-    is_damaged |= stored > most;
-    count = is_damaged ? 0 : stored;
-    return !is_damaged;
-  }
-  const std::vector<std::byte>& in;
-  std::size_t at = 0;
-  bool is_damaged = false;
-};
+using Writer = StateWriter;
+using Reader = StateReader;
 
 template <class Archive, class... Values>
 void all(Archive& archive, Values&... values) {
-  (archive(values), ...);
+  visit_values(archive, values...);
 }
 
 template <class Archive>
