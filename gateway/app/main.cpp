@@ -1,7 +1,4 @@
 #include <pthread.h>
-#include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -12,8 +9,9 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/state_folder.hpp"
-#include "protocol/base/one_line.hpp"
 #include "protocol/base/random.hpp"
+#include "protocol/process/daemon_log.hpp"
+#include "protocol/process/stop_signals.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -41,15 +39,6 @@ class SignalWatch {
   std::thread thread_;
 };
 
-sigset_t block_stop_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGTERM);
-  sigaddset(&signals, SIGINT);
-  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return signals;
-}
-
 Result<std::string> read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -67,34 +56,6 @@ Result<interpreter::Setup> read_setup(const GatewayOptions& options,
   if (!setup)
     return fail(setup.error().code, "{}: {}", options.setup->string(), setup.error().what);
   return setup;
-}
-
-/// The message, on one line whatever is in it.
-class OneLineMessage final : public spdlog::custom_flag_formatter {
- public:
-  void format(const spdlog::details::log_msg& entry, const std::tm&,
-              spdlog::memory_buf_t& to) override {
-    const std::string line = one_line({entry.payload.data(), entry.payload.size()});
-    to.append(line.data(), line.data() + line.size());
-  }
-  std::unique_ptr<custom_flag_formatter> clone() const override {
-    return std::make_unique<OneLineMessage>();
-  }
-};
-
-std::unique_ptr<spdlog::formatter> log_formatter() {
-  auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  formatter->add_flag<OneLineMessage>('*').set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %*");
-  return formatter;
-}
-
-void start_log(const GatewayOptions& options) {
-  auto logger = options.log ? spdlog::basic_logger_mt("dncgw", options.log->string())
-                            : spdlog::stderr_logger_mt("dncgw");
-  logger->set_formatter(log_formatter());
-  logger->set_level(spdlog::level::from_str(options.log_level));
-  logger->flush_on(spdlog::level::info);
-  spdlog::set_default_logger(std::move(logger));
 }
 
 std::uint64_t new_session() {
@@ -133,7 +94,7 @@ Result<void> run(const GatewayOptions& options) {
   auto witness = options.witness ? Witness::open(*options.witness) : Result<Witness>(Witness());
   if (!witness) return fail(witness.error());
 
-  const sigset_t signals = block_stop_signals();  // before DDS starts its threads
+  const sigset_t signals = process::block_stop_signals();  // before DDS starts its threads
   const SystemClock clock;
   Inbox inbox;
   auto endpoint = dds::GatewayEndpoint::open(
@@ -202,10 +163,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return kExitUsage;
   }
-  try {
-    start_log(options);
-  } catch (const spdlog::spdlog_ex& error) {
-    std::fprintf(stderr, "dncgw: %s\n", error.what());
+  if (const auto done =
+          process::start_log("dncgw", options.log ? options.log->string() : "", options.log_level);
+      !done) {
+    std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return 1;
   }
   if (const auto done = run(options); !done) {

@@ -50,7 +50,7 @@ void ConnectionPool::give_back(sqlite::Database connection) {
 }
 
 Result<std::unique_ptr<Connections>> Connections::open(const SqliteStoreOptions& options) {
-  auto lock = sqlite::FileLock::acquire(options.file);
+  auto lock = FileLock::acquire(options.file.string() + ".lock", options.file.string());
   if (!lock) return fail(lock.error());
   std::unique_ptr<Connections> connections(new Connections(std::move(*lock), options.wait));
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "storage/sqlite/file_lock.hpp"
+#include "protocol/base/file_lock.hpp"
 #include "storage/sqlite/transaction.hpp"
 #include "storage/sqlite_store.hpp"
 
@@ -77,10 +77,10 @@ class Connections {
   }
 
  private:
-  Connections(sqlite::FileLock lock, std::chrono::milliseconds wait)
+  Connections(FileLock lock, std::chrono::milliseconds wait)
       : lock_(std::move(lock)), writer_(wait), readers_(wait) {}
 
-  sqlite::FileLock lock_;  // let go after the connections
+  FileLock lock_;  // let go after the connections
   ConnectionPool writer_;
   ConnectionPool readers_;
 };

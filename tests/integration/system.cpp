@@ -45,24 +45,21 @@ System::System(Options options)
       domain_(free_domain()),
       tag_("test-" + std::to_string(::getpid())) {}
 
+void System::append_network(std::vector<std::string>& command) const {
+  for (const std::string& argument :
+       {std::string("--dds-domain"), std::to_string(domain_), std::string("--dds-tag"), tag_,
+        std::string("--discovery-interval-ms"), std::string(kDiscovery), std::string("--lease-ms"),
+        std::string(kLease)}) {
+    command.push_back(argument);
+  }
+}
+
 void System::start_server() {
   server_.reset();
   std::filesystem::remove(server_state() / "dncd.json");
-  std::vector<std::string> command{program_path("dncd"),
-                                   "--state",
-                                   server_state(),
-                                   "--http",
-                                   "127.0.0.1:0",
-                                   "--dds-domain",
-                                   std::to_string(domain_),
-                                   "--dds-tag",
-                                   tag_,
-                                   "--discovery-interval-ms",
-                                   kDiscovery,
-                                   "--lease-ms",
-                                   kLease,
-                                   "--log",
-                                   folder() / "dncd.log"};
+  std::vector<std::string> command{program_path("dncd"), "--state", server_state(),       "--http",
+                                   "127.0.0.1:0",        "--log",   folder() / "dncd.log"};
+  append_network(command);
   command.insert(command.end(), options_.server_arguments.begin(), options_.server_arguments.end());
   server_.emplace(std::move(command), folder() / "dncd.out");
   const bool listens = eventually([this] {
@@ -83,18 +80,11 @@ std::vector<std::string> System::gateway_command(const std::string& machine,
                                    folder() / state / machine,
                                    "--speed",
                                    options_.speed,
-                                   "--dds-domain",
-                                   std::to_string(domain_),
-                                   "--dds-tag",
-                                   tag_,
-                                   "--discovery-interval-ms",
-                                   kDiscovery,
-                                   "--lease-ms",
-                                   kLease,
                                    "--log",
                                    folder() / (state + ".log"),
                                    "--witness",
                                    folder() / (state + ".witness")};
+  append_network(command);
   command.insert(command.end(), options_.gateway_arguments.begin(),
                  options_.gateway_arguments.end());
   return command;

@@ -57,6 +57,7 @@ class System {
   Witness witness() const;
 
  private:
+  void append_network(std::vector<std::string>& command) const;
   std::vector<std::string> gateway_command(const std::string& machine,
                                            const std::string& state) const;
 

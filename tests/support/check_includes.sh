@@ -7,6 +7,7 @@ cd "$(dirname "$0")/../.."
 table='
 protocol/base: protocol/base
 protocol/wire: protocol/base protocol/wire
+protocol/process: protocol/base protocol/process
 protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "storage/sqlite/file_lock.hpp"
 #include "storage/sqlite/migration.hpp"
 #include "storage/sqlite/transaction.hpp"
 #include "tests/unit/storage/temporary_directory.hpp"
@@ -184,18 +183,6 @@ TEST_F(DatabaseTest, RefusesANewerSchemaAndForeignTables) {
   file_ = directory_ / "foreign.sqlite";
   Database foreign = with_table();
   EXPECT_EQ(migrate(foreign, kSteps).error().code, Errc::Unsupported);
-}
-
-TEST_F(DatabaseTest, OnlyOneHoldsTheFileLock) {
-  {
-    const auto held = FileLock::acquire(file_);
-    ASSERT_TRUE(held);
-    const auto second = FileLock::acquire(file_);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, Errc::Busy);
-    EXPECT_NE(second.error().what.find(file_.string()), std::string::npos);
-  }
-  EXPECT_TRUE(FileLock::acquire(file_));
 }
 
 }  // namespace
