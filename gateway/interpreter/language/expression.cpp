@@ -105,6 +105,12 @@ Computed apply(Operator op, double left, double right) {
       return from(!equal && left > right);
     case Operator::GreaterOrEqual:
       return from(equal || left > right);
+    case Operator::And:
+      return from(left != 0 && right != 0);
+    case Operator::Or:
+      return from(left != 0 || right != 0);
+    case Operator::ExclusiveOr:
+      return from((left != 0) != (right != 0));
   }
   return {0, MathFault::Undefined};
 }

@@ -41,12 +41,16 @@ enum class Operator : std::uint8_t {
   LessOrEqual,
   Greater,
   GreaterOrEqual,
+  And,  ///< of truth: 0 is false, anything else is true, the result is 1 or 0
+  Or,
+  ExclusiveOr,
 };
 
-/// 4 power, 3 products, 2 sums, 1 comparisons, 0 none. All of one rank go from left to right.
+/// 4 power, 3 products, 2 sums, 1 comparisons and And, Or, ExclusiveOr, 0 none. All of one rank go
+/// from left to right.
 int rank(Operator op);
 inline bool is_comparison(Operator op) {
-  return op >= Operator::Equal;
+  return op >= Operator::Equal && op <= Operator::GreaterOrEqual;
 }
 
 /// Comparisons give 1 or 0; reals count as equal when they differ by at most kEqualWithin.
@@ -70,6 +74,9 @@ Computed rounded(double value);       ///< halves away from zero
 ///   Operator peek();                    the operator that follows, None at the end
 ///   void take();                        consumes it
 ///   bool fault(MathFault fault);        reports, gives false
+/// and, where a dialect's arithmetic is not that of `rank` and `apply` above:
+///   int rank(Operator op);
+///   Computed apply(Operator op, double left, double right);
 /// False when `operand` or `fault` said so. Operators of a rank below `lowest` are left in the
 /// text.
 template <class Terms>
@@ -77,12 +84,22 @@ bool evaluate(Terms& terms, int lowest, double& value) {
   if (!terms.operand(value)) return false;
   for (;;) {
     const Operator op = terms.peek();
-    const int op_rank = rank(op);
+    int op_rank = 0;
+    if constexpr (requires { terms.rank(op); }) {
+      op_rank = terms.rank(op);
+    } else {
+      op_rank = rank(op);
+    }
     if (op_rank == 0 || op_rank < lowest) return true;
     terms.take();
     double right = 0;
     if (!evaluate(terms, op_rank + 1, right)) return false;
-    const Computed computed = apply(op, value, right);
+    Computed computed;
+    if constexpr (requires { terms.apply(op, value, right); }) {
+      computed = terms.apply(op, value, right);
+    } else {
+      computed = apply(op, value, right);
+    }
     if (computed.fault != MathFault::None) return terms.fault(computed.fault);
     value = computed.value;
   }
