@@ -91,6 +91,10 @@ struct LineState {
   bool is_stopping = false;             ///< we hold the other end
   std::string_view waiting_for;         ///< "DC1", "ACK", "CTS", ...; empty: for nothing
   bool may_wait_without_limit = false;  ///< the protocol demands it of this wait
+  /// Of the text offered for the transfer being sent, or sent last: bytes whose characters have all
+  /// been given to transmit's caller. Cumulative; 0 again with the next begin_send. What a run
+  /// counts as sent where no TextAccepted says more.
+  std::uint64_t text_sent = 0;
 };
 
 /// One end of a line.

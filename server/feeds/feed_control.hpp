@@ -20,11 +20,20 @@ struct MachineView {
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
 };
 
+/// Where a run begins when it does not begin at the program's first byte. Over a serial line only:
+/// what the control must have in force by then is its operator's business. At most one is given.
+struct StartPoint {
+  std::optional<std::uint64_t> byte;      ///< offset; the rest of its block is sent first
+  std::optional<std::uint64_t> line;      ///< 1-based
+  std::optional<std::uint64_t> sequence;  ///< the first block with this N number
+};
+
 struct StartRequest {
   std::string machine;
   std::string program;
   std::optional<std::uint64_t> revision;  ///< absent: the latest
   std::string author;
+  StartPoint from = {};  ///< over DDS: Unsupported
 };
 
 struct OrderRequest {

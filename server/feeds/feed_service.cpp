@@ -165,6 +165,10 @@ Result<storage::Run> FeedService::make_run(const StartRequest& request, const Ma
 Result<storage::Run> FeedService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  if (request.from.byte || request.from.line || request.from.sequence) {
+    return fail(Errc::Unsupported, "machine '{}' pulls its program: it begins at the beginning",
+                request.machine);
+  }
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
   if (view->is_contested) {
