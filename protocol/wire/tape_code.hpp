@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "protocol/base/result.hpp"
+#include "protocol/wire/line_settings.hpp"
+
+/// The codes of eight-track punched tape, which serial lines of these controls carry unchanged.
+/// Track 1 is bit 0; the sprocket hole is no bit. Pure; any thread.
+/// Sources: EIA RS-244-A; EIA RS-358-A and ISO 840, which agree.
+namespace dripline::wire {
+
+enum class RowKind : std::uint8_t {
+  Text,            ///< a character of the program, TAB and the blank included
+  BlockEnd,        ///< EIA: track 8 alone; ISO and ASCII: LF
+  CarriageReturn,  ///< ISO and ASCII: CR, which belongs to an LF beside it
+  RewindStop,      ///< EIA: EOR; ISO and ASCII: '%'
+  Blank,           ///< no hole: leader, tape feed
+  Delete,          ///< all holes punched over a wrong character: as if it was not there
+  Ignored,         ///< has a meaning, but none for a program (BS, BEL, case shifts, DC1)
+  Unassigned,      ///< right parity, but the code has no such character
+  WrongParity,
+};
+
+/// What one row of tape (one character on the line) says.
+struct TapeRow {
+  RowKind kind = RowKind::Blank;
+  char character = 0;  ///< of Text; '%' for RewindStop, LF for BlockEnd
+  friend bool operator==(const TapeRow&, const TapeRow&) = default;
+};
+
+/// `Ascii` drops the eighth bit and knows no wrong parity; EIA letters read as capitals.
+/// Parentheses (1A and 4A) are not of RS-244-A: some builders' tapes have them, so they are read.
+TapeRow decode_row(CharacterCode code, std::uint8_t row);
+
+/// LF gives the end of block, '%' the rewind stop. nullopt: the code does not have this character.
+/// `Ascii` and `Iso` have TAB and the printable characters; EIA no small letters, and parentheses
+/// only when `has_parentheses`.
+std::optional<std::uint8_t> encode_row(CharacterCode code, char character,
+                                       bool has_parentheses = false);
+
+/// EIA: an odd number of holes; ISO: even; ASCII: any.
+bool has_right_parity(CharacterCode code, std::uint8_t row);
+
+std::uint8_t delete_row(CharacterCode code);
+/// What ends a block on the line; EIA has one such character whatever `end_of_block` says.
+std::string_view end_of_block_rows(CharacterCode code, EndOfBlock end_of_block);
+std::string_view code_name(CharacterCode code);
+
+/// Which code a tape of unknown origin has.
+struct CodeVerdict {
+  CharacterCode code = CharacterCode::Ascii;
+  double confidence = 0;        ///< 0..1: the share of rows that fit, less what few rows can say
+  std::size_t first_block = 0;  ///< offset of the end of block before the first block
+};
+
+/// Enough of a tape to judge it.
+inline constexpr std::size_t kDetectionWindow = 1 << 20;
+
+/// Judges the first `kDetectionWindow` rows: an end of block of one code, with rows behind it of
+/// which 98 in 100 have that code's parity and which begin as a block begins. A leader may hold any
+/// punching. Text whose eighth bit is clear and whose parity is mixed is ASCII.
+/// Errors: Corrupt (code not recognised; with the counts of both parities).
+Result<CodeVerdict> detect_code(std::span<const std::byte> rows);
+
+}  // namespace dripline::wire
