@@ -7,7 +7,7 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// "On the arc" means within ten least increments (spec 5.4, U18).
+/// "On the arc" means within ten least increments (spec 5.4).
 double arc_tolerance(const Run& run) {
   return run.state.units == Units::Inch ? 0.001 : 0.01;
 }

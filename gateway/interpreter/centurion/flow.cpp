@@ -139,7 +139,7 @@ bool request_jump(Run& run, const TextPosition& head) {
   return true;
 }
 
-/// A GOTO out of a loop ends it (spec 13.3, U70).
+/// A GOTO out of a loop ends it (spec 13.3).
 void leave_loops(ModalState& state, const TextPosition& to) {
   while (state.loops.size() > loop_base(state)) {
     const LoopFrame& loop = state.loops.back();

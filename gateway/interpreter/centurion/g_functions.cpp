@@ -19,7 +19,7 @@ GAction action_of(const Run& run) {
 }
 
 /// Everything the control keeps as a length of the machine follows the units; the program's own
-/// parameters do not (spec 7.5, U27).
+/// parameters do not (spec 7.5).
 void change_units(Run& run, Units units) {
   ModalState& state = run.state;
   if (state.units == units) return;
@@ -146,7 +146,7 @@ bool apply_g(Run& run, const GRow& row) {
   }
 }
 
-/// F belongs to the feed unit in force at the end of the block (spec 10.3, U45).
+/// F belongs to the feed unit in force at the end of the block (spec 10.3).
 bool apply_feed(Run& run) {
   const double feed = run.block.words[Address::F];
   const bool is_inch = run.state.units == Units::Inch;

@@ -9,7 +9,7 @@ namespace dripline::interpreter::centurion {
 /// The M codes of the block that act at `timing`, in numerical order.
 bool apply_machine_functions(Run& run, MTiming timing);
 
-/// The T word: asks for a tool, or for the offsets of the one in use (spec 9.1, U37).
+/// The T word: asks for a tool, or for the offsets of the one in use (spec 9.1).
 void apply_tool(Run& run);
 /// Nose radius and type of the active offset, where programs read them (P261, P262).
 void refresh_tool(Run& run);

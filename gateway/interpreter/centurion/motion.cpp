@@ -100,7 +100,7 @@ bool read_target(Run& run, Target& target) {
 
 bool move(Run& run) {
   const Words& words = run.block.words;
-  // AA means nothing to a line (spec 5.2, U11); alone it moves nothing.
+  // AA means nothing to a line (spec 5.2); alone it moves nothing.
   if (!words.has_any(kEndWords | kPolarWords)) return true;
   const MotionMode mode = run.state.modes.motion;
   if (mode >= MotionMode::Clockwise) return move_on_arc(run);
