@@ -51,6 +51,26 @@ struct ReaderSettings {
   bool stops_at_end_of_block = false;  ///< the control runs the reader block by block
 };
 
+/// Whose rules the control's end of a line follows, and with whose words it reports what is wrong.
+/// A host does not need them.
+enum class ControlKind : std::uint8_t {
+  Plain,
+  Fanuc,      ///< few characters may follow its DC3; alarms 085, 087
+  ProtoTrak,  ///< blocks end with ';', a program with '%'; keeps nothing of a bad one
+  Centurion,  ///< errors 900 to 903, DNC modes, splitting at O lines
+};
+/// How a Centurion uses what comes in: kept as a program, or run while it comes.
+enum class DncMode : std::uint8_t { Off, Fast, Run, Verify, Continue };
+
+struct ControlSettings {
+  ControlKind kind = ControlKind::Plain;
+  /// Characters the control still takes after it asked the host to stop; more is an overrun.
+  unsigned buffer_size = 256;
+  bool splits_programs = false;  ///< each O line begins a program of its own
+  DncMode dnc = DncMode::Off;
+  unsigned dnc_skip = 0;  ///< blocks that a DNC run reads and drops first (SKIP)
+};
+
 /// One line's settings. Defaults are those of a plain 9600 8N1 line with XON/XOFF.
 struct LineSettings {
   unsigned baud = 9600;
@@ -78,6 +98,7 @@ struct LineSettings {
   bool xmodem_crc = true;  ///< as receiver: ask for CRC first, then fall back to the checksum
   HeidenhainSettings heidenhain;
   ReaderSettings reader;
+  ControlSettings control;
 };
 
 /// Bit times of one character, its start bit included; 1.5 stop bits count as 1.5.

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+
+#include "protocol/wire/discipline.hpp"
+#include "protocol/wire/impl/line_limits.hpp"
+
+namespace dripline::wire {
+
+/// What every end of a line does alike: it keeps the text offered, the control characters to send
+/// before anything else, and the events not yet taken. Events have no bound of their own: a call
+/// makes at most a few for each character it is given.
+class DisciplineBase : public Discipline {
+ public:
+  std::vector<Event> take_events() final;
+  void lines(InputLines lines, LineTime now) override;
+  OutputLines output_lines() const override { return output_; }
+  std::size_t room() const final;
+  Result<void> offer(std::string_view text, bool is_last, LineTime now) final;
+
+ protected:
+  DisciplineBase(const LineSettings& settings, Role role) : settings_(settings), role_(role) {}
+
+  /// Everything about `text` that only this protocol knows: characters its code does not have.
+  /// `first_line` is the number of its first line in the program, from 1.
+  virtual Result<void> check_text(std::string_view text, std::size_t first_line) = 0;
+  /// More text is in the queue, or its end became known.
+  virtual void text_offered(LineTime now) = 0;
+  /// Forgets everything about the transfer; the base has forgotten its text.
+  virtual void transfer_over(LineTime now) = 0;
+
+  // Transfers
+  Result<void> check_idle() const;  ///< Busy unless idle
+  void begin_transfer(Phase phase, std::string name);
+  void end_transfer(LineTime now);   ///< with TransferEnded, and idle again
+  void drop_transfer(LineTime now);  ///< without a word, and idle again
+  void fail_transfer(Error error, LineTime now);
+  bool is_sending() const { return phase_ == Phase::Sending; }
+  bool is_receiving() const { return phase_ == Phase::Receiving; }
+
+  // Events
+  void emit(Event event);
+  void emit_text(std::string_view text);  ///< joined to the text before it
+  void emit_trouble(Error error) { emit(LineTrouble{std::move(error)}); }
+
+  // Control characters of ours that go before everything else
+  void queue_control(char character);
+  bool has_controls() const { return !controls_.empty(); }
+  /// Puts what fits into `room`; how many.
+  std::size_t take_controls(std::span<std::byte> room);
+
+  // Text of the transfer
+  bool has_text() const { return taken_ < text_.size(); }
+  char peek_text() const { return text_[taken_]; }
+  char take_text();  ///< only when has_text()
+  std::string_view queued_text() const { return std::string_view(text_).substr(taken_); }
+  void drop_text(std::size_t characters);
+  bool is_last_offered() const { return is_last_offered_; }
+  bool is_text_sent() const { return is_last_offered_ && !has_text(); }
+
+  LineSettings settings_;
+  Role role_;
+  Phase phase_ = Phase::Idle;
+  InputLines input_;
+  OutputLines output_;
+
+ private:
+  std::vector<Event> events_;
+  std::string controls_;
+  std::string text_;
+  std::size_t taken_ = 0;  ///< of text_, which is cut now and then
+  std::size_t lines_offered_ = 0;
+  bool is_last_offered_ = false;
+};
+
+}  // namespace dripline::wire

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "protocol/wire/discipline.hpp"
+
+/// One maker a protocol; make_discipline() has checked the settings before it calls one.
+namespace dripline::wire {
+
+std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_xmodem(const LineSettings& settings, Role role);
+
+}  // namespace dripline::wire

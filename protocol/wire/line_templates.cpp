@@ -1,0 +1,122 @@
+#include <fmt/ranges.h>
+#include <array>
+
+#include "protocol/wire/line_settings.hpp"
+
+/// The usual lines of the controls we know: figures from their manuals; what those leave open is
+/// chosen so that a careful setup works first.
+namespace dripline::wire {
+namespace {
+
+using std::chrono::milliseconds;
+
+LineSettings line(unsigned baud, unsigned data_bits, Parity parity, StopBits stop_bits) {
+  LineSettings settings;
+  settings.baud = baud;
+  settings.data_bits = data_bits;
+  settings.parity = parity;
+  settings.stop_bits = stop_bits;
+  return settings;
+}
+
+/// Nothing holds the sender: the control joins RTS to CTS at its own connector. It converts each
+/// block while the next one comes, hence the pause.
+LineSettings prototrak() {
+  LineSettings settings = line(4800, 7, Parity::Even, StopBits::One);
+  settings.flow = Flow::None;
+  settings.end_character = '%';
+  settings.line_delay = milliseconds(50);
+  settings.control.kind = ControlKind::ProtoTrak;
+  settings.control.buffer_size = 255;
+  return settings;
+}
+
+LineSettings centurion() {
+  LineSettings settings = line(9600, 7, Parity::Even, StopBits::Two);
+  settings.control.kind = ControlKind::Centurion;
+  settings.control.buffer_size = 256;
+  return settings;
+}
+
+LineSettings fanuc() {
+  LineSettings settings = line(4800, 7, Parity::Even, StopBits::Two);
+  settings.flow = Flow::DcCodes;
+  settings.end_of_block = EndOfBlock::Lf;
+  settings.start_character = '%';
+  settings.end_character = '%';
+  settings.control.kind = ControlKind::Fanuc;
+  settings.control.buffer_size = 10;  // more than that behind its DC3 is alarm 087
+  return settings;
+}
+
+LineSettings tnc155(Flow flow) {
+  LineSettings settings = line(2400, 7, Parity::Even, StopBits::One);
+  settings.flow = flow;
+  settings.retries = 3;
+  if (flow == Flow::Heidenhain) settings.leader = 50;
+  return settings;
+}
+
+/// The line only has to be faster than the reader it stands for.
+LineSettings tektronix1704(CharacterCode code) {
+  LineSettings settings = line(9600, 8, Parity::None, StopBits::One);
+  settings.flow = Flow::TapeReader;
+  settings.code = code;
+  settings.end_of_block = EndOfBlock::Lf;
+  settings.leader = 100;
+  settings.trailer = 100;
+  settings.reader.characters_per_second = 300;
+  return settings;
+}
+
+LineSettings xmodem() {
+  LineSettings settings;
+  settings.flow = Flow::Xmodem;
+  return settings;
+}
+
+LineSettings rtscts() {
+  LineSettings settings;
+  settings.flow = Flow::RtsCts;
+  return settings;
+}
+
+const auto& templates() {
+  static const std::array rows{
+      LineTemplate{"plain", "any control with XON/XOFF, 9600 8N1", "", LineSettings{}},
+      LineTemplate{"rtscts", "any control with RTS/CTS, 9600 8N1", "", rtscts()},
+      LineTemplate{"xmodem", "XMODEM, 9600 8N1", "", xmodem()},
+      LineTemplate{"fanuc", "Fanuc reader/punch interface, 4800 7E2, DC1 to DC4, %", "fanuc",
+                   fanuc()},
+      LineTemplate{"centurion", "Milltronics Centurion, 9600 7E2, XON/XOFF", "centurion",
+                   centurion()},
+      LineTemplate{"prototrak", "ProtoTRAK Plus, 4800 7E1, paced", "prototrak", prototrak()},
+      LineTemplate{"tnc155", "HEIDENHAIN TNC 151/155, 2400 7E1, standard interface", "tnc155",
+                   tnc155(Flow::Heidenhain)},
+      LineTemplate{"tnc155-bcc", "HEIDENHAIN TNC 151/155, 2400 7E1, blockwise with BCC", "tnc155",
+                   tnc155(Flow::HeidenhainBcc)},
+      LineTemplate{"tektronix1704", "Tektronix 1704 as its tape reader, EIA, 300 characters/s",
+                   "tektronix1704", tektronix1704(CharacterCode::Eia)},
+      LineTemplate{"tektronix1704-iso", "Tektronix 1704 as its tape reader, ISO, 300 characters/s",
+                   "tektronix1704", tektronix1704(CharacterCode::Iso)},
+  };
+  return rows;
+}
+
+}  // namespace
+
+std::span<const LineTemplate> line_templates() {
+  return templates();
+}
+
+Result<const LineTemplate*> find_template(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const LineTemplate& row : line_templates()) {
+    if (row.name == name) return &row;
+    known.push_back(row.name);
+  }
+  return fail(Errc::NotFound, "there is no line template '{}'; known: {}", name,
+              fmt::join(known, ", "));
+}
+
+}  // namespace dripline::wire

@@ -1,0 +1,228 @@
+#include <array>
+
+#include "protocol/wire/impl/line_limits.hpp"
+#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/line_settings.hpp"
+
+/// The keys of a port's settings: one row each.
+namespace dripline::wire {
+namespace {
+
+/// A key as a template argument, so that a row's functions know their own name.
+template <std::size_t kSize>
+struct Key {
+  char text[kSize]{};
+  constexpr Key(const char (&from)[kSize]) {  // NOLINT: rows are written with plain literals
+    for (std::size_t i = 0; i < kSize; ++i) text[i] = from[i];
+  }
+  constexpr std::string_view view() const { return {text, kSize - 1}; }
+};
+
+template <auto... kPath>
+auto& at(LineSettings& settings) {
+  return (settings.*....*kPath);
+}
+template <auto... kPath>
+const auto& at(const LineSettings& settings) {
+  return (settings.*....*kPath);
+}
+
+template <Key kKey, std::uint64_t kLeast, std::uint64_t kMost, auto... kPath>
+constexpr SettingRow number(std::string_view text) {
+  return {kKey.view(), "number", text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            const auto parsed = parse_number(kKey.view(), value, {kLeast, kMost});
+            if (!parsed) return fail(parsed.error());
+            at<kPath...>(settings) = static_cast<unsigned>(*parsed);
+            return {};
+          },
+          [](const LineSettings& settings) { return fmt::format("{}", at<kPath...>(settings)); }};
+}
+
+template <Key kKey, auto kMember>
+constexpr SettingRow duration(std::string_view text) {
+  using Duration = std::remove_reference_t<decltype(std::declval<LineSettings&>().*kMember)>;
+  return {
+      kKey.view(), "number", text,
+      [](LineSettings& settings, std::string_view value) -> Result<void> {
+        const auto parsed = parse_number(kKey.view(), value, {0, kMaximumWait});
+        if (!parsed) return fail(parsed.error());
+        settings.*kMember = Duration(static_cast<std::int64_t>(*parsed));
+        return {};
+      },
+      [](const LineSettings& settings) { return fmt::format("{}", (settings.*kMember).count()); }};
+}
+
+template <Key kKey, auto kMember>
+constexpr SettingRow limit(std::string_view text) {
+  return {kKey.view(), "number|none", text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            if (value == "none") {
+              (settings.*kMember).reset();
+              return {};
+            }
+            const auto parsed = parse_number(kKey.view(), value, {1, kMaximumWait});
+            if (!parsed) return fail(parsed.error());
+            settings.*kMember = std::chrono::milliseconds(static_cast<std::int64_t>(*parsed));
+            return {};
+          },
+          [](const LineSettings& settings) -> std::string {
+            const auto& value = settings.*kMember;
+            return value ? fmt::format("{}", value->count()) : "none";
+          }};
+}
+
+template <Key kKey, auto... kPath>
+constexpr SettingRow flag(std::string_view text) {
+  return {kKey.view(), "yes|no", text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            const auto parsed = parse_flag(kKey.view(), value);
+            if (!parsed) return fail(parsed.error());
+            at<kPath...>(settings) = *parsed;
+            return {};
+          },
+          [](const LineSettings& settings) -> std::string {
+            return at<kPath...>(settings) ? "yes" : "no";
+          }};
+}
+
+template <Key kKey, auto... kPath>
+constexpr SettingRow character(std::string_view text) {
+  return {kKey.view(), "character", text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            const auto parsed = parse_character(kKey.view(), value);
+            if (!parsed) return fail(parsed.error());
+            at<kPath...>(settings) = *parsed;
+            return {};
+          },
+          [](const LineSettings& settings) { return character_text(at<kPath...>(settings)); }};
+}
+
+template <Key kKey, auto kMember>
+constexpr SettingRow optional_character(std::string_view text) {
+  return {kKey.view(), "character|none", text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            if (value == "none") {
+              (settings.*kMember).reset();
+              return {};
+            }
+            const auto parsed = parse_character(kKey.view(), value);
+            if (!parsed) return fail(parsed.error());
+            settings.*kMember = *parsed;
+            return {};
+          },
+          [](const LineSettings& settings) -> std::string {
+            const auto& value = settings.*kMember;
+            return value ? character_text(*value) : "none";
+          }};
+}
+
+/// `kWords`: the words in the order of the enumerators, and how people read them.
+template <std::size_t kCount>
+struct Words {
+  std::string_view type;
+  std::array<std::string_view, kCount> words;
+};
+constexpr Words<5> kParities{"none|even|odd|mark|space", {"none", "even", "odd", "mark", "space"}};
+constexpr Words<3> kStopBits{"1|1.5|2", {"1", "1.5", "2"}};
+constexpr Words<8> kFlows{
+    "none|xonxoff|rtscts|dc_codes|xmodem|heidenhain|heidenhain_bcc|tape_reader",
+    {"none", "xonxoff", "rtscts", "dc_codes", "xmodem", "heidenhain", "heidenhain_bcc",
+     "tape_reader"}};
+constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
+constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
+constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
+                             {"plain", "fanuc", "prototrak", "centurion"}};
+constexpr Words<5> kDncModes{"off|fast|run|verify|continue",
+                             {"off", "fast", "run", "verify", "continue"}};
+
+template <Key kKey, const auto& kWords, auto... kPath>
+constexpr SettingRow choice(std::string_view text) {
+  return {kKey.view(), kWords.type, text,
+          [](LineSettings& settings, std::string_view value) -> Result<void> {
+            const auto parsed = parse_word(kKey.view(), value, kWords.words);
+            if (!parsed) return fail(parsed.error());
+            auto& target = at<kPath...>(settings);
+            target = static_cast<std::remove_reference_t<decltype(target)>>(*parsed);
+            return {};
+          },
+          [](const LineSettings& settings) {
+            return std::string(kWords.words[static_cast<std::size_t>(at<kPath...>(settings))]);
+          }};
+}
+
+constexpr std::uint64_t kLeastReaderRate = 1, kMostReaderRate = 100'000;
+
+Result<void> set_reader_rate(LineSettings& settings, std::string_view value) {
+  const auto parsed = parse_rate("reader_cps", value, {kLeastReaderRate, kMostReaderRate});
+  if (!parsed) return fail(parsed.error());
+  settings.reader.characters_per_second = *parsed;
+  return {};
+}
+
+Result<void> set_short_form(LineSettings& settings, std::string_view value) {
+  return apply_short_form(value, settings);
+}
+
+using S = LineSettings;
+using H = HeidenhainSettings;
+using C = ControlSettings;
+
+constexpr std::array kRows{
+    SettingRow{"line", "9600e72", "baud, parity, data and stop bits in one word", set_short_form,
+               short_form},
+    number<"baud", kMinimumBaud, kMaximumBaud, &S::baud>("bits per second"),
+    number<"data_bits", 7, 8, &S::data_bits>("bits of a character, without parity"),
+    choice<"parity", kParities, &S::parity>("parity bit that the UART makes and checks"),
+    choice<"stop_bits", kStopBits, &S::stop_bits>("stop bits"),
+    choice<"flow", kFlows, &S::flow>("how the receiver holds the sender, or the whole protocol"),
+    choice<"code", kCodes, &S::code>("how characters stand on the line"),
+    choice<"eob", kEndsOfBlock, &S::end_of_block>("what ends a block that is sent"),
+    number<"leader", 0, kMaximumBlank, &S::leader>("blank characters (NUL) before a program"),
+    number<"trailer", 0, kMaximumBlank, &S::trailer>("blank characters (NUL) behind a program"),
+    optional_character<"start_char", &S::start_character>("sent before a program, dropped from it"),
+    optional_character<"end_char", &S::end_character>("sent behind a program, ends what comes in"),
+    flag<"wait_for_xon", &S::wait_for_xon>("a program is sent when the control sends DC1"),
+    duration<"line_delay_ms", &S::line_delay>("pause behind each end of block"),
+    duration<"char_delay_us", &S::character_delay>("pause behind each character"),
+    duration<"idle_end_ms", &S::idle_end>("silence that ends what comes in without an end_char"),
+    limit<"answer_limit_ms", &S::answer_limit>("longest wait for the other end's answer"),
+    limit<"hold_limit_ms", &S::hold_limit>("longest wait for XON or CTS while held"),
+    number<"retries", 0, kMaximumRetries, &S::retries>("repeats of one block, checked protocols"),
+    flag<"xmodem_crc", &S::xmodem_crc>("XMODEM: ask for CRC before the checksum"),
+    character<"tnc_heading", &S::heidenhain, &H::heading>("TNC blockwise: type of our headings"),
+    character<"tnc_soh", &S::heidenhain, &H::soh>("TNC blockwise: start of a heading"),
+    character<"tnc_stx", &S::heidenhain, &H::stx>("TNC blockwise: start of a block"),
+    character<"tnc_etx", &S::heidenhain, &H::etx>("TNC: end of a program"),
+    character<"tnc_eot", &S::heidenhain, &H::eot>("TNC: end of a transmission"),
+    character<"tnc_ack", &S::heidenhain, &H::ack>("TNC blockwise: block accepted"),
+    character<"tnc_nak", &S::heidenhain, &H::nak>("TNC blockwise: block refused"),
+    character<"tnc_etb", &S::heidenhain, &H::etb>("TNC blockwise: end of a block"),
+    flag<"tnc_line_end", &S::heidenhain, &H::line_end_in_block>(
+        "TNC blockwise: CR LF inside each block"),
+    flag<"tnc_printable_bcc", &S::heidenhain, &H::bcc_is_printable>(
+        "TNC blockwise: a blank keeps the check character printable"),
+    flag<"tnc_dc1", &S::heidenhain, &H::sends_dc1_after_block>("TNC blockwise: DC1 behind a block"),
+    SettingRow{"reader_cps", "number", "tape reader: characters per second", set_reader_rate,
+               [](const LineSettings& settings) {
+                 return fmt::format("{}", settings.reader.characters_per_second);
+               }},
+    flag<"reader_block_stop", &S::reader, &ReaderSettings::stops_at_end_of_block>(
+        "tape reader: stops at each end of block"),
+    choice<"control", kControls, &S::control, &C::kind>("whose rules our end follows as a control"),
+    number<"buffer_size", 1, kMaximumBufferSize, &S::control, &C::buffer_size>(
+        "characters a control still takes after it said stop"),
+    flag<"split_programs", &S::control, &C::splits_programs>(
+        "Centurion: each O line begins a program"),
+    choice<"dnc_mode", kDncModes, &S::control, &C::dnc>("Centurion: run what comes in"),
+    number<"dnc_skip", 0, 1'000'000'000, &S::control, &C::dnc_skip>(
+        "Centurion: blocks dropped before a DNC run"),
+};
+
+}  // namespace
+
+std::span<const SettingRow> setting_rows() {
+  return kRows;
+}
+
+}  // namespace dripline::wire
