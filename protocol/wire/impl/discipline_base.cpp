@@ -66,6 +66,7 @@ void DisciplineBase::begin_transfer(Phase phase, std::string name) {
   text_.clear();
   taken_ = lines_offered_ = 0;
   is_last_offered_ = false;
+  if (phase == Phase::Sending) text_sent_ = 0;
   emit(TransferBegan{phase == Phase::Receiving, std::move(name)});
 }
 
@@ -115,13 +116,7 @@ std::size_t DisciplineBase::take_controls(std::span<std::byte> room) {
   return count;
 }
 
-char DisciplineBase::take_text() {
-  const char character = text_[taken_];
-  drop_text(1);
-  return character;
-}
-
-void DisciplineBase::drop_text(std::size_t characters) {
+void DisciplineBase::take_text(std::size_t characters) {
   taken_ += characters;
   if (taken_ == text_.size()) {
     text_.clear();

@@ -49,14 +49,15 @@ class DisciplineBase : public Discipline {
   /// Puts what fits into `room`; how many.
   std::size_t take_controls(std::span<std::byte> room);
 
-  // Text of the transfer
+  // Text of the transfer, in order: taken to be put on the line, then counted as sent
   bool has_text() const { return taken_ < text_.size(); }
-  char peek_text() const { return text_[taken_]; }
-  char take_text();  ///< only when has_text()
   std::string_view queued_text() const { return std::string_view(text_).substr(taken_); }
-  void drop_text(std::size_t characters);
+  void take_text(std::size_t characters);  ///< at most queued_text()
+  /// So much more has all been given to transmit's caller.
+  void count_sent(std::size_t characters) { text_sent_ += characters; }
+  std::uint64_t text_sent() const { return text_sent_; }
   bool is_last_offered() const { return is_last_offered_; }
-  bool is_text_sent() const { return is_last_offered_ && !has_text(); }
+  bool is_text_taken() const { return is_last_offered_ && !has_text(); }
 
   LineSettings settings_;
   Role role_;
@@ -70,6 +71,7 @@ class DisciplineBase : public Discipline {
   std::string text_;
   std::size_t taken_ = 0;  ///< of text_, which is cut now and then
   std::size_t lines_offered_ = 0;
+  std::uint64_t text_sent_ = 0;  ///< of this transfer or the last one sent
   bool is_last_offered_ = false;
 };
 

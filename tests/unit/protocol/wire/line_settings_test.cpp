@@ -157,8 +157,8 @@ TEST(LineTemplates, AreTheControlsUsualLines) {
     EXPECT_EQ((*found)->control, usual.control);
     for (const SettingRow& row : setting_rows()) {
       if (row.key == "flow") {
- EXPECT_EQ(row.get((*found)->settings), usual.flow) << usual.name;
-}
+        EXPECT_EQ(row.get((*found)->settings), usual.flow) << usual.name;
+      }
     }
   }
 }
