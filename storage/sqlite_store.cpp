@@ -2,6 +2,7 @@
 
 #include "storage/impl/audit_repository.hpp"
 #include "storage/impl/machine_repository.hpp"
+#include "storage/impl/port_repository.hpp"
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/record_repository.hpp"
 #include "storage/impl/run_repository.hpp"
@@ -10,21 +11,26 @@
 namespace dripline::storage {
 
 struct SqliteStore::Repositories {
-  Repositories(std::unique_ptr<Connections> opened, const Clock& clock, std::uint64_t cache_bytes)
-      : connections(std::move(opened)),
+  Repositories(std::unique_ptr<Connections> opened, const Clock& system_clock,
+               std::uint64_t cache_bytes)
+      : clock(system_clock),
+        connections(std::move(opened)),
         uploads(*connections, clock),
         programs(*connections, cache_bytes),
         machines(*connections),
         runs(*connections, clock),
         records(*connections, clock),
+        ports(*connections),
         audit(*connections) {}
 
+  const Clock& clock;
   std::unique_ptr<Connections> connections;
   UploadRepository uploads;
   ProgramRepository programs;
   MachineRepository machines;
   RunRepository runs;
   RecordRepository records;
+  PortRepository ports;
   AuditRepository audit;
 };
 
@@ -87,6 +93,14 @@ Result<Revision> SqliteStore::revision(const std::string& program,
                                        std::optional<std::uint64_t> number) {
   return repositories_->programs.revision(program, number);
 }
+Result<Revision> SqliteStore::accept_revision(const std::string& program, std::uint64_t number,
+                                              const std::string& who) {
+  return repositories_->programs.accept({program, number, who, repositories_->clock.now()});
+}
+Result<void> SqliteStore::reject_revision(const std::string& program, std::uint64_t number,
+                                          const std::string& who) {
+  return repositories_->programs.reject({program, number, who, repositories_->clock.now()});
+}
 Result<void> SqliteStore::remove_program(const std::string& program) {
   return repositories_->programs.remove(program);
 }
@@ -130,6 +144,16 @@ Result<std::uint64_t> SqliteStore::store_records(const RecordBatch& batch) {
 Result<std::vector<Record>> SqliteStore::records(const std::string& run, const std::string& kind,
                                                  Page page) {
   return repositories_->records.of_run(run, kind, page);
+}
+
+Result<void> SqliteStore::save_port(const Port& port) {
+  return repositories_->ports.save(port);
+}
+Result<std::vector<Port>> SqliteStore::ports() {
+  return repositories_->ports.all();
+}
+Result<void> SqliteStore::remove_port(const std::string& name) {
+  return repositories_->ports.remove(name);
 }
 
 Result<void> SqliteStore::audit(const AuditEntry& entry) {

@@ -49,6 +49,10 @@ class SqliteStore final : public Store {
   Result<std::vector<Revision>> revisions(const std::string& program) override;
   Result<Revision> revision(const std::string& program,
                             std::optional<std::uint64_t> number) override;
+  Result<Revision> accept_revision(const std::string& program, std::uint64_t number,
+                                   const std::string& who) override;
+  Result<void> reject_revision(const std::string& program, std::uint64_t number,
+                               const std::string& who) override;
   Result<void> remove_program(const std::string& program) override;
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length) override;
@@ -68,6 +72,10 @@ class SqliteStore final : public Store {
   Result<std::uint64_t> store_records(const RecordBatch& batch) override;
   Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
                                       Page page) override;
+
+  Result<void> save_port(const Port& port) override;
+  Result<std::vector<Port>> ports() override;
+  Result<void> remove_port(const std::string& name) override;
 
   Result<void> audit(const AuditEntry& entry) override;
   Result<std::vector<AuditEntry>> audit_entries(Page page) override;

@@ -27,12 +27,18 @@ struct Revision {
   std::string comment;
   std::string author;
   UtcTime created;
+  bool is_held = false;             ///< came from a machine, runs nowhere until it is accepted
+  std::optional<UtcTime> accepted;  ///< of one that was held
+
+  /// Since when it may run; of a held one only when it came.
+  UtcTime in_force_since() const { return accepted.value_or(created); }
 };
 
 struct ProgramSummary {
-  Revision latest;
-  std::uint64_t revisions = 0;
+  Revision latest;              ///< of a program that has nothing but held revisions, one of these
+  std::uint64_t revisions = 0;  ///< held ones included
   bool is_removed = false;
+  std::uint64_t held = 0;  ///< revisions that wait for acceptance
 };
 
 /// An upload in progress. Survives a restart of the server; abandoned ones are dropped after a day.
@@ -42,6 +48,7 @@ struct Upload {
   std::string control, comment, author;
   std::uint64_t received = 0;  ///< bytes; the next piece begins here
   UtcTime created;
+  bool is_held = false;  ///< it came from a machine: becomes a held revision
 };
 
 struct Machine {
@@ -144,6 +151,8 @@ struct Port {
   std::string rules;  ///< what a text from the control means (TOML), may be empty
   bool is_enabled = true;
 };
+inline constexpr std::size_t kMaxPortSettings = 64;
+inline constexpr std::size_t kMaxPortRules = 32 * 1024;
 
 struct AuditEntry {
   UtcTime time;
@@ -181,8 +190,8 @@ class Store {
   /// For uploads begun without a control, once it was detected from the text. Errors: NotFound.
   virtual Result<void> set_upload_control(const std::string& id, const std::string& control) = 0;
   /// Makes the upload a new revision of its program, or returns the latest one when it has the very
-  /// same content. Errors: NotFound, Corrupt (the content's SHA-256 is not `expected`), Syntax
-  /// (empty).
+  /// same content; a held upload also the newest held one that has it. Errors: NotFound, Corrupt
+  /// (the content's SHA-256 is not `expected`), Syntax (empty).
   virtual Result<Revision> commit_upload(const std::string& id,
                                          const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon_upload(const std::string& id) = 0;
@@ -191,11 +200,20 @@ class Store {
 
   /// In order of their names.
   virtual Result<std::vector<ProgramSummary>> programs(Page page) = 0;
-  /// Newest first. Errors: NotFound.
+  /// Newest first, held ones among them. Errors: NotFound.
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
-  /// The latest, or the one with that number. Errors: NotFound (also when the program was removed).
+  /// The latest that is not held, or the one with that number, held or not. Errors: NotFound (also
+  /// when the program was removed), ModalConflict (nothing but held ones).
   virtual Result<Revision> revision(const std::string& program,
                                     std::optional<std::uint64_t> number) = 0;
+  /// Puts a held revision in force; the latest is still the one with the highest number. One in
+  /// force already: nothing to do. The audit entry (program.accept, program.reject) is part of the
+  /// transaction. Errors: NotFound.
+  virtual Result<Revision> accept_revision(const std::string& program, std::uint64_t number,
+                                           const std::string& who) = 0;
+  /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is not held).
+  virtual Result<void> reject_revision(const std::string& program, std::uint64_t number,
+                                       const std::string& who) = 0;
   /// Hides the program from listings and starts; runs keep their revision. A program pushed again
   /// under the name shows only its new revisions, numbered on. Errors: NotFound, Busy (an
   /// unfinished run uses it).
@@ -215,7 +233,8 @@ class Store {
 
   // Runs
   /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
-  /// ModalConflict (the content is not the revision's, or the id was used before).
+  /// ModalConflict (the content is not the revision's, the revision is held, or the id was used
+  /// before).
   virtual Result<void> create_run(const Run& run) = 0;
   virtual Result<Run> run(const std::string& id) = 0;
   /// Newest first.
@@ -239,6 +258,15 @@ class Store {
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
                                               Page page) = 0;
+
+  // Serial ports
+  /// Adds or changes one. Errors: Syntax and LimitExceeded (names, settings, rules), Busy (the
+  /// address is another port's, named).
+  virtual Result<void> save_port(const Port& port) = 0;
+  /// In order of their names.
+  virtual Result<std::vector<Port>> ports() = 0;
+  /// Errors: NotFound.
+  virtual Result<void> remove_port(const std::string& name) = 0;
 
   // Audit
   virtual Result<void> audit(const AuditEntry& entry) = 0;

@@ -22,6 +22,23 @@ bool is_machine_name_character(char c) {
   return is_digit(c) || is_lower(c) || c == '-' || c == '_';
 }
 
+/// The name of a thing that stands on the shop floor.
+Result<void> check_handle(std::string_view thing, std::string_view name) {
+  if (name.empty()) return fail(Errc::Syntax, "a {} name can not be empty", thing);
+  if (name.size() > kMaxMachineName) {
+    return fail(Errc::LimitExceeded, "{} name of {} characters: at most {}", thing, name.size(),
+                kMaxMachineName);
+  }
+  if (!std::ranges::all_of(name, is_machine_name_character) ||
+      !(is_digit(name.front()) || is_lower(name.front()))) {
+    return fail(Errc::Syntax,
+                "{} name '{}': use lower-case letters, digits, - and _, beginning with a "
+                "letter or digit",
+                thing, name);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_program_name(std::string_view name) {
@@ -41,19 +58,11 @@ Result<void> check_program_name(std::string_view name) {
 }
 
 Result<void> check_machine_name(std::string_view name) {
-  if (name.empty()) return fail(Errc::Syntax, "a machine name can not be empty");
-  if (name.size() > kMaxMachineName) {
-    return fail(Errc::LimitExceeded, "machine name of {} characters: at most {}", name.size(),
-                kMaxMachineName);
-  }
-  if (!std::ranges::all_of(name, is_machine_name_character) ||
-      !(is_digit(name.front()) || is_lower(name.front()))) {
-    return fail(Errc::Syntax,
-                "machine name '{}': use lower-case letters, digits, - and _, beginning with a "
-                "letter or digit",
-                name);
-  }
-  return {};
+  return check_handle("machine", name);
+}
+
+Result<void> check_port_name(std::string_view name) {
+  return check_handle("port", name);
 }
 
 }  // namespace dripline

@@ -19,4 +19,7 @@ Result<void> check_program_name(std::string_view name);
 /// letter or digit. It is used as a DDS partition and in file names. Errors: Syntax, LimitExceeded.
 Result<void> check_machine_name(std::string_view name);
 
+/// The name of a serial port: the same rule.
+Result<void> check_port_name(std::string_view name);
+
 }  // namespace dripline

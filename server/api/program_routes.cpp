@@ -25,12 +25,14 @@ Response show_program(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   const std::string& name = request.parameter("name");
-  // First the latest: it is the one that knows whether the program was removed.
-  const auto latest = services.programs.revision(name, std::nullopt);
-  if (!latest) return error_response(latest.error());
   const auto revisions = services.programs.revisions(name);
   if (!revisions) return error_response(revisions.error());
-  auto view = program_json({.latest = *latest, .revisions = revisions->size()});
+  const auto is_held = [](const storage::Revision& revision) { return revision.is_held; };
+  const auto latest = std::ranges::find_if_not(*revisions, is_held);
+  const auto held = static_cast<std::uint64_t>(std::ranges::count_if(*revisions, is_held));
+  auto view = program_json({.latest = latest == revisions->end() ? revisions->front() : *latest,
+                            .revisions = revisions->size(),
+                            .held = held});
   auto list = nlohmann::json::array();
   for (const auto& revision : *revisions) list.push_back(revision_json(revision));
   view["revisions"] = std::move(list);

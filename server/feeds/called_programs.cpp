@@ -52,7 +52,7 @@ Result<storage::Revision> resolve_called_program(storage::Store& store, const st
     const storage::Revision* pinned = nullptr;
     for (const auto& revision : *revisions) {
       const bool fits = revision.control.empty() || revision.control == run.control;
-      if (revision.created > run.created || !fits) continue;
+      if (revision.is_held || revision.in_force_since() > run.created || !fits) continue;
       if (pinned == nullptr || revision.number > pinned->number) pinned = &revision;
     }
     if (pinned != nullptr) return *pinned;

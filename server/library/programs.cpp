@@ -33,6 +33,7 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const std:
   upload.comment = request.comment;
   upload.author = who;
   upload.created = clock_.now();
+  upload.is_held = request.is_held;
   return store_.begin_upload(upload);
 }
 
@@ -71,19 +72,21 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   if (upload->control.empty()) {
     if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
   }
-  const auto before = store_.revision(upload->program, std::nullopt);
+  const auto before = store_.revisions(upload->program);
   auto revision = store_.commit_upload(id, expected);
   if (!revision) return fail(revision.error());
   forget(id);
-  const bool is_unchanged = before && before->number == revision->number;
+  // Numbers only grow: whatever stands at or below the newest one was there already.
+  const bool is_unchanged = before && revision->number <= before->front().number;
   if (!is_unchanged) {
-    spdlog::info("stored program={} revision={} size={} control={}", revision->program,
-                 revision->number, revision->size, revision->control);
+    spdlog::info("stored program={} revision={} size={} control={} held={}", revision->program,
+                 revision->number, revision->size, revision->control, revision->is_held);
     audit_.write({.who = who,
                   .action = "program.store",
                   .subject = revision->program,
-                  .detail = fmt::format("revision {} sha256 {} size {}", revision->number,
-                                        revision->content.hex(), revision->size)});
+                  .detail = fmt::format("revision {} sha256 {} size {}{}", revision->number,
+                                        revision->content.hex(), revision->size,
+                                        revision->is_held ? " held" : "")});
   }
   return Committed{.revision = *std::move(revision), .is_unchanged = is_unchanged};
 }
@@ -93,6 +96,20 @@ Result<void> Programs::abandon(const std::string& id) {
   const std::lock_guard lock(session->mutex);
   forget(id);
   return store_.abandon_upload(id);
+}
+
+Result<storage::Revision> Programs::accept(const std::string& program, std::uint64_t number,
+                                           const std::string& who) {
+  auto accepted = store_.accept_revision(program, number, who);
+  if (accepted) spdlog::info("accepted program={} revision={} by={}", program, number, who);
+  return accepted;
+}
+
+Result<void> Programs::reject(const std::string& program, std::uint64_t number,
+                              const std::string& who) {
+  auto rejected = store_.reject_revision(program, number, who);
+  if (rejected) spdlog::info("rejected program={} revision={} by={}", program, number, who);
+  return rejected;
 }
 
 Result<void> Programs::remove(const std::string& program, const std::string& who) {

@@ -21,6 +21,7 @@ struct UploadRequest {
   std::string program;
   std::string control;  ///< empty: found out from the text
   std::string comment;
+  bool is_held = false;  ///< it came from a machine: the revision waits for acceptance
 };
 
 struct Committed {
@@ -62,6 +63,11 @@ class Programs {
                                       std::uint64_t length) {
     return store_.read_content(content, offset, length);
   }
+  /// Puts a held revision in force. Errors: NotFound.
+  Result<storage::Revision> accept(const std::string& program, std::uint64_t number,
+                                   const std::string& who);
+  /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is in force).
+  Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
   Result<void> remove(const std::string& program, const std::string& who);
 
   static constexpr std::size_t kMaxComment = 1024;

@@ -4,13 +4,15 @@
 
 namespace dripline::storage {
 
+Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry) {
+  return sqlite::run(database,
+                     "INSERT INTO audit (time_us, who, action, subject, detail) "
+                     "VALUES (?1, ?2, ?3, ?4, ?5)",
+                     entry.time, entry.who, entry.action, entry.subject, entry.detail);
+}
+
 Result<void> AuditRepository::add(const AuditEntry& entry) {
-  return connections_.write([&](sqlite::Database& database) {
-    return sqlite::run(database,
-                       "INSERT INTO audit (time_us, who, action, subject, detail) "
-                       "VALUES (?1, ?2, ?3, ?4, ?5)",
-                       entry.time, entry.who, entry.action, entry.subject, entry.detail);
-  });
+  return connections_.write([&](sqlite::Database& database) { return add_audit(database, entry); });
 }
 
 Result<std::vector<AuditEntry>> AuditRepository::all(Page page) {

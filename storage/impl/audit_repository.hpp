@@ -4,6 +4,9 @@
 
 namespace dripline::storage {
 
+/// Inside the caller's transaction.
+Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry);
+
 /// Promises: storage/store.hpp. Thread-safe.
 class AuditRepository {
  public:

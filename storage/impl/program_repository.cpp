@@ -3,63 +3,10 @@
 #include <algorithm>
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
 namespace {
-
-const std::string kSelectRevision =
-    "SELECT program.name, revision.number, content.sha256, content.size, revision.control, "
-    "revision.comment, revision.author, revision.created_us "
-    "FROM revision JOIN program ON program.id = revision.program "
-    "JOIN content ON content.id = revision.content ";
-const std::string kVisible = "revision.number > program.removed_through ";
-
-Revision read_revision(const sqlite::Statement& row) {
-  return {row.text(0), row.number(1), read_digest(row, 2), row.number(3),
-          row.text(4), row.text(5),   row.text(6),         row.time(7)};
-}
-
-struct ProgramRow {
-  std::int64_t id = 0;
-  std::uint64_t removed_through = 0;
-  std::uint64_t latest = 0;  ///< 0: no revision yet
-  std::int64_t latest_content = 0;
-};
-
-/// Makes the program when it is new.
-Result<ProgramRow> program_row(sqlite::Database& database, const std::string& name) {
-  const auto made = sqlite::run(
-      database, "INSERT INTO program (name) VALUES (?1) ON CONFLICT (name) DO NOTHING", name);
-  if (!made) return fail(made.error());
-  const auto row = sqlite::first_row(
-      database,
-      "SELECT id, removed_through, coalesce(number, 0), coalesce(content, 0) FROM program "
-      "LEFT JOIN revision ON revision.program = program.id WHERE name = ?1 "
-      "ORDER BY number DESC LIMIT 1",
-      [](const sqlite::Statement& s) {
-        return ProgramRow{s.integer(0), s.number(1), s.number(2), s.integer(3)};
-      },
-      name);
-  if (!row) return fail(row.error());
-  return row->value();
-}
-
-/// Errors: NotFound. `number` absent: the latest.
-Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
-                               std::optional<std::uint64_t> number) {
-  static const std::string kLatest = kSelectRevision + "WHERE program.name = ?1 AND " + kVisible +
-                                     "ORDER BY revision.number DESC LIMIT 1";
-  static const std::string kNumbered =
-      kSelectRevision + "WHERE program.name = ?1 AND revision.number = ?2 AND " + kVisible;
-  auto found = number ? sqlite::first_row(database, kNumbered, read_revision, program, *number)
-                      : sqlite::first_row(database, kLatest, read_revision, program);
-  if (!found) return fail(found.error());
-  if (*found) return std::move(**found);
-  if (number) {
-    return fail(Errc::NotFound, "program {} has no revision {} in the library", program, *number);
-  }
-  return fail(Errc::NotFound, "program {} is not in the library", program);
-}
 
 Result<void> check_unused(sqlite::Database& database, const std::string& program) {
   const auto run = sqlite::first_row(
@@ -78,31 +25,14 @@ Result<void> check_unused(sqlite::Database& database, const std::string& program
 
 }  // namespace
 
-Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
-                                  std::int64_t content, UtcTime now) {
-  const auto program = program_row(database, upload.program);
-  if (!program) return fail(program.error());
-  const bool is_visible = program->latest > program->removed_through;
-  if (is_visible && program->latest_content == content) {
-    return find_revision(database, upload.program, std::nullopt);
-  }
-  const auto inserted = sqlite::run(
-      database,
-      "INSERT INTO revision (program, number, content, control, comment, author, created_us) "
-      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-      program->id, program->latest + 1, content, upload.control, upload.comment, upload.author,
-      now);
-  if (!inserted) return fail(inserted.error());
-  return find_revision(database, upload.program, program->latest + 1);
-}
-
 Result<std::vector<ProgramSummary>> ProgramRepository::programs(Page page) {
   static const std::string kSql =
-      "SELECT program.name, revision.number, content.sha256, content.size, revision.control, "
-      "revision.comment, revision.author, revision.created_us, visible.revisions "
-      "FROM (SELECT program, max(number) AS latest, count(*) AS revisions FROM revision "
-      "      JOIN program ON program.id = revision.program WHERE " +
-      kVisible +
+      "SELECT " + kRevisionColumns +
+      ", visible.revisions, visible.held "
+      "FROM (SELECT program, count(*) AS revisions, sum(standing = 'held') AS held, "
+      "      coalesce(max(iif(standing = 'accepted', number, NULL)), max(number)) AS latest "
+      "      FROM revision JOIN program ON program.id = revision.program WHERE " +
+      kRevisionVisible +
       "      GROUP BY program) AS visible "
       "JOIN revision ON revision.program = visible.program AND revision.number = visible.latest "
       "JOIN program ON program.id = visible.program "
@@ -112,15 +42,16 @@ Result<std::vector<ProgramSummary>> ProgramRepository::programs(Page page) {
     return Result<std::vector<ProgramSummary>>(sqlite::all_rows(
         database, kSql,
         [](const sqlite::Statement& row) {
-          return ProgramSummary{read_revision(row), row.number(8), false};
+          return ProgramSummary{read_revision(row), row.number(10), false, row.number(11)};
         },
         page.limit, page.offset));
   });
 }
 
 Result<std::vector<Revision>> ProgramRepository::revisions(const std::string& program) {
-  static const std::string kSql =
-      kSelectRevision + "WHERE program.name = ?1 AND " + kVisible + "ORDER BY revision.number DESC";
+  static const std::string kSql = "SELECT " + kRevisionColumns + kRevisionTables +
+                                  "WHERE program.name = ?1 AND " + kRevisionVisible +
+                                  "ORDER BY revision.number DESC";
   auto found = connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, kSql, read_revision, program);
   });
@@ -136,13 +67,27 @@ Result<Revision> ProgramRepository::revision(const std::string& program,
       [&](sqlite::Database& database) { return find_revision(database, program, number); });
 }
 
+Result<Revision> ProgramRepository::accept(const Judgement& judgement) {
+  return connections_.write(
+      [&](sqlite::Database& database) { return accept_revision(database, judgement); });
+}
+
+Result<void> ProgramRepository::reject(const Judgement& judgement) {
+  return connections_.write(
+      [&](sqlite::Database& database) { return reject_revision(database, judgement); });
+}
+
 Result<void> ProgramRepository::remove(const std::string& program) {
   return connections_.write([&](sqlite::Database& database) -> Result<void> {
-    const auto latest = find_revision(database, program, std::nullopt);
-    if (!latest) return fail(latest.error());
+    if (const auto latest = find_revision(database, program, std::nullopt);
+        !latest && latest.error().code != Errc::ModalConflict) {
+      return fail(latest.error());
+    }
     if (auto unused = check_unused(database, program); !unused) return unused;
-    return sqlite::run(database, "UPDATE program SET removed_through = ?2 WHERE name = ?1", program,
-                       latest->number);
+    return sqlite::run(database,
+                       "UPDATE program SET removed_through = "
+                       "(SELECT max(number) FROM revision WHERE program = id) WHERE name = ?1",
+                       program);
   });
 }
 

@@ -2,13 +2,9 @@
 
 #include "storage/impl/chunk_cache.hpp"
 #include "storage/impl/connections.hpp"
+#include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
-
-/// Inside the caller's transaction: makes `content` a new revision of the upload's program, or
-/// returns the latest one when that has this very content.
-Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
-                                  std::int64_t content, UtcTime now);
 
 /// Programs, their revisions and the bytes of these. Promises: storage/store.hpp. Thread-safe.
 class ProgramRepository {
@@ -19,6 +15,8 @@ class ProgramRepository {
   Result<std::vector<ProgramSummary>> programs(Page page);
   Result<std::vector<Revision>> revisions(const std::string& program);
   Result<Revision> revision(const std::string& program, std::optional<std::uint64_t> number);
+  Result<Revision> accept(const Judgement& judgement);
+  Result<void> reject(const Judgement& judgement);
   Result<void> remove(const std::string& program);
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length);

@@ -68,22 +68,29 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
   struct Found {
     std::int64_t program;
     Digest content;
+    bool is_held;
   };
   const auto found = sqlite::first_row(
       database,
-      "SELECT program.id, content.sha256 FROM revision "
+      "SELECT program.id, content.sha256, revision.standing = 'held' FROM revision "
       "JOIN program ON program.id = revision.program "
       "JOIN content ON content.id = revision.content "
       "WHERE program.name = ?1 AND revision.number = ?2 "
-      "AND revision.number > program.removed_through",
+      "AND revision.number > program.removed_through AND revision.standing <> 'rejected'",
       [](const sqlite::Statement& row) {
-        return Found{row.integer(0), read_digest(row, 1)};
+        return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0};
       },
       run.program, run.revision);
   if (!found) return fail(found.error());
   if (!*found) {
     return fail(Errc::NotFound, "program {} has no revision {} in the library", run.program,
                 run.revision);
+  }
+  if ((*found)->is_held) {
+    return fail(Errc::ModalConflict,
+                "program {} revision {} came from a machine and waits for acceptance: accept it "
+                "before it is run",
+                run.program, run.revision);
   }
   if ((*found)->content != run.content) {
     return fail(Errc::ModalConflict, "run {}: content {} is not that of {} revision {}", run.id,

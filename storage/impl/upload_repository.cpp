@@ -5,7 +5,7 @@
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
 #include "storage/impl/content.hpp"
-#include "storage/impl/program_repository.hpp"
+#include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
 namespace {
@@ -20,7 +20,7 @@ struct UploadRow {
 UploadRow read_upload_row(const sqlite::Statement& row) {
   UploadRow found;
   found.upload = {row.text(0), row.text(1),   row.text(2), row.text(3),
-                  row.text(4), row.number(6), row.time(7)};
+                  row.text(4), row.number(6), row.time(7), row.integer(8) != 0};
   found.content = {row.integer(5), row.number(6)};
   return found;
 }
@@ -29,7 +29,7 @@ UploadRow read_upload_row(const sqlite::Statement& row) {
 Result<UploadRow> find_row(sqlite::Database& database, const std::string& id) {
   auto row = sqlite::first_row(
       database,
-      "SELECT upload.id, program, control, comment, author, content, size, created_us "
+      "SELECT upload.id, program, control, comment, author, content, size, created_us, held "
       "FROM upload JOIN content ON content.id = upload.content WHERE upload.id = ?1",
       read_upload_row, id);
   if (!row) return fail(row.error());
@@ -90,9 +90,9 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
     const auto inserted = sqlite::run(
         database,
         "INSERT INTO upload (id, program, control, comment, author, content, created_us, "
-        "touched_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7)",
+        "touched_us, held) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?7, ?8)",
         begun.id, begun.program, begun.control, begun.comment, begun.author, *content,
-        begun.created);
+        begun.created, begun.is_held ? 1 : 0);
     if (!inserted) return fail(inserted.error());
     return begun;
   });

@@ -42,6 +42,14 @@ class StoreDecorator : public storage::Store {
                                      std::optional<std::uint64_t> number) override {
     return inner_.revision(program, number);
   }
+  Result<storage::Revision> accept_revision(const std::string& program, std::uint64_t number,
+                                            const std::string& who) override {
+    return inner_.accept_revision(program, number, who);
+  }
+  Result<void> reject_revision(const std::string& program, std::uint64_t number,
+                               const std::string& who) override {
+    return inner_.reject_revision(program, number, who);
+  }
   Result<void> remove_program(const std::string& program) override {
     return inner_.remove_program(program);
   }
@@ -75,6 +83,9 @@ class StoreDecorator : public storage::Store {
                                                storage::Page page) override {
     return inner_.records(run, kind, page);
   }
+  Result<void> save_port(const storage::Port& port) override { return inner_.save_port(port); }
+  Result<std::vector<storage::Port>> ports() override { return inner_.ports(); }
+  Result<void> remove_port(const std::string& name) override { return inner_.remove_port(name); }
   Result<void> audit(const storage::AuditEntry& entry) override { return inner_.audit(entry); }
   Result<std::vector<storage::AuditEntry>> audit_entries(storage::Page page) override {
     return inner_.audit_entries(page);

@@ -65,7 +65,22 @@ TEST_P(KeptFile, CanBeGoneOnWith) {
   EXPECT_EQ(push("gone.nc", "M2\n")->number, 2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptFile, testing::Values("v1.sql"),
+/// What came with a later version is there when the file is of that version.
+TEST_P(KeptFile, HasPortsAndHeldRevisionsSinceVersion2) {
+  reopen();
+  const bool has_them = std::string_view(GetParam()) != "v1.sql";
+  EXPECT_EQ(store_->ports()->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->programs({})->at(0).held, has_them ? 1u : 0u);
+  EXPECT_EQ(store_->revision("p.nc", 3).has_value(), has_them);
+  if (!has_them) return;
+  EXPECT_TRUE(store_->revision("p.nc", 3)->is_held);
+  const auto port = store_->ports()->at(0);
+  EXPECT_EQ(port.name, "line-1");
+  ASSERT_EQ(port.settings.size(), 2u);
+  EXPECT_EQ(port.settings[1].second, "xonxoff");
+}
+
+INSTANTIATE_TEST_SUITE_P(, KeptFile, testing::Values("v1.sql", "v2.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 
 }  // namespace

@@ -1,0 +1,168 @@
+#include "storage/impl/revision_rows.hpp"
+
+#include "storage/impl/audit_repository.hpp"
+#include "storage/impl/content.hpp"
+
+namespace dripline::storage {
+
+const std::string kRevisionColumns =
+    "program.name, revision.number, content.sha256, content.size, revision.control, "
+    "revision.comment, revision.author, revision.created_us, revision.standing = 'held', "
+    "revision.accepted_us ";
+const std::string kRevisionTables =
+    "FROM revision JOIN program ON program.id = revision.program "
+    "JOIN content ON content.id = revision.content ";
+const std::string kRevisionVisible =
+    "revision.number > program.removed_through AND revision.standing <> 'rejected' ";
+
+Revision read_revision(const sqlite::Statement& row) {
+  Revision revision;
+  revision.program = row.text(0);
+  revision.number = row.number(1);
+  revision.content = read_digest(row, 2);
+  revision.size = row.number(3);
+  revision.control = row.text(4);
+  revision.comment = row.text(5);
+  revision.author = row.text(6);
+  revision.created = row.time(7);
+  revision.is_held = row.integer(8) != 0;
+  revision.accepted = row.optional_time(9);
+  return revision;
+}
+
+namespace {
+
+std::string select_visible(std::string_view condition) {
+  return fmt::format("SELECT {}{}WHERE program.name = ?1 AND {}{}", kRevisionColumns,
+                     kRevisionTables, kRevisionVisible, condition);
+}
+
+Result<std::optional<Revision>> newest(sqlite::Database& database, const std::string& program,
+                                       std::string_view standing) {
+  static const std::string kSql =
+      select_visible("AND revision.standing = ?2 ORDER BY revision.number DESC LIMIT 1");
+  return sqlite::first_row(database, kSql, read_revision, program, standing);
+}
+
+/// Why there is no latest revision.
+Result<Revision> no_latest(sqlite::Database& database, const std::string& program) {
+  const auto held = newest(database, program, "held");
+  if (!held) return fail(held.error());
+  if (*held) {
+    return fail(Errc::ModalConflict,
+                "program {} came from a machine and waits for acceptance: accept its revision {} "
+                "first",
+                program, (*held)->number);
+  }
+  return fail(Errc::NotFound, "program {} is not in the library", program);
+}
+
+struct ProgramRow {
+  std::int64_t id = 0;
+  std::uint64_t highest = 0;  ///< number ever given; 0: none yet
+};
+
+/// Makes the program when it is new.
+Result<ProgramRow> program_row(sqlite::Database& database, const std::string& name) {
+  const auto made = sqlite::run(
+      database, "INSERT INTO program (name) VALUES (?1) ON CONFLICT (name) DO NOTHING", name);
+  if (!made) return fail(made.error());
+  const auto row = sqlite::first_row(
+      database,
+      "SELECT id, coalesce((SELECT max(number) FROM revision WHERE program = id), 0) "
+      "FROM program WHERE name = ?1",
+      [](const sqlite::Statement& s) {
+        return ProgramRow{s.integer(0), s.number(1)};
+      },
+      name);
+  if (!row) return fail(row.error());
+  return row->value();
+}
+
+/// The revision that the upload would only repeat.
+Result<std::optional<Revision>> find_same(sqlite::Database& database, const Upload& upload,
+                                          std::int64_t content) {
+  for (const std::string_view standing : {"accepted", "held"}) {
+    if (standing == "held" && !upload.is_held) break;
+    auto known = newest(database, upload.program, standing);
+    if (!known) return known;
+    if (!*known) continue;
+    const auto row = find_content(database, (*known)->content);
+    if (!row) return fail(row.error());
+    if (*row && (*row)->id == content) return known;
+  }
+  return std::nullopt;
+}
+
+Result<void> set_standing(sqlite::Database& database, const Judgement& judgement,
+                          std::string_view standing, std::optional<UtcTime> accepted) {
+  return sqlite::run(database,
+                     "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
+                     "program = (SELECT id FROM program WHERE name = ?1)",
+                     judgement.program, judgement.number, standing, accepted);
+}
+
+Result<void> write_down(sqlite::Database& database, const Judgement& judgement,
+                        const std::string& action, const Digest& content) {
+  return add_audit(database,
+                   {judgement.time, judgement.who, action, judgement.program,
+                    fmt::format("revision {} sha256 {}", judgement.number, content.hex())});
+}
+
+}  // namespace
+
+Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
+                               std::optional<std::uint64_t> number) {
+  static const std::string kNumbered = select_visible("AND revision.number = ?2");
+  auto found = number ? sqlite::first_row(database, kNumbered, read_revision, program, *number)
+                      : newest(database, program, "accepted");
+  if (!found) return fail(found.error());
+  if (*found) return std::move(**found);
+  if (!number) return no_latest(database, program);
+  return fail(Errc::NotFound, "program {} has no revision {} in the library", program, *number);
+}
+
+Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
+                                  std::int64_t content, UtcTime now) {
+  auto same = find_same(database, upload, content);
+  if (!same) return fail(same.error());
+  if (*same) return std::move(**same);
+  const auto program = program_row(database, upload.program);
+  if (!program) return fail(program.error());
+  const auto inserted = sqlite::run(
+      database,
+      "INSERT INTO revision (program, number, content, control, comment, author, created_us, "
+      "standing) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+      program->id, program->highest + 1, content, upload.control, upload.comment, upload.author,
+      now, upload.is_held ? "held" : "accepted");
+  if (!inserted) return fail(inserted.error());
+  return find_revision(database, upload.program, program->highest + 1);
+}
+
+Result<Revision> accept_revision(sqlite::Database& database, const Judgement& judgement) {
+  auto revision = find_revision(database, judgement.program, judgement.number);
+  if (!revision || !revision->is_held) return revision;
+  if (auto set = set_standing(database, judgement, "accepted", judgement.time); !set) {
+    return fail(set.error());
+  }
+  if (auto written = write_down(database, judgement, "program.accept", revision->content);
+      !written) {
+    return fail(written.error());
+  }
+  return find_revision(database, judgement.program, judgement.number);
+}
+
+Result<void> reject_revision(sqlite::Database& database, const Judgement& judgement) {
+  const auto revision = find_revision(database, judgement.program, judgement.number);
+  if (!revision) return fail(revision.error());
+  if (!revision->is_held) {
+    return fail(Errc::ModalConflict,
+                "program {} revision {} is in force; only one that waits for acceptance can be "
+                "rejected",
+                judgement.program, judgement.number);
+  }
+  if (auto set = set_standing(database, judgement, "rejected", std::nullopt); !set) return set;
+  return write_down(database, judgement, "program.reject", revision->content);
+}
+
+}  // namespace dripline::storage

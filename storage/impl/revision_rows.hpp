@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "storage/sqlite/query.hpp"
+#include "storage/store.hpp"
+
+/// Rows of revision, as they are found, made and judged. Everything runs inside the caller's
+/// transaction.
+namespace dripline::storage {
+
+/// Columns of read_revision, then FROM with program and content joined; a WHERE follows.
+extern const std::string kRevisionColumns;
+extern const std::string kRevisionTables;
+/// A condition: not removed, not rejected.
+extern const std::string kRevisionVisible;
+Revision read_revision(const sqlite::Statement& row);
+
+/// `number` absent: the latest that is not held. Errors: NotFound, ModalConflict (nothing but held
+/// ones).
+Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
+                               std::optional<std::uint64_t> number);
+
+/// Makes `content` a new revision of the upload's program, or returns the latest one when that has
+/// this very content (the newest held one, if the upload is held).
+Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
+                                  std::int64_t content, UtcTime now);
+
+struct Judgement {
+  std::string program;
+  std::uint64_t number = 0;
+  std::string who;
+  UtcTime time;
+};
+/// Promises of both: storage/store.hpp.
+Result<Revision> accept_revision(sqlite::Database& database, const Judgement& judgement);
+Result<void> reject_revision(sqlite::Database& database, const Judgement& judgement);
+
+}  // namespace dripline::storage

@@ -1,0 +1,139 @@
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+/// What an operator punched out at a control.
+class HeldRevision : public StoreTest {
+ protected:
+  Result<Revision> receive(const std::string& program, std::string_view text) {
+    Upload upload;
+    upload.program = program;
+    upload.author = "machine lathe-2";
+    upload.is_held = true;
+    const auto begun = store_->begin_upload(upload);
+    if (!begun) return fail(begun.error());
+    if (auto put = store_->append_upload(begun->id, 0, bytes_of(text)); !put) {
+      return fail(put.error());
+    }
+    return store_->commit_upload(begun->id, sha256(text));
+  }
+};
+
+TEST_F(HeldRevision, IsListedAndReadableButNeverTheLatest) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  const auto held = receive("p.nc", "G00 X1.1\n");
+  ASSERT_TRUE(held) << held.error().what;
+  EXPECT_TRUE(held->is_held);
+  EXPECT_EQ(held->number, 2u);
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 1u);
+  EXPECT_TRUE(store_->revision("p.nc", 2)->is_held);
+  EXPECT_EQ(store_->revisions("p.nc")->front().number, 2u);
+  EXPECT_EQ(pull(held->content), "G00 X1.1\n");
+  const auto listed = store_->programs({})->at(0);
+  EXPECT_EQ(listed.latest.number, 1u);
+  EXPECT_EQ(listed.revisions, 2u);
+  EXPECT_EQ(listed.held, 1u);
+}
+
+TEST_F(HeldRevision, AloneInItsProgramIsListedAndSaysWhatToDo) {
+  ASSERT_TRUE(receive("O0012", "G00 X1.\n"));
+  const auto listed = store_->programs({});
+  ASSERT_EQ(listed->size(), 1u);
+  EXPECT_TRUE(listed->at(0).latest.is_held);
+  const auto latest = store_->revision("O0012", std::nullopt);
+  ASSERT_FALSE(latest);
+  EXPECT_EQ(latest.error().code, Errc::ModalConflict);
+  EXPECT_EQ(latest.error().what,
+            "program O0012 came from a machine and waits for acceptance: accept its revision 1 "
+            "first");
+  ASSERT_TRUE(store_->remove_program("O0012"));
+  EXPECT_TRUE(store_->programs({})->empty());
+}
+
+TEST_F(HeldRevision, DoesNotRunBeforeItIsAccepted) {
+  auto run = make_run("r1");
+  const auto held = receive("p.nc", "G00 X9.\n");
+  run.revision = held->number;
+  run.content = held->content;
+  const auto refused = store_->create_run(run);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_NE(refused.error().what.find("p.nc revision 2"), std::string::npos);
+  EXPECT_NE(refused.error().what.find("accept"), std::string::npos);
+  EXPECT_FALSE(store_->run("r1"));
+  ASSERT_TRUE(store_->accept_revision("p.nc", 2, "boss"));
+  EXPECT_TRUE(store_->create_run(run));
+}
+
+TEST_F(HeldRevision, AcceptedIsInForceFromThenOnAndWrittenDown) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
+  const UtcTime received = clock_.now();
+  clock_.advance(std::chrono::seconds(60));
+  const auto accepted = store_->accept_revision("p.nc", 2, "boss");
+  ASSERT_TRUE(accepted) << accepted.error().what;
+  EXPECT_FALSE(accepted->is_held);
+  EXPECT_EQ(accepted->created, received);
+  EXPECT_EQ(accepted->in_force_since(), clock_.now());
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
+  EXPECT_EQ(store_->programs({})->at(0).held, 0u);
+  const auto entry = store_->audit_entries({})->at(0);
+  EXPECT_EQ(entry.action, "program.accept");
+  EXPECT_EQ(entry.who, "boss");
+  EXPECT_EQ(entry.subject, "p.nc");
+  EXPECT_EQ(entry.detail, "revision 2 sha256 " + accepted->content.hex());
+  EXPECT_TRUE(store_->accept_revision("p.nc", 2, "boss")) << "twice is no harm";
+  EXPECT_EQ(store_->audit_entries({})->size(), 1u);
+  EXPECT_EQ(store_->accept_revision("p.nc", 7, "boss").error().code, Errc::NotFound);
+}
+
+TEST_F(HeldRevision, AcceptedLateDoesNotOvertakeANewerOne) {
+  ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
+  ASSERT_TRUE(push("p.nc", "G00 X2.\n"));
+  ASSERT_TRUE(store_->accept_revision("p.nc", 1, "boss"));
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
+}
+
+TEST_F(HeldRevision, RejectedIsHiddenForEverAndItsNumberIsNotUsedAgain) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  ASSERT_TRUE(receive("p.nc", "G00 X1.1\n"));
+  const auto rejected = store_->reject_revision("p.nc", 2, "boss");
+  ASSERT_TRUE(rejected) << rejected.error().what;
+  EXPECT_EQ(store_->revisions("p.nc")->size(), 1u);
+  EXPECT_EQ(store_->revision("p.nc", 2).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->accept_revision("p.nc", 2, "boss").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->audit_entries({})->at(0).action, "program.reject");
+  EXPECT_EQ(receive("p.nc", "G00 X1.1\n")->number, 3u);
+  const auto in_force = store_->reject_revision("p.nc", 1, "boss");
+  EXPECT_EQ(in_force.error().code, Errc::ModalConflict);
+  EXPECT_TRUE(store_->revision("p.nc", 1));
+}
+
+TEST_F(HeldRevision, WhatIsThereAlreadyIsNotReceivedTwice) {
+  ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
+  const auto same_as_latest = receive("p.nc", "G00 X1.\n");
+  EXPECT_EQ(same_as_latest->number, 1u);
+  EXPECT_FALSE(same_as_latest->is_held);
+  EXPECT_EQ(receive("p.nc", "G00 X3.\n")->number, 2u);
+  EXPECT_EQ(receive("p.nc", "G00 X3.\n")->number, 2u);
+  const auto pushed = push("p.nc", "G00 X3.\n");
+  EXPECT_EQ(pushed->number, 3u) << "a push is in force at once, whatever waits";
+  EXPECT_FALSE(pushed->is_held);
+}
+
+TEST_F(HeldRevision, SurvivesARestartOfTheServerInTheMiddle) {
+  Upload upload;
+  upload.program = "p.nc";
+  upload.is_held = true;
+  const auto begun = store_->begin_upload(upload);
+  ASSERT_TRUE(store_->append_upload(begun->id, 0, bytes_of("M30\n")));
+  reopen();
+  EXPECT_TRUE(store_->upload(begun->id)->is_held);
+  EXPECT_TRUE(store_->commit_upload(begun->id, std::nullopt)->is_held);
+  reopen();
+  EXPECT_TRUE(store_->revision("p.nc", 1)->is_held);
+}
+
+}  // namespace
+}  // namespace dripline::storage

@@ -1,0 +1,107 @@
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+Port make_port(const std::string& name, const std::string& address) {
+  Port port;
+  port.name = name;
+  port.machine = "mill-3";
+  port.address = address;
+  port.line_template = "tnc155";
+  port.settings = {{"baud", "4800"}, {"answer_limit_ms", "none"}, {"baud_note", ""}};
+  port.rules = "[[rule]]\nname = \"ask\"\n";
+  port.is_enabled = false;
+  return port;
+}
+
+class PortTest : public StoreTest {};
+
+TEST_F(PortTest, IsKeptAsItWasGiven) {
+  ASSERT_TRUE(store_->save_port(make_port("line-2", "/dev/ttyUSB1")));
+  ASSERT_TRUE(store_->save_port(make_port("line-1", "tcp://10.0.0.9:4001")));
+  reopen();
+  const auto ports = store_->ports();
+  ASSERT_TRUE(ports) << ports.error().what;
+  ASSERT_EQ(ports->size(), 2u);
+  EXPECT_EQ(ports->at(0).name, "line-1");
+  const Port& port = ports->at(1);
+  const Port given = make_port("line-2", "/dev/ttyUSB1");
+  EXPECT_EQ(port.machine, given.machine);
+  EXPECT_EQ(port.address, given.address);
+  EXPECT_EQ(port.line_template, given.line_template);
+  EXPECT_EQ(port.settings, given.settings) << "in their order";
+  EXPECT_EQ(port.rules, given.rules);
+  EXPECT_FALSE(port.is_enabled);
+}
+
+TEST_F(PortTest, SavedAgainReplacesEverything) {
+  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
+  Port changed;
+  changed.name = "line-1";
+  changed.machine = "mill-4";
+  changed.address = "/dev/ttyS1";
+  ASSERT_TRUE(store_->save_port(changed));
+  const auto port = store_->ports()->at(0);
+  EXPECT_EQ(port.machine, "mill-4");
+  EXPECT_EQ(port.address, "/dev/ttyS1");
+  EXPECT_TRUE(port.settings.empty());
+  EXPECT_TRUE(port.rules.empty());
+  EXPECT_TRUE(port.is_enabled);
+}
+
+TEST_F(PortTest, TwoDoNotShareALine) {
+  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
+  const auto refused = store_->save_port(make_port("line-2", "/dev/ttyS0"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Busy);
+  EXPECT_EQ(refused.error().what, "address /dev/ttyS0 is port line-1's already");
+  EXPECT_EQ(store_->ports()->size(), 1u);
+  EXPECT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0"))) << "its own";
+}
+
+TEST_F(PortTest, RemovedIsGoneWithItsSettings) {
+  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
+  ASSERT_TRUE(store_->remove_port("line-1"));
+  EXPECT_TRUE(store_->ports()->empty());
+  EXPECT_EQ(query("SELECT count(*) FROM port_setting"), 0);
+  const auto again = store_->remove_port("line-1");
+  EXPECT_EQ(again.error().code, Errc::NotFound);
+  EXPECT_EQ(again.error().what, "port line-1 is not known");
+}
+
+struct BadPort {
+  const char* name;
+  void (*spoil)(Port& port);
+  Errc code;
+  const char* says;
+  friend void PrintTo(const BadPort& c, std::ostream* out) { *out << c.name; }
+};
+class BadPortTest : public StoreTest, public testing::WithParamInterface<BadPort> {};
+
+TEST_P(BadPortTest, IsRefusedAndChangesNothing) {
+  Port port = make_port("line-1", "/dev/ttyS0");
+  GetParam().spoil(port);
+  const auto refused = store_->save_port(port);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, GetParam().code);
+  EXPECT_NE(refused.error().what.find(GetParam().says), std::string::npos) << refused.error().what;
+  EXPECT_TRUE(store_->ports()->empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , BadPortTest,
+    testing::Values(
+        BadPort{"Name", [](Port& p) { p.name = "Line 1"; }, Errc::Syntax, "port name 'Line 1'"},
+        BadPort{"Machine", [](Port& p) { p.machine = ""; }, Errc::Syntax, "machine name"},
+        BadPort{"Address", [](Port& p) { p.address = ""; }, Errc::Syntax, "address is empty"},
+        BadPort{"Twice", [](Port& p) { p.settings.emplace_back("baud", "9600"); }, Errc::Syntax,
+                "'baud' is given twice"},
+        BadPort{"Settings", [](Port& p) { p.settings.resize(kMaxPortSettings + 1); },
+                Errc::LimitExceeded, "65 settings, at most 64"},
+        BadPort{"Rules", [](Port& p) { p.rules.resize(kMaxPortRules + 1); }, Errc::LimitExceeded,
+                "32769 bytes, at most 32768"}),
+    [](const auto& i) { return i.param.name; });
+
+}  // namespace
+}  // namespace dripline::storage
