@@ -1,0 +1,287 @@
+#include "gateway/interpreter/compensation/compensator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "gateway/interpreter/compensation/impl/corner.hpp"
+#include "gateway/interpreter/compensation/impl/path_writer.hpp"
+#include "gateway/interpreter/compensation/impl/state_bytes.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::compensation {
+
+using namespace impl;
+
+namespace {
+
+/// By so little an arc may be smaller than the cutter: rounding.
+constexpr double kFits = 1e-9;
+
+void give(EventSink& sink, const Rapid& move) {
+  sink.on_rapid(move);
+}
+void give(EventSink& sink, const Line& move) {
+  sink.on_line(move);
+}
+
+}  // namespace
+
+Compensator::Compensator(const Policy& policy, EventSink& sink, const Position& start)
+    : policy_(policy), sink_(sink) {
+  reset(start);
+}
+
+void Compensator::reset(const Position& start) {
+  state_.phase = Phase::Off;
+  state_.has_element = false;
+  state_.next_corner.reset();
+  state_.held.clear();
+  state_.idle_blocks = 0;
+  fault_.reset();
+  follow(start);
+}
+
+void Compensator::place(const Position& at) {
+  settle();
+  follow(at);
+}
+
+/// The machine is where the program thinks it is.
+void Compensator::follow(const Position& to) {
+  state_.programmed = to;
+  state_.tool = to;
+  state_.is_displaced = false;
+}
+
+bool Compensator::is_on() const {
+  return state_.phase == Phase::Starting || state_.phase == Phase::On;
+}
+
+void Compensator::turn_on(const Cutter& cutter) {
+  turn_on(cutter, policy_.start_up);
+}
+
+void Compensator::turn_on(const Cutter& cutter, StartUp start_up) {
+  invariant(!state_.has_element || cutter.plane == state_.plane,
+            "the plane of compensation changes only when nothing waits");
+  // a contour that waits goes on, even after a cancel without a move
+  if (state_.has_element) state_.phase = Phase::On;
+  if (state_.phase != Phase::On) state_.phase = Phase::Starting;
+  state_.start_up = start_up;
+  state_.plane = cutter.plane;
+  state_.offset = (cutter.side == Side::Left ? 1 : -1) * cutter.radius.mm();
+  state_.tip = {cutter.tip_first.mm(), cutter.tip_second.mm()};
+}
+
+void Compensator::turn_off() {
+  if (state_.phase == Phase::On) {
+    state_.phase = Phase::Ending;
+    if (policy_.cancel == Cancel::OwnNormal) settle();
+  } else if (state_.phase == Phase::Starting) {
+    state_.phase = Phase::Off;
+  }
+}
+
+void Compensator::leave() {
+  settle();
+  state_.phase = Phase::Off;
+}
+
+void Compensator::leave_in_parallel() {
+  settle();
+  state_.phase = Phase::Parallel;
+}
+
+void Compensator::shape_next_corner(OutsideCorner shape) {
+  state_.next_corner = shape;
+}
+
+void Compensator::settle() {
+  if (!state_.has_element || fault_) return;
+  finish(state_.element.own_end());
+}
+
+void Compensator::append_state(std::vector<std::byte>& out) const {
+  append_bytes(state_, out);
+}
+
+Result<std::size_t> Compensator::restore_state(std::span<const std::byte> bytes) {
+  auto size = read_bytes(state_, bytes);
+  if (size) fault_.reset();
+  return size;
+}
+
+bool Compensator::refuse(const Fault& fault) {
+  fault_ = fault;
+  return false;
+}
+
+/// Of the nose centre; the tool's position is that of its tip.
+PlaneVector Compensator::nose() const {
+  return in_plane(state_.tool, axes_of(state_.plane)) - state_.tip;
+}
+
+template <class Move>
+void Compensator::take_straight(const Move& move, Feed feed) {
+  if (fault_) return;
+  const PlaneAxes axes = axes_of(state_.plane);
+  const PlaneVector from = in_plane(state_.programmed, axes);
+  const PlaneVector end = in_plane(move.to, axes);
+  const bool is_in_plane = length(end - from) > kNoLength;
+  if (state_.phase == Phase::Off && (is_in_plane || !state_.is_displaced)) {
+    follow(move.to);
+    return give(sink_, move);
+  }
+  if (!is_in_plane) return take_aside(move);
+  Element element;
+  element.is_rapid = std::is_same_v<Move, Rapid>;
+  element.origin = move.origin;
+  element.to = move.to;
+  element.feed = feed;
+  element.from = from;
+  element.end = end;
+  complete_line(element);
+  take(element);
+}
+
+/// A move of axes outside the plane. The programmed point in the plane stays, so that many moves
+/// too short to count add up to one that does.
+template <class Move>
+void Compensator::take_aside(const Move& move) {
+  const PlaneVector from = in_plane(state_.programmed, axes_of(state_.plane));
+  state_.programmed = move.to;
+  set_in_plane(state_.programmed, axes_of(state_.plane), from);
+  if (state_.has_element) {
+    hold(move, move.origin);
+  } else {
+    deliver(move);
+  }
+}
+
+void Compensator::on_rapid(const Rapid& event) {
+  take_straight(event, Feed{});
+}
+
+void Compensator::on_line(const Line& event) {
+  take_straight(event, event.feed);
+}
+
+void Compensator::on_arc(const Arc& event) {
+  if (fault_) return;
+  if (state_.phase == Phase::Off) {
+    follow(event.to);
+    return sink_.on_arc(event);
+  }
+  if (event.plane != state_.plane) {
+    refuse({FaultKind::OtherPlane, event.origin, event.origin, {}, {}});
+    return;
+  }
+  Element element;
+  element.origin = event.origin;
+  element.to = event.to;
+  element.feed = event.feed;
+  const PlaneAxes axes = axes_of(state_.plane);
+  element.from = in_plane(state_.programmed, axes);
+  element.end = in_plane(event.to, axes);
+  complete_arc(element, event);
+  take(element);
+}
+
+Role Compensator::next_role() const {
+  switch (state_.phase) {
+    case Phase::Starting:
+      return Role::StartUp;
+    case Phase::Ending:
+      return Role::Cancel;
+    case Phase::Parallel:
+      return Role::Parallel;
+    case Phase::On:
+    case Phase::Off:
+      break;
+  }
+  return Role::Contour;
+}
+
+/// A move in the plane, with its programmed geometry complete.
+void Compensator::take(Element& element) {
+  element.offset = state_.offset;
+  element.outside = state_.next_corner.value_or(policy_.outside);
+  state_.next_corner.reset();
+  element.role = next_role();
+  element.start_up = state_.start_up;
+  if (element.is_arc && !accepts_arc(element)) return;
+  if (state_.has_element) {
+    join(element);
+  } else {
+    begin_alone(element);
+  }
+  if (fault_) return;
+  state_.programmed = element.to;
+  if (element.role == Role::Cancel || element.role == Role::Parallel) return go_off(element);
+  state_.element = element;
+  state_.has_element = true;
+  state_.idle_blocks = 0;
+  state_.is_displaced = true;
+  state_.phase = Phase::On;
+}
+
+bool Compensator::accepts_arc(const Element& arc) {
+  const Origin& origin = arc.origin;
+  if (arc.role == Role::StartUp)
+    return refuse({FaultKind::StartUpNotStraight, origin, origin, {}, {}});
+  if (arc.role != Role::Contour)
+    return refuse({FaultKind::CancelNotStraight, origin, origin, {}, {}});
+  const double radius = std::min(arc.arch.radius_in, arc.arch.radius_out);
+  if (std::min(arc.offset_radius_in(), arc.offset_radius_out()) < -kFits)
+    return refuse({FaultKind::ArcTooSmall, origin, origin, Length::mm(radius),
+                   Length::mm(std::fabs(arc.offset))});
+  return true;
+}
+
+/// The corner between what waits and `next` is known now.
+void Compensator::join(Element& next) {
+  const Element& first = state_.element;
+  const Corner corner = round_corner(policy_, first, next, nose());
+  if (corner.fault) {
+    refuse({*corner.fault, first.origin, next.origin, Length::mm(length(first.end - nose())),
+            Length::mm(std::fabs(first.offset))});
+    return;
+  }
+  next.begin = corner.begin;
+  next.lead_in = corner.between;
+  finish(corner.end);
+}
+
+/// Nothing waits: the tool stands on an end that was decided without this element.
+void Compensator::begin_alone(Element& element) {
+  element.begin = nose();
+  if (element.role != Role::Contour) return;
+  if (!element.is_arc && policy_.resume == Resume::Straight) return;
+  element.begin = element.own_begin();
+  if (length(element.begin - nose()) > kNoLength)
+    element.lead_in.add({.is_arc = false, .to = element.begin, .center = {}});
+}
+
+void Compensator::finish(PlaneVector end) {
+  PathWriter writer(sink_, state_);
+  if (!writer.put_out(state_.element, end)) {
+    refuse({FaultKind::Reversed, state_.element.origin, state_.element.origin, {}, {}});
+    return;
+  }
+  state_.has_element = false;
+  release_held();
+}
+
+/// A move that ends compensation: where it ends is known.
+void Compensator::go_off(const Element& element) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  Position to = element.to;
+  if (element.role == Role::Parallel)
+    set_in_plane(to, axes, element.end + in_plane(state_.tool, axes) - element.from);
+  PathWriter(sink_, state_).put_out_straight(element, to);
+  state_.is_displaced = element.role == Role::Parallel;
+  state_.phase = Phase::Off;
+}
+
+}  // namespace dripline::interpreter::compensation

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gateway/interpreter/compensation/fault.hpp"
+#include "gateway/interpreter/compensation/impl/state.hpp"
+#include "gateway/interpreter/compensation/policy.hpp"
+#include "gateway/interpreter/event.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::interpreter::compensation {
+
+/// The last stage of a dialect before its sink: takes the programmed events, in machine
+/// coordinates, and gives out the same events with the tool's path offset by the cutter radius.
+///
+/// While compensation is on, a move in the plane waits until the next one decides its end; all that
+/// comes between, block ends included, waits with it and keeps its place. Inserted pieces carry the
+/// origin, rapid or feed of the element they lead to (with a feed of inverse time all of them
+/// together take the programmed time). Axes outside the plane move on the element itself.
+///
+/// Bounded and without allocation, except for the bytes of a snapshot. Not thread-safe. After a
+/// fault nothing more is given out until `reset`.
+class Compensator final : public EventSink {
+ public:
+  /// The sink must outlive it. `start` is where the machine stands.
+  Compensator(const Policy& policy, EventSink& sink, const Position& start = {});
+
+  /// The next move in the plane is the start-up move. While on: the elements from here on are
+  /// offset by the new cutter, in the same plane. On the same side a corner between two radii is
+  /// a corner as any other; between two sides the first element ends and the second begins on its
+  /// own normal, joined by a straight piece.
+  void turn_on(const Cutter& cutter);
+  /// As above, with another start-up than the policy's for this one time.
+  void turn_on(const Cutter& cutter, StartUp start_up);
+  /// The next move in the plane is the cancel move; until then the tool keeps its place in the
+  /// plane.
+  void turn_off();
+  /// Ends what waits on its own normal and is off: the next move in the plane goes straight from
+  /// where the tool is to its programmed end, whatever it is. What interrupts compensation does
+  /// this, then `turn_on` again.
+  void leave();
+  /// As `leave`, but the next move in the plane, a straight one, keeps the distance the tool has
+  /// from the programmed point now, at its end as well.
+  void leave_in_parallel();
+  /// Round the outside of the corner at the end of the next move in the plane in this manner.
+  void shape_next_corner(OutsideCorner shape);
+  /// Ends what waits on its own normal. Compensation stays on.
+  void settle();
+  /// Off, nothing waiting, no fault, the machine at `start`: nothing is given out.
+  void reset(const Position& start);
+  /// The machine stands elsewhere than the events say (a reference point, a restart).
+  void place(const Position& at);
+
+  /// On or starting; false once `turn_off` has been called.
+  bool is_on() const;
+  /// A move waits for the next one.
+  bool is_waiting() const { return state_.has_element; }
+  /// Set by the event that broke a rule.
+  const std::optional<Fault>& fault() const { return fault_; }
+  /// Where the tool has been sent so far.
+  const Position& tool() const { return state_.tool; }
+
+  /// The state at a block boundary, for a snapshot: equal bytes mean equal states.
+  void append_state(std::vector<std::byte>& out) const;
+  /// Reads it back from the front of `bytes`; returns how many bytes it took. Errors: Corrupt; the
+  /// state is then unchanged.
+  Result<std::size_t> restore_state(std::span<const std::byte> bytes);
+
+  void on_program(const ProgramHeader& event) override;
+  void on_units(const UnitsChange& event) override;
+  void on_rapid(const Rapid& event) override;
+  void on_line(const Line& event) override;
+  void on_arc(const Arc& event) override;
+  void on_dwell(const Dwell& event) override;
+  void on_spindle(const Spindle& event) override;
+  void on_coolant(const Coolant& event) override;
+  void on_tool(const ToolChange& event) override;
+  void on_miscellaneous(const Miscellaneous& event) override;
+  void on_pin(const PinChange& event) override;
+  void on_output(const Output& event) override;
+  void on_open(const Open& event) override;
+  void on_close(const Close& event) override;
+  void on_message(const Message& event) override;
+  void on_stop(const Stop& event) override;
+  void on_block_end(const Origin& event) override;
+  /// These need the tool in its place: what waits is settled first.
+  void on_thread(const Thread& event) override;
+  void on_probe(const Probe& event) override;
+  void on_prompt(const Prompt& event) override;
+  void on_alarm(const Alarm& event) override;
+  void on_end(const End& event) override;
+  /// About the text, not the motion: delivered at once.
+  void on_warning(const Warning& event) override;
+
+ private:
+  template <class Move>
+  void take_straight(const Move& move, Feed feed);
+  template <class Move>
+  void take_aside(const Move& move);
+  void take(impl::Element& element);
+  impl::Role next_role() const;
+  bool accepts_arc(const impl::Element& arc);
+  void join(impl::Element& next);
+  void begin_alone(impl::Element& element);
+  void finish(PlaneVector end);
+  void go_off(const impl::Element& element);
+
+  template <class Event>
+  void hold_or_pass(const Event& event);
+  void hold_or_pass(impl::HeldText text, std::string_view content);
+  void hold(const impl::HeldEvent& event, const Origin& origin);
+  void release_held();
+  void deliver(const impl::HeldEvent& event);
+
+  PlaneVector nose() const;
+  void follow(const Position& to);
+  /// Always false.
+  bool refuse(const Fault& fault);
+
+  Policy policy_;
+  EventSink& sink_;
+  std::optional<Fault> fault_;
+  impl::State state_;
+};
+
+}  // namespace dripline::interpreter::compensation

@@ -1,0 +1,39 @@
+#include "gateway/interpreter/compensation/fault.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/compensation/impl/held_events.hpp"
+
+namespace dripline::interpreter::compensation {
+
+std::string describe(const Fault& fault) {
+  const double value = fault.value.mm();
+  const double limit = fault.limit.mm();
+  switch (fault.kind) {
+    case FaultKind::NoIntersection:
+      return fmt::format("the compensated path of line {} does not meet that of line {}",
+                         fault.origin.line, fault.next.line);
+    case FaultKind::ArcTooSmall:
+      return fmt::format("arc radius {} mm is smaller than the cutter radius {} mm", value, limit);
+    case FaultKind::Reversed:
+      return fmt::format("the compensated move of line {} runs backwards", fault.origin.line);
+    case FaultKind::ConcaveCorner:
+      return fmt::format("inside corner between lines {} and {}", fault.origin.line,
+                         fault.next.line);
+    case FaultKind::StartUpNotStraight:
+      return "the first compensated move is an arc";
+    case FaultKind::CancelNotStraight:
+      return "the move that ends compensation is an arc";
+    case FaultKind::StartUpTooClose:
+      return fmt::format("start-up move of {} mm is not longer than the cutter radius {} mm", value,
+                         limit);
+    case FaultKind::OtherPlane:
+      return "arc in another plane than the compensated one";
+    case FaultKind::TooMuchBetween:
+      return fmt::format("more than {} events or {} characters between two compensated moves",
+                         impl::kMaxHeldEvents, impl::kMaxHeldText);
+  }
+  return {};
+}
+
+}  // namespace dripline::interpreter::compensation

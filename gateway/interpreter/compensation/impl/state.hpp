@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/compensation/impl/element.hpp"
+#include "gateway/interpreter/compensation/impl/held_events.hpp"
+
+namespace dripline::interpreter::compensation::impl {
+
+enum class Phase : std::uint8_t {
+  Off,
+  Starting,  ///< the next move in the plane is the start-up move
+  On,
+  Ending,    ///< the next move in the plane is the cancel move
+  Parallel,  ///< the next move in the plane keeps the tool's distance, then off
+};
+
+/// Everything that decides what comes next, in a few fixed kilobytes; `visit_state`
+/// (state_bytes.cpp) lists every member: add new ones there too.
+struct State {
+  Phase phase = Phase::Off;
+  bool has_element = false;
+  /// The tool is not on the programmed point of the plane, and stays where it is until the next
+  /// move in the plane.
+  bool is_displaced = false;
+  Plane plane = Plane::XY;
+  double offset = 0;  ///< to the left
+  PlaneVector tip;    ///< from the nose centre to the positioned point
+  StartUp start_up = StartUp::NextNormal;
+  std::optional<OutsideCorner> next_corner;
+  int idle_blocks = 0;  ///< without motion in the plane, since the element that waits
+  Position programmed;  ///< where the program thinks the machine is
+  Position tool;        ///< where it has been sent
+  Element element;      ///< the one that waits
+  HeldEvents held;
+};
+
+}  // namespace dripline::interpreter::compensation::impl

@@ -1,0 +1,169 @@
+#include <type_traits>
+
+#include "gateway/interpreter/compensation/compensator.hpp"
+
+/// The events that only pass through: at once, or behind the move that waits.
+namespace dripline::interpreter::compensation {
+
+using namespace impl;
+
+namespace {
+
+struct Giver {
+  EventSink& sink;
+  const HeldEvents& held;
+
+  void operator()(const BlockEnd& event) const { sink.on_block_end(event.origin); }
+  void operator()(const Rapid& event) const { sink.on_rapid(event); }
+  void operator()(const Line& event) const { sink.on_line(event); }
+  void operator()(const Dwell& event) const { sink.on_dwell(event); }
+  void operator()(const Spindle& event) const { sink.on_spindle(event); }
+  void operator()(const Coolant& event) const { sink.on_coolant(event); }
+  void operator()(const ToolChange& event) const { sink.on_tool(event); }
+  void operator()(const Miscellaneous& event) const { sink.on_miscellaneous(event); }
+  void operator()(const PinChange& event) const { sink.on_pin(event); }
+  void operator()(const Stop& event) const { sink.on_stop(event); }
+  void operator()(const UnitsChange& event) const { sink.on_units(event); }
+  void operator()(const Close& event) const { sink.on_close(event); }
+  void operator()(const HeldText& event) const { give(event, held.text(event)); }
+
+  void give(const HeldText& event, std::string_view text) const {
+    switch (event.kind) {
+      case HeldText::Kind::Output:
+        return sink.on_output({event.origin, event.device, text});
+      case HeldText::Kind::Open:
+        return sink.on_open({event.origin, event.device, {}});
+      case HeldText::Kind::OpenNamed:
+        return sink.on_open({event.origin, event.device, text});
+      case HeldText::Kind::Message:
+        return sink.on_message({event.origin, text});
+    }
+  }
+};
+
+}  // namespace
+
+void Compensator::hold(const HeldEvent& event, const Origin& origin) {
+  if (!state_.held.push(event))
+    refuse({FaultKind::TooMuchBetween, state_.element.origin, origin, {}, {}});
+}
+
+template <class Event>
+void Compensator::hold_or_pass(const Event& event) {
+  if (fault_) return;
+  if (state_.has_element) {
+    hold(event, event.origin);
+  } else {
+    Giver{sink_, state_.held}(event);
+  }
+}
+
+void Compensator::hold_or_pass(HeldText text, std::string_view content) {
+  if (fault_) return;
+  if (!state_.has_element) return Giver{sink_, state_.held}.give(text, content);
+  if (!state_.held.push(text, content))
+    refuse({FaultKind::TooMuchBetween, state_.element.origin, text.origin, {}, {}});
+}
+
+void Compensator::release_held() {
+  for (std::size_t i = 0; i < state_.held.size(); ++i) deliver(state_.held[i]);
+  state_.held.clear();
+}
+
+/// Moves aside of the plane keep the tool's place in it.
+void Compensator::deliver(const HeldEvent& event) {
+  const auto aside = [&](auto move) {
+    const PlaneAxes axes = axes_of(state_.plane);
+    set_in_plane(move.to, axes, in_plane(state_.tool, axes));
+    state_.tool = move.to;
+    Giver{sink_, state_.held}(move);
+  };
+  if (const auto* rapid = std::get_if<Rapid>(&event)) return aside(*rapid);
+  if (const auto* line = std::get_if<Line>(&event)) return aside(*line);
+  std::visit(Giver{sink_, state_.held}, event);
+}
+
+void Compensator::on_program(const ProgramHeader& event) {
+  if (!fault_) sink_.on_program(event);
+}
+void Compensator::on_units(const UnitsChange& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_dwell(const Dwell& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_spindle(const Spindle& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_coolant(const Coolant& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_tool(const ToolChange& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_miscellaneous(const Miscellaneous& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_pin(const PinChange& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_stop(const Stop& event) {
+  hold_or_pass(event);
+}
+void Compensator::on_close(const Close& event) {
+  hold_or_pass(event);
+}
+
+void Compensator::on_output(const Output& event) {
+  hold_or_pass({HeldText::Kind::Output, event.device, event.origin, 0, 0}, event.text);
+}
+void Compensator::on_open(const Open& event) {
+  const auto kind = event.name ? HeldText::Kind::OpenNamed : HeldText::Kind::Open;
+  hold_or_pass({kind, event.device, event.origin, 0, 0}, event.name.value_or(""));
+}
+void Compensator::on_message(const Message& event) {
+  hold_or_pass({HeldText::Kind::Message, {}, event.origin, 0, 0}, event.text);
+}
+
+void Compensator::on_block_end(const Origin& event) {
+  if (fault_) return;
+  if (!state_.has_element) return sink_.on_block_end(event);
+  hold(BlockEnd{event}, event);
+  if (event.block == state_.element.origin.block) return;
+  if (++state_.idle_blocks > policy_.blocks_without_motion) settle();
+}
+
+void Compensator::on_thread(const Thread& event) {
+  settle();
+  if (fault_) return;
+  follow(event.to);
+  sink_.on_thread(event);
+}
+
+void Compensator::on_probe(const Probe& event) {
+  settle();
+  if (fault_) return;
+  if (event.result) follow(event.result->at);
+  sink_.on_probe(event);
+}
+
+void Compensator::on_prompt(const Prompt& event) {
+  settle();
+  if (!fault_) sink_.on_prompt(event);
+}
+
+void Compensator::on_alarm(const Alarm& event) {
+  settle();
+  sink_.on_alarm(event);
+}
+
+void Compensator::on_end(const End& event) {
+  settle();
+  if (!fault_) sink_.on_end(event);
+}
+
+void Compensator::on_warning(const Warning& event) {
+  if (!fault_) sink_.on_warning(event);
+}
+
+}  // namespace dripline::interpreter::compensation
