@@ -23,6 +23,7 @@ Examples:
   dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
   dnc check shaft.nc
   dnc trace --control centurion --setup lathe.toml shaft.nc
+  dnc convert shaft.ptp -o shaft.nc
 
 Exit status:
   0    it went well
@@ -88,6 +89,7 @@ int run(int argc, char** argv) {
   add_server_commands(app, context);
   add_check_command(app, context);
   add_trace_command(app, context);
+  add_convert_command(app, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   try {

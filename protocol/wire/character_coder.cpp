@@ -41,7 +41,7 @@ Result<void> CharacterEncoder::encode_character(char c, std::vector<std::byte>& 
   }
   ++column_;
   if (c == '\r' && !had_carriage_return) return {};
-  const auto row = had_carriage_return ? std::nullopt : encode_row(code_, c);
+  const auto row = had_carriage_return ? std::nullopt : encode_row(code_, c, has_parentheses_);
   if (!row) {
     return fail(Errc::Syntax, "line {}, column {}: {} is not a character of the {} code",
                 blocks_ + 1, had_carriage_return ? column_ - 1 : column_,

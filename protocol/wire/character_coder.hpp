@@ -16,8 +16,9 @@ namespace dripline::wire {
 
 class CharacterEncoder {
  public:
-  CharacterEncoder(CharacterCode code, EndOfBlock end_of_block)
-      : code_(code), end_of_block_(end_of_block) {}
+  /// `has_parentheses`: EIA has '(' and ')' as some builders punch them.
+  CharacterEncoder(CharacterCode code, EndOfBlock end_of_block, bool has_parentheses = false)
+      : code_(code), end_of_block_(end_of_block), has_parentheses_(has_parentheses) {}
 
   /// Appends the characters of `text`, at most three for each; CR before LF belongs to the LF.
   /// Errors: Syntax (a character that the code does not have, named with its line and column;
@@ -30,6 +31,7 @@ class CharacterEncoder {
   Result<void> encode_character(char c, std::vector<std::byte>& line);
   CharacterCode code_;
   EndOfBlock end_of_block_;
+  bool has_parentheses_;
   std::uint64_t blocks_ = 0, column_ = 0;
   bool has_carriage_return_ = false;
 };
@@ -49,6 +51,8 @@ class CharacterDecoder {
   DecodedCharacter decode(std::byte character);
   /// A character that the UART found wrong: '?' in its place.
   DecodedCharacter decode_fault(std::string_view what);
+  /// The next character is that of line 1, column 1.
+  void count_from_here() { blocks_ = column_ = 0; }
 
   std::uint64_t blocks() const { return blocks_; }  ///< ends of block so far
 

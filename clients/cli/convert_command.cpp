@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/mapped_file.hpp"
+#include "clients/cli/progress.hpp"
+#include "clients/cli/standard_output.hpp"
+#include "clients/cli/tape_conversion.hpp"
+#include "clients/lib/output_file.hpp"
+#include "protocol/wire/tape_listing.hpp"
+
+namespace dripline::cli {
+namespace {
+
+using wire::CharacterCode;
+using wire::EndOfBlock;
+
+struct ConvertCommand {
+  std::string input, output, from = "auto", to = "ascii", end_of_block, title;
+  std::optional<unsigned> leader, trailer;
+  bool is_listing = false, has_no_rewind_stop = false, has_parentheses = false;
+  bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
+};
+
+constexpr std::size_t kPiece = 64 * 1024;
+
+const std::vector<std::pair<std::string, CharacterCode>> kCodes{
+    {"ascii", CharacterCode::Ascii}, {"iso", CharacterCode::Iso}, {"eia", CharacterCode::Eia}};
+const std::vector<std::pair<std::string, EndOfBlock>> kEndsOfBlock{{"lf", EndOfBlock::Lf},
+                                                                   {"cr", EndOfBlock::Cr},
+                                                                   {"crlf", EndOfBlock::CrLf},
+                                                                   {"lfcr", EndOfBlock::LfCr},
+                                                                   {"lfcrcr", EndOfBlock::LfCrCr}};
+
+template <class Value>
+Value value_of(const std::vector<std::pair<std::string, Value>>& values, std::string_view name) {
+  return std::ranges::find(values, name, &std::pair<std::string, Value>::first)->second;
+}
+
+template <class Value>
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, Value>>& values) {
+  std::vector<std::string> names;
+  for (const auto& value : values) names.push_back(value.first);
+  return names;
+}
+
+Result<CharacterCode> source_code(const ConvertCommand& command, std::string_view rows) {
+  if (command.from != "auto") return value_of(kCodes, command.from);
+  const auto verdict = wire::detect_code(std::as_bytes(std::span(rows)));
+  if (!verdict) {
+    return fail(verdict.error().code, "{}: {}; --from says it", command.input,
+                verdict.error().what);
+  }
+  return verdict->code;
+}
+
+TapeConversion::Parts parts_of(const ConvertCommand& command, CharacterCode from) {
+  TapeConversion::Parts parts;
+  const auto to = value_of(kCodes, command.to);
+  const bool is_tape = to != CharacterCode::Ascii;
+  const auto end = is_tape ? "crlf" : "lf";
+  parts.from = {from, from != CharacterCode::Ascii && !command.keeps_head, command.replaces_wrong,
+                command.is_strict};
+  parts.to.code = to;
+  parts.to.end_of_block =
+      value_of(kEndsOfBlock, command.end_of_block.empty() ? end : command.end_of_block);
+  parts.to.leader = command.leader.value_or(is_tape ? 100 : 0);
+  parts.to.trailer = command.trailer.value_or(is_tape ? 100 : 0);
+  parts.to.title = command.title;
+  parts.to.has_rewind_stop = is_tape && !command.has_no_rewind_stop;
+  parts.to.has_parentheses = command.has_parentheses;
+  parts.drops_comments =
+      to == CharacterCode::Eia && !command.has_parentheses && !command.keeps_comments;
+  return parts;
+}
+
+/// Calls `take` with one piece after the other, showing how far it is. False: interrupted.
+template <class Take>
+Result<bool> walk(std::string_view rows, const std::string& label, Take take) {
+  SystemClock clock;
+  LiveArea area = LiveArea::on_stderr();
+  Progress progress(area, clock, label);
+  for (std::size_t at = 0; at < rows.size(); at += kPiece) {
+    if (is_interrupted()) return false;
+    const auto piece = rows.substr(at, kPiece);
+    if (auto taken = take(std::as_bytes(std::span(piece))); !taken) {
+      return fail(std::move(taken.error()));
+    }
+    progress.update(at + piece.size(), rows.size());
+  }
+  return true;
+}
+
+int interrupted() {
+  fmt::print(stderr, "dnc: the conversion was ended; nothing was written\n");
+  return kExitInterrupted;
+}
+
+int list(const ConvertCommand& command, CharacterCode code, std::string_view rows) {
+  StandardOutput output;
+  wire::TapeListing listing(code);
+  std::string text;
+  const auto walked = walk(rows, command.input, [&](std::span<const std::byte> piece) {
+    text.clear();
+    listing.list(piece, text);
+    return output.write(text);
+  });
+  if (output.error()) return output.complain();
+  if (walked && !*walked) return interrupted();
+  text.clear();
+  listing.finish(text);
+  return output.write(text) ? kExitOk : output.complain();
+}
+
+/// What a person should know of what was read and left out.
+void say_notices(const ConvertCommand& command, const TapeConversion& conversion) {
+  const auto& source = conversion.source();
+  if (!source.lost_block.empty()) {
+    fmt::print(stderr,
+               "dnc: {}: no end of block before the first block: '{}' was skipped, as a control "
+               "does; --keep-head keeps it\n",
+               command.input, source.lost_block);
+  }
+  if (source.wrong > 0) {
+    fmt::print(stderr, "dnc: {}: {} rows became '?', the first: {}\n", command.input, source.wrong,
+               source.first_wrong->what);
+  }
+  if (conversion.dropped_comments() > 0) {
+    fmt::print(stderr, "dnc: {} comments left out, EIA has no parentheses\n",
+               conversion.dropped_comments());
+  }
+}
+
+std::string summary_line(const ConvertCommand& command, CharacterCode from,
+                         const TapeConversion& conversion) {
+  const auto& source = conversion.source();
+  std::string line = fmt::format("Converted {} ({}, {} rows) -> {} ({}): {} blocks", command.input,
+                                 wire::code_name(from), source.rows, command.output,
+                                 wire::code_name(value_of(kCodes, command.to)), source.blocks);
+  if (source.deletes > 0) line += fmt::format(", {} deleted rows left out", source.deletes);
+  return line + "\n";
+}
+
+int refuse(const Error& error) {
+  complain(error);
+  return kExitUsage;
+}
+
+struct Target {
+  std::optional<client::OutputFile> file;
+  StandardOutput standard;
+
+  Result<void> write(std::string_view bytes) {
+    return file ? file->write(bytes) : standard.write(bytes);
+  }
+};
+
+int convert_to(Context& context, const ConvertCommand& command, CharacterCode from,
+               std::string_view rows) {
+  Target target;
+  if (command.output != "-") {
+    auto file = client::OutputFile::create(command.output);
+    if (!file) return complain(file.error());
+    target.file.emplace(std::move(*file));
+  }
+  TapeConversion conversion(parts_of(command, from),
+                            [&](std::string_view bytes) { return target.write(bytes); });
+  if (auto begun = conversion.begin(); !begun) return refuse(begun.error());
+  auto walked = walk(rows, command.input,
+                     [&](std::span<const std::byte> piece) { return conversion.convert(piece); });
+  if (walked && !*walked) return interrupted();
+  auto done = walked ? conversion.finish() : Result<void>(fail(walked.error()));
+  if (target.standard.error()) return target.standard.complain();
+  if (done && target.file) done = target.file->commit();
+  if (!done) return complain(Error{done.error().code, command.input + ": " + done.error().what});
+  say_notices(command, conversion);
+  if (target.file) context.print(summary_line(command, from, conversion));
+  return kExitOk;
+}
+
+int convert(Context& context, const ConvertCommand& command) {
+  auto file = MappedFile::open(command.input);
+  if (!file) return refuse(file.error());
+  const auto from = source_code(command, file->text());
+  if (!from) return complain(from.error());
+  catch_interrupts();
+  if (command.is_listing) return list(command, *from, file->text());
+  if (command.output.empty()) {
+    return refuse(Error{Errc::Syntax, "convert needs -o FILE (or -o -), or --list"});
+  }
+  return convert_to(context, command, *from, file->text());
+}
+
+void add_options(CLI::App& command, ConvertCommand& options) {
+  auto codes = names_of(kCodes);
+  command.add_option("IN", options.input, "Tape image or program text")->required();
+  command.add_option("-o,--output", options.output, "File to write; - for standard output");
+  command.add_option("--to", options.to, "eia, iso, or ascii (program text; the default)")
+      ->check(CLI::IsMember(codes));
+  codes.push_back("auto");
+  command.add_option("--from", options.from, "eia, iso, ascii, or auto (found out from IN)")
+      ->check(CLI::IsMember(codes));
+  command.add_flag("--list", options.is_listing, "List IN row by row with its holes, as text");
+  command
+      .add_option("--eob", options.end_of_block,
+                  "End of block of ISO and ASCII: lf, cr, crlf, lfcr, lfcrcr")
+      ->check(CLI::IsMember(names_of(kEndsOfBlock)));
+  command.add_option("--leader", options.leader, "Blank rows in front, 10 to an inch (tapes: 100)");
+  command.add_option("--trailer", options.trailer, "Blank rows at the end (tapes: 100)");
+  command.add_option("--title", options.title, "Title that the eye reads from the holes");
+  command.add_flag("--no-rewind-stop", options.has_no_rewind_stop,
+                   "Put no rewind stop before the first block");
+  command.add_flag("--eia-parentheses", options.has_parentheses,
+                   "Punch ( and ) in EIA as 1A and 4A, as some controls read them");
+  command.add_flag("--keep-comments", options.keeps_comments,
+                   "An error instead of leaving out comments in EIA");
+  command.add_flag("--keep-head", options.keeps_head,
+                   "Take what stands before the first end of block for a block");
+  command.add_flag("--replace-wrong", options.replaces_wrong,
+                   "'?' for rows that can not be read, instead of an error");
+  command.add_flag("--strict-blanks", options.is_strict,
+                   "Blank tape inside an EIA block is an error");
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, Context& context) {
+  auto* command = app.add_subcommand(
+      "convert", "Convert tape images between EIA, ISO and program text, or list one");
+  auto options = std::make_shared<ConvertCommand>();
+  add_options(*command, *options);
+  command->footer(
+      "No server is needed. A tape is read as a control reads it: nothing counts before the first "
+      "end of block; deletes and blanks are left out.\n\nExit status: 0 converted, 1 the tape or "
+      "the program can not be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
+      "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
+      "convert shaft.ptp --list | less");
+  command->callback([&context, options] { context.status = convert(context, *options); });
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/clients/dnc_process.hpp"
+
+namespace dripline {
+namespace {
+
+using test_support::Dnc;
+
+class DncConvert : public testing::Test {
+ protected:
+  Dnc dnc{DNC_PATH};
+  const std::string program = "%\nN1G1X-25Y4F8\nN2Y0\nN3M30\n";
+};
+
+TEST_F(DncConvert, GoesRoundThroughBothTapeCodes) {
+  dnc.write("a.nc", program);
+  for (const std::string code : {"eia", "iso"}) {
+    const auto there = dnc({"convert", "a.nc", "-o", code, "--to", code, "--title", "A-7"});
+    ASSERT_EQ(there.status, 0) << there.err;
+    EXPECT_NE(there.out.find("4 blocks"), std::string::npos) << there.out;
+    ASSERT_EQ(dnc({"convert", code, "-o", "back.nc"}).status, 0);
+    EXPECT_EQ(dnc.read("back.nc"), program) << code;
+  }
+  ASSERT_EQ(dnc({"convert", "eia", "-o", "eia.iso", "--to", "iso", "--leader", "7"}).status, 0);
+  EXPECT_EQ(dnc.read("eia.iso").substr(0, 10), std::string("\0\0\0\0\0\0\0\xA5\x8D\n", 10));
+}
+
+TEST_F(DncConvert, NamesWhatEiaCanNotSayAndWritesNothing) {
+  dnc.write("a.nc", "N1G1\nN2X[4]\n");
+  const auto refused = dnc({"convert", "a.nc", "--from", "ascii", "-o", "b.ptp", "--to", "eia"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "dnc: a.nc: line 2, column 4: '[' is not a character of the EIA code\n");
+  EXPECT_EQ(dnc.read("b.ptp"), "");
+}
+
+TEST_F(DncConvert, LeavesCommentsOutOfEiaAndSaysSo) {
+  dnc.write("a.nc", "N1(ROUGH 7)G1X2\nN2M30\n");
+  const auto done = dnc({"convert", "a.nc", "--from", "ascii", "-o", "b.ptp", "--to", "eia"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_EQ(done.err, "dnc: 1 comments left out, EIA has no parentheses\n");
+  EXPECT_EQ(dnc({"convert", "b.ptp", "-o", "-"}).out, "%\nN1G1X2\nN2M30\n");
+  EXPECT_EQ(dnc({"convert", "a.nc", "--from", "ascii", "-o", "c", "--to", "eia", "--keep-comments"})
+                .status,
+            1);
+  ASSERT_EQ(
+      dnc({"convert", "a.nc", "--from", "ascii", "-o", "c", "--to", "eia", "--eia-parentheses"})
+          .status,
+      0);
+  EXPECT_EQ(dnc({"convert", "c", "-o", "-"}).out, "%\nN1(ROUGH 7)G1X2\nN2M30\n");
+}
+
+TEST_F(DncConvert, SaysWhereATapeCanNotBeRead) {
+  dnc.write("a.ptp", std::string("\x0B\x80\x45\x01\x67\x03\x80\x45\x02\x80", 10));
+  const auto refused = dnc({"convert", "a.ptp", "--from", "eia", "-o", "a.nc"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err,
+            "dnc: a.ptp: row 6, line 2, column 4: 0x03 has not the parity of the EIA code\n");
+  const auto replaced = dnc({"convert", "a.ptp", "--from", "eia", "-o", "-", "--replace-wrong"});
+  EXPECT_EQ(replaced.out, "%\nN1G?\nN2\n");
+  EXPECT_NE(replaced.err.find("1 rows became '?'"), std::string::npos) << replaced.err;
+}
+
+TEST_F(DncConvert, ListsATapeByItsHoles) {
+  dnc.write("a.ptp", std::string("\0\0\x0B\x80\x45\x01\x67\x01\x80\x45\x02\x67\x04\x80", 14));
+  const auto listed = dnc({"convert", "a.ptp", "--list"});
+  EXPECT_EQ(listed.status, 0) << listed.err;
+  EXPECT_EQ(listed.out.substr(0, 92),
+            "         1  .....:...  00       blank, 2 rows\n"
+            "         3  ....o:.oo  0B  %    rewind stop\n");
+}
+
+TEST_F(DncConvert, RefusesWhatItDoesNotKnow) {
+  dnc.write("noise", "\xC3\x28\xA0\xA1\xE2\x82\x28\xF0\x28\x8C\xBC");
+  EXPECT_EQ(dnc({"convert", "noise", "-o", "x"}).status, 1);
+  EXPECT_EQ(dnc({"convert", "missing", "-o", "x"}).status, 2);
+  EXPECT_EQ(dnc({"convert", "noise", "-o", "x", "--to", "ebcdic"}).status, 2);
+  EXPECT_EQ(dnc({"convert", "noise", "--from", "iso"}).status, 2);
+  dnc.write("a.nc", program);
+  EXPECT_EQ(dnc({"convert", "a.nc", "-o", "x", "--to", "eia", "--leader", "200000"}).status, 2);
+}
+
+}  // namespace
+}  // namespace dripline
