@@ -148,6 +148,12 @@ int refuse(const Error& error) {
   return kExitUsage;
 }
 
+/// What the tape or the program holds is no misuse.
+int say_no(const Error& error) {
+  complain(error);
+  return error.code == Errc::Io ? kExitUsage : kExitNo;
+}
+
 struct Target {
   std::optional<client::OutputFile> file;
   StandardOutput standard;
@@ -174,7 +180,7 @@ int convert_to(Context& context, const ConvertCommand& command, CharacterCode fr
   auto done = walked ? conversion.finish() : Result<void>(fail(walked.error()));
   if (target.standard.error()) return target.standard.complain();
   if (done && target.file) done = target.file->commit();
-  if (!done) return complain(Error{done.error().code, command.input + ": " + done.error().what});
+  if (!done) return say_no(Error{done.error().code, command.input + ": " + done.error().what});
   say_notices(command, conversion);
   if (target.file) context.print(summary_line(command, from, conversion));
   return kExitOk;
@@ -184,7 +190,7 @@ int convert(Context& context, const ConvertCommand& command) {
   auto file = MappedFile::open(command.input);
   if (!file) return refuse(file.error());
   const auto from = source_code(command, file->text());
-  if (!from) return complain(from.error());
+  if (!from) return say_no(from.error());
   catch_interrupts();
   if (command.is_listing) return list(command, *from, file->text());
   if (command.output.empty()) {
