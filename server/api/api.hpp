@@ -10,6 +10,7 @@
 #include "server/feeds/feed_control.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/programs.hpp"
+#include "server/serial/port_control.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::api {
@@ -31,6 +32,7 @@ struct Services {
   const Clock& clock;
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
+  ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;
@@ -56,6 +58,9 @@ class Api {
 
 /// The listener that turns what the feeds tell into events.
 feeds::FeedListener publish_to(EventHub& hub);
+
+/// The listener that turns what passes over lines into events; for PortControl::on_traffic.
+std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub);
 
 /// The OpenAPI description, as JSON text.
 std::string_view openapi_text();

@@ -1,31 +1,48 @@
 #include "server/api/event_hub.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dripline::api {
 
+bool EventSubscription::wants(const Event& event) const {
+  if (!interest_.port.empty() || !event.port.empty()) return interest_.port == event.port;
+  return !interest_.machine || *interest_.machine == event.machine;
+}
+
+bool EventSubscription::replaces_older(const Event& event) {
+  if (event.kind != "machine") return false;
+  const auto older = std::ranges::find_if(waiting_, [&](const Event& other) {
+    return other.kind == event.kind && other.machine == event.machine;
+  });
+  if (older == waiting_.end()) return false;
+  bytes_ += event.data.size() - older->data.size();
+  older->data = event.data;
+  return true;
+}
+
+bool EventSubscription::is_full(const Event& event) const {
+  return waiting_.size() >= kMaxEvents || bytes_ + event.data.size() > kMaxBytes;
+}
+
 void EventSubscription::push(const Event& event) {
-  if (machine_ && *machine_ != event.machine) return;
+  if (!wants(event)) return;
   std::function<void()> wake;
   {
     const std::lock_guard lock(mutex_);
-    if (is_closed_) return;
-    if (event.kind == "machine") {
-      const auto older = std::ranges::find_if(waiting_, [&](const Event& other) {
-        return other.kind == event.kind && other.machine == event.machine;
-      });
-      if (older != waiting_.end()) {
-        bytes_ += event.data.size() - older->data.size();
-        older->data = event.data;
-        return;
-      }
+    if (is_closed_ || replaces_older(event)) return;
+    const bool is_counted = !event.port.empty();
+    if (is_counted && (lost_ > 0 || is_full(event))) {  // the gap stays one gap
+      ++lost_;
+      return;
     }
     if (waiting_.empty()) wake = wake_;
-    bytes_ += event.data.size();
-    waiting_.push_back(event);
-    if (waiting_.size() > kMaxEvents || bytes_ > kMaxBytes) {
+    if (is_full(event)) {
       close_locked();
       wake = wake_;
+    } else {
+      bytes_ += event.data.size();
+      waiting_.push_back(event);
     }
   }
   if (wake) wake();
@@ -35,6 +52,7 @@ void EventSubscription::close_locked() {
   is_closed_ = true;
   waiting_.clear();
   bytes_ = 0;
+  lost_ = 0;
 }
 
 void EventSubscription::close() {
@@ -49,15 +67,18 @@ void EventSubscription::close() {
 
 std::string EventSubscription::take() {
   std::deque<Event> events;
+  std::uint64_t lost = 0;
   {
     const std::lock_guard lock(mutex_);
     events.swap(waiting_);
     bytes_ = 0;
+    lost = std::exchange(lost_, 0);
   }
   std::string text;
   for (const auto& event : events) {
     text += "event: " + event.kind + "\ndata: " + event.data + "\n\n";
   }
+  if (lost > 0) text += "event: lost\ndata: {\"lost\":" + std::to_string(lost) + "}\n\n";
   return text;
 }
 
@@ -72,10 +93,18 @@ void EventSubscription::on_ready(std::function<void()> wake) {
 }
 
 std::shared_ptr<EventSubscription> EventHub::subscribe(std::optional<std::string> machine) {
+  return add({.machine = std::move(machine), .port = {}});
+}
+
+std::shared_ptr<EventSubscription> EventHub::subscribe_port(const std::string& port) {
+  return add({.machine = {}, .port = port});
+}
+
+std::shared_ptr<EventSubscription> EventHub::add(Interest interest) {
   const std::lock_guard lock(mutex_);
   std::erase_if(subscriptions_, [](const auto& subscription) { return subscription.expired(); });
   if (subscriptions_.size() >= kMaxSubscriptions) return nullptr;
-  auto subscription = std::make_shared<EventSubscription>(std::move(machine));
+  auto subscription = std::make_shared<EventSubscription>(std::move(interest));
   subscriptions_.push_back(subscription);
   return subscription;
 }
@@ -95,6 +124,11 @@ void EventHub::publish(const Event& event) {
 
 bool EventHub::has_listeners() const {
   return !listeners().empty();
+}
+
+bool EventHub::has_port_listeners(const std::string& port) const {
+  return std::ranges::any_of(listeners(),
+                             [&](const auto& listener) { return listener->port() == port; });
 }
 
 void EventHub::close() {

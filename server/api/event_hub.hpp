@@ -12,19 +12,28 @@
 namespace dripline::api {
 
 struct Event {
-  std::string kind;     ///< machine, run, record
-  std::string machine;  ///< whom it concerns
-  std::string data;     ///< JSON in one line
+  std::string kind;          ///< machine, run, record; of a port: port, traffic
+  std::string machine = {};  ///< whom it concerns
+  std::string data;          ///< JSON in one line
+  std::string port = {};     ///< on whose line it was; empty: of no port
 };
 
-/// One listener's queue, bounded: who is too slow is cut off instead of holding up anybody. Of the
-/// `machine` events only the latest of each machine waits. Any thread.
+/// Which events a listener wants: those of machines, or those of one port.
+struct Interest {
+  std::optional<std::string> machine;  ///< absent: every machine
+  std::string port;                    ///< not empty: this port's, and nothing else
+};
+
+/// One listener's queue, bounded. Who is too slow for the events of machines is cut off instead of
+/// holding up anybody; of the `machine` events only the latest of each machine waits. A line does
+/// not wait for who watches it: what a port's listener has no room for is counted and told as
+/// `lost` {"lost": n}. Any thread.
 class EventSubscription {
  public:
   static constexpr std::size_t kMaxEvents = 2048;
   static constexpr std::size_t kMaxBytes = 2 * 1024 * 1024;
 
-  explicit EventSubscription(std::optional<std::string> machine) : machine_(std::move(machine)) {}
+  explicit EventSubscription(Interest interest) : interest_(std::move(interest)) {}
   void push(const Event& event);
   void close();
   /// Everything that waits, as text of the event stream format; empty when nothing does.
@@ -33,13 +42,19 @@ class EventSubscription {
   /// Called after a push into an empty queue and after close, on their thread.
   void on_ready(std::function<void()> wake);
 
+  const std::string& port() const { return interest_.port; }
+
  private:
+  bool wants(const Event& event) const;
+  bool replaces_older(const Event& event);
+  bool is_full(const Event& event) const;
   void close_locked();
 
-  const std::optional<std::string> machine_;
+  const Interest interest_;
   mutable std::mutex mutex_;
   std::deque<Event> waiting_;
   std::size_t bytes_ = 0;
+  std::uint64_t lost_ = 0;  ///< behind those that wait
   bool is_closed_ = false;
   std::function<void()> wake_;
 };
@@ -50,11 +65,14 @@ class EventHub {
   static constexpr std::size_t kMaxSubscriptions = 256;
   /// nullptr when there are too many. Ends when the last pointer to it is dropped.
   std::shared_ptr<EventSubscription> subscribe(std::optional<std::string> machine);
+  std::shared_ptr<EventSubscription> subscribe_port(const std::string& port);
   void publish(const Event& event);
   bool has_listeners() const;
+  bool has_port_listeners(const std::string& port) const;
   void close();
 
  private:
+  std::shared_ptr<EventSubscription> add(Interest interest);
   std::vector<std::shared_ptr<EventSubscription>> listeners() const;
 
   mutable std::mutex mutex_;

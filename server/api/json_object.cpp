@@ -83,7 +83,11 @@ std::optional<std::string> JsonObject::optional_text(const std::string& name, st
     complain(Errc::Syntax, fmt::format("member '{}' must be a string", name));
     return std::nullopt;
   }
-  auto text = value->get<std::string>();
+  return checked_text(name, value->get<std::string>(), longest);
+}
+
+std::string JsonObject::checked_text(const std::string& name, std::string text,
+                                     std::size_t longest) {
   if (text.size() > longest) {
     complain(Errc::LimitExceeded,
              fmt::format("member '{}' has {} bytes: at most {}", name, text.size(), longest));
@@ -112,6 +116,39 @@ std::optional<double> JsonObject::optional_number(const std::string& name) {
     return std::nullopt;
   }
   return value->get<double>();
+}
+
+std::optional<bool> JsonObject::optional_flag(const std::string& name) {
+  const auto value = take(name);
+  if (!value) return std::nullopt;
+  if (!value->is_boolean()) {
+    complain(Errc::Syntax, fmt::format("member '{}' must be true or false", name));
+    return std::nullopt;
+  }
+  return value->get<bool>();
+}
+
+std::vector<std::pair<std::string, std::string>> JsonObject::optional_scalars(
+    const std::string& name, std::size_t longest) {
+  std::vector<std::pair<std::string, std::string>> scalars;
+  const auto value = take(name);
+  if (!value) return scalars;
+  if (!value->is_object()) {
+    complain(Errc::Syntax, fmt::format("member '{}' must be an object", name));
+    return scalars;
+  }
+  for (const auto& [key, item] : value->items()) {
+    const std::string path = name + "." + checked_text(name, key, longest);
+    if (item.is_string()) {
+      scalars.emplace_back(key, checked_text(path, item.get<std::string>(), longest));
+    } else if (item.is_number_integer() || item.is_boolean()) {
+      scalars.emplace_back(key, item.dump());
+    } else {
+      complain(Errc::Syntax,
+               fmt::format("member '{}' must be a string, a whole number, true or false", path));
+    }
+  }
+  return scalars;
 }
 
 Result<void> JsonObject::finish() {

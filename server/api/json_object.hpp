@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "protocol/base/result.hpp"
 
@@ -25,11 +27,17 @@ class JsonObject {
   std::optional<std::string> optional_text(const std::string& name, std::size_t longest);
   std::optional<std::uint64_t> optional_unsigned(const std::string& name);
   std::optional<double> optional_number(const std::string& name);
+  std::optional<bool> optional_flag(const std::string& name);
+  /// An object of strings, whole numbers and booleans, each as text; in order of their names.
+  /// Absent: empty.
+  std::vector<std::pair<std::string, std::string>> optional_scalars(const std::string& name,
+                                                                    std::size_t longest);
   /// Errors: Syntax, LimitExceeded; names the member and what was expected.
   Result<void> finish();
 
  private:
   explicit JsonObject(nlohmann::json members) : members_(std::move(members)) {}
+  std::string checked_text(const std::string& name, std::string text, std::size_t longest);
   std::optional<nlohmann::json> take(const std::string& name);
   void complain(Errc code, std::string what);
 

@@ -44,6 +44,27 @@ Response remove_program(Services& services, const Request& request) {
   return removed ? no_content() : error_response(removed.error());
 }
 
+Result<std::uint64_t> revision_number(const Request& request) {
+  const std::string& text = request.parameter("number");
+  const auto number = parse_unsigned(text);
+  if (!number) return fail(Errc::Syntax, "revision '{}' is not a whole number", text);
+  return number;
+}
+
+Response accept_revision(Services& services, const Request& request) {
+  const auto number = revision_number(request);
+  if (!number) return error_response(number.error());
+  const auto accepted = services.programs.accept(request.parameter("name"), *number, request.who);
+  return accepted ? json_response(200, revision_json(*accepted)) : error_response(accepted.error());
+}
+
+Response reject_revision(Services& services, const Request& request) {
+  const auto number = revision_number(request);
+  if (!number) return error_response(number.error());
+  const auto rejected = services.programs.reject(request.parameter("name"), *number, request.who);
+  return rejected ? no_content() : error_response(rejected.error());
+}
+
 /// Reads `range` of the content piece by piece.
 BodySource content_source(Services& services, const Digest& content, ByteRange range) {
   return [&services, content, range]() mutable -> Result<std::optional<std::string>> {
@@ -116,6 +137,10 @@ void add_program_routes(Router& router, Services& services) {
              [&](const Request& request) { return show_program(services, request); });
   router.add("DELETE", "/api/v1/programs/{name}",
              [&](const Request& request) { return remove_program(services, request); });
+  router.add("POST", "/api/v1/programs/{name}/revisions/{number}/accept",
+             [&](const Request& request) { return accept_revision(services, request); });
+  router.add("POST", "/api/v1/programs/{name}/revisions/{number}/reject",
+             [&](const Request& request) { return reject_revision(services, request); });
   router.add("GET", "/api/v1/programs/{name}/content",
              [&](const Request& request) { return send_content(services, request); });
 }

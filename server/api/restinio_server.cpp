@@ -19,7 +19,8 @@ constexpr auto kWriteLimit = 60s;   ///< for one write to a client that does not
 constexpr auto kHandleLimit = 60s;  ///< longer than any handler waits
 
 // One thread serves the sockets, but the last reference to a connection may be dropped on a
-// handler's thread. The single-thread traits count connections without a mutex: never use them here.
+// handler's thread. The single-thread traits count connections without a mutex: never use them
+// here.
 struct PlainTraits : restinio::default_traits_t {
   using request_handler_t =
       std::function<restinio::request_handling_status_t(restinio::request_handle_t)>;

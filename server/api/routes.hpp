@@ -11,9 +11,12 @@ void add_upload_routes(Router& router, Services& services);
 void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);
 void add_report_routes(Router& router, Services& services);
+void add_port_routes(Router& router, Services& services);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
 /// `limit` (default 100) and `offset`.
 storage::Page read_page(QueryReader& query);
+/// When the hub takes no further one.
+Response too_many_listeners();
 
 }  // namespace dripline::api

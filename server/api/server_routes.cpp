@@ -72,11 +72,7 @@ Response open_events(Services& services, const Request& request) {
   }
   Response response;
   response.events = services.events.subscribe(machine);
-  if (!response.events) {
-    return error_response(
-        {Errc::Busy, fmt::format("{} listeners are connected already: at most {}",
-                                 EventHub::kMaxSubscriptions, EventHub::kMaxSubscriptions)});
-  }
+  if (!response.events) return too_many_listeners();
   for (const auto& view : services.feeds.machines()) {
     response.events->push(
         {.kind = "machine", .machine = view.machine.name, .data = to_text(machine_json(view))});
@@ -86,6 +82,12 @@ Response open_events(Services& services, const Request& request) {
 }
 
 }  // namespace
+
+Response too_many_listeners() {
+  return error_response(
+      {Errc::Busy, fmt::format("{} listeners are connected already: at most {}",
+                               EventHub::kMaxSubscriptions, EventHub::kMaxSubscriptions)});
+}
 
 void add_server_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/health", [](const Request&) {

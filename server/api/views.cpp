@@ -72,7 +72,9 @@ json revision_json(const storage::Revision& revision) {
           {"control", optional_text(revision.control)},
           {"comment", optional_text(revision.comment)},
           {"author", optional_text(revision.author)},
-          {"created", to_iso8601(revision.created)}};
+          {"created", to_iso8601(revision.created)},
+          {"held", revision.is_held},
+          {"accepted", optional_time(revision.accepted)}};
 }
 
 json program_json(const storage::ProgramSummary& program) {
@@ -80,6 +82,7 @@ json program_json(const storage::ProgramSummary& program) {
   view.erase("program");
   view["name"] = program.latest.program;
   view["revisions"] = program.revisions;
+  view["held_revisions"] = program.held;
   return view;
 }
 

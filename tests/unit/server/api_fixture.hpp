@@ -4,6 +4,7 @@
 
 #include "server/api/api.hpp"
 #include "tests/unit/server/fake_feeds.hpp"
+#include "tests/unit/server/fake_ports.hpp"
 #include "tests/unit/server/server_fixture.hpp"
 
 namespace dripline::server_test {
@@ -21,21 +22,23 @@ class ApiTest : public ServerTest {
  protected:
   using Json = nlohmann::json;
 
-  ApiTest() {
-    api_ =
-        std::make_unique<api::Api>(api::Services{.programs = *programs_,
-                                                 .feeds = feeds_,
-                                                 .store = *store_,
-                                                 .audit = *audit_,
-                                                 .events = events_,
-                                                 .clock = clock_,
-                                                 .facts = {.name = "office",
-                                                           .version = "1",
-                                                           .data_dir = "/data",
-                                                           .started = clock_.now(),
-                                                           .dds_domain = 3},
-                                                 .dds_rejected = [] { return std::uint64_t{4}; }},
-                                   api::Token{.name = "admin", .secret = kSecret});
+  ApiTest() { make_api(&ports_); }
+
+  void make_api(ports::PortControl* ports) {
+    api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
+                                                    .feeds = feeds_,
+                                                    .store = *store_,
+                                                    .audit = *audit_,
+                                                    .events = events_,
+                                                    .clock = clock_,
+                                                    .facts = {.name = "office",
+                                                              .version = "1",
+                                                              .data_dir = "/data",
+                                                              .started = clock_.now(),
+                                                              .dds_domain = 3},
+                                                    .dds_rejected = [] { return std::uint64_t{4}; },
+                                                    .ports = ports},
+                                      api::Token{.name = "admin", .secret = kSecret});
   }
 
   api::Response call(const std::string& method, const std::string& target, Call call = {}) {
@@ -126,6 +129,7 @@ class ApiTest : public ServerTest {
   }
 
   FakeFeeds feeds_;
+  FakePorts ports_;
   api::EventHub events_;
   std::unique_ptr<api::Api> api_;
 };

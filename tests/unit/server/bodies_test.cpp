@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <functional>
 
+#include "server/api/port_bodies.hpp"
+
 namespace dripline::api {
 namespace {
 
@@ -30,6 +32,22 @@ std::optional<Error> start(std::string_view body) {
 }
 std::optional<Error> order(std::string_view body) {
   return error_of(decode_order(body));
+}
+
+std::optional<Error> port(std::string_view body) {
+  return error_of(decode_port("line-1", body));
+}
+std::optional<Error> rules_text(std::string_view body) {
+  return error_of(decode_rules_text(body));
+}
+std::string port_with(const std::string& members) {
+  return R"({"machine":"m1","address":"/dev/ttyS0",)" + members + "}";
+}
+
+std::string many_settings() {
+  std::string members;
+  for (int i = 0; i < 65; ++i) members += fmt::format("{}\"k{}\":1", i == 0 ? "" : ",", i);
+  return members;
 }
 
 class DecodeBody : public testing::TestWithParam<BodyCase> {};
@@ -72,6 +90,43 @@ INSTANTIATE_TEST_SUITE_P(
                  R"({"program":"O1","comment":"\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["})",
                  {}},
         BodyCase{"not_utf8", upload, "{\"program\":\"O\xFF\"}", Errc::Syntax, "JSON"},
+        BodyCase{
+            "port",
+            port,
+            port_with(
+                R"("template":"fanuc","settings":{"baud":9600,"eob":"lf","wait_for_xon":true},"rules":"","enabled":false)"),
+            {}},
+        BodyCase{"port_without_machine", port, R"({"address":"/dev/ttyS0"})", Errc::Syntax,
+                 "'machine' is missing"},
+        BodyCase{"port_bad_machine", port, R"({"machine":"M 1","address":"/dev/ttyS0"})",
+                 Errc::Syntax, "'M 1'"},
+        BodyCase{"port_empty_address", port, R"({"machine":"m1","address":""})", Errc::Syntax,
+                 "'address' is empty"},
+        BodyCase{"port_long_address", port,
+                 R"({"machine":"m1","address":")" + std::string(256, '/') + "\"}",
+                 Errc::LimitExceeded, "256 bytes: at most 255"},
+        BodyCase{"port_settings_list", port, port_with(R"("settings":["baud"])"), Errc::Syntax,
+                 "'settings' must be an object"},
+        BodyCase{"port_setting_nested", port, port_with(R"("settings":{"baud":[1]})"), Errc::Syntax,
+                 "'settings.baud'"},
+        BodyCase{"port_setting_fraction", port, port_with(R"("settings":{"baud":9600.5})"),
+                 Errc::Syntax, "whole number"},
+        BodyCase{"port_setting_long", port,
+                 port_with(R"("settings":{"eob":")" + std::string(65, 'x') + "\"}"),
+                 Errc::LimitExceeded, "'settings.eob' has 65 bytes: at most 64"},
+        BodyCase{"port_many_settings", port, port_with("\"settings\":{" + many_settings() + "}"),
+                 Errc::LimitExceeded, "65 members: at most 64"},
+        BodyCase{"port_enabled_text", port, port_with(R"("enabled":"yes")"), Errc::Syntax,
+                 "true or false"},
+        BodyCase{"port_rules_long", port,
+                 port_with(R"("rules":")" + std::string(32 * 1024 + 1, 'x') + "\""),
+                 Errc::LimitExceeded, "at most 32768"},
+        BodyCase{"port_name_inside", port, port_with(R"("name":"line-2")"), Errc::Syntax, "'name'"},
+        BodyCase{"rules_text", rules_text, R"({"text":"O9999\n(PRG=1)\n"})", {}},
+        BodyCase{"rules_text_long", rules_text,
+                 R"({"text":")" + std::string(48 * 1024 + 1, 'x') + "\"}", Errc::LimitExceeded,
+                 "at most 49152"},
+        BodyCase{"rules_text_missing", rules_text, "{}", Errc::Syntax, "'text' is missing"},
         BodyCase{"commit_empty", commit, "", {}},
         BodyCase{"commit", commit, R"({"sha256":")" + std::string(64, 'a') + "\"}", {}},
         BodyCase{"commit_bad_digest", commit, R"({"sha256":"abc"})", Errc::Syntax, "64"},
@@ -98,6 +153,16 @@ INSTANTIATE_TEST_SUITE_P(
         BodyCase{"unknown_action", order, R"({"action":"explode"})", Errc::Unsupported,
                  "hold, resume"}),
     [](const auto& i) { return std::string(i.param.name); });
+
+TEST(DecodePort, PutsTheLineBeforeWhatChangesIt) {
+  const auto port = decode_port(
+      "line-1", port_with(R"("settings":{"baud":4800,"line":"9600e72","parity":"odd"})"));
+  ASSERT_TRUE(port) << port.error().what;
+  using Setting = std::pair<std::string, std::string>;
+  EXPECT_EQ(port->settings,
+            (std::vector<Setting>{{"line", "9600e72"}, {"baud", "4800"}, {"parity", "odd"}}));
+  EXPECT_TRUE(port->is_enabled);
+}
 
 }  // namespace
 }  // namespace dripline::api

@@ -40,6 +40,42 @@ TEST(EventHub, CutsOffAListenerThatIsTooSlow) {
   EXPECT_FALSE(quick->is_closed());
 }
 
+TEST(EventHub, GivesAPortsListenerThatPortOnly) {
+  EventHub hub;
+  const auto port = hub.subscribe_port("line-1");
+  const auto all = hub.subscribe({});
+  hub.publish({.kind = "run", .machine = "m1", .data = "{}"});
+  hub.publish({.kind = "traffic", .data = "1", .port = "line-1"});
+  hub.publish({.kind = "traffic", .data = "2", .port = "line-2"});
+  EXPECT_EQ(port->take(), "event: traffic\ndata: 1\n\n");
+  EXPECT_EQ(all->take(), "event: run\ndata: {}\n\n");
+  EXPECT_TRUE(hub.has_port_listeners("line-1"));
+  EXPECT_FALSE(hub.has_port_listeners("line-2"));
+}
+
+TEST(EventHub, CountsWhatASlowListenerOfAPortLost) {
+  EventHub hub;
+  const auto slow = hub.subscribe_port("line-1");
+  for (std::size_t i = 0; i < EventSubscription::kMaxEvents + 17; ++i) {
+    hub.publish({.kind = "traffic", .data = "{}", .port = "line-1"});
+  }
+  EXPECT_FALSE(slow->is_closed());
+  const std::string text = slow->take();
+  EXPECT_TRUE(text.ends_with("event: traffic\ndata: {}\n\nevent: lost\ndata: {\"lost\":17}\n\n"));
+  hub.publish({.kind = "traffic", .data = "{}", .port = "line-1"});
+  EXPECT_EQ(slow->take(), "event: traffic\ndata: {}\n\n") << "and goes on";
+}
+
+TEST(EventHub, KeepsNoMoreBytesForAPortThanAgreed) {
+  EventHub hub;
+  const auto slow = hub.subscribe_port("line-1");
+  const std::string big(EventSubscription::kMaxBytes / 4 + 1, 'x');
+  for (int i = 0; i < 5; ++i) hub.publish({.kind = "traffic", .data = big, .port = "line-1"});
+  const std::string text = slow->take();
+  EXPECT_LT(text.size(), EventSubscription::kMaxBytes + 1000);
+  EXPECT_TRUE(text.ends_with("data: {\"lost\":2}\n\n"));
+}
+
 TEST(EventHub, TakesALimitedNumberOfListenersAndForgetsThoseThatWent) {
   EventHub hub;
   std::vector<std::shared_ptr<EventSubscription>> listeners;

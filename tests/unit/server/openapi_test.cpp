@@ -32,6 +32,47 @@ class OpenApi : public ApiTest {
         << method << " " << pattern << " " << answer.dump();
   }
 
+  void expect_ports_described() {
+    const auto put =
+        call("PUT", "/api/v1/ports/line-1",
+             {.body = R"({"machine":"mill-3","address":"/dev/ttyS0"})", .headers = {}});
+    EXPECT_EQ(put.status, 201) << put.body;
+    expect_described("PUT", "/api/v1/ports/{name}", put);
+    ports_.traffic.push_back({"line-1", clock_.now(), "sent", "M30", ""});
+    expect_described("GET", "/api/v1/ports", get("/api/v1/ports"));
+    expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
+    expect_described("POST", "/api/v1/ports/{name}/test",
+                     call("POST", "/api/v1/ports/line-1/test"));
+    expect_described("POST", "/api/v1/ports/{name}/test-rules",
+                     post("/api/v1/ports/line-1/test-rules", {{"text", "O1"}}));
+    expect_described("GET", "/api/v1/ports/{name}/recording",
+                     get("/api/v1/ports/line-1/recording"));
+    expect_line_described("Traffic", body(get("/api/v1/ports/line-1/recording")));
+    expect_described("GET", "/api/v1/ports/{name}/traffic", get("/api/v1/ports/line-1/traffic"));
+    expect_described("GET", "/api/v1/port-templates", get("/api/v1/port-templates"));
+    expect_described("DELETE", "/api/v1/ports/{name}", call("DELETE", "/api/v1/ports/line-1"));
+  }
+  /// What comes as lines or events is described by a schema without being an answer.
+  void expect_line_described(const std::string& schema, const std::string& line) {
+    EXPECT_EQ(test_support::schema_violation(document_, document_["components"]["schemas"][schema],
+                                             Json::parse(line)),
+              "");
+  }
+  void expect_judgement_described() {
+    for (const std::string number : {"1", "2"}) {
+      const auto upload = programs_->begin(
+          {.program = "O3", .control = "centurion", .comment = {}, .is_held = true}, "mill-3");
+      ASSERT_TRUE(programs_->append(upload->id, 0, bytes_of("N" + number + "\n")));
+      ASSERT_TRUE(programs_->commit(upload->id, std::nullopt, "mill-3"));
+    }
+    expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
+    const std::string path = "/api/v1/programs/{name}/revisions/{number}/";
+    expect_described("POST", path + "accept",
+                     call("POST", "/api/v1/programs/O3/revisions/1/accept"));
+    expect_described("POST", path + "reject",
+                     call("POST", "/api/v1/programs/O3/revisions/2/reject"));
+  }
+
   Json document_;
   std::set<std::string> covered_;
 };
@@ -90,6 +131,8 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/reports/{run}", get("/api/v1/reports/" + run + "?format=json"));
   expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
   expect_described("GET", "/api/v1/events", get("/api/v1/events"));
+  expect_ports_described();
+  expect_judgement_described();
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))

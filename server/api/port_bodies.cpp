@@ -1,0 +1,52 @@
+#include "server/api/port_bodies.hpp"
+
+#include <algorithm>
+
+#include "protocol/base/names.hpp"
+#include "server/api/json_object.hpp"
+
+namespace dripline::api {
+namespace {
+
+constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are looked at
+
+Result<void> check_size(const storage::Port& port) {
+  if (port.settings.size() > storage::kMaxPortSettings) {
+    return fail(Errc::LimitExceeded, "member 'settings' has {} members: at most {}",
+                port.settings.size(), storage::kMaxPortSettings);
+  }
+  if (port.address.empty()) return fail(Errc::Syntax, "member 'address' is empty");
+  return {};
+}
+
+}  // namespace
+
+Result<storage::Port> decode_port(const std::string& name, std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  storage::Port port;
+  port.name = name;
+  port.machine = object->required_text("machine", kMaxName);
+  port.address = object->required_text("address", kMaxAddress);
+  port.line_template = object->optional_text("template", kMaxName).value_or("");
+  port.settings = object->optional_scalars("settings", kMaxSettingValue);
+  port.rules = object->optional_text("rules", storage::kMaxPortRules).value_or("");
+  port.is_enabled = object->optional_flag("enabled").value_or(true);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_port_name(port.name); !good) return fail(good.error());
+  if (auto good = check_machine_name(port.machine); !good) return fail(good.error());
+  if (auto good = check_size(port); !good) return fail(good.error());
+  std::ranges::stable_partition(port.settings,
+                                [](const auto& setting) { return setting.first == "line"; });
+  return port;
+}
+
+Result<std::string> decode_rules_text(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  auto text = object->required_text("text", kMaxRulesText);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return text;
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,140 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/port_bodies.hpp"
+#include "server/api/port_views.hpp"
+#include "server/api/routes.hpp"
+#include "server/api/views.hpp"
+
+namespace dripline::api {
+namespace {
+
+using PortHandler = Response (*)(Services&, ports::PortControl&, const Request&);
+
+/// Every handler of a port takes no query, and needs a server that has ports.
+Handler with_ports(Services& services, PortHandler handler) {
+  return [&services, handler](const Request& request) {
+    QueryReader query(request);
+    if (auto good = query.finish(); !good) return error_response(good.error());
+    if (services.ports == nullptr) {
+      return error_response({Errc::Unsupported, "this server runs without serial ports"});
+    }
+    return handler(services, *services.ports, request);
+  };
+}
+
+void note(Services& services, const Request& request, std::string action, std::string detail) {
+  services.audit.write({.who = request.who,
+                        .action = std::move(action),
+                        .subject = request.parameter("name"),
+                        .detail = std::move(detail)});
+}
+
+Response list_ports(Services&, ports::PortControl& ports, const Request&) {
+  auto list = nlohmann::json::array();
+  for (const auto& view : ports.ports()) list.push_back(port_json(view));
+  return json_response(200, {{"ports", std::move(list)}});
+}
+
+Response show_port(Services&, ports::PortControl& ports, const Request& request) {
+  const auto view = ports.port(request.parameter("name"));
+  return view ? json_response(200, port_json(*view)) : error_response(view.error());
+}
+
+Response save_port(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto port = decode_port(request.parameter("name"), request.body);
+  if (!port) return error_response(port.error());
+  const bool is_new = !ports.port(port->name);
+  const auto view = ports.save(*port);
+  if (!view) return error_response(view.error());
+  std::string detail = fmt::format("{} at {}, template '{}'{}", port->machine, port->address,
+                                   port->line_template, port->is_enabled ? "" : ", disabled");
+  for (const auto& [key, value] : port->settings) detail += fmt::format(" {}={}", key, value);
+  note(services, request, "port.save", std::move(detail));
+  return json_response(is_new ? 201 : 200, port_json(*view));
+}
+
+Response remove_port(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto removed = ports.remove(request.parameter("name"));
+  if (!removed) return error_response(removed.error());
+  note(services, request, "port.remove", "");
+  return no_content();
+}
+
+Response test_port(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto test = ports.test(request.parameter("name"));
+  if (!test) return error_response(test.error());
+  note(services, request, "port.test", test->is_passed ? "passed" : "failed");
+  return json_response(200, port_test_json(*test));
+}
+
+Response test_rules(Services&, ports::PortControl& ports, const Request& request) {
+  const auto text = decode_rules_text(request.body);
+  if (!text) return error_response(text.error());
+  const auto verdict = ports.test_rules(request.parameter("name"), *text);
+  return verdict ? json_response(200, verdict_json(*verdict)) : error_response(verdict.error());
+}
+
+/// The recording as JSON lines, made some entries at a time.
+BodySource recording_source(std::vector<ports::PortTraffic> recording) {
+  constexpr std::size_t kPiece = 256;
+  auto entries = std::make_shared<std::vector<ports::PortTraffic>>(std::move(recording));
+  return [entries, at = std::size_t{0}]() mutable -> Result<std::optional<std::string>> {
+    if (at == entries->size()) return std::nullopt;
+    std::string text;
+    for (const std::size_t end = std::min(at + kPiece, entries->size()); at < end; ++at) {
+      text += to_text(traffic_json((*entries)[at])) + "\n";
+    }
+    return text;
+  };
+}
+
+Response send_recording(Services&, ports::PortControl& ports, const Request& request) {
+  auto recording = ports.recording(request.parameter("name"));
+  if (!recording) return error_response(recording.error());
+  Response response;
+  response.content_type = "application/x-ndjson";
+  response.source = recording_source(*std::move(recording));
+  return response;
+}
+
+Response open_traffic(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto view = ports.port(request.parameter("name"));
+  if (!view) return error_response(view.error());
+  Response response;
+  response.events = services.events.subscribe_port(view->port.name);
+  if (!response.events) return too_many_listeners();
+  response.events->push(
+      {.kind = "port", .data = to_text(port_json(*view)), .port = view->port.name});
+  response.content_type = "text/event-stream";
+  return response;
+}
+
+Response list_templates(const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return json_response(200, port_templates_json());
+}
+
+}  // namespace
+
+void add_port_routes(Router& router, Services& services) {
+  const std::string port = "/api/v1/ports/{name}";
+  router.add("GET", "/api/v1/ports", with_ports(services, list_ports));
+  router.add("GET", port, with_ports(services, show_port));
+  router.add("PUT", port, with_ports(services, save_port));
+  router.add("DELETE", port, with_ports(services, remove_port));
+  router.add("POST", port + "/test", with_ports(services, test_port));
+  router.add("POST", port + "/test-rules", with_ports(services, test_rules));
+  router.add("GET", port + "/recording", with_ports(services, send_recording));
+  router.add("GET", port + "/traffic", with_ports(services, open_traffic));
+  router.add("GET", "/api/v1/port-templates", list_templates);
+}
+
+std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub) {
+  return [&hub](const ports::PortTraffic& traffic) {
+    if (!hub.has_port_listeners(traffic.port)) return;
+    hub.publish({.kind = "traffic", .data = to_text(traffic_json(traffic)), .port = traffic.port});
+  };
+}
+
+}  // namespace dripline::api
