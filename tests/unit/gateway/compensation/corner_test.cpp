@@ -77,6 +77,9 @@ TEST(Corner, TheToolGoesRoundTheEndOfALineAndBack) {
   contour.right(2).line(0, 0).line(10, 0).line(0, 0).off().line(-20, 0);
   expect_ends(contour.log, {{0, -2}, {10, -2}, {10, 2}, {0, 2}, {-20, 0}});
   EXPECT_NEAR(contour.log.moves[2].sweep, Angle::degrees(180).radians(), kNear);
+  Contour other_side{with(OutsideCorner::Arc), {-20, 0}};
+  other_side.left(2).line(0, 0).line(10, 0).line(0, 0).off().line(-20, 0);
+  EXPECT_NEAR(other_side.log.moves[2].sweep, Angle::degrees(-180).radians(), kNear);
 }
 
 TEST(Corner, BeforeARapidTheToolDoesNotCutTheCorner) {

@@ -1,0 +1,142 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <functional>
+
+#include "tests/unit/gateway/compensation/contour.hpp"
+
+namespace dripline::interpreter::compensation {
+namespace {
+
+using testing::ElementsAre;
+
+using Step = std::function<void(Contour&)>;
+
+Policy patient() {
+  Policy policy;
+  policy.blocks_without_motion = 3;
+  return policy;
+}
+
+void say(Contour& contour, std::string_view text) {
+  contour.compensator.on_output({Origin{}, OutputDevice::File, text});
+}
+
+TEST(Order, WhatStandsBetweenTwoMovesStaysBetweenThem) {
+  Contour contour{patient(), {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0);
+  {
+    const std::string text = "DONE";  // must not outlive the call
+    say(contour, text);
+  }
+  contour.misc(8).empty_block();
+  EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1"));
+  contour.line(10, 10);
+  EXPECT_THAT(contour.log.words,
+              ElementsAre("move1", "/1", "move2", "/2", "DONE", "M8", "/3", "/4"));
+}
+
+TEST(Order, AMoveIsGivenOutAsSoonAsItIsDecided) {
+  Contour contour{Policy{}, {-10, 0}};
+  contour.left(2).line(0, 0);
+  EXPECT_TRUE(contour.compensator.is_waiting());
+  EXPECT_TRUE(contour.log.words.empty());
+  contour.line(10, 0).off();
+  EXPECT_FALSE(contour.compensator.is_waiting()) << "its end is its own normal";
+  EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1", "move2", "/2"));
+}
+
+TEST(Order, OneBlockTooManyWithoutMotionEndsTheWait) {
+  Contour contour{Policy{}, {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0).misc(8);
+  EXPECT_TRUE(contour.compensator.is_waiting());
+  contour.misc(9);
+  EXPECT_FALSE(contour.compensator.is_waiting());
+  EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1", "move2", "/2", "M8", "/3", "M9", "/4"));
+}
+
+TEST(Order, TheEndOfTheProgramEndsTheWait) {
+  Contour contour{Policy{}, {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0);
+  contour.compensator.on_end({});
+  EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1", "move2", "/2", "end"));
+}
+
+/// Everything that a state can hold.
+std::vector<Step> script() {
+  return {[](Contour& c) { c.left(2).line(0, 0); },
+          [](Contour& c) { c.line(20, 0); },
+          [](Contour& c) {
+            say(c, "a line with a text");
+            c.misc(8);
+          },
+          [](Contour& c) { c.aside(-4); },
+          [](Contour& c) {
+            c.compensator.on_dwell({Origin{}, 0.5, {}});
+          },
+          [](Contour& c) {
+            c.compensator.on_spindle({Origin{}, SpindleState::Clockwise, 900, {}, 4000.0});
+          },
+          [](Contour& c) {
+            c.compensator.on_tool({Origin{}, 4, true, 7});
+            c.compensator.on_coolant({Origin{}, true, false});
+            c.compensator.on_pin({Origin{}, Axis::B, 3, true, 20.0});
+            c.compensator.on_stop({Origin{}, StopKind::Optional});
+            c.compensator.on_units({Origin{}, Units::Inch});
+            c.compensator.on_open({Origin{}, OutputDevice::Port1, "REPORT"});
+            c.compensator.on_open({Origin{}, OutputDevice::Port2, {}});
+            c.compensator.on_message({Origin{}, "LOOK"});
+            c.compensator.on_close({Origin{}, OutputDevice::Port1});
+          },
+          [](Contour& c) {
+            c.arc({20, -10}, -90);
+          },
+          [](Contour& c) { c.rapid(30, -30); },
+          [](Contour& c) {
+            c.compensator.shape_next_corner(OutsideCorner::Arc);
+            c.feed = Feed::inverse_time(4);
+          },
+          [](Contour& c) { c.line(0, -30); },
+          [](Contour& c) { c.right(3).line(-30, -40); },
+          [](Contour& c) { c.off(); },
+          [](Contour& c) { c.aside(50); },
+          [](Contour& c) { c.line(-50, -50); }};
+}
+
+TEST(Order, AStateReadBackGoesOnInTheSameWay) {
+  const std::vector<Step> steps = script();
+  Contour whole{patient(), {-10, 0}};
+  for (const Step& step : steps) step(whole);
+  ASSERT_EQ(whole.fault(), std::nullopt);
+  for (std::size_t cut = 0; cut <= steps.size(); ++cut) {
+    Contour parted{patient(), {-10, 0}};
+    for (std::size_t i = 0; i < cut; ++i) steps[i](parted);
+    std::vector<std::byte> bytes, again;
+    parted.compensator.append_state(bytes);
+    parted.compensator.reset({});
+    auto size = parted.compensator.restore_state(bytes);
+    ASSERT_TRUE(size) << size.error().what;
+    EXPECT_EQ(*size, bytes.size());
+    parted.compensator.append_state(again);
+    EXPECT_EQ(again, bytes);
+    for (std::size_t i = cut; i < steps.size(); ++i) steps[i](parted);
+    EXPECT_EQ(parted.log.words, whole.log.words) << "cut before step " << cut;
+  }
+}
+
+TEST(Order, ADamagedStateIsRefusedAndChangesNothing) {
+  Contour contour{patient(), {-10, 0}};
+  const std::vector<Step> steps = script();
+  for (std::size_t i = 0; i < 7; ++i) steps[i](contour);
+  std::vector<std::byte> bytes;
+  contour.compensator.append_state(bytes);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    const auto read = contour.compensator.restore_state(std::span{bytes}.first(size));
+    ASSERT_FALSE(read) << size << " of " << bytes.size() << " bytes";
+  }
+  std::vector<std::byte> after;
+  contour.compensator.append_state(after);
+  EXPECT_EQ(after, bytes);
+}
+
+}  // namespace
+}  // namespace dripline::interpreter::compensation
