@@ -99,17 +99,17 @@ void Compensator::shape_next_corner(OutsideCorner shape) {
 
 void Compensator::settle() {
   if (!state_.has_element || fault_) return;
-  finish(state_.element.own_end());
+  finish(state_.waiting().own_end());
 }
 
-void Compensator::append_state(std::vector<std::byte>& out) const {
-  append_bytes(state_, out);
+std::vector<std::byte> Compensator::state() const {
+  return to_bytes(state_);
 }
 
-Result<std::size_t> Compensator::restore_state(std::span<const std::byte> bytes) {
-  auto size = read_bytes(state_, bytes);
-  if (size) fault_.reset();
-  return size;
+Result<void> Compensator::restore(const std::vector<std::byte>& state) {
+  auto restored = from_bytes(state_, state);
+  if (restored) fault_.reset();
+  return restored;
 }
 
 bool Compensator::refuse(const Fault& fault) {
@@ -134,7 +134,8 @@ void Compensator::take_straight(const Move& move, Feed feed) {
     return give(sink_, move);
   }
   if (!is_in_plane) return take_aside(move);
-  Element element;
+  Element& element = state_.spare();
+  element.is_arc = false;
   element.is_rapid = std::is_same_v<Move, Rapid>;
   element.origin = move.origin;
   element.to = move.to;
@@ -155,7 +156,7 @@ void Compensator::take_aside(const Move& move) {
   if (state_.has_element) {
     hold(move, move.origin);
   } else {
-    deliver(move);
+    deliver_aside(move);
   }
 }
 
@@ -177,7 +178,8 @@ void Compensator::on_arc(const Arc& event) {
     refuse({FaultKind::OtherPlane, event.origin, event.origin, {}, {}});
     return;
   }
-  Element element;
+  Element& element = state_.spare();
+  element.is_rapid = false;
   element.origin = event.origin;
   element.to = event.to;
   element.feed = event.feed;
@@ -210,6 +212,7 @@ void Compensator::take(Element& element) {
   state_.next_corner.reset();
   element.role = next_role();
   element.start_up = state_.start_up;
+  element.lead_in.count = 0;
   if (element.is_arc && !accepts_arc(element)) return;
   if (state_.has_element) {
     join(element);
@@ -219,7 +222,7 @@ void Compensator::take(Element& element) {
   if (fault_) return;
   state_.programmed = element.to;
   if (element.role == Role::Cancel || element.role == Role::Parallel) return go_off(element);
-  state_.element = element;
+  state_.swap_elements();
   state_.has_element = true;
   state_.idle_blocks = 0;
   state_.is_displaced = true;
@@ -241,7 +244,7 @@ bool Compensator::accepts_arc(const Element& arc) {
 
 /// The corner between what waits and `next` is known now.
 void Compensator::join(Element& next) {
-  const Element& first = state_.element;
+  const Element& first = state_.waiting();
   const Corner corner = round_corner(policy_, first, next, nose());
   if (corner.fault) {
     refuse({*corner.fault, first.origin, next.origin, Length::mm(length(first.end - nose())),
@@ -265,8 +268,9 @@ void Compensator::begin_alone(Element& element) {
 
 void Compensator::finish(PlaneVector end) {
   PathWriter writer(sink_, state_);
-  if (!writer.put_out(state_.element, end)) {
-    refuse({FaultKind::Reversed, state_.element.origin, state_.element.origin, {}, {}});
+  const Element& element = state_.waiting();
+  if (!writer.put_out(element, end)) {
+    refuse({FaultKind::Reversed, element.origin, element.origin, {}, {}});
     return;
   }
   state_.has_element = false;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "gateway/interpreter/compensation/fault.hpp"
@@ -11,6 +10,9 @@
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter::compensation {
+
+/// More than any state takes.
+inline constexpr std::size_t kMaxStateBytes = 16 * 1024;
 
 /// The last stage of a dialect before its sink: takes the programmed events, in machine
 /// coordinates, and gives out the same events with the tool's path offset by the cutter radius.
@@ -62,11 +64,11 @@ class Compensator final : public EventSink {
   /// Where the tool has been sent so far.
   const Position& tool() const { return state_.tool; }
 
-  /// The state at a block boundary, for a snapshot: equal bytes mean equal states.
-  void append_state(std::vector<std::byte>& out) const;
-  /// Reads it back from the front of `bytes`; returns how many bytes it took. Errors: Corrupt; the
-  /// state is then unchanged.
-  Result<std::size_t> restore_state(std::span<const std::byte> bytes);
+  /// The state at a block boundary, for a snapshot: equal bytes mean equal states. At most
+  /// kMaxStateBytes.
+  std::vector<std::byte> state() const;
+  /// Errors: Corrupt; the state is then unchanged.
+  Result<void> restore(const std::vector<std::byte>& state);
 
   void on_program(const ProgramHeader& event) override;
   void on_units(const UnitsChange& event) override;
@@ -110,9 +112,12 @@ class Compensator final : public EventSink {
   template <class Event>
   void hold_or_pass(const Event& event);
   void hold_or_pass(impl::HeldText text, std::string_view content);
-  void hold(const impl::HeldEvent& event, const Origin& origin);
+  template <class Event>
+  void hold(const Event& event, const Origin& origin);
   void release_held();
   void deliver(const impl::HeldEvent& event);
+  template <class Move>
+  void deliver_aside(Move move);
 
   PlaneVector nose() const;
   void follow(const Position& to);

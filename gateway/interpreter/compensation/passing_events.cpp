@@ -43,10 +43,14 @@ struct Giver {
 
 }  // namespace
 
-void Compensator::hold(const HeldEvent& event, const Origin& origin) {
+template <class Event>
+void Compensator::hold(const Event& event, const Origin& origin) {
   if (!state_.held.push(event))
-    refuse({FaultKind::TooMuchBetween, state_.element.origin, origin, {}, {}});
+    refuse({FaultKind::TooMuchBetween, state_.waiting().origin, origin, {}, {}});
 }
+
+template void Compensator::hold(const Rapid& event, const Origin& origin);
+template void Compensator::hold(const Line& event, const Origin& origin);
 
 template <class Event>
 void Compensator::hold_or_pass(const Event& event) {
@@ -62,7 +66,7 @@ void Compensator::hold_or_pass(HeldText text, std::string_view content) {
   if (fault_) return;
   if (!state_.has_element) return Giver{sink_, state_.held}.give(text, content);
   if (!state_.held.push(text, content))
-    refuse({FaultKind::TooMuchBetween, state_.element.origin, text.origin, {}, {}});
+    refuse({FaultKind::TooMuchBetween, state_.waiting().origin, text.origin, {}, {}});
 }
 
 void Compensator::release_held() {
@@ -70,18 +74,23 @@ void Compensator::release_held() {
   state_.held.clear();
 }
 
-/// Moves aside of the plane keep the tool's place in it.
 void Compensator::deliver(const HeldEvent& event) {
-  const auto aside = [&](auto move) {
-    const PlaneAxes axes = axes_of(state_.plane);
-    set_in_plane(move.to, axes, in_plane(state_.tool, axes));
-    state_.tool = move.to;
-    Giver{sink_, state_.held}(move);
-  };
-  if (const auto* rapid = std::get_if<Rapid>(&event)) return aside(*rapid);
-  if (const auto* line = std::get_if<Line>(&event)) return aside(*line);
+  if (const auto* end = std::get_if<BlockEnd>(&event)) return sink_.on_block_end(end->origin);
+  if (const auto* rapid = std::get_if<Rapid>(&event)) return deliver_aside(*rapid);
+  if (const auto* line = std::get_if<Line>(&event)) return deliver_aside(*line);
   std::visit(Giver{sink_, state_.held}, event);
 }
+
+/// Moves aside of the plane keep the tool's place in it.
+template <class Move>
+void Compensator::deliver_aside(Move move) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  set_in_plane(move.to, axes, in_plane(state_.tool, axes));
+  state_.tool = move.to;
+  Giver{sink_, state_.held}(move);
+}
+template void Compensator::deliver_aside(Rapid move);
+template void Compensator::deliver_aside(Line move);
 
 void Compensator::on_program(const ProgramHeader& event) {
   if (!fault_) sink_.on_program(event);
@@ -129,7 +138,7 @@ void Compensator::on_block_end(const Origin& event) {
   if (fault_) return;
   if (!state_.has_element) return sink_.on_block_end(event);
   hold(BlockEnd{event}, event);
-  if (event.block == state_.element.origin.block) return;
+  if (event.block == state_.waiting().origin.block) return;
   if (++state_.idle_blocks > policy_.blocks_without_motion) settle();
 }
 

@@ -39,9 +39,10 @@ class HeldEvents {
     return std::string_view{text_.data(), text_size_}.substr(of.begin, of.size);
   }
   /// False when there is no room.
-  bool push(const HeldEvent& event) {
+  template <class Event>
+  bool push(const Event& event) {
     if (count_ == kMaxHeldEvents) return false;
-    events_[count_++] = event;
+    events_[count_++].template emplace<Event>(event);
     return true;
   }
   bool push(HeldText text, std::string_view content) {

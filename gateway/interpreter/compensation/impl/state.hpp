@@ -31,8 +31,15 @@ struct State {
   int idle_blocks = 0;  ///< without motion in the plane, since the element that waits
   Position programmed;  ///< where the program thinks the machine is
   Position tool;        ///< where it has been sent
-  Element element;      ///< the one that waits
   HeldEvents held;
+  std::array<Element, 2> elements;
+  std::uint8_t waiting_slot = 0;
+
+  /// The element that waits, when there is one; the other place is the next one's.
+  Element& waiting() { return elements[waiting_slot]; }
+  const Element& waiting() const { return elements[waiting_slot]; }
+  Element& spare() { return elements[1 - waiting_slot]; }
+  void swap_elements() { waiting_slot = static_cast<std::uint8_t>(1 - waiting_slot); }
 };
 
 }  // namespace dripline::interpreter::compensation::impl

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "gateway/interpreter/compensation/impl/state.hpp"
@@ -10,8 +9,8 @@
 namespace dripline::interpreter::compensation::impl {
 
 /// Member by member, so that equal states have equal bytes; only what is in use.
-void append_bytes(const State& state, std::vector<std::byte>& out);
-/// From the front of `bytes`; how many it took. Errors: Corrupt; `state` is then unchanged.
-Result<std::size_t> read_bytes(State& state, std::span<const std::byte> bytes);
+std::vector<std::byte> to_bytes(const State& state);
+/// Errors: Corrupt; `state` is then unchanged.
+Result<void> from_bytes(State& state, const std::vector<std::byte>& bytes);
 
 }  // namespace dripline::interpreter::compensation::impl

@@ -110,14 +110,11 @@ TEST(Order, AStateReadBackGoesOnInTheSameWay) {
   for (std::size_t cut = 0; cut <= steps.size(); ++cut) {
     Contour parted{patient(), {-10, 0}};
     for (std::size_t i = 0; i < cut; ++i) steps[i](parted);
-    std::vector<std::byte> bytes, again;
-    parted.compensator.append_state(bytes);
+    const std::vector<std::byte> bytes = parted.compensator.state();
     parted.compensator.reset({});
-    auto size = parted.compensator.restore_state(bytes);
-    ASSERT_TRUE(size) << size.error().what;
-    EXPECT_EQ(*size, bytes.size());
-    parted.compensator.append_state(again);
-    EXPECT_EQ(again, bytes);
+    const auto restored = parted.compensator.restore(bytes);
+    ASSERT_TRUE(restored) << restored.error().what;
+    EXPECT_EQ(parted.compensator.state(), bytes);
     for (std::size_t i = cut; i < steps.size(); ++i) steps[i](parted);
     EXPECT_EQ(parted.log.words, whole.log.words) << "cut before step " << cut;
   }
@@ -127,15 +124,25 @@ TEST(Order, ADamagedStateIsRefusedAndChangesNothing) {
   Contour contour{patient(), {-10, 0}};
   const std::vector<Step> steps = script();
   for (std::size_t i = 0; i < 7; ++i) steps[i](contour);
-  std::vector<std::byte> bytes;
-  contour.compensator.append_state(bytes);
+  const std::vector<std::byte> bytes = contour.compensator.state();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    const auto read = contour.compensator.restore_state(std::span{bytes}.first(size));
-    ASSERT_FALSE(read) << size << " of " << bytes.size() << " bytes";
+    const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
+    ASSERT_FALSE(contour.compensator.restore(cut)) << size << " of " << bytes.size() << " bytes";
   }
-  std::vector<std::byte> after;
-  contour.compensator.append_state(after);
-  EXPECT_EQ(after, bytes);
+  EXPECT_EQ(contour.compensator.state(), bytes);
+}
+
+TEST(Order, TheLargestStateKeepsItsBound) {
+  Policy policy;
+  policy.blocks_without_motion = 1'000;
+  Contour contour{policy, {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0);
+  const std::string text(100, 'x');
+  for (int i = 0; i < 40; ++i) say(contour, text);
+  for (int i = 0; i < 11; ++i) contour.aside(i + 1.0);
+  EXPECT_EQ(contour.fault(), std::nullopt);
+  EXPECT_GT(contour.compensator.state().size(), 8'000u);
+  EXPECT_LT(contour.compensator.state().size(), kMaxStateBytes);
 }
 
 }  // namespace
