@@ -28,7 +28,9 @@ struct Received {
 class Channel {
  public:
   virtual ~Channel() = default;
-  /// Errors: Io (the cable, the adapter or the server is gone: the channel must be opened anew).
+  /// To be repeated until it gives neither bytes nor a fault: what was read from the device before
+  /// does not show in polling. Errors: Io (the cable, the adapter or the server is gone: the
+  /// channel must be opened anew).
   virtual Result<Received> read(std::span<std::byte> room) = 0;
   /// How many were taken; 0: the driver is full. Errors: Io.
   virtual Result<std::size_t> write(std::span<const std::byte> bytes) = 0;
@@ -39,7 +41,7 @@ class Channel {
   virtual Result<void> set_output_lines(wire::OutputLines lines) = 0;
   /// Errors: Unsupported (a TCP stream), Io.
   virtual Result<void> apply(const wire::LineSettings& settings) = 0;
-  /// To poll for reading, and for writing after write() took less than offered.
+  /// To poll for reading.
   virtual int descriptor() const = 0;
   virtual std::string name() const = 0;  ///< the address as configured
 };

@@ -21,7 +21,7 @@ struct LineTraffic {
 struct LineListener {
   std::function<void(wire::Event&)> on_event;
   std::function<void(const LineTraffic&)> on_traffic;
-  /// The channel was lost (with the reason) or is open (empty reason).
+  /// The channel was lost or can not be opened (why; once for each reason), or is open (nullptr).
   std::function<void(const Error* lost)> on_channel;
   /// There is room for text to offer.
   std::function<void()> on_room;
@@ -30,6 +30,10 @@ struct LineListener {
 /// Runs one discipline over one channel on a thread of its own: paces what leaves so that at most
 /// two character times are ever with the driver, opens the channel anew when it was lost, and calls
 /// the listener. Commands from any thread are carried out on the line's thread by `post`.
+///
+/// A lost channel takes what was with the driver along. Checked protocols (XMODEM, HEIDENHAIN with
+/// BCC) notice and repeat it when the channel is back, or give up by their own limits; of all
+/// others a transfer in progress has failed then (TransferFailed, code Io), and its owner decides.
 class LineDriver {
  public:
   struct Parts {
@@ -38,12 +42,18 @@ class LineDriver {
     wire::Role role = wire::Role::Host;
     LineListener listener;
     std::chrono::milliseconds reopen_after{1000};
+    /// Of one attempt to connect; posted work waits meanwhile.
+    std::chrono::milliseconds open_limit{2000};
+    /// For tests, instead of wire::make_discipline and open_channel.
+    std::function<std::unique_ptr<wire::Discipline>()> make_discipline = {};
+    std::function<Result<std::unique_ptr<Channel>>()> open = {};
   };
   /// Starts the thread; the channel may come later. Errors: those of make_discipline.
   static Result<std::unique_ptr<LineDriver>> start(Parts parts);
   virtual ~LineDriver() = default;  ///< stops and joins
 
-  /// Runs `work` on the line's thread, soon.
+  /// Runs `work` on the line's thread, soon, in the order of posting; also while there is no
+  /// channel. What is still waiting when the driver ends is dropped.
   virtual void post(std::function<void(wire::Discipline&, wire::LineTime)> work) = 0;
   virtual wire::LineState state() const = 0;  ///< any thread
   virtual bool is_open() const = 0;           ///< any thread

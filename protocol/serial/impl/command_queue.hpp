@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "protocol/serial/impl/descriptor.hpp"
+#include "protocol/wire/discipline.hpp"
+
+namespace dripline::serial {
+
+/// Work that other threads leave for a line's thread. Bounded: a line's owner has a handful of
+/// things under way, so more than kMax is a fault of ours and ends the process.
+class CommandQueue {
+ public:
+  using Work = std::function<void(wire::Discipline&, wire::LineTime)>;
+  static constexpr std::size_t kMax = 65'536;
+
+  CommandQueue();
+  /// Any thread.
+  void push(Work work);
+  void wake();
+  /// The line's thread: everything so far; `descriptor` is quiet again.
+  std::vector<Work> take();
+  int descriptor() const { return event_.get(); }  ///< readable: there is something
+
+ private:
+  Descriptor event_;
+  std::mutex mutex_;
+  std::vector<Work> waiting_;
+};
+
+}  // namespace dripline::serial

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::serial {
+
+/// One process per tty: an flock on the open device, which ends with the process, TIOCEXCL, and the
+/// lock file that other serial programs know (LCK..NAME, with pid and name in it). Where the folder
+/// of lock files can not be written, it does without.
+class PortLock {
+ public:
+  static constexpr const char* kFolder = "/run/lock";
+
+  /// `device`: the true path of what `descriptor` has open; that must stay open as long as the lock
+  /// lives. Errors: Busy (naming the owner), Io.
+  static Result<PortLock> take(int descriptor, const std::filesystem::path& device,
+                               const std::filesystem::path& folder = kFolder);
+  PortLock(PortLock&& other) noexcept;
+  PortLock& operator=(PortLock&&) = delete;
+  ~PortLock();
+
+ private:
+  PortLock(int descriptor, std::filesystem::path file)
+      : descriptor_(descriptor), file_(std::move(file)) {}
+  int descriptor_;
+  std::filesystem::path file_;  ///< empty: none of ours
+};
+
+/// Who has this device, for people: "minicom (pid 312)", or "another process".
+std::string owner_of(const std::filesystem::path& device,
+                     const std::filesystem::path& folder = PortLock::kFolder);
+
+}  // namespace dripline::serial

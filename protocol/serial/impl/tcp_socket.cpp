@@ -1,0 +1,83 @@
+#include "protocol/serial/impl/tcp_socket.hpp"
+
+#include <netdb.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+namespace dripline::serial {
+namespace {
+
+using Deadline = std::chrono::steady_clock::time_point;
+
+void set_option(int socket, int level, int option, int value) {
+  ::setsockopt(socket, level, option, &value, sizeof value);  // each is a help, none a must
+}
+
+void watch_peer(int socket) {
+  set_option(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  set_option(socket, SOL_SOCKET, SO_KEEPALIVE, 1);
+  set_option(socket, IPPROTO_TCP, TCP_KEEPIDLE, 3);  // seconds
+  set_option(socket, IPPROTO_TCP, TCP_KEEPINTVL, 2);
+  set_option(socket, IPPROTO_TCP, TCP_KEEPCNT, 3);
+  set_option(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 10'000);  // ms
+}
+
+/// 0, or the error.
+int connect_one(const addrinfo& place, Deadline end, Descriptor& to) {
+  Descriptor socket(::socket(place.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket) return errno;
+  watch_peer(socket.get());
+  if (::connect(socket.get(), place.ai_addr, place.ai_addrlen) != 0) {
+    if (errno != EINPROGRESS) return errno;
+    if (!wait_for(socket.get(), POLLOUT, end)) return ETIMEDOUT;
+    int error = 0;
+    socklen_t size = sizeof error;
+    ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &size);
+    if (error != 0) return error;
+  }
+  to = std::move(socket);
+  return 0;
+}
+
+}  // namespace
+
+bool wait_for(int descriptor, short events, Deadline end) {
+  for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    pollfd entry{descriptor, events, 0};
+    const int ready =
+        ::poll(&entry, 1, static_cast<int>(std::clamp<long long>(left.count(), 0, 3'600'000)));
+    if (ready > 0) return true;
+    if (ready == 0 || errno != EINTR) return false;
+  }
+}
+
+Result<Descriptor> connect_tcp(const TcpAddress& address, std::chrono::milliseconds limit) {
+  const Deadline end = std::chrono::steady_clock::now() + limit;
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* list = nullptr;
+  const std::string port = std::to_string(address.port);
+  const int found = ::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &list);
+  if (found != 0) return fail(Errc::NotFound, "host {}: {}", address.host, ::gai_strerror(found));
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, &::freeaddrinfo);
+  int error = EHOSTUNREACH;
+  for (const addrinfo* place = list; place != nullptr; place = place->ai_next) {
+    Descriptor socket;
+    error = connect_one(*place, end, socket);
+    if (error == 0) return socket;
+    if (error == ETIMEDOUT) break;
+  }
+  if (error == ETIMEDOUT)
+    return fail(Errc::Timeout, "{} port {}: no connection in {} ms", address.host, address.port,
+                limit.count());
+  return fail(Errc::Io, "{} port {}: {}", address.host, address.port, std::strerror(error));
+}
+
+}  // namespace dripline::serial
