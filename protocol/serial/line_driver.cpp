@@ -90,7 +90,7 @@ class Line final : public LineDriver {
   std::optional<wire::InputLines> input_lines_;
   std::optional<wire::OutputLines> output_lines_;
   std::string trouble_;  ///< told last
-  std::size_t most_room_ = 0, told_room_ = 0;
+  std::size_t told_room_ = 0;
 
   mutable std::mutex mutex_;
   wire::LineState state_;
@@ -283,8 +283,7 @@ void Line::watch_room() {
     return;
   }
   const std::size_t room = discipline_->room();
-  most_room_ = std::max(most_room_, room);
-  const bool is_worth_it = room >= told_room_ + kRoomStep || room == most_room_;
+  const bool is_worth_it = room >= told_room_ + kRoomStep || !may_have_more_;
   if (room <= told_room_ || !is_worth_it) {
     told_room_ = std::min(told_room_, room);
     return;

@@ -38,9 +38,9 @@ class LineDriver {
  public:
   struct Parts {
     std::string address;
-    wire::LineSettings settings;
+    wire::LineSettings settings = {};
     wire::Role role = wire::Role::Host;
-    LineListener listener;
+    LineListener listener = {};
     std::chrono::milliseconds reopen_after{1000};
     /// Of one attempt to connect; posted work waits meanwhile.
     std::chrono::milliseconds open_limit{2000};

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+#include <netinet/tcp.h>
+
+#include "protocol/serial/channel.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/unit/protocol/serial/tcp_peer.hpp"
+
+namespace dripline::serial {
+namespace {
+
+using namespace std::chrono_literals;
+using test_support::eventually;
+
+TEST(TcpChannel, CarriesCharactersBothWays) {
+  TcpPeer peer;
+  auto channel = open_channel(peer.address(), {}, 1s);
+  ASSERT_TRUE(channel) << channel.error().what;
+  ASSERT_TRUE(peer.accept());
+  const std::string_view text = "G1 X5\r\n\xFF";
+  ASSERT_EQ(*(*channel)->write(std::as_bytes(std::span(text))), text.size());
+  EXPECT_EQ(peer.read(text.size()), text);
+  peer.write("OK");
+  std::array<std::byte, 8> room;
+  std::size_t got = 0;
+  EXPECT_TRUE(eventually([&] { return (got = (*channel)->read(room)->bytes) > 0; }, 2s));
+  EXPECT_EQ(got, 2U);
+}
+
+TEST(TcpChannel, TellsThatTheServerClosed) {
+  TcpPeer peer;
+  auto channel = open_channel(peer.address(), {}, 1s);
+  ASSERT_TRUE(peer.accept());
+  peer.hang_up();
+  std::array<std::byte, 8> room;
+  std::string what;
+  EXPECT_TRUE(eventually(
+      [&] {
+        const auto got = (*channel)->read(room);
+        if (!got) what = got.error().what;
+        return !got;
+      },
+      2s));
+  EXPECT_NE(what.find(peer.address()), std::string::npos);
+}
+
+TEST(TcpChannel, IsRefusedWhereNobodyListens) {
+  std::string address;
+  {
+    const TcpPeer gone;
+    address = gone.address();
+  }
+  const auto channel = open_channel(address, {}, 1s);
+  ASSERT_FALSE(channel);
+  EXPECT_EQ(channel.error().code, Errc::Io);
+}
+
+TEST(TcpChannel, NoticesAPulledCable) {
+  TcpPeer peer;
+  auto channel = open_channel(peer.address(), {}, 1s);
+  ASSERT_TRUE(channel);
+  int keepalive = 0, timeout = 0;
+  socklen_t size = sizeof keepalive;
+  ASSERT_EQ(::getsockopt((*channel)->descriptor(), SOL_SOCKET, SO_KEEPALIVE, &keepalive, &size), 0);
+  ASSERT_EQ(::getsockopt((*channel)->descriptor(), IPPROTO_TCP, TCP_USER_TIMEOUT, &timeout, &size),
+            0);
+  EXPECT_EQ(keepalive, 1);
+  EXPECT_EQ(timeout, 10'000);
+}
+
+TEST(TcpChannel, GivesUpWaitingForAServerThatIsNoDeviceServer) {
+  TcpPeer peer;
+  const auto channel =
+      open_channel("rfc2217://127.0.0.1:" + std::to_string(peer.port()), {}, 100ms);
+  ASSERT_FALSE(channel);
+  EXPECT_EQ(channel.error().code, Errc::Timeout);
+}
+
+}  // namespace
+}  // namespace dripline::serial
