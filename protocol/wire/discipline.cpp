@@ -38,13 +38,13 @@ Result<std::unique_ptr<Discipline>> make_discipline(const LineSettings& settings
     case Flow::XonXoff:
     case Flow::RtsCts:
     case Flow::DcCodes:
+      return make_plain(settings, role);
     case Flow::Xmodem:
     case Flow::Heidenhain:
     case Flow::HeidenhainBcc:
     case Flow::TapeReader:
       break;
   }
-  (void)role;
   return fail(Errc::Unsupported, "this protocol is not built yet");
 }
 

@@ -1,0 +1,134 @@
+#include "protocol/wire/impl/plain_line.hpp"
+
+#include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/protocols.hpp"
+
+/// What both directions of a plain line share; see plain_sending.cpp and plain_receiving.cpp.
+namespace dripline::wire {
+
+std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role) {
+  return std::make_unique<PlainLine>(settings, role);
+}
+
+PlainLine::PlainLine(const LineSettings& settings, Role role)
+    : DisciplineBase(settings, role),
+      writer_(settings_),
+      reader_(settings_, role, *this),
+      character_time_(character_time(settings)),
+      is_stopped_(waits_for_dc1()) {}
+
+/// Characters that start and stop; in EIA there are none, and make_discipline refuses the settings.
+void PlainLine::say(char dc) {
+  if (const auto row = to_line(settings_.code, dc)) queue_control(static_cast<char>(*row));
+}
+
+void PlainLine::receive(std::span<const std::byte> bytes, LineTime now) {
+  for (const std::byte byte : bytes) {
+    const auto plain = from_line(settings_.code, byte);
+    if (plain && take_dc(*plain, now)) continue;
+    take_data(byte, now);
+  }
+}
+
+/// Whether `dc` steers the line.
+bool PlainLine::take_dc(char dc, LineTime now) {
+  if (!understands_dc1() || dc < kDc1 || dc > kDc4) return false;
+  if (dc == kDc2 || dc == kDc4) {
+    if (!is_dc_codes() || role_ != Role::Host) return false;
+    dc == kDc2 ? punch_on(now) : punch_off(now);
+    return true;
+  }
+  set_stopped(dc == kDc3, now);
+  if (dc == kDc1 && waits_for_dc1() && !is_sending() && !std::exchange(is_asked_, true)) {
+    emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
+  }
+  return true;
+}
+
+void PlainLine::fault(LineFault fault, LineTime now) {
+  if (!reception_.is_open) {
+    emit_trouble({Errc::Corrupt, std::string(fault_text(fault)) + " on the line"});
+    return;
+  }
+  reception_.heard = now;
+  if (const auto read = reader_.read_fault(fault); !read) fail_reception(read.error(), now);
+}
+
+void PlainLine::lines(InputLines lines, LineTime now) {
+  const bool had_cts = input_.cts;
+  DisciplineBase::lines(lines, now);
+  if (settings_.flow == Flow::RtsCts && had_cts != lines.cts) {
+    emit(FlowChanged{!lines.cts});
+    note_hold(now);
+  }
+  if (!lines.dsr && reception_.is_open) {
+    if (const auto error = reader_.rules().not_ready()) fail_reception(*error, now);
+  }
+}
+
+void PlainLine::tick(LineTime now) {
+  if (pause_until_ && *pause_until_ <= now) pause_until_.reset();
+  if (const auto at = hold_deadline(); at && *at <= now) held_too_long(now);
+  if (const auto at = silence_deadline(); at && *at <= now) silent_too_long(now);
+}
+
+std::optional<LineTime> PlainLine::deadline() const {
+  std::optional<LineTime> first;
+  for (const auto& at : {is_sending() && may_send() ? pause_until_ : std::nullopt, hold_deadline(),
+                         silence_deadline()}) {
+    if (at && (!first || *at < *first)) first = at;
+  }
+  return first;
+}
+
+Result<void> PlainLine::request(const TransferRequest& request, LineTime now) {
+  using Kind = TransferRequest::Kind;
+  if (role_ == Role::Control && request.kind == Kind::SendProgram) {
+    return begin_receive(request.name, now);
+  }
+  return fail(Errc::Unsupported, "this line has no characters to ask for that");
+}
+
+Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
+  if (!std::exchange(is_asked_, false)) {
+    return fail(Errc::ModalConflict, "the other end asked for nothing");
+  }
+  return {};
+}
+
+void PlainLine::abort(LineTime now) {
+  const bool was_punching = is_sending() && is_dc_codes() && role_ == Role::Control;
+  const bool was_reading = reception_.is_open && is_dc_codes() && role_ == Role::Control;
+  if (was_punching) say(kDc4);
+  if (was_reading) say(kDc3);
+  drop_transfer(now);
+  is_stopped_ = waits_for_dc1();
+}
+
+/// Whatever direction failed or was dropped: the object is idle.
+void PlainLine::transfer_over(LineTime /*now*/) {
+  text_under_way_ = 0;
+  has_started_ = false;
+  held_since_.reset();
+  pause_until_.reset();
+  close_reception();
+  if (waits_for_dc1()) is_stopped_ = true;
+}
+
+LineState PlainLine::state() const {
+  LineState state;
+  state.phase = !is_sending() && reception_.is_open ? Phase::Receiving : phase_;
+  state.is_stopped = !may_send();
+  state.is_stopping = !is_ready_;
+  state.text_sent = text_sent();
+  if (is_sending() && !may_send()) {
+    state.waiting_for = is_stopped_ ? "DC1" : "CTS";
+    state.may_wait_without_limit = !hold_deadline();
+  } else if (!is_sending() && reception_.is_open && is_ready_) {
+    state.waiting_for = "text";
+    state.may_wait_without_limit = !silence_deadline();
+  }
+  return state;
+}
+
+}  // namespace dripline::wire

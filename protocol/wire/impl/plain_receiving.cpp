@@ -1,0 +1,126 @@
+#include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/plain_line.hpp"
+
+namespace dripline::wire {
+
+Result<void> PlainLine::begin_receive(std::string_view name, LineTime now) {
+  if (reception_.is_open) return fail(reader_.rules().busy());
+  if (is_dc_codes()) {
+    if (const auto idle = check_idle(); !idle) return idle;
+  }
+  if (const auto can = reader_.rules().check_begin(); !can) return can;
+  open_reception(std::string(name), now);
+  if (role_ == Role::Control && is_softly_held() && is_ready_) say(kDc1);
+  return {};
+}
+
+void PlainLine::open_reception(std::string name, LineTime /*now*/) {
+  reception_ = {};
+  reception_.is_open = true;
+  reader_.begin();
+  after_stop_ = 0;
+  emit(TransferBegan{true, std::move(name)});
+}
+
+void PlainLine::close_reception() {
+  reception_ = {};
+}
+
+void PlainLine::end_reception(LineTime /*now*/) {
+  emit(TransferEnded{true});
+  close_reception();
+  if (is_dc_codes() && role_ == Role::Control) say(kDc3);
+}
+
+/// What a host hears while it feeds is no program: the feed goes on.
+void PlainLine::fail_reception(Error error, LineTime now) {
+  if (role_ == Role::Host && is_sending()) {
+    emit_trouble(std::move(error));
+    end_reception(now);
+    return;
+  }
+  if (is_dc_codes() && role_ == Role::Control) say(kDc3);
+  fail_transfer(std::move(error), now);
+}
+
+void PlainLine::take_data(std::byte character, LineTime now) {
+  if (!reception_.is_open) {
+    // A control only listens when its operator has said so. Leaders and line ends begin nothing.
+    const bool listens = role_ == Role::Host && !(is_dc_codes() && is_sending());
+    if (!listens || !reader_.begins(character)) return;
+    if (is_dc_codes()) emit_trouble({Errc::Corrupt, "text came without DC2 before it"});
+    open_reception("", now);
+  }
+  if (is_stop_said_ && ++after_stop_ > settings_.control.buffer_size) {
+    if (const auto error = reader_.rules().overrun(settings_.control.buffer_size)) {
+      fail_reception(*error, now);
+      return;
+    }
+  }
+  const auto read = reader_.read(character);
+  if (!read) {
+    fail_reception(read.error(), now);
+  } else if (*read) {
+    end_reception(now);
+  } else if (reader_.has_begun()) {
+    reception_.heard = now;
+  }
+}
+
+void PlainLine::punch_on(LineTime now) {
+  if (is_sending()) return emit_trouble({Errc::Corrupt, "DC2 came while we send"});
+  if (!reception_.is_open) return open_reception("", now);
+  if (reader_.has_begun()) emit_trouble({Errc::Corrupt, "DC2 came again inside a program"});
+}
+
+void PlainLine::punch_off(LineTime now) {
+  if (!reception_.is_open) return;  // its end character was the end
+  if (reader_.is_framed() && reader_.has_begun()) {
+    return fail_reception({Errc::Corrupt, "DC4 came before the end character"}, now);
+  }
+  reader_.finish();
+  end_reception(now);
+}
+
+/// Silence ends an unframed reception and breaks one that should end with a character.
+std::optional<LineTime> PlainLine::silence_deadline() const {
+  if (!reception_.is_open || !reception_.heard || !is_ready_) return std::nullopt;
+  const bool is_framed = reader_.is_framed() || (is_dc_codes() && role_ == Role::Host);
+  if (!is_framed) return *reception_.heard + settings_.idle_end;
+  if (!settings_.answer_limit) return std::nullopt;
+  return *reception_.heard + *settings_.answer_limit;
+}
+
+void PlainLine::silent_too_long(LineTime now) {
+  const bool is_punch = is_dc_codes() && role_ == Role::Host;
+  if (reader_.is_framed() || is_punch) {
+    const std::string_view what = reader_.is_framed() ? "the end character" : "DC4";
+    return fail_reception({Errc::Timeout, fmt::format("{} did not come: silence for {} ms", what,
+                                                      settings_.answer_limit->count())},
+                          now);
+  }
+  reader_.finish();
+  end_reception(now);
+}
+
+void PlainLine::set_ready(bool is_ready, LineTime now) {
+  if (std::exchange(is_ready_, is_ready) == is_ready) return;
+  is_stop_said_ = false;
+  after_stop_ = 0;
+  if (is_ready && reception_.heard) reception_.heard = now;      // the silence was our doing
+  const bool is_reading = !is_dc_codes() || reception_.is_open;  // DC1 starts an idle reader
+  if (is_softly_held() && is_reading) say(is_ready ? kDc1 : kDc3);
+  if (settings_.flow == Flow::RtsCts) output_.rts = is_ready;
+}
+
+void PlainLine::text(std::string_view text) {
+  reception_.has_text = true;
+  emit_text(text);
+}
+
+void PlainLine::next_program(std::string name) {
+  emit(TransferEnded{true});
+  emit(TransferBegan{true, std::move(name)});
+}
+
+}  // namespace dripline::wire

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/wire/character_coder.hpp"
+
+namespace dripline::wire {
+
+/// A program as the characters of a plain transfer:
+///   leader, start character, text, end character, trailer.
+/// A printable start character stands in a block of its own; text that begins with it is sent as it
+/// is. Text may bring its end character too: only blank text may follow, and is dropped.
+class ProgramWriter {
+ public:
+  explicit ProgramWriter(const LineSettings& settings);
+
+  void begin();
+  /// Looks through the next piece of text before it is taken in. Errors: Syntax, with the line.
+  Result<void> check(std::string_view text);
+
+  /// The next character of the checked text; only while wants_text().
+  void put_text(char character);
+  bool wants_text() const { return stage_ == Stage::Text && !has_next(); }
+  void end_text();
+
+  bool has_next() const { return blanks_ > 0 || next_ < pending_.size(); }
+  std::byte next();
+  bool ends_block() const { return ends_block_; }  ///< the character that next() gave last
+  /// Nothing that means anything to the other end is left.
+  bool is_all_said() const { return stage_ == Stage::End && next_ == pending_.size(); }
+  bool is_done() const { return stage_ == Stage::End && !has_next(); }
+
+ private:
+  enum class Stage : std::uint8_t { Text, End };
+  void put_mark(char mark);
+  void put_end_of_block();
+  bool is_blank_behind_end(char character);
+
+  const LineSettings& settings_;
+  CharacterEncoder checked_, encoder_;
+  struct Place {  ///< in the text: of check(), and of put_text()
+    bool is_first = true, is_ended = false;
+    std::size_t line = 1;
+    bool ends(char character, const LineSettings& settings);
+  };
+  Place checked_place_, place_;
+  Stage stage_ = Stage::End;
+  unsigned blanks_ = 0;  ///< of the leader or, at the end, of the trailer
+  std::vector<std::byte> pending_;
+  std::size_t next_ = 0;
+  std::size_t end_of_block_from_ = 0;  ///< in pending_; its last character ends a block
+  char last_ = '\n';
+  bool pending_ends_block_ = false, ends_block_ = false;
+};
+
+}  // namespace dripline::wire

@@ -1,0 +1,324 @@
+#include <gmock/gmock.h>
+
+#include "tests/support/line_events.hpp"
+
+/// Plain text held by XON/XOFF, RTS/CTS or pauses, seen from one end.
+namespace dripline::wire {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test_support::TestedLine;
+using testing::HasSubstr;
+using namespace std::string_literals;
+
+const std::string kDc1 = "\x11", kDc3 = "\x13";
+
+LineSettings settings_with(
+    std::initializer_list<std::pair<std::string_view, std::string_view>> set) {
+  LineSettings settings;
+  for (const auto& [key, value] : set) {
+    const auto done = set_value(settings, key, value);
+    EXPECT_TRUE(done) << key << ": " << (done ? "" : done.error().what);
+  }
+  return settings;
+}
+
+TEST(PlainSending, EndsBlocksAsTheLineWants) {
+  TestedLine host(settings_with({{"eob", "crlf"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("G0 X1\nM30\n"));
+  EXPECT_EQ(host.say(), "G0 X1\r\nM30\r\n");
+  EXPECT_EQ(host.events(), "sending\nsent\n");
+}
+
+TEST(PlainSending, PutsLeaderMarksAndTrailerAroundTheText) {
+  TestedLine host(settings_with({{"leader", "3"},
+                                 {"trailer", "2"},
+                                 {"start_char", "%"},
+                                 {"end_char", "%"},
+                                 {"eob", "lf"}}),
+                  Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\nM30\n"));
+  EXPECT_EQ(host.say(), "\0\0\0%\nO1\nM30\n%\0\0"s);
+}
+
+TEST(PlainSending, DoublesNoMarkThatTheTextBrings) {
+  TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}, {"eob", "lf"}}),
+                  Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("%\nO1\nM30\n%\n"));
+  EXPECT_EQ(host.say(), "%\nO1\nM30\n%");
+  EXPECT_EQ(host.line->state().text_sent, 11u) << "the dropped line end counts as sent";
+}
+
+TEST(PlainSending, EndsTheLastBlockBeforeAPrintableEndCharacter) {
+  TestedLine host(settings_with({{"end_char", "%"}, {"eob", "lf"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("M30"));
+  EXPECT_EQ(host.say(), "M30\n%");
+}
+
+TEST(PlainSending, RefusesTextBehindItsEndCharacterNamingTheLine) {
+  TestedLine host(settings_with({{"end_char", "%"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("G1\n(50", false));
+  const auto offered = host.offer("% done)\nM30\n");
+  ASSERT_FALSE(offered);
+  EXPECT_EQ(offered.error().code, Errc::Syntax);
+  EXPECT_THAT(offered.error().what, HasSubstr("line 2"));
+  EXPECT_THAT(host.events(), HasSubstr("failed syntax"));
+  EXPECT_EQ(host.line->state().phase, Phase::Idle);
+}
+
+TEST(PlainSending, RefusesCharactersThatTheCodeDoesNotHave) {
+  TestedLine host(settings_with({{"code", "eia"}, {"flow", "rtscts"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  const auto offered = host.offer("G1\nX=2\n");
+  ASSERT_FALSE(offered);
+  EXPECT_THAT(offered.error().what, HasSubstr("line 2"));
+}
+
+TEST(PlainSending, TakesNoMoreThanItSaysItHasRoomFor) {
+  TestedLine host(LineSettings{}, Role::Host);
+  EXPECT_EQ(host.line->room(), 0u) << "nothing is being sent";
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  const std::size_t room = host.line->room();
+  EXPECT_LE(room, 64u * 1024);
+  const auto offered = host.offer(std::string(room + 1, 'X'), false);
+  ASSERT_FALSE(offered);
+  EXPECT_EQ(offered.error().code, Errc::LimitExceeded);
+  EXPECT_TRUE(host.offer(std::string(room, 'X'), false));
+  EXPECT_EQ(host.line->room(), 0u);
+}
+
+TEST(PlainSending, CountsWhatHasLeft) {
+  TestedLine host(settings_with({{"eob", "crlf"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\nC\n"));
+  EXPECT_EQ(host.say_now(3), "AB\r");
+  EXPECT_EQ(host.line->state().text_sent, 2u) << "half an end of block has not left";
+  EXPECT_EQ(host.say_now(1), "\n");
+  EXPECT_EQ(host.line->state().text_sent, 3u);
+}
+
+TEST(PlainSending, StopsAtDc3AndGoesOnAtDc1) {
+  TestedLine host(LineSettings{}, Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("ABCDEF\n"));
+  EXPECT_EQ(host.say_now(2), "AB");
+  host.hear(kDc3);
+  EXPECT_EQ(host.say(), "");
+  EXPECT_TRUE(host.line->state().is_stopped);
+  EXPECT_EQ(host.line->state().waiting_for, "DC1");
+  EXPECT_TRUE(host.line->state().may_wait_without_limit);
+  host.hear(kDc1);
+  EXPECT_EQ(host.say(), "CDEF\r\n");
+  EXPECT_EQ(host.events(), "sending\nstopped\ngoes on\nsent\n");
+}
+
+TEST(PlainSending, IgnoresDc3WhereNothingHoldsTheLine) {
+  TestedLine host(settings_with({{"flow", "none"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  host.hear(kDc3);
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
+TEST(PlainSending, StopsWhileCtsIsOff) {
+  TestedLine host(settings_with({{"flow", "rtscts"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  host.line->lines({.cts = false}, host.now);
+  EXPECT_EQ(host.say(), "");
+  EXPECT_EQ(host.line->state().waiting_for, "CTS");
+  host.line->lines({.cts = true}, host.now);
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
+TEST(PlainSending, GivesUpWhenHeldLongerThanTheLimit) {
+  TestedLine host(settings_with({{"hold_limit_ms", "5000"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  host.hear(kDc3);
+  EXPECT_FALSE(host.line->state().may_wait_without_limit);
+  host.pass(milliseconds(4999));
+  EXPECT_EQ(host.line->state().phase, Phase::Sending);
+  host.pass(milliseconds(1));
+  EXPECT_THAT(host.events(), HasSubstr("failed timeout: the other end held us with DC3 for 5000"));
+  EXPECT_EQ(host.line->state().phase, Phase::Idle);
+}
+
+TEST(PlainSending, StaysStoppedForTheNextTransferUntilAborted) {
+  TestedLine host(LineSettings{}, Role::Host);
+  host.hear(kDc3);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say(), "");
+  host.line->abort(host.now);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
+TEST(PlainSending, WaitsForTheControlsDc1WhenToldTo) {
+  TestedLine host(settings_with({{"wait_for_xon", "yes"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say_now(), "");
+  EXPECT_EQ(host.line->state().waiting_for, "DC1");
+  host.hear(kDc1);
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
+TEST(PlainSending, FailsWhenNoDc1ComesInTime) {
+  TestedLine host(settings_with({{"wait_for_xon", "yes"}, {"answer_limit_ms", "700"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  host.pass(milliseconds(700));
+  EXPECT_THAT(host.events(), HasSubstr("failed timeout: no DC1 came to start for 700 ms"));
+}
+
+TEST(PlainSending, StartsAtOnceWhenDc1CameFirst) {
+  TestedLine host(settings_with({{"wait_for_xon", "yes"}}), Role::Host);
+  host.hear(kDc1);
+  EXPECT_EQ(host.events(), "goes on\nwants a program\n");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
+TEST(PlainSending, PausesBehindBlocksAndCharacters) {
+  TestedLine host(
+      settings_with(
+          {{"flow", "none"}, {"line_delay_ms", "100"}, {"char_delay_us", "2000"}, {"eob", "lf"}}),
+      Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("A\nB\n"));
+  const LineTime character = character_time(LineSettings{});
+  EXPECT_EQ(host.say_now(), "A");
+  host.pass(character + milliseconds(2));
+  EXPECT_EQ(host.say_now(), "\n");
+  host.pass(character + milliseconds(101));
+  EXPECT_EQ(host.say_now(), "") << "the pause behind a block is 102 ms";
+  host.pass(milliseconds(1));
+  EXPECT_EQ(host.say_now(), "B");
+}
+
+TEST(PlainSending, IsBusyWhileSending) {
+  TestedLine host(LineSettings{}, Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  const auto again = host.line->begin_send("", host.now);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Errc::Busy);
+}
+
+TEST(PlainReceiving, BeginsByItselfAtAHostAndEndsWithSilence) {
+  TestedLine host(settings_with({{"idle_end_ms", "1500"}}), Role::Host);
+  host.hear("\0\0\r\nO1\r\nM30\r\n"s);
+  host.pass(milliseconds(1499));
+  EXPECT_EQ(host.events(), "receiving\ntext \"O1\\nM30\\n\"\n");
+  host.pass(milliseconds(1));
+  EXPECT_EQ(host.events(), "received\n");
+}
+
+TEST(PlainReceiving, EndsAtTheEndCharacter) {
+  TestedLine host(settings_with({{"start_char", "DC2"}, {"end_char", "ETX"}, {"flow", "none"}}),
+                  Role::Host);
+  host.hear(
+      "\x12"
+      "O1\r\n\x03\0\0"s);
+  EXPECT_EQ(host.events(), "receiving\ntext \"O1\\n\"\nreceived\n");
+}
+
+TEST(PlainReceiving, SaysThatTheStartCharacterIsMissing) {
+  TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}}), Role::Host);
+  host.hear("O1\r\n%");
+  EXPECT_THAT(host.events(), HasSubstr("trouble corrupt: the start character before the program"));
+}
+
+TEST(PlainReceiving, KeepsATitleBehindTheStartCharacter) {
+  TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}}), Role::Host);
+  host.hear("%:PART 7\r\nO1\r\n%\r\n");
+  EXPECT_EQ(host.events(), "receiving\ntext \"%:PART 7\\nO1\\n\"\nreceived\n");
+}
+
+TEST(PlainReceiving, FailsWhenTheEndCharacterDoesNotCome) {
+  TestedLine host(settings_with({{"end_char", "%"}, {"answer_limit_ms", "3000"}}), Role::Host);
+  host.hear("O1\r\n");
+  host.pass(seconds(3));
+  EXPECT_THAT(host.events(), HasSubstr("failed timeout: the end character did not come"));
+}
+
+TEST(PlainReceiving, PutsAQuestionMarkInThePlaceOfABadCharacterAndSaysWhere) {
+  TestedLine host(LineSettings{}, Role::Host);
+  host.hear("G1\r\nX");
+  host.hear_fault(LineFault::Parity);
+  host.hear("5\r\n");
+  EXPECT_EQ(host.events(),
+            "receiving\ntext \"G1\\nX\"\ntrouble corrupt: line 2, column 2: parity error\n"
+            "text \"?5\\n\"\n");
+}
+
+TEST(PlainReceiving, HoldsTheOtherEndWithDc3) {
+  TestedLine control(LineSettings{}, Role::Control);
+  ASSERT_TRUE(control.line->begin_receive("", control.now));
+  EXPECT_EQ(control.say(), kDc1);
+  control.line->set_ready(false, control.now);
+  EXPECT_EQ(control.say_now(), kDc3);
+  EXPECT_TRUE(control.line->state().is_stopping);
+  control.line->set_ready(true, control.now);
+  EXPECT_EQ(control.say_now(), kDc1);
+}
+
+TEST(PlainReceiving, HoldsTheOtherEndWithRts) {
+  TestedLine control(settings_with({{"flow", "rtscts"}}), Role::Control);
+  control.line->set_ready(false, control.now);
+  EXPECT_FALSE(control.line->output_lines().rts);
+  control.line->set_ready(true, control.now);
+  EXPECT_TRUE(control.line->output_lines().rts);
+  EXPECT_EQ(control.say_now(), "");
+}
+
+TEST(PlainReceiving, DoesNotTakeItsOwnHoldForTheEnd) {
+  TestedLine control(LineSettings{}, Role::Control);
+  ASSERT_TRUE(control.line->begin_receive("", control.now));
+  control.hear("G1\r\n");
+  control.line->set_ready(false, control.now);
+  control.pass(seconds(60));
+  EXPECT_EQ(control.line->state().phase, Phase::Receiving);
+  control.line->set_ready(true, control.now);
+  control.pass(seconds(2));
+  EXPECT_THAT(control.events(), HasSubstr("received"));
+}
+
+TEST(PlainReceiving, HearsNothingAtAControlThatWasNotTold) {
+  TestedLine control(LineSettings{}, Role::Control);
+  control.hear("G1\r\n");
+  EXPECT_EQ(control.events(), "");
+}
+
+TEST(PlainReceiving, GoesOnWhileTheHostFeeds) {
+  TestedLine host(LineSettings{}, Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("G1\n", false));
+  EXPECT_EQ(host.say_now(), "G1\r\n");
+  host.hear("LINE 1\r\n");
+  host.pass(seconds(2));
+  EXPECT_EQ(host.line->state().phase, Phase::Sending);
+  ASSERT_TRUE(host.offer("M30\n"));
+  EXPECT_EQ(host.say(), "M30\r\n");
+  EXPECT_EQ(host.events(), "sending\nreceiving\ntext \"LINE 1\\n\"\nreceived\nsent\n");
+}
+
+TEST(PlainSettings, ThatExcludeEachOtherAreNamed) {
+  LineSettings eia;
+  eia.code = CharacterCode::Eia;
+  const auto made = make_discipline(eia, Role::Host);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, Errc::Unsupported);
+  EXPECT_THAT(made.error().what, HasSubstr("rtscts"));
+}
+
+}  // namespace
+}  // namespace dripline::wire
