@@ -4,10 +4,10 @@
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/interrupt.hpp"
-#include "clients/cli/mapped_file.hpp"
 #include "clients/cli/progress.hpp"
 #include "clients/cli/standard_output.hpp"
 #include "clients/cli/tape_conversion.hpp"
+#include "clients/lib/byte_source.hpp"
 #include "clients/lib/output_file.hpp"
 #include "protocol/wire/tape_listing.hpp"
 
@@ -46,12 +46,13 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, Value
   return names;
 }
 
-Result<CharacterCode> source_code(const ConvertCommand& command, std::string_view rows) {
+Result<CharacterCode> source_code(const ConvertCommand& command, client::FileSource& file) {
   if (command.from != "auto") return value_of(kCodes, command.from);
-  const auto verdict = wire::detect_code(std::as_bytes(std::span(rows)));
+  std::string head(std::min<std::uint64_t>(file.size(), wire::kDetectionWindow), '\0');
+  if (auto read = file.read(0, head); !read) return fail(read.error());
+  const auto verdict = wire::detect_code(std::as_bytes(std::span(head)));
   if (!verdict) {
-    return fail(verdict.error().code, "{}: {}; --from says it", command.input,
-                verdict.error().what);
+    return fail(verdict.error().code, "{}; --from says it", verdict.error().what);
   }
   return verdict->code;
 }
@@ -78,17 +79,18 @@ TapeConversion::Parts parts_of(const ConvertCommand& command, CharacterCode from
 
 /// Calls `take` with one piece after the other, showing how far it is. False: interrupted.
 template <class Take>
-Result<bool> walk(std::string_view rows, const std::string& label, Take take) {
+Result<bool> walk(client::FileSource& file, const std::string& label, Take take) {
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
   Progress progress(area, clock, label);
-  for (std::size_t at = 0; at < rows.size(); at += kPiece) {
+  std::vector<char> buffer(kPiece);
+  for (std::uint64_t at = 0; at < file.size();) {
     if (is_interrupted()) return false;
-    const auto piece = rows.substr(at, kPiece);
-    if (auto taken = take(std::as_bytes(std::span(piece))); !taken) {
-      return fail(std::move(taken.error()));
-    }
-    progress.update(at + piece.size(), rows.size());
+    const auto piece = std::span(buffer).first(std::min<std::uint64_t>(kPiece, file.size() - at));
+    if (auto read = file.read(at, piece); !read) return fail(std::move(read.error()));
+    if (auto taken = take(std::as_bytes(piece)); !taken) return fail(std::move(taken.error()));
+    at += piece.size();
+    progress.update(at, file.size());
   }
   return true;
 }
@@ -98,17 +100,18 @@ int interrupted() {
   return kExitInterrupted;
 }
 
-int list(const ConvertCommand& command, CharacterCode code, std::string_view rows) {
+int list(const ConvertCommand& command, CharacterCode code, client::FileSource& file) {
   StandardOutput output;
   wire::TapeListing listing(code);
   std::string text;
-  const auto walked = walk(rows, command.input, [&](std::span<const std::byte> piece) {
+  const auto walked = walk(file, command.input, [&](std::span<const std::byte> piece) {
     text.clear();
     listing.list(piece, text);
     return output.write(text);
   });
   if (output.error()) return output.complain();
-  if (walked && !*walked) return interrupted();
+  if (!walked) return complain(walked.error());
+  if (!*walked) return interrupted();
   text.clear();
   listing.finish(text);
   return output.write(text) ? kExitOk : output.complain();
@@ -154,6 +157,10 @@ int say_no(const Error& error) {
   return error.code == Errc::Io ? kExitUsage : kExitNo;
 }
 
+Error named(const ConvertCommand& command, const Error& error) {
+  return {error.code, command.input + ": " + error.what};
+}
+
 struct Target {
   std::optional<client::OutputFile> file;
   StandardOutput standard;
@@ -164,39 +171,39 @@ struct Target {
 };
 
 int convert_to(Context& context, const ConvertCommand& command, CharacterCode from,
-               std::string_view rows) {
+               client::FileSource& file) {
   Target target;
   if (command.output != "-") {
-    auto file = client::OutputFile::create(command.output);
-    if (!file) return complain(file.error());
-    target.file.emplace(std::move(*file));
+    auto output = client::OutputFile::create(command.output);
+    if (!output) return complain(output.error());
+    target.file.emplace(std::move(*output));
   }
   TapeConversion conversion(parts_of(command, from),
                             [&](std::string_view bytes) { return target.write(bytes); });
   if (auto begun = conversion.begin(); !begun) return refuse(begun.error());
-  auto walked = walk(rows, command.input,
+  auto walked = walk(file, command.input,
                      [&](std::span<const std::byte> piece) { return conversion.convert(piece); });
   if (walked && !*walked) return interrupted();
   auto done = walked ? conversion.finish() : Result<void>(fail(walked.error()));
   if (target.standard.error()) return target.standard.complain();
   if (done && target.file) done = target.file->commit();
-  if (!done) return say_no(Error{done.error().code, command.input + ": " + done.error().what});
+  if (!done) return say_no(named(command, done.error()));
   say_notices(command, conversion);
   if (target.file) context.print(summary_line(command, from, conversion));
   return kExitOk;
 }
 
 int convert(Context& context, const ConvertCommand& command) {
-  auto file = MappedFile::open(command.input);
+  auto file = client::FileSource::open(command.input);
   if (!file) return refuse(file.error());
-  const auto from = source_code(command, file->text());
-  if (!from) return say_no(from.error());
+  const auto from = source_code(command, *file);
+  if (!from) return say_no(named(command, from.error()));
   catch_interrupts();
-  if (command.is_listing) return list(command, *from, file->text());
+  if (command.is_listing) return list(command, *from, *file);
   if (command.output.empty()) {
     return refuse(Error{Errc::Syntax, "convert needs -o FILE (or -o -), or --list"});
   }
-  return convert_to(context, command, *from, file->text());
+  return convert_to(context, command, *from, *file);
 }
 
 void add_options(CLI::App& command, ConvertCommand& options) {

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "protocol/wire/line_settings.hpp"
+
+/// The blocks and single characters of a TNC's blockwise transfer.
+///
+///     heading = SOH text ETB BCC        block = STX text ETB BCC
+///
+/// BCC: exclusive or of all 7-bit characters from SOH or STX to ETB, both included.
+namespace dripline::wire {
+
+inline constexpr std::size_t kMaxTncLine = 255;      ///< characters of a program line
+inline constexpr std::size_t kMaxTncErrorText = 32;  ///< that a control shows
+
+/// One block as it goes on the line.
+std::string make_tnc_block(char begin, std::string_view text, const HeidenhainSettings& tnc);
+
+struct TncFrame {
+  enum class Kind : std::uint8_t { Heading, Block, Broken, Ack, Nak, Etx, Eot, Noise };
+  Kind kind = Kind::Noise;
+  std::string text;  ///< of Heading and Block, without line end; of Broken: what is wrong
+};
+
+/// Characters to frames, one at a time. A character that belongs to nothing is Noise; DC1, DC3 and
+/// NUL between frames are nothing.
+class TncFrameReader {
+ public:
+  explicit TncFrameReader(const HeidenhainSettings& tnc) : tnc_(tnc) {}
+
+  std::optional<TncFrame> read(std::uint8_t character);
+  /// The UART found a character wrong: breaks the frame it stands in.
+  std::optional<TncFrame> fault();
+  /// Nothing came for longer than a sender pauses inside a frame.
+  std::optional<TncFrame> silence();
+  bool is_inside() const { return stage_ != Stage::Between; }
+  void reset();
+
+ private:
+  enum class Stage : std::uint8_t { Between, Text, Check };
+  std::optional<TncFrame> read_between(char c);
+  std::optional<TncFrame> finish(char check);
+  void begin(char c);
+  HeidenhainSettings tnc_;
+  Stage stage_ = Stage::Between;
+  bool is_heading_ = false, is_noise_ = false;
+  std::string_view broken_;  ///< why, empty: it is not
+  std::string text_;
+  char check_ = 0;
+};
+
+}  // namespace dripline::wire
