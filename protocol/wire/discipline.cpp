@@ -1,9 +1,32 @@
 #include "protocol/wire/discipline.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "protocol/wire/impl/protocols.hpp"
 
 namespace dripline::wire {
 namespace {
+
+/// A TNC's control characters are 1 to 47, all different, and not DC1 and DC3, which stay.
+Result<void> check_tnc(const LineSettings& settings) {
+  if (settings.code != CharacterCode::Ascii) {
+    return fail(Errc::Unsupported, "a TNC's interface carries the code ascii only");
+  }
+  const auto& tnc = settings.heidenhain;
+  const std::array characters{tnc.soh, tnc.stx, tnc.etx, tnc.eot, tnc.ack, tnc.nak, tnc.etb};
+  constexpr std::string_view kFixed = "\x11\x13\r\n";
+  for (std::size_t i = 0; i < characters.size(); ++i) {
+    const char c = characters[i];
+    const bool is_twice = std::count(characters.begin(), characters.end(), c) > 1;
+    if (c >= 1 && c <= 47 && c != ' ' && !is_twice && kFixed.find(c) == kFixed.npos) continue;
+    return fail(Errc::Unsupported,
+                "TNC control character {}: they must be 1 to 47, all different, and not blank, CR, "
+                "LF, DC1 or DC3",
+                static_cast<int>(c));
+  }
+  return {};
+}
 
 /// Settings that exclude each other.
 Result<void> check(const LineSettings& settings) {
@@ -26,6 +49,9 @@ Result<void> check(const LineSettings& settings) {
   if (is_softly_held && settings.code == CharacterCode::Eia) {
     return fail(Errc::Unsupported, "eia has no DC1 and DC3 (0x13 is its digit 3): use rtscts");
   }
+  if (settings.flow == Flow::Heidenhain || settings.flow == Flow::HeidenhainBcc) {
+    return check_tnc(settings);
+  }
   return {};
 }
 
@@ -40,10 +66,13 @@ Result<std::unique_ptr<Discipline>> make_discipline(const LineSettings& settings
     case Flow::DcCodes:
       return make_plain(settings, role);
     case Flow::Xmodem:
-    case Flow::Heidenhain:
-    case Flow::HeidenhainBcc:
     case Flow::TapeReader:
       break;
+    case Flow::Heidenhain:
+      return make_tnc_standard(settings, role);
+    case Flow::HeidenhainBcc:
+      return role == Role::Host ? make_tnc_blockwise_host(settings)
+                                : make_tnc_blockwise_control(settings);
   }
   return fail(Errc::Unsupported, "this protocol is not built yet");
 }

@@ -40,9 +40,12 @@ enum class EndOfBlock : std::uint8_t { Lf, Cr, CrLf, LfCr, LfCrCr };
 struct HeidenhainSettings {
   char heading = '%';  ///< type letter of headings we send; '%', 'H' and 'D' are taken
   char soh = 1, stx = 2, etx = 3, eot = 4, ack = 6, nak = 21, etb = 23;
-  bool line_end_in_block = false;  ///< CR LF between text and ETB; always accepted
-  bool bcc_is_printable = false;   ///< a blank before ETB keeps the BCC at or above 0x20
-  bool sends_dc1_after_block = false;
+  bool line_end_in_block = false;      ///< CR LF between text and ETB; always accepted
+  bool bcc_is_printable = false;       ///< a blank before ETB keeps the BCC at or above 0x20
+  bool sends_dc1_after_block = false;  ///< as a host; a control always does
+  /// A host repeats a block that is not answered within the answer limit, instead of waiting for a
+  /// control that may only be slow. A control that is not ours may take the block twice then.
+  bool repeats_unanswered = false;
 };
 
 /// How a tape reader in our hands behaves.

@@ -203,6 +203,8 @@ constexpr std::array kRows{
     flag<"tnc_printable_bcc", &S::heidenhain, &H::bcc_is_printable>(
         "TNC blockwise: a blank keeps the check character printable"),
     flag<"tnc_dc1", &S::heidenhain, &H::sends_dc1_after_block>("TNC blockwise: DC1 behind a block"),
+    flag<"tnc_repeat", &S::heidenhain, &H::repeats_unanswered>(
+        "TNC blockwise: repeat a block without an answer, instead of waiting"),
     SettingRow{"reader_cps", "number", "tape reader: characters per second", set_reader_rate,
                [](const LineSettings& settings) {
                  return fmt::format("{}", settings.reader.characters_per_second);

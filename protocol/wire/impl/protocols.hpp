@@ -9,5 +9,9 @@ namespace dripline::wire {
 
 std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role);
 std::unique_ptr<Discipline> make_xmodem(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_tnc_blockwise_host(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tnc_blockwise_control(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tnc_standard(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_tape_reader(const LineSettings& settings, Role role);
 
 }  // namespace dripline::wire

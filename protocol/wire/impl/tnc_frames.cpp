@@ -35,15 +35,9 @@ std::string make_tnc_block(char begin, std::string_view text, const HeidenhainSe
   return begin + inner + tnc.etb + check;
 }
 
-void TncFrameReader::reset() {
-  stage_ = Stage::Between;
-  is_noise_ = false;
-}
-
 void TncFrameReader::begin(char c) {
   stage_ = Stage::Text;
   is_heading_ = c == tnc_.soh;
-  is_noise_ = false;
   broken_ = {};
   text_.clear();
   check_ = c;
@@ -54,9 +48,7 @@ std::optional<TncFrame> TncFrameReader::read(std::uint8_t character) {
   if (stage_ == Stage::Check) return finish(c);
   // A beginning inside a block: the end of that block was lost.
   if (c == tnc_.soh || c == tnc_.stx) {
-    const bool was_inside = stage_ == Stage::Text;
     begin(c);
-    if (was_inside) broken_ = {};
     return std::nullopt;
   }
   if (stage_ == Stage::Between) return read_between(c);

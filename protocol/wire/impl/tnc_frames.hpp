@@ -38,7 +38,6 @@ class TncFrameReader {
   /// Nothing came for longer than a sender pauses inside a frame.
   std::optional<TncFrame> silence();
   bool is_inside() const { return stage_ != Stage::Between; }
-  void reset();
 
  private:
   enum class Stage : std::uint8_t { Between, Text, Check };
@@ -47,7 +46,7 @@ class TncFrameReader {
   void begin(char c);
   HeidenhainSettings tnc_;
   Stage stage_ = Stage::Between;
-  bool is_heading_ = false, is_noise_ = false;
+  bool is_heading_ = false;
   std::string_view broken_;  ///< why, empty: it is not
   std::string text_;
   char check_ = 0;

@@ -1,0 +1,330 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "protocol/wire/impl/tnc_frames.hpp"
+#include "tests/support/line_simulator.hpp"
+
+namespace dripline::wire {
+namespace {
+
+using test_support::LineEnd;
+using test_support::LineSimulator;
+using Request = TransferRequest;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+const std::string kProgram =
+    "0 BEGIN PGM 27 MM\n1 TOOL CALL 3 Z S800\n2 L X+4,5 Y-2 R0 F300 M3\n3 L Z-8\n4 END PGM 27 MM\n";
+
+LineSettings settings_of(Flow flow) {
+  LineSettings settings =
+      find_template(flow == Flow::Heidenhain ? "tnc155" : "tnc155-bcc").value()->settings;
+  settings.flow = flow;
+  return settings;
+}
+
+LineSimulator line(const LineSettings& settings) {
+  return LineSimulator({settings, make_discipline(settings, Role::Host).value(),
+                        make_discipline(settings, Role::Control).value()});
+}
+
+/// Answers each request of the control with `program`, or takes what it offers.
+void serve(LineSimulator& line, std::string program) {
+  line.host().on_event = [program](LineEnd& end, const Event& event, LineTime now) {
+    const auto* request = std::get_if<Request>(&event);
+    if (request == nullptr) return;
+    if (request->kind == Request::Kind::TakeProgram) {
+      EXPECT_TRUE(end.line->begin_receive(request->name, now));
+    } else {
+      EXPECT_TRUE(end.send(program, now, request->name));
+    }
+  };
+}
+
+class TncLine : public testing::TestWithParam<Flow> {};
+
+TEST_P(TncLine, GivesTheControlTheProgramItAsksFor) {
+  auto wire = line(settings_of(GetParam()));
+  serve(wire, kProgram);
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
+  EXPECT_EQ(wire.run(seconds(60)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.control().received, kProgram);
+  EXPECT_EQ(wire.control().receptions, 1U);
+  EXPECT_EQ(wire.host().sends, 1U);
+  EXPECT_TRUE(wire.host().failures.empty()) << wire.host().failures[0].what;
+  if (GetParam() == Flow::HeidenhainBcc) {
+    EXPECT_EQ(wire.host().accepted, kProgram.size());
+    EXPECT_EQ(wire.host().requests[0].name, "27");
+  }
+}
+
+TEST_P(TncLine, TakesTheProgramThatTheControlPutsOut) {
+  auto wire = line(settings_of(GetParam()));
+  serve(wire, "");
+  ASSERT_TRUE(wire.control().send(kProgram, wire.now(), "27"));
+  EXPECT_EQ(wire.run(seconds(60)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.host().received, kProgram);
+  EXPECT_EQ(wire.host().receptions, 1U);
+  EXPECT_EQ(wire.control().sends, 1U);
+}
+
+TEST_P(TncLine, WaitsForTheControlWhenTheHostIsReadyFirst) {
+  auto wire = line(settings_of(GetParam()));
+  ASSERT_TRUE(wire.host().send(kProgram, wire.now(), "27"));
+  EXPECT_EQ(wire.run(seconds(60)), LineSimulator::Outcome::Waiting);
+  EXPECT_TRUE(wire.host().line->state().may_wait_without_limit);
+  EXPECT_FALSE(wire.host().line->state().waiting_for.empty());
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
+  EXPECT_EQ(wire.run(wire.now() + seconds(60)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.control().received, kProgram);
+}
+
+TEST_P(TncLine, LosesNothingWhenTheReceiverHasNoRoomNowAndThen) {
+  auto wire = line(settings_of(GetParam()));
+  serve(wire, kProgram);
+  wire.control().hold_rate = 0.1;
+  wire.control().hold_time = seconds(4);
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
+  EXPECT_EQ(wire.run(seconds(600)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.control().received, kProgram);
+  EXPECT_EQ(wire.host().sends, 1U);
+}
+
+TEST_P(TncLine, SaysWhenTheControlsProgramHasNoEnd) {
+  auto wire = line(settings_of(GetParam()));
+  serve(wire, "");
+  ASSERT_TRUE(wire.control().send("0 BEGIN PGM 8 MM\n1 STOP\n", wire.now(), "8"));
+  wire.run(seconds(60));
+  EXPECT_EQ(wire.host().receptions, 0U);
+  ASSERT_FALSE(wire.host().failures.empty());
+  EXPECT_THAT(wire.host().failures[0].what, HasSubstr("program incomplete"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, TncLine, testing::Values(Flow::Heidenhain, Flow::HeidenhainBcc),
+                         [](const auto& tested) {
+                           return std::string(tested.param == Flow::Heidenhain ? "standard"
+                                                                               : "blockwise");
+                         });
+
+TEST(TncBlockwise, SendsExactlyTheCharactersOfTheProtocol) {
+  auto wire = line(settings_of(Flow::HeidenhainBcc));
+  wire.keep_traffic(true);
+  serve(wire, "1 STOP\n");
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "6"}, wire.now()));
+  wire.run(seconds(60));
+  const HeidenhainSettings tnc;
+  EXPECT_EQ(wire.from_control().seen, make_tnc_block(1, "%6E", tnc) + "\x11\x06\x04");
+  EXPECT_EQ(wire.from_host().seen, "\x06" + make_tnc_block(2, "1 STOP", tnc) + "\x03");
+}
+
+TEST(TncBlockwise, WaitsWithoutLimitForAControlWhoseMemoryIsFullAndSaysSo) {
+  auto wire = line(settings_of(Flow::HeidenhainBcc));
+  serve(wire, kProgram);
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
+  wire.control().on_event = [](LineEnd& end, const Event& event, LineTime now) {
+    if (std::holds_alternative<TextReceived>(event)) end.line->set_ready(false, now);
+  };
+  wire.control().line->set_ready(false, wire.now());
+  wire.run_until(std::chrono::hours(3));
+  const auto host = wire.host().line->state();
+  EXPECT_EQ(host.phase, Phase::Sending);
+  EXPECT_TRUE(host.is_stopped);
+  EXPECT_EQ(host.waiting_for, "ACK");
+  EXPECT_TRUE(host.may_wait_without_limit);
+  EXPECT_TRUE(wire.control().line->state().is_stopping);
+  EXPECT_EQ(wire.control().received, "0 BEGIN PGM 27 MM\n");
+  wire.control().on_event = {};
+  wire.control().line->set_ready(true, wire.now());
+  EXPECT_EQ(wire.run(wire.now() + seconds(60)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.control().received, kProgram);
+}
+
+TEST(TncBlockwise, GivesAllProgramsUntilThereIsNoneLeft) {
+  auto wire = line(settings_of(Flow::HeidenhainBcc));
+  std::vector<std::string> programs = {"%3 G71\nN10 G90\nN9999 %3 G71\n",
+                                       "0 BEGIN PGM 4 MM\n1 END PGM 4 MM\n"};
+  const auto all = programs;
+  wire.host().on_event = [&programs](LineEnd& end, const Event& event, LineTime now) {
+    if (!std::holds_alternative<Request>(event)) return;
+    if (programs.empty()) {
+      EXPECT_TRUE(end.line->refuse("", now));
+      return;
+    }
+    EXPECT_TRUE(end.send(programs.front(), now));
+    programs.erase(programs.begin());
+  };
+  std::vector<std::string> taken;
+  while (wire.control().failures.empty() && taken.size() < 5) {
+    ASSERT_TRUE(wire.control().line->request({Request::Kind::Directory, ""}, wire.now()));
+    ASSERT_EQ(wire.run(wire.now() + seconds(60)), LineSimulator::Outcome::Idle);
+    if (wire.control().failures.empty()) taken.push_back(wire.control().received);
+  }
+  EXPECT_EQ(taken, all);
+  EXPECT_EQ(wire.control().failures[0].code, Errc::NotFound);
+}
+
+TEST(TncBlockwise, ShowsTheControlWhyItIsRefused) {
+  auto wire = line(settings_of(Flow::HeidenhainBcc));
+  wire.host().on_event = [](LineEnd& end, const Event& event, LineTime now) {
+    if (std::holds_alternative<Request>(event)) {
+      EXPECT_TRUE(end.line->refuse("no such program, and a long story about it", now));
+    }
+  };
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "99"}, wire.now()));
+  EXPECT_EQ(wire.run(seconds(60)), LineSimulator::Outcome::Idle);
+  ASSERT_EQ(wire.control().failures.size(), 1U);
+  EXPECT_EQ(wire.control().failures[0].what, "the device says: no such program, and a long stor");
+}
+
+TEST(TncBlockwise, RepeatsARefusedBlockThreeTimesAndThenStops) {
+  const auto settings = settings_of(Flow::HeidenhainBcc);
+  auto host = make_discipline(settings, Role::Host).value();
+  const auto hear = [&](std::string_view characters) {
+    host->receive(std::as_bytes(std::span(characters)), LineTime{});
+    std::string said;
+    std::array<std::byte, 64> room{};
+    for (std::size_t n = host->transmit(room, LineTime{}); n > 0; n = host->transmit(room, {})) {
+      said += std::string(reinterpret_cast<const char*>(room.data()), n);
+    }
+    return said;
+  };
+  const HeidenhainSettings tnc;
+  ASSERT_TRUE(host->begin_send("", {}));
+  ASSERT_TRUE(host->offer("1 STOP\n2 STOP\n", true, {}));
+  const auto block = make_tnc_block(2, "1 STOP", tnc);
+  EXPECT_EQ(hear(make_tnc_block(1, "%7E", tnc) + "\x11"), "\x06" + block);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(hear("\x15"), block);
+  EXPECT_EQ(hear("\x15"), make_tnc_block(1, "PROGRAM INCOMPLETE", tnc));
+  EXPECT_EQ(host->state().phase, Phase::Idle);
+  const auto events = host->take_events();
+  EXPECT_TRUE(std::holds_alternative<TransferFailed>(events.back()));
+}
+
+TEST(TncBlockwise, TakesNoSecondAckForTheNextBlock) {
+  const auto settings = settings_of(Flow::HeidenhainBcc);
+  auto host = make_discipline(settings, Role::Host).value();
+  const HeidenhainSettings tnc;
+  const auto heading = make_tnc_block(1, "%7E", tnc);
+  ASSERT_TRUE(host->begin_send("", {}));
+  ASSERT_TRUE(host->offer("1 STOP\n2 STOP\n", true, {}));
+  host->receive(std::as_bytes(std::span(heading)), {});
+  std::array<std::byte, 64> room{};
+  host->transmit(room, {});
+  const std::string_view acks = "\x06\x06";
+  host->receive(std::as_bytes(std::span(acks)), {});  // the second: block 2 has not left yet
+  std::uint64_t accepted = 0;
+  for (const auto& event : host->take_events()) {
+    if (const auto* taken = std::get_if<TextAccepted>(&event)) accepted = taken->bytes;
+  }
+  EXPECT_EQ(accepted, 7U);
+}
+
+TEST(TncBlockwise, TakesARepeatedBlockOnce) {
+  const auto settings = settings_of(Flow::HeidenhainBcc);
+  auto control = make_discipline(settings, Role::Control).value();
+  const HeidenhainSettings tnc;
+  ASSERT_TRUE(control->begin_receive("7", {}));
+  std::array<std::byte, 64> room{};
+  control->transmit(room, {});
+  const auto block = make_tnc_block(2, "1 STOP", tnc);
+  const std::string heard = "\x06" + block + block + make_tnc_block(2, "2 STOP", tnc) + "\x03";
+  control->receive(std::as_bytes(std::span(heard)), {});
+  std::string text;
+  for (const auto& event : control->take_events()) {
+    if (const auto* got = std::get_if<TextReceived>(&event)) text += got->text;
+  }
+  EXPECT_EQ(text, "1 STOP\n2 STOP\n");
+  const auto count = control->transmit(room, {});
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(room.data()), count), "\x06\x06\x06\x04");
+}
+
+TEST(TncBlockwise, NamesTheCharacterThatCanNotStandInABlock) {
+  auto host = make_discipline(settings_of(Flow::HeidenhainBcc), Role::Host).value();
+  ASSERT_TRUE(host->begin_send("7", {}));
+  const auto refused = host->offer("0 BEGIN PGM 7 MM\n1 L X\t4\n", true, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "line 2, column 6: character 0x09 can not stand in a TNC block");
+}
+
+TEST(TncBlockwise, RefusesControlCharactersThatExcludeEachOther) {
+  auto settings = settings_of(Flow::HeidenhainBcc);
+  settings.heidenhain.nak = settings.heidenhain.ack;
+  EXPECT_FALSE(make_discipline(settings, Role::Host));
+  settings.heidenhain.nak = 0x13;
+  EXPECT_FALSE(make_discipline(settings, Role::Host));
+  settings.heidenhain.nak = 48;
+  EXPECT_FALSE(make_discipline(settings, Role::Host));
+}
+
+TEST(TncStandard, SendsExactlyTheCharactersOfTheProtocol) {
+  auto settings = settings_of(Flow::Heidenhain);
+  settings.leader = 3;
+  auto wire = line(settings);
+  wire.keep_traffic(true);
+  serve(wire, "0 BEGIN PGM 5 MM\n1 END PGM 5 MM\n");
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, ""}, wire.now()));
+  wire.run(seconds(60));
+  EXPECT_EQ(wire.from_control().seen, "\x11\x04");
+  EXPECT_EQ(wire.from_host().seen,
+            std::string(3, '\0') + "0 BEGIN PGM 5 MM\r\n1 END PGM 5 MM\r\n\x03");
+}
+
+TEST(TncStandard, SkipsOtherProgramsUntilTheWantedOne) {
+  auto wire = line(settings_of(Flow::Heidenhain));
+  serve(wire, "0 BEGIN PGM 3 MM\n1 STOP\n2 END PGM 3 MM\n" + kProgram + "0 BEGIN PGM 9 MM\n");
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
+  EXPECT_EQ(wire.run(seconds(60)), LineSimulator::Outcome::Idle);
+  EXPECT_EQ(wire.control().received, kProgram);
+  EXPECT_EQ(wire.host().sends, 1U);
+}
+
+TEST(TncStandard, TellsProgramsApartThatFollowEachOtherWithoutAnEndCharacter) {
+  auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+  const std::string heard = "0 BEGIN PGM 3 MM\r\n1 END PGM 3 MM\r\n%8 G71\r\nN9999 %8 G71\r\n\x03";
+  host->receive(std::as_bytes(std::span(heard)), {});
+  std::vector<std::string> names;
+  std::size_t ended = 0;
+  for (const auto& event : host->take_events()) {
+    if (const auto* began = std::get_if<TransferBegan>(&event)) names.push_back(began->name);
+    ended += std::holds_alternative<TransferEnded>(event);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"", "8"}));
+  EXPECT_EQ(ended, 2U);
+}
+
+TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
+  auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+  const auto hear = [&](std::string_view text) {
+    host->receive(std::as_bytes(std::span(text)), LineTime{});
+  };
+  hear("0 BEGIN PGM 3 MM\r\n2 L X");
+  host->fault(LineFault::Parity, {});
+  hear("4\r\n3 END PGM 3 MM\r\n\x03");
+  std::string text, troubles;
+  for (const auto& event : host->take_events()) {
+    if (const auto* got = std::get_if<TextReceived>(&event)) text += got->text;
+    if (const auto* trouble = std::get_if<LineTrouble>(&event))
+      troubles += trouble->error.what + "|";
+  }
+  EXPECT_EQ(text, "0 BEGIN PGM 3 MM\n2 L X?4\n3 END PGM 3 MM\n");
+  EXPECT_EQ(troubles, "parity error behind '2 L X'|block 2 came behind block 0|");
+}
+
+TEST(TncStandard, StopsSendingBetweenDc3AndDc1) {
+  auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+  ASSERT_TRUE(host->begin_send("5", {}));
+  ASSERT_TRUE(host->offer(kProgram, true, {}));
+  std::array<std::byte, 60> room{};
+  EXPECT_EQ(host->transmit(room, {}), 0U);
+  const auto hear = [&](char c) { host->receive(std::as_bytes(std::span(&c, 1)), LineTime{}); };
+  hear(0x11);
+  EXPECT_EQ(host->transmit(room, {}), 60U);
+  hear(0x13);
+  EXPECT_EQ(host->transmit(room, {}), 0U);
+  EXPECT_TRUE(host->state().is_stopped);
+  hear(0x11);
+  EXPECT_EQ(host->transmit(room, {}), 60U);
+}
+
+}  // namespace
+}  // namespace dripline::wire
