@@ -66,13 +66,14 @@ Result<std::unique_ptr<Discipline>> make_discipline(const LineSettings& settings
     case Flow::DcCodes:
       return make_plain(settings, role);
     case Flow::Xmodem:
-    case Flow::TapeReader:
-      break;
+      return make_xmodem(settings, role);
     case Flow::Heidenhain:
       return make_tnc_standard(settings, role);
     case Flow::HeidenhainBcc:
       return role == Role::Host ? make_tnc_blockwise_host(settings)
                                 : make_tnc_blockwise_control(settings);
+    case Flow::TapeReader:
+      break;
   }
   return fail(Errc::Unsupported, "this protocol is not built yet");
 }
