@@ -95,6 +95,7 @@ struct Line {
   Origin origin;
   Position to;
   Feed feed;
+  bool rests = false;  ///< the axes come to rest at its end (exact stop)
 };
 
 struct Arc {
@@ -106,6 +107,7 @@ struct Arc {
   Turn turn = Turn::Clockwise;
   Angle sweep;  ///< > 0; > 360 for several turns
   Feed feed;
+  bool rests = false;  ///< as of a line
 };
 
 struct Thread {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/interpreter/centurion/dialect.hpp"
+#include "gateway/interpreter/tektronix1704/dialect.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -12,7 +13,7 @@ constexpr int kClearLead = 30;
 
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
-  static const std::vector<Dialect> kTable{kCenturionDialect};
+  static const std::vector<Dialect> kTable{kCenturionDialect, kTektronix1704Dialect};
   return kTable;
 }
 

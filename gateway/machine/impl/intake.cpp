@@ -74,6 +74,7 @@ void Intake::on_rapid(const interpreter::Rapid& event) {
 void Intake::on_line(const interpreter::Line& event) {
   add_straight(event.origin, event.to,
                {.path = {}, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
+  if (event.rests) builder_.forget_direction();
 }
 
 void Intake::on_thread(const interpreter::Thread& event) {
@@ -86,6 +87,7 @@ void Intake::on_arc(const interpreter::Arc& event) {
   if (!path.is_arc() || !(path.length > 0))
     return alarm(event.origin, "MCH0006", "the arc has no radius or no length");
   add_move(event.origin, {.path = path, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
+  if (event.rests) builder_.forget_direction();
 }
 
 void Intake::on_dwell(const interpreter::Dwell& event) {

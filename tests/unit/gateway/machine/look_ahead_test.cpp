@@ -31,6 +31,13 @@ TEST(LookAhead, CornerIsPassedAtTheSpeedOfItsCircle) {
   EXPECT_NEAR(test.run_all(), 2 * one_move, 1e-9);
 }
 
+TEST(LookAhead, RestsWhereTheProgramAsksForIt) {
+  TestMachine test;
+  test.program.line_to_rest(0, 10, 1200);
+  test.program.line(0, 20, 1200);  // straight on: no corner by itself
+  EXPECT_NEAR(test.run_all(), 2 * trapezoid(10, 20, 1000), 1e-9);
+}
+
 TEST(LookAhead, SharperCornersAreSlower) {
   double last = 1201;
   for (const double degrees : {5.0, 30.0, 60.0, 90.0, 120.0, 150.0, 179.0}) {

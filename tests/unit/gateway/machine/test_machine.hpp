@@ -86,6 +86,11 @@ class Program {
     sink_.on_line({origin_, at(x, z), feed});
     end_block();
   }
+  void line_to_rest(double x, double z, double feed) {
+    begin_block();
+    sink_.on_line({origin_, at(x, z), Feed::per_minute(Length::mm(feed)), true});
+    end_block();
+  }
   void rapid(double x, double z) {
     begin_block();
     sink_.on_rapid({origin_, at(x, z)});
