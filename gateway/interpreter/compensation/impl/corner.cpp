@@ -85,6 +85,7 @@ void go_round(Corner& corner, PlaneVector from, const Element& first, const Elem
   const PlaneVector at = first.end;
   PlaneVector arrival = at + std::copysign(length(from - at), second.offset) * second.normal_in();
   double sweep = turn_between(from - at, arrival - at);
+  if (std::fabs(sweep * second.offset) <= kNoLength) return go_straight(corner, arrival);
   // away from the compensated side, whatever rounding makes of a half circle
   if ((sweep > 0) == (second.offset > 0)) sweep = -sweep;
   corner.between.add({.is_arc = true, .to = arrival, .center = at, .sweep = sweep});
@@ -99,6 +100,7 @@ Corner rounded(const Element& first, const Element& second) {
 }
 
 Corner outside_corner(const Policy& policy, const Element& first, const Element& second) {
+  if (first.offset == 0) return at_point(first.end);
   switch (first.outside) {
     case OutsideCorner::IntersectCurves:
       return intersection(first, second);

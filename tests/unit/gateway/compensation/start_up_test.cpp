@@ -137,6 +137,11 @@ TEST(StartUp, ARadiusOfZeroFollowsTheProgram) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(0).line(0, 0).line(10, 0).line(10, -10).arc({0, -10}, -90).off().line(0, 0);
   expect_ends(contour.log, {{0, 0}, {10, 0}, {10, -10}, {0, -20}, {0, 0}});
+  Policy rounding = corners_at_both_ends();
+  rounding.outside = OutsideCorner::Arc;
+  Contour corners{rounding, {0, -10}};
+  corners.left(0).line(0, 0).line(10, 0).line(10, -10).off().line(0, -10);
+  expect_ends(corners.log, {{0, 0}, {10, 0}, {10, -10}, {0, -10}});
 }
 
 TEST(StartUp, SettledContoursGoOnFromWhereTheToolIs) {
