@@ -67,15 +67,16 @@ Result<std::unique_ptr<Discipline>> make_discipline(const LineSettings& settings
       return make_plain(settings, role);
     case Flow::Xmodem:
       return make_xmodem(settings, role);
+    case Flow::TapeReader:
+      return role == Role::Host ? make_tape_reader_host(settings)
+                                : make_tape_reader_control(settings);
     case Flow::Heidenhain:
       return make_tnc_standard(settings, role);
     case Flow::HeidenhainBcc:
       return role == Role::Host ? make_tnc_blockwise_host(settings)
                                 : make_tnc_blockwise_control(settings);
-    case Flow::TapeReader:
-      break;
   }
-  return fail(Errc::Unsupported, "this protocol is not built yet");
+  return fail(Errc::Unsupported, "this build has no such protocol");
 }
 
 }  // namespace dripline::wire

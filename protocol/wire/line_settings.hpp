@@ -48,10 +48,16 @@ struct HeidenhainSettings {
   bool repeats_unanswered = false;
 };
 
+/// What a tape or its reader can have wrong, to try what becomes of it. The reader's end does it to
+/// the row (a chad left in a hole is a hole less); the control's end sees it there.
+enum class ReaderFault : std::uint8_t { None, Parity, Chad, MissingSprocket, SprocketSpacing };
+
 /// How a tape reader in our hands behaves.
 struct ReaderSettings {
   double characters_per_second = 300;
   bool stops_at_end_of_block = false;  ///< the control runs the reader block by block
+  ReaderFault fault = ReaderFault::None;
+  unsigned fault_row = 0;  ///< counted from the beginning of each transfer, from 1
 };
 
 /// Whose rules the control's end of a line follows, and with whose words it reports what is wrong.

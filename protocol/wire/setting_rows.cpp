@@ -133,6 +133,9 @@ constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
 constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
 constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
                              {"plain", "fanuc", "prototrak", "centurion"}};
+constexpr Words<5> kReaderFaults{
+    "none|parity|chad|missing_sprocket|sprocket_spacing",
+    {"none", "parity", "chad", "missing_sprocket", "sprocket_spacing"}};
 constexpr Words<5> kDncModes{"off|fast|run|verify|continue",
                              {"off", "fast", "run", "verify", "continue"}};
 
@@ -211,6 +214,10 @@ constexpr std::array kRows{
                }},
     flag<"reader_block_stop", &S::reader, &ReaderSettings::stops_at_end_of_block>(
         "tape reader: stops at each end of block"),
+    choice<"reader_fault", kReaderFaults, &S::reader, &ReaderSettings::fault>(
+        "tape reader: what is wrong with one row, for trials"),
+    number<"reader_fault_row", 0, 1'000'000'000, &S::reader, &ReaderSettings::fault_row>(
+        "tape reader: which row that is, from 1"),
     choice<"control", kControls, &S::control, &C::kind>("whose rules our end follows as a control"),
     number<"buffer_size", 1, kMaximumBufferSize, &S::control, &C::buffer_size>(
         "characters a control still takes after it said stop"),

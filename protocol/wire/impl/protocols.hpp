@@ -12,6 +12,7 @@ std::unique_ptr<Discipline> make_xmodem(const LineSettings& settings, Role role)
 std::unique_ptr<Discipline> make_tnc_blockwise_host(const LineSettings& settings);
 std::unique_ptr<Discipline> make_tnc_blockwise_control(const LineSettings& settings);
 std::unique_ptr<Discipline> make_tnc_standard(const LineSettings& settings, Role role);
-std::unique_ptr<Discipline> make_tape_reader(const LineSettings& settings, Role role);
+std::unique_ptr<Discipline> make_tape_reader_host(const LineSettings& settings);
+std::unique_ptr<Discipline> make_tape_reader_control(const LineSettings& settings);
 
 }  // namespace dripline::wire

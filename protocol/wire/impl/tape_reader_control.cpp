@@ -1,0 +1,238 @@
+#include <charconv>
+
+#include "protocol/wire/character_coder.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
+#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/tape_block.hpp"
+#include "protocol/wire/impl/tape_reader_commands.hpp"
+#include "protocol/wire/tape_code.hpp"
+
+namespace dripline::wire {
+namespace {
+
+constexpr std::size_t kMaxTapeBlock = 1024;
+
+/// The control reading tape, as the Tektronix 1704 does.
+///
+///     hunt    everything is skipped, unchecked, up to an end of block
+///     data    parity is checked; blocks are taken whole
+///     rewind  backwards to the rewind stop, then hunt
+///     error   READ ERROR: the block being read is dropped, the reader stops, the operator resets
+///
+/// M02, M30 and the rewind stop end the program; M30 winds back. A program is named by what the
+/// operator asks of the reader: nothing, "%" to wind back first, "N40" to search for that block.
+class TapeReaderControl final : public DisciplineBase {
+ public:
+  explicit TapeReaderControl(const LineSettings& settings)
+      : DisciplineBase(settings, Role::Control), decoder_(settings.code) {
+    output_.rts = false;
+  }
+
+  void receive(std::span<const std::byte> bytes, LineTime now) override {
+    for (const auto byte : bytes) {
+      if (is_receiving()) read(static_cast<std::uint8_t>(byte), now);
+    }
+  }
+
+  void fault(LineFault, LineTime now) override {
+    if (!is_receiving()) return;
+    ++row_;
+    if (!is_hunting_) read_error("the line spoiled a character", now);
+  }
+
+  void tick(LineTime now) override {
+    if (!limit_ || *limit_ > now) return;
+    limit_.reset();
+    if (!is_receiving()) return;
+    if (!block_.empty()) return read_error("the tape ends inside a block", now);
+    if (search_) return stop_with({Errc::NotFound, not_found()}, now);
+    emit_trouble({Errc::Timeout, "end of tape without M02, M30 or rewind stop"});
+    end_program(TapeEnd::Stop, now);
+  }
+
+  std::size_t transmit(std::span<std::byte> room, LineTime) override { return take_controls(room); }
+  std::optional<LineTime> deadline() const override { return limit_; }
+
+  Result<void> begin_send(std::string_view, LineTime) override {
+    return fail(Errc::Unsupported, "a tape control has a reader, no punch");
+  }
+
+  Result<void> begin_receive(std::string_view name, LineTime) override {
+    if (auto idle = check_idle(); !idle) return idle;
+    search_.reset();
+    if (name.starts_with('N')) {
+      std::uint64_t number = 0;
+      const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+      if (error != std::errc{} || end != name.data() + name.size()) {
+        return fail(Errc::Unsupported, "'{}' is no block number to search for", name);
+      }
+      search_ = number;
+    } else if (!name.empty() && name != "%") {
+      return fail(Errc::Unsupported, "a tape has no program '{}': nothing, % or N and a number",
+                  name);
+    }
+    begin_transfer(Phase::Receiving, std::string(name));
+    // After M02 and M30 too, and after an error the next block boundary counts.
+    is_hunting_ = true;
+    if (name == "%") wind_back();
+    if (is_ready_) run();
+    return {};
+  }
+
+  Result<void> request(const TransferRequest& request, LineTime now) override {
+    if (request.kind == TransferRequest::Kind::SendProgram) return begin_receive(request.name, now);
+    return fail(Errc::Unsupported, "a tape reader has no directory and takes nothing");
+  }
+  Result<void> refuse(std::string_view, LineTime) override {
+    return fail(Errc::Unsupported, "a tape reader asks for nothing");
+  }
+
+  void set_ready(bool is_ready, LineTime now) override {
+    if (std::exchange(is_ready_, is_ready) == is_ready || !is_receiving()) return;
+    if (is_ready) {
+      run();
+      restart_silence(now);
+    } else {
+      stop();
+    }
+  }
+
+  void abort(LineTime now) override {
+    if (phase_ == Phase::Idle) return;
+    drop_transfer(now);
+    stop();
+  }
+
+  LineState state() const override {
+    LineState state;
+    state.phase = phase_;
+    state.is_stopping = is_receiving() && !is_ready_;
+    if (is_receiving() && is_ready_) state.waiting_for = is_hunting_ ? "end of block" : "tape";
+    state.may_wait_without_limit = is_receiving() && !limit_;
+    return state;
+  }
+
+ private:
+  Result<void> check_text(std::string_view, std::size_t) override { return {}; }
+  void text_offered(LineTime) override {}
+  void transfer_over(LineTime) override {
+    limit_.reset();
+    block_.clear();
+    row_ = 0;
+    is_stop_last_ = false;
+    decoder_ = CharacterDecoder(settings_.code);
+  }
+
+  void read(std::uint8_t row, LineTime now) {
+    const auto& reader = settings_.reader;
+    const bool is_spoiled = ++row_ == reader.fault_row;
+    restart_silence(now);
+    if (is_spoiled && reader.fault == ReaderFault::MissingSprocket) {
+      return read_error("missing sprocket hole", now);
+    }
+    if (is_spoiled && reader.fault == ReaderFault::SprocketSpacing) {
+      return read_error("wrong sprocket hole spacing", now);
+    }
+    if (is_spoiled && reader.fault == ReaderFault::Chad) row &= static_cast<std::uint8_t>(row - 1);
+    if (is_spoiled && reader.fault == ReaderFault::Parity) row ^= 0x40;
+    const TapeRow meaning = decode_row(settings_.code, row);
+    is_hunting_ ? hunt(row, meaning, now) : take(row, meaning, now);
+  }
+
+  void hunt(std::uint8_t row, TapeRow meaning, LineTime now) {
+    using enum RowKind;
+    if (meaning.kind == Blank || meaning.kind == Delete) return;
+    if (meaning.kind != BlockEnd && meaning.kind != CarriageReturn) {
+      is_stop_last_ = meaning.kind == RewindStop;
+      return;
+    }
+    (void)decoder_.decode(static_cast<std::byte>(row));  // so that it knows the companions
+    is_hunting_ = false;
+    if (std::exchange(is_stop_last_, false) && !search_) emit_text("%\n");
+    run_on(now);
+  }
+
+  void take(std::uint8_t row, TapeRow meaning, LineTime now) {
+    if (meaning.kind == RowKind::WrongParity) {
+      return read_error(fmt::format("wrong parity, 0x{:02X}", static_cast<unsigned>(row)), now);
+    }
+    if (meaning.kind == RowKind::RewindStop) return end_of_tape(now);
+    auto decoded = decoder_.decode(static_cast<std::byte>(row));
+    if (decoded.trouble) emit_trouble(std::move(*decoded.trouble));
+    if (!decoded.text) return;
+    if (*decoded.text == '\n') return end_block(now);
+    if (block_.size() >= kMaxTapeBlock) {
+      return read_error(fmt::format("no end of block in {} characters", kMaxTapeBlock), now);
+    }
+    block_ += *decoded.text;
+  }
+
+  /// Read forwards, the rewind stop ends the program.
+  void end_of_tape(LineTime now) {
+    if (search_) return stop_with({Errc::NotFound, not_found()}, now);
+    if (!block_.empty()) return read_error("rewind stop inside a block", now);
+    emit_text("%\n");
+    end_program(TapeEnd::Stop, now);
+  }
+
+  void end_block(LineTime now) {
+    const std::string block = std::exchange(block_, {});
+    if (search_ && word_value(block, 'N') == search_) search_.reset();
+    if (!search_) emit_text(block + "\n");
+    const TapeEnd end = tape_end(block);
+    if (end != TapeEnd::None && search_) return stop_with({Errc::NotFound, not_found()}, now);
+    if (end != TapeEnd::None) return end_program(end, now);
+    run_on(now);
+  }
+
+  void end_program(TapeEnd end, LineTime now) {
+    end_transfer(now);
+    stop();
+    if (end == TapeEnd::Rewind) wind_back();
+  }
+
+  void read_error(std::string_view what, LineTime now) {
+    stop_with({Errc::Corrupt, fmt::format("READ ERROR at row {}: {}", row_, what)}, now);
+  }
+  void stop_with(Error error, LineTime now) {
+    fail_transfer(std::move(error), now);
+    stop();
+  }
+  std::string not_found() const { return fmt::format("block N{} is not on the tape", *search_); }
+
+  // The reader
+  void run() {
+    output_.rts = true;
+    queue_control(kReaderRun);
+  }
+  /// A reader that stops at each end of block is told to go on.
+  void run_on(LineTime) {
+    if (settings_.reader.stops_at_end_of_block && is_ready_) queue_control(kReaderRun);
+  }
+  void stop() {
+    output_.rts = false;
+    queue_control(kReaderStop);
+    limit_.reset();
+  }
+  void wind_back() { queue_control(kReaderBack); }
+
+  void restart_silence(LineTime now) {
+    limit_ = is_ready_ && !is_hunting_ ? std::optional<LineTime>(now + settings_.idle_end)
+                                       : std::nullopt;
+  }
+
+  CharacterDecoder decoder_;
+  std::optional<LineTime> limit_;
+  std::optional<std::uint64_t> search_;
+  std::string block_;
+  std::uint64_t row_ = 0;
+  bool is_hunting_ = true, is_stop_last_ = false, is_ready_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<Discipline> make_tape_reader_control(const LineSettings& settings) {
+  return std::make_unique<TapeReaderControl>(settings);
+}
+
+}  // namespace dripline::wire

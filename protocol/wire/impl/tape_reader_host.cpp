@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/wire/character_coder.hpp"
+#include "protocol/wire/impl/discipline_base.hpp"
+#include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/tape_reader_commands.hpp"
+#include "protocol/wire/tape_code.hpp"
+
+namespace dripline::wire {
+namespace {
+
+/// From the command to the first row.
+constexpr LineTime kStartUp = std::chrono::milliseconds(10);
+
+/// We are the reader: each text is a tape with leader, rewind stop and trailer that the control
+/// runs, stops and winds back. Rewinding asks the owner for the same program again.
+class TapeReaderHost final : public DisciplineBase {
+ public:
+  explicit TapeReaderHost(const LineSettings& settings)
+      : DisciplineBase(settings, Role::Host),
+        encoder_(settings.code, settings.end_of_block),
+        row_time_(
+            static_cast<std::int64_t>(std::llround(1e9 / settings.reader.characters_per_second))) {}
+
+  void receive(std::span<const std::byte> bytes, LineTime now) override {
+    for (const auto byte : bytes) {
+      const char c = static_cast<char>(byte & std::byte{0x7F});
+      if (c == kReaderRun) run(now);
+      if (c == kReaderStop) stop(now);
+      if (c == kReaderBack) wind_back(now);
+    }
+  }
+  void fault(LineFault, LineTime) override {}  // commands are repeated by who gave them
+
+  void lines(InputLines lines, LineTime now) override {
+    const InputLines before = input_;
+    DisciplineBase::lines(lines, now);
+    if (before.dsr && !lines.dsr && lines.cts) wind_back(now);
+    if (before.cts && !lines.cts) stop(now);
+    if (!before.cts && lines.cts && lines.dsr) run(now);
+  }
+
+  void tick(LineTime now) override {
+    if (!is_sending() || is_running_ || !limit_ || *limit_ > now) return;
+    fail_transfer({Errc::Timeout, "the control did not run the reader in time"}, now);
+  }
+
+  std::optional<LineTime> deadline() const override {
+    if (!is_sending()) return std::nullopt;
+    if (!is_running_) return limit_;
+    const bool has_rows = row_at_ < rows_.size() || has_more();
+    return has_rows ? std::optional(next_row_) : std::nullopt;
+  }
+
+  std::size_t transmit(std::span<std::byte> room, LineTime now) override {
+    std::size_t count = 0;
+    while (count < room.size() && is_sending() && is_running_ && next_row_ <= now) {
+      if (row_at_ == rows_.size() && !refill(now)) break;
+      const auto row = rows_[row_at_++];
+      if (row_at_ == rows_.size() && stage_ == Stage::Text && !std::exchange(is_head_, false)) {
+        count_sent(1);
+      }
+      if (auto spoiled = pass(row, now)) room[count++] = *spoiled;
+      end_of_row(row, now);
+    }
+    return count;
+  }
+
+  Result<void> begin_send(std::string_view name, LineTime now) override {
+    if (auto idle = check_idle(); !idle) return idle;
+    begin_transfer(Phase::Sending, std::string(name));
+    encoder_ = CharacterEncoder(settings_.code, settings_.end_of_block);
+    checker_ = CharacterEncoder(settings_.code, settings_.end_of_block);
+    blanks_ = std::exchange(is_wound_back_, false) ? 0 : settings_.leader;
+    stage_ = Stage::Leader;
+    is_asked_ = false;
+    const bool runs_at_once = !settings_.wait_for_xon && input_.cts && !is_stopped_;
+    runs_at_once ? run(now) : wait(now);
+    return {};
+  }
+  Result<void> begin_receive(std::string_view, LineTime) override {
+    return fail(Errc::Unsupported, "a tape reader does not punch");
+  }
+  Result<void> request(const TransferRequest&, LineTime) override {
+    return fail(Errc::Unsupported, "a tape reader asks for nothing");
+  }
+  Result<void> refuse(std::string_view, LineTime) override {
+    if (!is_asked_) return fail(Errc::ModalConflict, "the control has asked for nothing");
+    is_asked_ = false;
+    return {};
+  }
+  void set_ready(bool, LineTime) override {}
+  void abort(LineTime now) override {
+    if (phase_ != Phase::Idle) drop_transfer(now);
+  }
+
+  LineState state() const override {
+    LineState state;
+    state.phase = phase_;
+    state.is_stopped = is_sending() && !is_running_;
+    if (state.is_stopped) state.waiting_for = "run";
+    state.may_wait_without_limit = state.is_stopped && !limit_;
+    state.text_sent = text_sent();
+    return state;
+  }
+
+ private:
+  enum class Stage : std::uint8_t { Leader, Text, Trailer };
+
+  Result<void> check_text(std::string_view text, std::size_t) override {
+    std::vector<std::byte> rows;
+    return checker_.encode(text, rows);
+  }
+  void text_offered(LineTime now) override { next_row_ = std::max(next_row_, now); }
+  void transfer_over(LineTime) override {
+    rows_.clear();
+    row_at_ = 0;
+    row_ = 0;
+    is_running_ = false;
+    limit_.reset();
+  }
+
+  bool has_more() const {
+    const bool has_said = has_text() || is_last_offered();
+    return stage_ == Stage::Text ? has_said : blanks_ > 0 || has_said;
+  }
+
+  /// The next rows: of one character, or one blank. False: there are none now.
+  bool refill(LineTime now) {
+    rows_.clear();
+    row_at_ = 0;
+    if (stage_ != Stage::Text && blanks_ > 0) {
+      --blanks_;
+      rows_.push_back(std::byte{0});
+      return true;
+    }
+    if (stage_ == Stage::Leader && (has_text() || is_last_offered())) return begin_text(now);
+    if (stage_ == Stage::Text && has_text()) {
+      const char c = queued_text().front();
+      take_text(1);
+      (void)encoder_.encode({&c, 1}, rows_);  // check_text has seen it
+      if (!rows_.empty()) return true;
+      count_sent(1);  // CR belongs to its LF
+      return refill(now);
+    }
+    end_tape(now);
+    return is_sending() && stage_ == Stage::Trailer && refill(now);
+  }
+
+  /// Behind the last row of the text comes the trailer, and behind that nothing.
+  void end_tape(LineTime now) {
+    if (stage_ == Stage::Text && is_text_taken()) {
+      stage_ = Stage::Trailer;
+      blanks_ = settings_.trailer;
+    }
+    if (stage_ == Stage::Trailer && blanks_ == 0) end_transfer(now);
+  }
+
+  /// A control reads nothing before an end of block, and winds back to the rewind stop.
+  bool begin_text(LineTime now) {
+    stage_ = Stage::Text;
+    if (has_text() && queued_text().front() == '%') return refill(now);
+    rows_.push_back(static_cast<std::byte>(*encode_row(settings_.code, '%')));
+    for (const char row : end_of_block_rows(settings_.code, settings_.end_of_block)) {
+      rows_.push_back(static_cast<std::byte>(row));
+    }
+    is_head_ = true;
+    return true;
+  }
+
+  /// Counts the row; what is left of it when it is the one to be spoiled.
+  std::optional<std::byte> pass(std::byte row, LineTime) {
+    if (++row_ != settings_.reader.fault_row) return row;
+    const auto bits = static_cast<unsigned>(row);
+    switch (settings_.reader.fault) {
+      case ReaderFault::Parity:
+        return static_cast<std::byte>(bits ^ 0x40U);
+      case ReaderFault::Chad:
+        return static_cast<std::byte>(bits & (bits - 1));
+      case ReaderFault::MissingSprocket:
+        return std::nullopt;
+      case ReaderFault::SprocketSpacing:
+        next_row_ += row_time_ / 2;
+        return row;
+      case ReaderFault::None:
+        break;
+    }
+    return row;
+  }
+
+  void end_of_row(std::byte row, LineTime now) {
+    // Rows keep their rate although the caller comes a little late each time.
+    next_row_ = std::max(next_row_ + row_time_, now - 2 * row_time_);
+    const auto kind = decode_row(settings_.code, static_cast<std::uint8_t>(row)).kind;
+    const bool is_last_row = row_at_ == rows_.size();
+    if (is_last_row) end_tape(now);
+    if (!is_sending()) return;
+    const bool is_block_end = kind == RowKind::BlockEnd || kind == RowKind::CarriageReturn;
+    if (is_last_row && is_block_end && settings_.reader.stops_at_end_of_block) wait(now);
+  }
+
+  void run(LineTime now) {
+    is_stopped_ = false;
+    if (!is_sending() || is_running_) return;
+    is_running_ = true;
+    limit_.reset();
+    next_row_ = now + kStartUp;
+    if (std::exchange(was_held_, false)) emit(FlowChanged{false});
+  }
+
+  void stop(LineTime now) {
+    is_stopped_ = true;
+    if (!is_sending() || !is_running_) return;
+    wait(now);
+    was_held_ = true;
+    emit(FlowChanged{true});
+  }
+
+  void wait(LineTime now) {
+    is_running_ = false;
+    limit_ = settings_.hold_limit ? std::optional(now + *settings_.hold_limit) : std::nullopt;
+  }
+
+  void wind_back(LineTime now) {
+    is_wound_back_ = true;
+    if (is_sending()) {
+      const bool is_read = is_text_taken() && row_at_ == rows_.size();
+      if (is_read)
+        end_transfer(now);
+      else
+        fail_transfer({Errc::Corrupt, "the control wound the tape back"}, now);
+    }
+    if (std::exchange(is_asked_, true)) return;
+    emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
+  }
+
+  CharacterEncoder encoder_;
+  CharacterEncoder checker_{settings_.code, settings_.end_of_block};
+  LineTime row_time_;
+  LineTime next_row_{};
+  std::optional<LineTime> limit_;
+  Stage stage_ = Stage::Leader;
+  unsigned blanks_ = 0;
+  std::vector<std::byte> rows_;
+  std::size_t row_at_ = 0;
+  std::uint64_t row_ = 0;  ///< of the transfer
+  bool is_running_ = false, is_stopped_ = false, was_held_ = false;
+  bool is_asked_ = false, is_wound_back_ = false, is_head_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Discipline> make_tape_reader_host(const LineSettings& settings) {
+  return std::make_unique<TapeReaderHost>(settings);
+}
+
+}  // namespace dripline::wire
