@@ -1,0 +1,57 @@
+#include "server/serial/answer_text.hpp"
+
+#include <fmt/format.h>
+
+namespace dripline::ports {
+namespace {
+
+constexpr std::size_t kMaxComment = 60;
+constexpr std::string_view kSigns = " .-+/=:,";
+
+bool is_offered(const storage::ProgramSummary& program, const std::string& control) {
+  const auto& latest = program.latest;
+  if (program.is_removed || latest.is_held) return false;
+  return control.empty() || latest.control.empty() || latest.control == control;
+}
+
+}  // namespace
+
+std::string comment_text(std::string_view words) {
+  std::string text;
+  for (const char c : words.substr(0, kMaxComment)) {
+    const bool is_small = c >= 'a' && c <= 'z';
+    const bool is_plain =
+        (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || kSigns.find(c) != kSigns.npos;
+    if (is_small) {
+      text += static_cast<char>(c - 'a' + 'A');
+    } else {
+      text += is_plain ? c : ' ';
+    }
+  }
+  return text;
+}
+
+std::string comment_program(const std::string& name, std::span<const std::string> lines) {
+  std::string text = fmt::format("%\n{}\n", name);
+  for (const auto& line : lines) text += fmt::format("({})\n", comment_text(line));
+  return text + "M30\n%\n";
+}
+
+std::vector<std::string> listing(std::span<const storage::ProgramSummary> programs,
+                                 const std::string& control) {
+  std::vector<std::string> lines;
+  std::size_t more = 0;
+  for (const auto& program : programs) {
+    if (!is_offered(program, control)) continue;
+    if (lines.size() >= kMaxListed) {
+      ++more;
+      continue;
+    }
+    lines.push_back(fmt::format("{} {} {}", program.latest.program, program.latest.size,
+                                program.latest.comment.substr(0, 30)));
+  }
+  if (more > 0) lines.push_back(fmt::format("AND {} MORE", more));
+  return lines;
+}
+
+}  // namespace dripline::ports

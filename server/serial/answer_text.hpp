@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "storage/store.hpp"
+
+/// What is said to a control in the only words it has: programs of comments.
+namespace dripline::ports {
+
+inline constexpr std::size_t kMaxListed = 200;
+
+/// Capitals, digits and `.-+/=:,` only, at most 60 characters: what every control takes in a
+/// comment.
+std::string comment_text(std::string_view words);
+/// A program called `name` ("O9998") that says these lines and does nothing.
+std::string comment_program(const std::string& name, std::span<const std::string> lines);
+/// One line for each program that can be sent to a machine with that control (empty: any), at most
+/// kMaxListed, and a last line that says how many more there are.
+std::vector<std::string> listing(std::span<const storage::ProgramSummary> programs,
+                                 const std::string& control);
+
+}  // namespace dripline::ports

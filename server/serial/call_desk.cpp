@@ -1,0 +1,161 @@
+#include "server/serial/call_desk.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "protocol/base/random.hpp"
+#include "server/feeds/called_programs.hpp"
+#include "server/serial/answer_text.hpp"
+#include "server/serial/program_head.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr const char* kAuthor = "call from the control";
+constexpr std::uint64_t kMostPrograms = 10'000;
+
+bool is_number(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The most literal first: `15` may be stored as 15, 15.h, O15, O0015 ...
+std::vector<std::string> candidates(const std::string& name) {
+  std::vector<std::string> names = feeds::library_names(name);
+  names.push_back(name + ".h");
+  names.push_back(name + ".H");
+  if (!is_number(name)) return names;
+  std::array<char, 16> padded{};
+  fmt::format_to_n(padded.data(), padded.size() - 1, "O{:0>4}", name);
+  for (const auto& numbered : feeds::library_names(padded.data())) names.push_back(numbered);
+  return names;
+}
+
+}  // namespace
+
+Result<feeds::StartPoint> parse_start_point(std::string_view text) {
+  feeds::StartPoint point;
+  std::string_view digits = text;
+  char letter = 'N';
+  if (!digits.empty() && (digits[0] < '0' || digits[0] > '9')) {
+    letter = static_cast<char>(digits[0] & ~0x20);
+    digits.remove_prefix(1);
+  }
+  std::uint64_t value = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_whole = read.ec == std::errc{} && read.ptr == digits.data() + digits.size();
+  if (!is_whole || (letter != 'N' && letter != 'L' && letter != 'B')) {
+    return fail(Errc::Syntax, "'{}' names no block: N120, L7 (line) or B4096 (byte)", text);
+  }
+  if (letter == 'N') point.sequence = value;
+  if (letter == 'L') point.line = value;
+  if (letter == 'B') point.byte = value;
+  return point;
+}
+
+std::string CallDesk::control() const {
+  const auto machine = parts_.store.machine(parts_.machine);
+  return machine ? machine->control : std::string();
+}
+
+Result<std::string> CallDesk::find_program(const std::string& name) const {
+  const std::string control = this->control();
+  for (const auto& candidate : candidates(name)) {
+    const auto revision = parts_.store.revision(candidate, std::nullopt);
+    if (!revision) continue;
+    if (control.empty() || revision->control.empty() || revision->control == control) {
+      return candidate;
+    }
+  }
+  return fail(Errc::NotFound, "program {} is not in the library", name);
+}
+
+void CallDesk::carry_out(RuleAction action, const std::string& argument) {
+  spdlog::info("call from the control machine={} action={} argument={}", parts_.machine,
+               to_string(action), argument);
+  if (action == RuleAction::Send) send(argument, false);
+  if (action == RuleAction::Directory) send_listing(false);
+  if (action == RuleAction::Restart) restart(argument);
+}
+
+void CallDesk::answer(const wire::TransferRequest& request) {
+  using Kind = wire::TransferRequest::Kind;
+  if (request.kind == Kind::Directory) return send_listing(true);
+  if (request.kind == Kind::SendProgram) return send(request.name, true);
+  if (const auto line = parts_.directory.line_of(parts_.machine)) {
+    line->accept_receive(request.name);
+  }
+}
+
+SerialFeed::Started CallDesk::on_started(bool is_request) const {
+  return [desk = *this, is_request](const Result<storage::Run>& run) {
+    if (!run) desk.say_no(run.error().what, is_request);
+  };
+}
+
+void CallDesk::send(const std::string& name, bool is_request) {
+  if (name.empty()) return say_no("no program is named", is_request);
+  const auto program = find_program(name);
+  if (!program) return say_no(program.error().what, is_request);
+  parts_.feed.start_later(
+      {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
+      on_started(is_request), is_request ? name : "");
+}
+
+void CallDesk::restart(const std::string& block) {
+  const auto point = parse_start_point(block);
+  if (!point) return say_no(point.error().what, false);
+  const auto last =
+      parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
+  if (!last || last->empty()) return say_no("there was no run to begin again", false);
+  parts_.feed.start_later({.machine = parts_.machine,
+                           .program = last->front().program,
+                           .revision = last->front().revision,
+                           .author = kAuthor,
+                           .from = *point},
+                          on_started(false));
+}
+
+void CallDesk::send_listing(bool is_request) {
+  const auto programs = parts_.store.programs({.limit = kMostPrograms});
+  if (!programs) return say_no(programs.error().what, is_request);
+  const auto lines = listing(*programs, control());
+  if (is_request) {  // the protocol knows that it is a list
+    std::string text;
+    for (const auto& line : lines) text += line + "\n";
+    return send_answer("", text);
+  }
+  const std::string& name = parts_.rules->reply();
+  send_answer(name, comment_program(name.empty() ? "O9998" : name, lines));
+}
+
+void CallDesk::say_no(const std::string& why, bool is_request) const {
+  spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  line->note("refused: " + why);
+  if (is_request) return line->refuse(why);
+  report(why);
+}
+
+void CallDesk::report(const std::string& words) const {
+  if (parts_.rules->reply().empty()) return;
+  const std::vector<std::string> lines{words};
+  send_answer(parts_.rules->reply(), comment_program(parts_.rules->reply(), lines));
+}
+
+void CallDesk::send_answer(std::string name, std::string text) const {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  SendJob job;
+  job.id = fmt::format("{}-{}", kAnswerPrefix, random_hex(4));
+  job.name = std::move(name);
+  job.size = text.size();
+  job.text = std::move(text);
+  line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
+    if (!begun) spdlog::warn("answer not sent machine={}: {}", machine, begun.error().what);
+  });
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/serial/line_directory.hpp"
+#include "server/serial/rule_set.hpp"
+#include "server/serial/serial_feed.hpp"
+
+namespace dripline::ports {
+
+/// Does what an operator asks for from the control: sends a program, lists them, begins the last
+/// run again at a block. What can not be done is said to the control where it can show it: a
+/// refused request, or a program of comments when the rules name one. On the machine's strand.
+class CallDesk {
+ public:
+  struct Parts {
+    storage::Store& store;
+    SerialFeed& feed;
+    const LineDirectory& directory;
+    std::string machine;
+    std::shared_ptr<const RuleSet> rules;
+  };
+  explicit CallDesk(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Send, Directory or Restart.
+  void carry_out(RuleAction action, const std::string& argument);
+  /// The protocol's own way to ask.
+  void answer(const wire::TransferRequest& request);
+  /// A short message to the control, as a program; nothing when the rules name no program for it.
+  void report(const std::string& words) const;
+
+ private:
+  void send(const std::string& name, bool is_request);
+  void restart(const std::string& block);
+  void send_listing(bool is_request);
+  void say_no(const std::string& why, bool is_request) const;
+  void send_answer(std::string name, std::string text) const;
+  SerialFeed::Started on_started(bool is_request) const;
+  /// The library's name for what the control calls `name`. Errors: NotFound.
+  Result<std::string> find_program(const std::string& name) const;
+  std::string control() const;
+
+  Parts parts_;
+};
+
+/// What an operator writes to name a block: `N120` or `120` its N number, `L7` its line, `B4096` a
+/// byte. Errors: Syntax.
+Result<feeds::StartPoint> parse_start_point(std::string_view text);
+
+}  // namespace dripline::ports

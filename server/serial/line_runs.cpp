@@ -1,0 +1,152 @@
+#include "server/serial/line_runs.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "protocol/dds/record_text.hpp"
+#include "server/feeds/identifiers.hpp"
+#include "server/serial/start_finder.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr std::string_view kCompleted = "sent to its end; a line does not tell what was executed";
+
+storage::RunState to_state(SendOutcome outcome) {
+  switch (outcome) {
+    case SendOutcome::Completed:
+      return storage::RunState::Completed;
+    case SendOutcome::Aborted:
+      return storage::RunState::Aborted;
+    case SendOutcome::Interrupted:
+      return storage::RunState::Interrupted;
+  }
+  return storage::RunState::Interrupted;
+}
+
+dds::RunOutcome to_outcome(storage::RunState state) {
+  if (state == storage::RunState::Completed) return dds::RunOutcome::Completed;
+  if (state == storage::RunState::Aborted) return dds::RunOutcome::Aborted;
+  return dds::RunOutcome::Interrupted;
+}
+
+storage::Counters to_counters(const SendProgress& progress) {
+  return {.sent = progress.sent.bytes,
+          .accepted = progress.is_checked ? progress.sent.blocks : 0,
+          .executed = 0};
+}
+
+LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
+  dds::RunEndText text;
+  text.outcome = to_outcome(ending.state);
+  text.sent = ending.counters.sent;
+  text.accepted = ending.counters.accepted;
+  text.reason = ending.reason;
+  LineRecords::Entry entry;
+  entry.record.run = ending.run;
+  entry.record.kind = std::string(dds::to_string(dds::RecordKind::RunEnded));
+  entry.record.text = dds::encode(text);
+  entry.ending = ending;
+  return entry;
+}
+
+Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine) {
+  if (revision.control.empty() || machine.control.empty() || revision.control == machine.control) {
+    return {};
+  }
+  return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
+              revision.program, revision.number, revision.control, machine.name, machine.control);
+}
+
+}  // namespace
+
+Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
+                                      const storage::Machine& machine) {
+  const auto revision = store_.revision(request.program, request.revision);
+  if (!revision) return fail(revision.error());
+  if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
+  storage::Run run;
+  run.created = clock_.now();
+  run.id = feeds::make_run_id(run.created);
+  run.machine = machine.name;
+  run.program = revision->program;
+  run.revision = revision->number;
+  run.content = revision->content;
+  run.size = revision->size;
+  run.control = machine.control.empty() ? revision->control : machine.control;
+  run.author = request.author;
+  if (auto created = store_.create_run(run); !created) return fail(created.error());
+  return run;
+}
+
+Result<SendJob> LineRuns::job(const storage::Run& run, const feeds::StartPoint& from) {
+  const auto place = find_start(store_, run, from);
+  if (!place) return fail(place.error());
+  SendJob job;
+  job.id = run.id;
+  job.name = run.program;
+  job.content = run.content;
+  job.size = run.size;
+  job.first_byte = place->byte;
+  job.first_line = place->line;
+  return job;
+}
+
+void LineRuns::started(const storage::Run& run, LineRecords& records) {
+  LineRecords::Entry entry;
+  entry.record.run = run.id;
+  entry.record.kind = std::string(dds::to_string(dds::RecordKind::RunStarted));
+  entry.record.text = dds::encode(dds::RunStartText{
+      .program = run.program, .revision = run.content.hex(), .control = run.control});
+  entry.beginning = storage::RunBeginning{.run = run.id, .started = clock_.now()};
+  spdlog::info("run started over a line machine={} run={} program={} revision={}", run.machine,
+               run.id, run.program, run.revision);
+  records.add({std::move(entry)});
+}
+
+void LineRuns::refused(const storage::Run& run, const Error& error) {
+  spdlog::warn("run not started over a line machine={} run={} program={}: {}", run.machine, run.id,
+               run.program, error.what);
+  auto set = store_.set_run_state(run.id, storage::RunState::Refused, error.what);
+  if (!set) spdlog::error("run={} not marked as refused: {}", run.id, set.error().what);
+}
+
+void LineRuns::progressed(const SendProgress& progress) {
+  // Repeated soon by the next one.
+  if (auto saved = store_.update_counters(progress.id, to_counters(progress), 0, -1); !saved) {
+    spdlog::debug("progress not saved run={}: {}", progress.id, saved.error().what);
+  }
+}
+
+void LineRuns::ended(const SendEnd& end, LineRecords& records) {
+  storage::RunEnding ending;
+  ending.run = end.progress.id;
+  ending.state = to_state(end.outcome);
+  ending.counters = to_counters(end.progress);
+  ending.reason = end.outcome == SendOutcome::Completed ? std::string(kCompleted) : end.reason;
+  ending.ended = clock_.now();
+  spdlog::info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
+               storage::to_string(ending.state), ending.counters.sent, ending.counters.accepted,
+               ending.reason);
+  records.add({ending_entry(ending)});
+}
+
+Result<void> LineRuns::give_up_unfinished(const std::string& machine, LineRecords& records) {
+  for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
+    const auto runs = store_.runs({.machine = machine, .program = {}, .state = state}, {});
+    if (!runs) return fail(runs.error());
+    for (const auto& run : *runs) {
+      storage::RunEnding ending;
+      ending.run = run.id;
+      ending.state = storage::RunState::Interrupted;
+      ending.counters = run.counters;
+      ending.reason =
+          fmt::format("the server stopped; at least {} bytes were sent, {} blocks accepted",
+                      run.counters.sent, run.counters.accepted);
+      ending.ended = clock_.now();
+      records.add({ending_entry(ending)});
+    }
+  }
+  return {};
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "server/feeds/feed_control.hpp"
+#include "server/serial/line_records.hpp"
+#include "server/serial/line_session.hpp"
+
+namespace dripline::ports {
+
+/// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
+/// the line (or were accepted, where the protocol checks), *accepted* blocks the control
+/// acknowledged (0 where it can not), *executed* nothing: a line can not tell. Any thread, one
+/// machine at a time.
+class LineRuns {
+ public:
+  LineRuns(storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+
+  /// A run that is Ordered. Errors: NotFound, Unsupported (the program is for another control),
+  /// ModalConflict (nothing but held revisions), Busy (the machine has a run).
+  Result<storage::Run> create(const feeds::StartRequest& request, const storage::Machine& machine);
+  /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
+  /// or N number), Corrupt.
+  Result<SendJob> job(const storage::Run& run, const feeds::StartPoint& from);
+
+  void started(const storage::Run& run, LineRecords& records);
+  /// Refused; nothing of it has left.
+  void refused(const storage::Run& run, const Error& error);
+  void progressed(const SendProgress& progress);
+  void ended(const SendEnd& end, LineRecords& records);
+  /// Runs of a former life of the server: they end Interrupted, with the counters of the store.
+  Result<void> give_up_unfinished(const std::string& machine, LineRecords& records);
+
+ private:
+  storage::Store& store_;
+  const Clock& clock_;
+};
+
+}  // namespace dripline::ports

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "protocol/base/result.hpp"
+#include "protocol/wire/line_settings.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::ports {
+
+/// The line of a port: its template's settings, then its own over them, in order. Errors: NotFound
+/// (template, key), Syntax, LimitExceeded; they name the port and the key.
+Result<wire::LineSettings> effective_settings(const storage::Port& port);
+/// The dialect of the control that the port's template is for; may be empty.
+std::string template_control(const storage::Port& port);
+/// What two ports must not share: a device by its real path, whatever link names it.
+std::string line_identity(const std::string& address);
+
+}  // namespace dripline::ports

@@ -1,0 +1,139 @@
+#include "server/serial/reception.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "protocol/base/one_line.hpp"
+#include "protocol/dds/message.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 8;
+
+}  // namespace
+
+Reception::Reception(Parts parts)
+    : parts_(std::move(parts)), calls_(parts_.calls), intake_(*parts_.rules) {}
+
+void Reception::take(Incoming incoming, std::function<void()> kept) {
+  std::vector<Intake::Item> items;
+  switch (incoming.what) {
+    case Incoming::What::Began:
+      is_in_transfer_ = true;
+      program_name_ = incoming.text;
+      intake_.begin(incoming.text);
+      break;
+    case Incoming::What::Text:
+      items = intake_.take(incoming.text);
+      break;
+    case Incoming::What::Ended:
+      items = intake_.end();
+      break;
+    case Incoming::What::Failed:
+      items = intake_.fail();
+      break;
+  }
+  std::vector<LineRecords::Entry> entries;
+  for (auto& item : items) handle(item, entries);
+  if (entries.empty()) {
+    kept();
+  } else {
+    entries.back().on_stored = std::move(kept);
+    parts_.records->add(std::move(entries));
+  }
+  if (incoming.what == Incoming::What::Ended || incoming.what == Incoming::What::Failed) {
+    is_in_transfer_ = false;
+  }
+  if (!is_in_transfer_) do_calls();
+}
+
+void Reception::handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries) {
+  switch (item.what) {
+    case Intake::Item::What::Line:
+      return handle_line(item.text, entries);
+    case Intake::Item::What::ProgramBegan:
+      return begin_program(item.text);
+    case Intake::Item::What::ProgramText:
+      // Its error comes again with the end.
+      if (program_) (void)program_->append(item.text).has_value();
+      return;
+    case Intake::Item::What::ProgramEnded:
+      return end_program(item.text);
+    case Intake::Item::What::ProgramFailed:
+      program_.reset();
+      return say("a program was cut off and not stored");
+  }
+}
+
+void Reception::handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries) {
+  const RuleHit hit = parts_.rules->judge(TextKind::Line, line);
+  if (hit.action == RuleAction::Ignore) return;
+  if (hit.action != RuleAction::Report) return call(hit.action, hit.argument);
+  LineRecords::Entry entry;
+  entry.record.run = current_run();
+  entry.record.kind =
+      std::string(to_string(hit.is_probe ? dds::RecordKind::Probe : dds::RecordKind::Output));
+  entry.record.device = parts_.port;
+  entry.record.text = one_line(line);
+  entries.push_back(std::move(entry));
+}
+
+std::string Reception::current_run() {
+  const auto line = parts_.calls.directory.line_of(parts_.machine);
+  if (line) on_run(line->view().run);
+  return run_;
+}
+
+void Reception::begin_program(const std::string& name) {
+  program_name_ = name;
+  const auto machine = parts_.store.machine(parts_.machine);
+  program_.emplace(parts_.programs,
+                   PunchedProgram::Origin{.machine = parts_.machine,
+                                          .control = machine ? machine->control : std::string()});
+}
+
+void Reception::end_program(const std::string& head) {
+  if (!program_) return;
+  const RuleHit hit = parts_.rules->judge(TextKind::Program, head);
+  if (hit.action == RuleAction::Program) {
+    // A rule's name wins over the protocol's, that over the text's own.
+    const bool is_named = hit.rule != nullptr && !hit.argument.empty();
+    store_program(is_named || program_name_.empty() ? hit.argument : program_name_);
+  } else if (hit.action != RuleAction::Report && hit.action != RuleAction::Ignore) {
+    call(hit.action, hit.argument);
+  }
+  program_.reset();
+}
+
+void Reception::store_program(const std::string& name) {
+  const auto stored = program_->store(name);
+  if (!stored) {
+    spdlog::error("punched program not stored machine={}: {}", parts_.machine, stored.error().what);
+    return say("program not stored: " + stored.error().what);
+  }
+  const auto& revision = stored->revision;
+  say(fmt::format("program {} is revision {}{}", revision.program, revision.number,
+                  revision.is_held ? ", held for acceptance" : ""));
+}
+
+/// To whoever watches the line; and to the control, where the rules say how.
+void Reception::say(const std::string& words) {
+  if (const auto line = parts_.calls.directory.line_of(parts_.machine)) line->note(words);
+  call(RuleAction::Report, words);
+}
+
+void Reception::call(RuleAction action, const std::string& argument) {
+  if (waiting_.size() < kMaxWaiting) waiting_.push_back({action, argument});
+}
+
+void Reception::do_calls() {
+  for (const auto& call : std::exchange(waiting_, {})) {
+    if (call.action == RuleAction::Report) {
+      calls_.report(call.argument);
+    } else {
+      calls_.carry_out(call.action, call.argument);
+    }
+  }
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/library/programs.hpp"
+#include "server/serial/call_desk.hpp"
+#include "server/serial/intake.hpp"
+#include "server/serial/punched_program.hpp"
+
+namespace dripline::ports {
+
+/// Everything a control sends, told apart by the port's rules and put where it belongs: printed
+/// lines become records, programs held revisions, calls are carried out once the line is free. On
+/// the machine's strand.
+class Reception {
+ public:
+  struct Parts {
+    storage::Store& store;
+    library::Programs& programs;
+    std::shared_ptr<LineRecords> records;
+    std::string machine, port;
+    std::shared_ptr<const RuleSet> rules;
+    CallDesk::Parts calls;
+  };
+  explicit Reception(Parts parts);
+
+  /// `kept` is called when the text is stored, or needs not be.
+  void take(Incoming incoming, std::function<void()> kept);
+  void answer(const wire::TransferRequest& request) { calls_.answer(request); }
+  /// What is printed from now on belongs to this run, until another one is on the line: a control
+  /// prints while it executes, and that goes on when everything has been sent.
+  void on_run(const std::string& run) {
+    if (!run.empty()) run_ = run;
+  }
+
+ private:
+  struct Call {
+    RuleAction action = RuleAction::Ignore;
+    std::string argument;
+  };
+  void handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries);
+  void handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries);
+  std::string current_run();
+  void begin_program(const std::string& name);
+  void end_program(const std::string& head);
+  void store_program(const std::string& name);
+  void say(const std::string& words);
+  void call(RuleAction action, const std::string& argument);
+  void do_calls();
+
+  Parts parts_;
+  CallDesk calls_;
+  Intake intake_;
+  std::optional<PunchedProgram> program_;
+  std::string program_name_;  ///< as the protocol told it
+  std::string run_;
+  bool is_in_transfer_ = false;
+  std::vector<Call> waiting_;  ///< for the end of the transfer they came in; at most kMaxWaiting
+};
+
+}  // namespace dripline::ports
