@@ -16,10 +16,8 @@ struct ServerSeen {
 struct StopRequested {
   int signal = 0;
 };
-/// The line has something to be taken.
-struct LineChanged {};
-using Incoming = std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
-                              LineChanged>;
+using Incoming =
+    std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested>;
 
 /// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
 /// beyond the bound are dropped, and both are sent again by whoever misses the answer.

@@ -11,6 +11,8 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/dialect_catalog.hpp"
 #include "server/library/programs.hpp"
+#include "server/serial/machine_feeds.hpp"
+#include "server/serial/port_service.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::app {
@@ -65,8 +67,11 @@ struct Server::Parts {
         audit(*store, clock),
         programs(*store, clock, catalog, audit),
         feeds(*store, clock, {}, api::publish_to(events)),
+        ports(*store, programs, clock, {.recordings = folder.recordings()},
+              api::publish_to(events)),
+        machines(*store, feeds, ports.feed()),
         api({.programs = programs,
-             .feeds = feeds,
+             .feeds = machines,
              .store = *store,
              .audit = audit,
              .events = events,
@@ -76,7 +81,8 @@ struct Server::Parts {
                        .data_dir = folder.path().string(),
                        .started = clock.now(),
                        .dds_domain = settings.dds_domain},
-             .dds_rejected = [this] { return feeds.rejected().messages; }},
+             .dds_rejected = [this] { return feeds.rejected().messages; },
+             .ports = &ports},
             {.name = kTokenName, .secret = std::move(token)}) {}
 
   const Clock& clock;
@@ -87,6 +93,8 @@ struct Server::Parts {
   library::Programs programs;
   api::EventHub events;
   feeds::FeedService feeds;
+  ports::PortService ports;
+  ports::MachineFeeds machines;
   api::Api api;
   std::unique_ptr<api::HttpServer> http;
   std::string url;
@@ -99,6 +107,7 @@ Server::~Server() {
   parts_->feeds.stop_waiting();
   parts_->events.close();
   parts_->http.reset();
+  parts_->ports.end();
   parts_->feeds.end();
 }
 
@@ -114,6 +123,8 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   std::unique_ptr<Server> server(new Server(
       std::make_unique<Parts>(*folder, *std::move(store), settings, clock, *std::move(token))));
   Parts& parts = *server->parts_;
+  parts.ports.on_traffic(api::publish_traffic_to(parts.events));
+  if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
   auto endpoint = dds::ServerEndpoint::open(network_options(settings), parts.feeds.handlers());
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.feeds.begin(*std::move(endpoint)); !begun) return fail(begun.error());

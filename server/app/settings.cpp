@@ -4,11 +4,13 @@
 #include <unistd.h>
 #include <array>
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "protocol/base/state_location.hpp"
+#include "server/app/port_table.hpp"
 
 namespace dripline::app {
 namespace {
@@ -73,7 +75,8 @@ Result<void> apply_file(Settings& settings, const std::string& path) {
   if (!file) return fail(Errc::NotFound, "configuration file '{}' can not be read", path);
   std::ostringstream text;
   text << file.rdbuf();
-  auto applied = apply_toml(settings, text.str());
+  const auto folder = std::filesystem::path(path).parent_path();
+  auto applied = apply_toml(settings, text.str(), folder.string());
   if (!applied) return fail(applied.error().code, "{}: {}", path, applied.error().what);
   return {};
 }
@@ -124,10 +127,16 @@ std::span<const SettingRow> setting_rows() {
   return kRows;
 }
 
-Result<void> apply_toml(Settings& settings, std::string_view text) {
+Result<void> apply_toml(Settings& settings, std::string_view text, const std::string& folder) {
   try {
     const toml::table table = toml::parse(text);
     for (const auto& [key, node] : table) {
+      if (key.str() == "port") {
+        auto ports = read_ports(node, folder);
+        if (!ports) return fail(ports.error());
+        settings.ports = *std::move(ports);
+        continue;
+      }
       const SettingRow* row = find_row(key.str());
       if (row == nullptr) {
         return fail(Errc::Syntax, "line {}: key '{}' is not known", node.source().begin.line,

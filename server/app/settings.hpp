@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "protocol/base/result.hpp"
+#include "storage/store.hpp"
 
 namespace dripline::app {
 
@@ -22,6 +24,7 @@ struct Settings {
   std::uint32_t lease_ms = 2000;
   std::string log;
   std::string log_level = "info";
+  std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 
 /// One row for each setting: the same table makes the command line, the configuration file and
@@ -35,9 +38,10 @@ struct SettingRow {
 };
 std::span<const SettingRow> setting_rows();
 
-/// Sets what the text of a TOML file says. Errors: Syntax (also an unknown key, a wrong type),
-/// LimitExceeded; names key and line.
-Result<void> apply_toml(Settings& settings, std::string_view toml);
+/// Sets what the text of a TOML file says: the rows above, and serial ports (port_table.hpp), whose
+/// files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong type),
+/// LimitExceeded, NotFound; names key and line.
+Result<void> apply_toml(Settings& settings, std::string_view toml, const std::string& folder = "");
 
 /// What the command line asks for: to run, or only to print something and end.
 struct CommandLine {

@@ -29,6 +29,8 @@ class StateFolder {
   void withdraw() const;
 
   std::filesystem::path database() const { return path_ / "dripline.sqlite"; }
+  /// What passed over serial lines last.
+  std::filesystem::path recordings() const { return path_ / "recordings"; }
   std::filesystem::path token_file() const { return path_ / "token"; }
   const std::filesystem::path& path() const { return path_; }
 
