@@ -9,6 +9,7 @@ namespace dripline::cli {
 void add_program_commands(CLI::App& app, Context& context);
 void add_machine_commands(CLI::App& app, Context& context);
 void add_run_commands(CLI::App& app, Context& context);
+void add_port_commands(CLI::App& app, Context& context);
 void add_report_commands(CLI::App& app, Context& context);
 void add_server_commands(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);

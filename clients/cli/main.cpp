@@ -8,7 +8,7 @@ namespace {
 using namespace dripline::cli;
 
 constexpr const char* kAbout =
-    "dnc: the command line of Dripline, for NC programs, machines, runs and their reports.";
+    "dnc: the command line of Dripline, for NC programs, machines, serial ports, runs and reports.";
 
 constexpr const char* kFooter = R"(Which server:
   --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. STATE is --state,
@@ -19,6 +19,7 @@ constexpr const char* kFooter = R"(Which server:
 Examples:
   dnc program push shaft.nc --name O0200 --control centurion
   dnc run start lathe-1 O0200 --follow
+  dnc port add line-3 --machine mill-3 --address /dev/ttyUSB0 --template tnc155
   dnc report export latest --format csv -o profile.csv
   dnc --server https://dnc.shop:8443 --ca shop-ca.pem --token-file ~/.dnc-token machine list
   dnc check shaft.nc
@@ -85,6 +86,7 @@ int run(int argc, char** argv) {
   add_program_commands(app, context);
   add_machine_commands(app, context);
   add_run_commands(app, context);
+  add_port_commands(app, context);
   add_report_commands(app, context);
   add_server_commands(app, context);
   add_check_command(app, context);

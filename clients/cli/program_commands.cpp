@@ -12,6 +12,22 @@
 namespace dripline::cli {
 namespace {
 
+struct RevisionCommand {
+  std::string program;
+  std::uint64_t revision = 0;
+};
+
+Cell held_cell(std::uint64_t held) {
+  return held == 0 ? Cell("") : Cell(std::to_string(held), Style::Busy);
+}
+
+/// What becomes of a revision: only one that is not held can be run.
+Cell standing_cell(const client::Program& program, const client::Revision& revision) {
+  if (revision.held) return {"held", Style::Busy};
+  if (revision.revision == program.revision) return {"latest", Style::Good};
+  return "";
+}
+
 int list_programs(Context& context) {
   auto client = context.connect();
   if (!client) return context.status;
@@ -23,17 +39,27 @@ int list_programs(Context& context) {
   }
   Table table({{"NAME"},
                {"REV", Align::Right},
+               {"HELD", Align::Right},
                {"SIZE", Align::Right},
                {"CONTROL"},
                {"CREATED"},
                {"AUTHOR"},
                {"COMMENT"}});
+  std::uint64_t held = 0;
   for (const auto& program : *programs) {
-    table.add({program.name, std::to_string(program.revision), bytes_text(program.size),
-               program.control, time_text(program.created), program.author, program.comment});
+    table.add({program.name, program.held ? Cell("-") : Cell(std::to_string(program.revision)),
+               held_cell(program.held_revisions), bytes_text(program.size), program.control,
+               time_text(program.created), program.author, program.comment});
+    held += program.held_revisions;
   }
   if (table.empty()) context.print("The library is empty; dnc program push FILE fills it.\n");
   if (!table.empty()) context.print(table);
+  if (held > 0) {
+    context.print(fmt::format(
+        "\n{} for acceptance: dnc program show NAME lists, dnc program accept NAME REV decides.\n",
+        held == 1 ? "1 revision from a machine waits"
+                  : fmt::format("{} revisions from machines wait", held)));
+  }
   return kExitOk;
 }
 
@@ -50,10 +76,13 @@ int show_program(Context& context, const std::string& name) {
   Details details;
   details.add("program", program.name);
   details.add("control", program.control);
-  details.add("latest", fmt::format("revision {}, {}", program.revision, bytes_text(program.size)));
+  details.add("latest", program.held ? Cell("none: what is here waits for acceptance", Style::Busy)
+                                     : Cell(fmt::format("revision {}, {}", program.revision,
+                                                        bytes_text(program.size))));
   details.add("sha256", program.sha256);
   context.print(details);
   Table table({{"REV", Align::Right},
+               {"STATE"},
                {"SIZE", Align::Right},
                {"SHA-256"},
                {"CONTROL"},
@@ -61,9 +90,9 @@ int show_program(Context& context, const std::string& name) {
                {"AUTHOR"},
                {"COMMENT"}});
   for (const auto& revision : history->revisions) {
-    table.add({std::to_string(revision.revision), bytes_text(revision.size),
-               short_id(revision.sha256), revision.control, time_text(revision.created),
-               revision.author, revision.comment});
+    table.add({std::to_string(revision.revision), standing_cell(program, revision),
+               bytes_text(revision.size), short_id(revision.sha256), revision.control,
+               time_text(revision.created), revision.author, revision.comment});
   }
   context.print("\n");
   context.print(table);
@@ -77,6 +106,42 @@ int remove_program(Context& context, const std::string& name) {
   if (!removed) return complain(removed.error());
   context.print(fmt::format("Removed {} from the library; its runs and reports stay.\n", name));
   return kExitOk;
+}
+
+int accept_revision(Context& context, const RevisionCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto accepted = client->accept_revision(command.program, command.revision);
+  if (!accepted) return complain(accepted.error());
+  context.print(fmt::format("Accepted {} revision {}: {}, sha256 {}\n", accepted->program,
+                            accepted->revision, bytes_text(accepted->size),
+                            short_id(accepted->sha256)));
+  return kExitOk;
+}
+
+int reject_revision(Context& context, const RevisionCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto rejected = client->reject_revision(command.program, command.revision);
+  if (!rejected) return complain(rejected.error());
+  context.print(fmt::format("Rejected {} revision {}; it is hidden and will never run.\n",
+                            command.program, command.revision));
+  return kExitOk;
+}
+
+void add_judgement(CLI::App& group, Context& context, const char* verb, const char* help,
+                   int (*action)(Context&, const RevisionCommand&)) {
+  auto* command = group.add_subcommand(verb, help);
+  auto options = std::make_shared<RevisionCommand>();
+  command->add_option("NAME", options->program, "The program")->required();
+  command->add_option("REV", options->revision, "Its revision")->required();
+  command->footer(
+      "A program that an operator punched out at a control is stored as a held revision: it is "
+      "listed\nand can be pulled, but no run takes it before it is accepted. The decision stands "
+      "in "
+      "the audit\ntrail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o punched.nc\n  dnc "
+      "program accept O0200 3");
+  command->callback([&context, options, action] { context.status = action(context, *options); });
 }
 
 void add_push(CLI::App& group, Context& context) {
@@ -131,6 +196,8 @@ void add_program_commands(CLI::App& app, Context& context) {
   add_json_flag(*list, context);
   list->callback([&context] { context.status = list_programs(context); });
   add_by_name(*group, context, "show", "One program and all its revisions", show_program);
+  add_judgement(*group, context, "accept", "Put a held revision in force", accept_revision);
+  add_judgement(*group, context, "reject", "Hide a held revision for ever", reject_revision);
   add_by_name(*group, context, "remove", "Take a program out of the library", remove_program);
 }
 

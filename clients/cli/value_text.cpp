@@ -73,6 +73,16 @@ std::string time_text(std::string_view iso8601) {
   return std::string(text, size);
 }
 
+std::string clock_text(std::string_view iso8601) {
+  const auto time = parse_time(iso8601);
+  if (!time) return std::string(iso8601);
+  std::tm local{};
+  ::localtime_r(&time->whole, &local);
+  const int milliseconds = static_cast<int>(time->fraction * 1000 + 1e-6);
+  return fmt::format("{:02}:{:02}:{:02}.{:03}", local.tm_hour, local.tm_min, local.tm_sec,
+                     milliseconds);
+}
+
 double seconds_between(std::string_view from, std::string_view to) {
   const auto first = parse_time(from), second = parse_time(to);
   if (!first || !second) return 0;

@@ -13,6 +13,8 @@ std::string bytes_text(std::uint64_t bytes);
 std::string duration_text(double seconds);
 /// 2026-11-21T07:40:06.123456Z as local time "2026-11-21 08:40:06"; other texts as they are.
 std::string time_text(std::string_view iso8601);
+/// Its time of day with milliseconds, "08:40:06.123".
+std::string clock_text(std::string_view iso8601);
 /// Seconds between two such times; 0 when one is not a time.
 double seconds_between(std::string_view from, std::string_view to);
 /// The first eight characters of a run's id or a digest: enough for people, and `dnc` takes it.

@@ -17,6 +17,15 @@ constexpr bool kIsOptional = false;
 template <class T>
 constexpr bool kIsOptional<std::optional<T>> = true;
 
+template <class T>
+constexpr bool kIsMap = false;
+template <class T>
+constexpr bool kIsMap<std::map<std::string, T>> = true;
+template <class T>
+constexpr bool kIsList = false;
+template <class T>
+constexpr bool kIsList<std::vector<T>> = true;
+
 template <class V>
 void members(V& v, Is<ServerInfo::Dds> auto& x) {
   v("domain", x.domain);
@@ -46,6 +55,8 @@ void content_members(V& v, P& x) {
   v("comment", x.comment);
   v("author", x.author);
   v("created", x.created);
+  v.later("held", x.held);
+  v("accepted", x.accepted);
 }
 
 template <class V>
@@ -53,6 +64,7 @@ void members(V& v, Is<Program> auto& x) {
   v("name", x.name);
   v("revision", x.revision);
   v("revisions", x.revisions);
+  v.later("held_revisions", x.held_revisions);
   content_members(v, x);
 }
 
@@ -161,6 +173,79 @@ void members(V& v, Is<Report> auto& x) {
   v("ended", x.ended);
 }
 
+template <class V>
+void members(V& v, Is<Port::Line> auto& x) {
+  v("phase", x.phase);
+  v("stopped", x.stopped);
+  v("stopping", x.stopping);
+  v("waiting_for", x.waiting_for);
+  v("without_limit", x.without_limit);
+}
+
+template <class V>
+void members(V& v, Is<Port> auto& x) {
+  v("name", x.name);
+  v("machine", x.machine);
+  v("address", x.address);
+  v("template", x.line_template);
+  v("settings", x.settings);
+  v("rules", x.rules);
+  v("enabled", x.enabled);
+  v("effective", x.effective);
+  v("open", x.open);
+  v("trouble", x.trouble);
+  v("line", x.line);
+  v("run", x.run);
+  v("sent", x.sent);
+  v("received", x.received);
+  v("waiting_since", x.waiting_since);
+}
+
+template <class V>
+void members(V& v, Is<Traffic> auto& x) {
+  v("port", x.port);
+  v("time", x.time);
+  v("what", x.what);
+  v("bytes", x.bytes);
+  v("text", x.text);
+}
+
+template <class V>
+void members(V& v, Is<PortTest> auto& x) {
+  v("passed", x.passed);
+  v("findings", x.findings);
+}
+
+template <class V>
+void members(V& v, Is<RuleVerdict> auto& x) {
+  v("rule", x.rule);
+  v("action", x.action);
+  v("argument", x.argument);
+  v("why", x.why);
+}
+
+template <class V>
+void members(V& v, Is<PortTemplate> auto& x) {
+  v("name", x.name);
+  v("title", x.title);
+  v("control", x.control);
+  v("settings", x.settings);
+}
+
+template <class V>
+void members(V& v, Is<PortSetting> auto& x) {
+  v("key", x.key);
+  v("type", x.type);
+  v("text", x.text);
+  v("default", x.preset);
+}
+
+template <class V>
+void members(V& v, Is<PortTemplates> auto& x) {
+  v("templates", x.templates);
+  v("settings", x.settings);
+}
+
 class Reader {
  public:
   explicit Reader(const Json& object) : object_(object) {}
@@ -182,7 +267,10 @@ class Reader {
       read(key, *found, field);
     }
   }
-  void flag(const char* key, bool& field) {
+  void flag(const char* key, bool& field) { later(key, field); }
+  /// A member that servers before this client do not have.
+  template <class T>
+  void later(const char* key, T& field) {
     if (object_.contains(key)) (*this)(key, field);
   }
 
@@ -211,9 +299,15 @@ class Reader {
     json.is_number_integer() ? void(field = json.get<std::int64_t>())
                              : complain(key, "is not a whole number");
   }
-  void read(const char* key, const Json& json, std::map<std::string, double>& field) {
+  template <class T>
+  void read(const char* key, const Json& json, std::map<std::string, T>& field) {
     if (!json.is_object()) return complain(key, "is not an object");
     for (const auto& [name, value] : json.items()) read(key, value, field[name]);
+  }
+  template <class T>
+  void read(const char* key, const Json& json, std::vector<T>& field) {
+    if (!json.is_array()) return complain(key, "is not a list");
+    for (const auto& item : json) read(key, item, field.emplace_back());
   }
   template <class T>
   void read(const char* key, const Json& json, T& field) {
@@ -241,9 +335,18 @@ class Writer {
       object_[key] = field.empty() ? OrderedJson(nullptr) : OrderedJson(field);
     } else if constexpr (requires { OrderedJson(field); } && !std::is_class_v<T>) {
       object_[key] = field;
-    } else if constexpr (std::same_as<T, std::map<std::string, double>>) {
+    } else if constexpr (kIsMap<T>) {
       object_[key] = OrderedJson::object();
       for (const auto& [name, value] : field) object_[key][name] = value;
+    } else if constexpr (std::same_as<T, std::vector<std::string>>) {
+      object_[key] = field;
+    } else if constexpr (kIsList<T>) {
+      object_[key] = OrderedJson::array();
+      for (const auto& item : field) {
+        Writer inner;
+        members(inner, item);
+        object_[key].push_back(std::move(inner.object_));
+      }
     } else {
       Writer inner;
       members(inner, field);
@@ -252,6 +355,10 @@ class Writer {
   }
   void flag(const char* key, bool field) {
     if (field) object_[key] = true;
+  }
+  template <class T>
+  void later(const char* key, const T& field) {
+    (*this)(key, field);
   }
   OrderedJson take() { return std::move(object_); }
 
@@ -326,6 +433,11 @@ DRIPLINE_API_TYPE(Machine);
 DRIPLINE_API_TYPE(Run);
 DRIPLINE_API_TYPE(Record);
 DRIPLINE_API_TYPE(Report);
+DRIPLINE_API_TYPE(Port);
+DRIPLINE_API_TYPE(Traffic);
+DRIPLINE_API_TYPE(PortTest);
+DRIPLINE_API_TYPE(RuleVerdict);
+DRIPLINE_API_TYPE(PortTemplates);
 #undef DRIPLINE_API_TYPE
 
 Result<Json> parse_json(std::string_view text) {

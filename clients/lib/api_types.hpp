@@ -21,17 +21,22 @@ struct ServerInfo {
   } dds;
 };
 
-/// A program's latest revision, as listings give it.
+/// A program's latest revision, as listings give it. Held: nothing of it is in force yet.
 struct Program {
   std::string name;
   std::uint64_t revision = 0, revisions = 0, size = 0;
   std::string sha256, control, comment, author, created;
+  bool held = false;
+  std::string accepted;
+  std::uint64_t held_revisions = 0;
 };
 
 struct Revision {
   std::string program;
   std::uint64_t revision = 0, size = 0;
   std::string sha256, control, comment, author, created;
+  bool held = false;       ///< came from a machine and waits for acceptance
+  std::string accepted;    ///< when, of one that was held
   bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
 };
 
@@ -97,6 +102,57 @@ struct Report {
   std::string state;
   std::uint64_t lines = 0;
   std::string started, ended;
+};
+
+/// Key and value, both as people write them.
+using Settings = std::map<std::string, std::string>;
+
+struct Port {
+  std::string name, machine, address, line_template;
+  Settings settings;  ///< its own, over those of its template
+  std::string rules;
+  bool enabled = true;
+  Settings effective;
+  bool open = false;
+  std::string trouble;
+  struct Line {
+    std::string phase;
+    bool stopped = false, stopping = false;
+    std::string waiting_for;
+    bool without_limit = false;
+  } line;
+  std::string run;
+  std::uint64_t sent = 0, received = 0;
+  std::string waiting_since;
+};
+
+/// One thing that passed over a line: sent and received have bytes, the others words.
+struct Traffic {
+  std::string port, time, what;
+  std::string bytes;  ///< hexadecimal
+  std::string text;
+};
+
+struct PortTest {
+  bool passed = false;
+  std::vector<std::string> findings;
+};
+
+struct RuleVerdict {
+  std::string rule, action, argument;
+  std::vector<std::string> why;
+};
+
+struct PortTemplate {
+  std::string name, title, control;
+  Settings settings;
+};
+struct PortSetting {
+  std::string key, type, text, preset;
+};
+struct PortTemplates {
+  std::vector<PortTemplate> templates;
+  std::vector<PortSetting> settings;  ///< every setting there is
 };
 
 }  // namespace dripline::client

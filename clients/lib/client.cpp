@@ -3,12 +3,19 @@
 #include <charconv>
 
 #include "clients/lib/api_json.hpp"
+#include "clients/lib/impl/request.hpp"
 
 namespace dripline::client {
+
+using impl::dumped;
+using impl::get;
+using impl::path_of;
+using impl::with_method;
+using impl::with_query;
+
 namespace {
 
 using Json = nlohmann::json;
-constexpr std::string_view kRoot = "/api/v1/";
 
 struct CodeName {
   std::string_view name;
@@ -32,35 +39,6 @@ Errc code_of(std::string_view name) {
     if (row.name == name) return row.code;
   }
   return Errc::Io;
-}
-
-HttpRequest get(std::string path) {
-  HttpRequest request;
-  request.path = std::move(path);
-  return request;
-}
-
-HttpRequest with_method(std::string method, std::string path) {
-  HttpRequest request = get(std::move(path));
-  request.method = std::move(method);
-  return request;
-}
-
-std::string path_of(std::string_view collection) {
-  return std::string(kRoot) + std::string(collection);
-}
-
-std::string path_of(std::string_view collection, std::string_view item) {
-  return path_of(collection) + "/" + url_encode(item);
-}
-
-/// Adds `key=value` to a path's query; nothing for an empty value.
-std::string with_query(std::string path, std::string_view key, std::string_view value) {
-  if (value.empty()) return path;
-  path += path.find('?') == std::string::npos ? '?' : '&';
-  path += key;
-  path += '=';
-  return path + url_encode(value);
 }
 
 std::string with_page(std::string path, Page page) {
@@ -103,10 +81,6 @@ std::uint64_t header_number(const HttpResponse& response, const std::string& nam
 std::string header_text(const HttpResponse& response, const std::string& name) {
   const auto found = response.headers.find(name);
   return found == response.headers.end() ? std::string() : found->second;
-}
-
-std::string dumped(const Json& body) {
-  return body.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string order_body(const OrderRequest& order) {
@@ -169,6 +143,12 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   return list;
 }
 
+template Reply<Port> Client::fetch(const HttpRequest&);
+template Reply<PortTest> Client::fetch(const HttpRequest&);
+template Reply<RuleVerdict> Client::fetch(const HttpRequest&);
+template Reply<PortTemplates> Client::fetch(const HttpRequest&);
+template Reply<std::vector<Port>> Client::fetch_list(const std::string&, const char*);
+
 Reply<void> Client::health() {
   auto response = exchange(get(path_of("health")));
   if (!response) return failed(response.error());
@@ -189,6 +169,18 @@ Reply<ProgramHistory> Client::program(std::string_view name) {
 
 Reply<void> Client::remove_program(std::string_view name) {
   auto response = exchange(with_method("DELETE", path_of("programs", name)));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t revision) {
+  return fetch<Revision>(with_method(
+      "POST", fmt::format("{}/revisions/{}/accept", path_of("programs", name), revision)));
+}
+
+Reply<void> Client::reject_revision(std::string_view name, std::uint64_t revision) {
+  auto response = exchange(with_method(
+      "POST", fmt::format("{}/revisions/{}/reject", path_of("programs", name), revision)));
   if (!response) return failed(response.error());
   return {};
 }

@@ -66,6 +66,14 @@ struct OrderRequest {
   std::optional<double> value;
 };
 
+/// What a port is set to; saving replaces all of it.
+struct PortRequest {
+  std::string name, machine, address;
+  std::string line_template, rules;  ///< may be empty
+  Settings settings;
+  bool enabled = true;
+};
+
 /// Typed calls for every endpoint of server/api/README.md; each is one HTTP exchange and is not
 /// repeated. One thread at a time.
 class Client {
@@ -82,6 +90,8 @@ class Client {
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);
   Reply<void> remove_program(std::string_view name);
+  Reply<Revision> accept_revision(std::string_view name, std::uint64_t revision);
+  Reply<void> reject_revision(std::string_view name, std::uint64_t revision);
   /// Fewer bytes than asked only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 
@@ -99,6 +109,16 @@ class Client {
   Reply<Run> run(std::string_view id);
   Reply<void> order(std::string_view run, const OrderRequest& request);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
+
+  Reply<std::vector<Port>> ports();
+  Reply<Port> port(std::string_view name);
+  Reply<Port> save_port(const PortRequest& request);
+  Reply<void> remove_port(std::string_view name);
+  Reply<PortTest> test_port(std::string_view name);
+  Reply<RuleVerdict> test_rules(std::string_view name, std::string_view text);
+  /// JSON lines of Traffic; they go to `sink` as they come, false from it ends the call.
+  Reply<void> recording(std::string_view name, const std::function<bool(std::string_view)>& sink);
+  Reply<PortTemplates> port_templates();
 
   Reply<std::vector<Report>> reports(const ReportQuery& query);
   /// `format`: text, csv or json. The bytes go to `sink` as they come; false from it ends the call.

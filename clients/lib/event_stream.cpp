@@ -9,6 +9,7 @@
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/event_parser.hpp"
 #include "clients/lib/http.hpp"
+#include "clients/lib/impl/request.hpp"
 
 namespace dripline::client {
 namespace {
@@ -25,6 +26,15 @@ std::optional<StreamItem> item_of(const nlohmann::json& json) {
   return StreamItem(std::move(*value));
 }
 
+std::optional<StreamItem> lost_of(const nlohmann::json& json) {
+  if (!json.is_object() || !json.contains("lost") || !json["lost"].is_number_unsigned()) return {};
+  return TrafficLost{json["lost"].get<std::uint64_t>()};
+}
+
+std::string events_path(const std::string& machine) {
+  return impl::with_query(impl::path_of("events"), "machine", machine);
+}
+
 /// nullopt for events of a kind, or of a shape, that this version does not know.
 std::optional<StreamItem> decode(const ServerEvent& event) {
   auto json = parse_json(event.data);
@@ -32,6 +42,9 @@ std::optional<StreamItem> decode(const ServerEvent& event) {
   if (event.name == "machine") return item_of<Machine>(*json);
   if (event.name == "run") return item_of<Run>(*json);
   if (event.name == "record") return item_of<Record>(*json);
+  if (event.name == "port") return item_of<Port>(*json);
+  if (event.name == "traffic") return item_of<Traffic>(*json);
+  if (event.name == "lost") return lost_of(*json);
   return std::nullopt;
 }
 
@@ -50,10 +63,8 @@ Failure refused(const HttpResponse& response, const std::string& url) {
 
 class EventStream::Impl {
  public:
-  Impl(const ServerAddress& address, const std::string& machine)
-      : address_(address), http_(open_http(address, {5000ms, 60000ms})) {
-    path_ = "/api/v1/events";
-    if (!machine.empty()) path_ += "?machine=" + url_encode(machine);
+  Impl(const ServerAddress& address, std::string path)
+      : address_(address), path_(std::move(path)), http_(open_http(address, {5000ms, 60000ms})) {
     thread_ = std::thread([this] { run(); });
   }
 
@@ -154,8 +165,13 @@ class EventStream::Impl {
 };
 
 EventStream::EventStream(const ServerAddress& address, const std::string& machine)
-    : impl_(std::make_unique<Impl>(address, machine)) {}
+    : impl_(std::make_unique<Impl>(address, events_path(machine))) {}
+EventStream::EventStream(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 EventStream::~EventStream() = default;
+
+EventStream EventStream::of_port(const ServerAddress& address, const std::string& port) {
+  return EventStream(std::make_unique<Impl>(address, impl::path_of("ports", port) + "/traffic"));
+}
 
 std::optional<StreamItem> EventStream::next(std::chrono::milliseconds timeout) {
   return impl_->next(timeout);

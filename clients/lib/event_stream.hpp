@@ -18,15 +18,23 @@ struct StreamOpened {};
 struct StreamLost {
   Failure failure;
 };
-using StreamItem = std::variant<StreamOpened, StreamLost, Machine, Run, Record>;
+/// So many things passed over the port's line that the server could not keep for us.
+struct TrafficLost {
+  std::uint64_t count = 0;
+};
+using StreamItem =
+    std::variant<StreamOpened, StreamLost, Machine, Run, Record, Port, Traffic, TrafficLost>;
 
-/// The server's events (GET /api/v1/events), read by a thread of its own that reconnects with
-/// back-off. `next` is for one thread. At most 1024 items wait; when the reader falls behind, the
-/// connection is not read on, and what the server then drops is made good by the next StreamOpened.
+/// The server's events (GET /api/v1/events, or a port's traffic), read by a thread of its own that
+/// reconnects with back-off. `next` is for one thread. At most 1024 items wait; when the reader
+/// falls behind, the connection is not read on, and what the server then drops is made good by the
+/// next StreamOpened.
 class EventStream {
  public:
   /// `machine` empty: of all machines.
   EventStream(const ServerAddress& address, const std::string& machine);
+  /// What passes over a port's line: Port once, then Traffic and TrafficLost.
+  static EventStream of_port(const ServerAddress& address, const std::string& port);
   ~EventStream();
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;
@@ -36,6 +44,7 @@ class EventStream {
 
  private:
   class Impl;
+  explicit EventStream(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -99,6 +99,7 @@ void ExecutionRecorder::on_output(const interpreter::Output& output) {
   is_between_blocks_ = false;
   append(output.origin, {RecordKind::Output, std::string(interpreter::word_of(output.device)),
                          std::string(output.text)});
+  if (parts_.on_output) parts_.on_output(output);
 }
 
 void ExecutionRecorder::on_open(const interpreter::Open& open) {

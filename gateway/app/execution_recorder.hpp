@@ -26,6 +26,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     report::RunJournal& journal;
     Witness& witness;
     const Clock& clock;
+    /// What is printed at a device, besides being recorded; may be empty.
+    std::function<void(const interpreter::Output&)> on_output = {};
   };
   explicit ExecutionRecorder(const Parts& parts) : parts_(parts) {}
 

@@ -20,8 +20,9 @@ machine::MachineLimits limits_of(std::string_view control) {
 Gateway::Gateway(Parts parts)
     : parts_(std::move(parts)),
       outbox_(parts_.outbox),
-      recorder_(
-          {parts_.options.machine, parts_.outbox, parts_.journal, parts_.witness, parts_.clock}),
+      recorder_({parts_.options.machine, parts_.outbox, parts_.journal, parts_.witness,
+                 parts_.clock,
+                 [this](const interpreter::Output& output) { print_on_line(output); }}),
       machine_(limits_of(parts_.options.control), parts_.setup.workpiece, recorder_),
       sender_(
           parts_.options.machine, parts_.outbox, {},
@@ -33,6 +34,7 @@ Gateway::Gateway(Parts parts)
   panel.optional_stop = parts_.setup.switches.optional_stop;
   panel.block_skip = parts_.setup.switches.block_skip;
   machine_.set_panel(panel);
+  if (parts_.options.line) line_request_ = parts_.options.line->request;
 }
 
 Result<void> Gateway::recover() {
@@ -99,6 +101,7 @@ void Gateway::receive(Incoming incoming, SteadyTime now) {
 
 SteadyTime Gateway::turn(SteadyTime now) {
   announce();
+  serve_line(now);
   if (session_) {
     session_->feed().poll(now);
     if (is_ending_) {
@@ -147,6 +150,8 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   if (session_) {
     if (const auto poll = session_->feed().next_poll()) next = std::min(next, *poll);
   }
+  if (listen_at_) next = std::min(next, *listen_at_);
+  if (line_ == Line::Draining) next = std::min(next, now + report::StatusPublisher::kShortest);
   return std::max(next, now + std::chrono::milliseconds(1));
 }
 

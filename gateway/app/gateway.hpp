@@ -11,6 +11,8 @@
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/options.hpp"
 #include "gateway/app/run_session.hpp"
+#include "gateway/feed/control_line.hpp"
+#include "gateway/feed/line_feed.hpp"
 #include "gateway/report/record_sender.hpp"
 #include "gateway/report/status_publisher.hpp"
 #include "protocol/dds/endpoint.hpp"
@@ -31,7 +33,8 @@ class Gateway {
     report::RunJournal& journal;
     Witness& witness;
     const Clock& clock;
-    std::uint64_t session = 0;  ///< of this process, not zero
+    std::uint64_t session = 0;          ///< of this process, not zero
+    feed::ControlLine* line = nullptr;  ///< where programs come from instead of the server
   };
   /// All references must outlive it.
   explicit Gateway(Parts parts);
@@ -67,6 +70,9 @@ class Gateway {
   void on_order(const dds::Order& order);
   Reply carry_out(const dds::Order& order);
   Reply start(const dds::Order& order);
+  /// `order_id`: what is answered by it; empty: nobody.
+  Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
+                         const std::string& order_id);
   std::optional<Reply> refusal_of_start(const dds::Order& order);
   Reply operate(const dds::Order& order);
   Reply set_switch(const dds::Order& order);
@@ -83,6 +89,18 @@ class Gateway {
   void judge_end();
   void end_run(dds::RunOutcome outcome, const std::string& reason);
   void try_to_finish(SteadyTime now);
+
+  // gateway_line.cpp
+  void serve_line(SteadyTime now);
+  void take_line_item(feed::LineItem& item);
+  void take_line_text(std::string_view text);
+  void line_text_ended();
+  void line_failed(const std::string& reason);
+  bool begin_line_run();
+  void listen(bool may_ask);
+  void line_run_over();
+  void release_line();
+  void print_on_line(const interpreter::Output& output);
 
   // gateway_status.cpp
   dds::Status status() const;
@@ -109,6 +127,20 @@ class Gateway {
   SteadyTime last_step_{}, next_commit_{}, next_sync_{};
   dds::Execution last_execution_ = dds::Execution::Ready;
   std::string last_message_;
+
+  /// What is done with text from the line.
+  enum class Line : std::uint8_t {
+    Closed,     ///< nothing was asked of it yet
+    Listening,  ///< it begins a run
+    Feeding,    ///< it is the run's
+    Complete,   ///< none is expected: the run's text is complete, or broke off
+    Draining,   ///< it is what a run that is over left on the way, and dropped
+  } line_ = Line::Closed;
+  feed::LineFeed* line_feed_ = nullptr;  ///< of session_
+  std::uint64_t line_released_ = 0;      ///< of its text
+  std::string line_program_, line_trouble_;
+  std::string line_request_;  ///< still to be asked for; "next": always
+  std::optional<SteadyTime> listen_at_;
 };
 
 }  // namespace dripline::gateway

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/feed/pull_feed.hpp"
 #include "protocol/base/names.hpp"
 
 /// The part of the gateway that takes orders.
@@ -88,6 +89,9 @@ Gateway::Reply Gateway::carry_out(const dds::Order& order) {
 std::optional<Gateway::Reply> Gateway::refusal_of_start(const dds::Order& order) {
   const auto known = outbox_.order_result(start_key(order.run));
   if (known && *known) return Reply{(*known)->is_accepted, (*known)->reason};
+  if (parts_.line != nullptr)
+    return refuse(
+        fmt::format("this machine takes its programs from line {}", parts_.line->address()));
   if (order.run.empty() || order.run.size() > report::RunJournal::kMaxRun)
     return refuse("a start needs a run of 1 to 40 bytes");
   if (session_)
@@ -107,34 +111,40 @@ std::optional<Gateway::Reply> Gateway::refusal_of_start(const dds::Order& order)
 
 Gateway::Reply Gateway::start(const dds::Order& order) {
   if (auto refusal = refusal_of_start(order)) return *refusal;
-  const report::ActiveRun run{order.run, order.program, order.revision, order.control, order.size};
+  auto feed = std::make_unique<feed::PullFeed>(
+      feed::FeedRun{parts_.options.machine, parts_.session, order.run, order.size},
+      feed::PullFeedOptions{}, [this](const dds::BlockRequest& request) {
+        return parts_.endpoint.write(request).has_value();
+      });
+  const auto done = begin_run({order.run, order.program, order.revision, order.control, order.size},
+                              std::move(feed), order.id);
+  return done ? Reply{} : refuse(done.error().what);
+}
+
+Result<void> Gateway::begin_run(const report::ActiveRun& run,
+                                std::unique_ptr<feed::ProgramFeed> feed,
+                                const std::string& order_id) {
   interpreter::Setup setup = parts_.setup;
   setup.switches.block_skip = machine_.panel().block_skip;
   auto session = RunSession::make({.run = run,
-                                   .gateway_session = parts_.session,
-                                   .machine_name = parts_.options.machine,
-                                   .feed = {},
-                                   .ask =
-                                       [this](const dds::BlockRequest& request) {
-                                         return parts_.endpoint.write(request).has_value();
-                                       },
+                                   .feed = std::move(feed),
                                    .machine = machine_,
                                    .recorder = recorder_,
                                    .clock = parts_.clock},
                                   parts_.dialect, setup);
-  if (!session) return refuse(fmt::format("setup: {}", session.error().what));
+  if (!session) return fail(session.error().code, "setup: {}", session.error().what);
 
   outbox_.discard();
   recorder_.begin(run, [raw = session->get()] {
     return ExecutionRecorder::Supply{raw->feed().sent(), raw->accepted()};
   });
-  outbox_.add_order_result(start_key(order.run), true, "");
-  outbox_.add_order_result(order.id, true, "");
+  outbox_.add_order_result(start_key(run.run), true, "");
+  if (!order_id.empty()) outbox_.add_order_result(order_id, true, "");
   if (const auto done = outbox_.commit(); !done) {
     outbox_.discard();
-    return refuse(fmt::format("the start can not be kept: {}", done.error().what));
+    return fail(done.error().code, "the start can not be kept: {}", done.error().what);
   }
-  parts_.journal.begin(order.run);
+  parts_.journal.begin(run.run);
   machine_.begin(parts_.setup.start);
   session_ = std::move(*session);
   session_->size_feed(parts_.options.speed.factor);

@@ -96,7 +96,7 @@ void Gateway::end_run(dds::RunOutcome outcome, const std::string& reason) {
   dds::RunEndText end;
   end.outcome = outcome;
   end.reason = valid_text(reason, kMaxReason);
-  const feed::PullFeed& feed = session_->feed();
+  const feed::ProgramFeed& feed = session_->feed();
   if (feed.content_length() > 0) {
     end.content_sha256 = feed.content_digest().hex();
     end.content_length = feed.content_length();
@@ -123,7 +123,9 @@ void Gateway::try_to_finish(SteadyTime now) {
                recorder_.executed().sent, label());
   recorder_.finish();
   is_ending_ = false;
+  line_feed_ = nullptr;
   session_.reset();
+  line_run_over();
 }
 
 Result<void> Gateway::interrupt_run(const std::string& reason) {

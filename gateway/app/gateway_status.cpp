@@ -73,6 +73,8 @@ void Gateway::fill_execution(dds::Status& status) const {
   if (!recorder_.trouble().empty()) {
     status.execution = Execution::Waiting;
     message = fmt::format("reports can not be kept: {}", recorder_.trouble());
+  } else if (message.empty()) {
+    message = line_trouble_;
   }
   status.message = valid_text(message, kMaxReason);
 }
@@ -86,6 +88,10 @@ Execution Gateway::execution_of_run(std::string& message) const {
       return Execution::Waiting;
     }
     if (session_->waits() == RunSession::Waits::ForText) {
+      if (parts_.line != nullptr) {
+        message = line_trouble_.empty() ? "waiting for text from the line" : line_trouble_;
+        return Execution::Waiting;
+      }
       message = is_connected_ ? "waiting for program text" : "waiting for program text: no server";
       return Execution::Waiting;
     }

@@ -16,8 +16,10 @@ struct ServerSeen {
 struct StopRequested {
   int signal = 0;
 };
-using Incoming =
-    std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested>;
+/// The line has something to be taken.
+struct LineChanged {};
+using Incoming = std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
+                              LineChanged>;
 
 /// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
 /// beyond the bound are dropped, and both are sent again by whoever misses the answer.

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/app/no_server.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/daemon_log.hpp"
@@ -63,7 +64,7 @@ std::uint64_t new_session() {
 }
 
 /// Runs until a stop is asked for; then gives the records some time to be acknowledged.
-Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock) {
+Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock, bool has_server) {
   std::optional<SteadyTime> farewell;
   SteadyTime next = clock.steady_now();
   for (;;) {
@@ -75,9 +76,28 @@ Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock) {
     }
     next = gateway.turn(clock.steady_now());
     if (!farewell) continue;
-    if (gateway.is_delivered() || clock.steady_now() >= *farewell) return {};
+    if (gateway.is_delivered() || !has_server || clock.steady_now() >= *farewell) return {};
     next = std::min(next, clock.steady_now() + std::chrono::milliseconds(20));
   }
+}
+
+Result<std::unique_ptr<dds::GatewayEndpoint>> open_endpoint(const GatewayOptions& options,
+                                                            dds::GatewayHandlers handlers) {
+  if (!options.has_server) return std::unique_ptr<dds::GatewayEndpoint>(new NoServer);
+  return dds::GatewayEndpoint::open(options.network, options.machine, std::move(handlers));
+}
+
+/// Null: programs come from the server.
+Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& options, Inbox& inbox) {
+  if (!options.line) return std::unique_ptr<feed::ControlLine>();
+  spdlog::info("control at the end of line {} template={} {} buffer={} machine={}",
+               options.line->address, options.line->template_name,
+               wire::short_form(options.line->settings), options.line->buffer_bytes,
+               options.machine);
+  return feed::ControlLine::start({.address = options.line->address,
+                                   .settings = options.line->settings,
+                                   .buffer_bytes = options.line->buffer_bytes,
+                                   .wake = [&inbox] { inbox.post(LineChanged{}); }});
 }
 
 Result<void> run(const GatewayOptions& options) {
@@ -97,21 +117,22 @@ Result<void> run(const GatewayOptions& options) {
   const sigset_t signals = process::block_stop_signals();  // before DDS starts its threads
   const SystemClock clock;
   Inbox inbox;
-  auto endpoint = dds::GatewayEndpoint::open(
-      options.network, options.machine,
-      {.on_order = [&](dds::Order order) { inbox.post(std::move(order)); },
-       .on_ack = [&](dds::RecordAck ack) { inbox.post(std::move(ack)); },
-       .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
-       .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
+  auto endpoint = open_endpoint(
+      options, {.on_order = [&](dds::Order order) { inbox.post(std::move(order)); },
+                .on_ack = [&](dds::RecordAck ack) { inbox.post(std::move(ack)); },
+                .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
+                .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
   if (!endpoint) return fail(endpoint.error());
+  auto line = open_line(options, inbox);
+  if (!line) return fail(line.error());
   const SignalWatch watch(inbox, signals);
   Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *witness,
-                   clock, new_session()});
+                   clock, new_session(), line->get()});
   if (const auto done = gateway.recover(); !done) return done;
   spdlog::info("gateway ready machine={} control={} state={} server={} domain={} records={}",
                options.machine, options.control, options.state.string(), options.network.server,
                options.network.domain, outbox->unacknowledged());
-  const auto done = serve(gateway, inbox, clock);
+  const auto done = serve(gateway, inbox, clock, options.has_server);
   spdlog::info("gateway stopped machine={} records={}", options.machine, outbox->unacknowledged());
   return done;
 }
@@ -119,11 +140,12 @@ Result<void> run(const GatewayOptions& options) {
 /// Declares the table's rows; what was given on the command line is put into `given`.
 void declare(CLI::App& app, std::vector<std::pair<const OptionRow*, std::string>>& given) {
   for (const OptionRow& row : option_rows()) {
-    app.add_option_function<std::string>(
-           "--" + std::string(row.key),
-           [&given, &row](const std::string& value) { given.emplace_back(&row, value); },
-           fmt::format("{} [{}]", row.text, row.fallback))
-        ->type_name(std::string(row.type));
+    auto* option = app.add_option_function<std::string>(
+        "--" + std::string(row.key),
+        [&given, &row](const std::string& value) { given.emplace_back(&row, value); },
+        fmt::format("{} [{}]", row.text, row.fallback));
+    option->type_name(std::string(row.type));
+    if (row.may_repeat) option->join('\n');
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -32,6 +33,11 @@ Result<void> set_number(std::uint32_t& to, std::string_view text, std::uint32_t 
 
 using Options = GatewayOptions;
 
+LineOptions& line_of(Options& options) {
+  if (!options.line) options.line.emplace();
+  return *options.line;
+}
+
 constexpr std::array kRows{
     OptionRow{"machine", "name", "", "(required)", "name of the machine, as orders call it",
               [](Options& o, std::string_view v) {
@@ -49,9 +55,11 @@ constexpr std::array kRows{
                 o.state = v;
                 return {};
               }},
-    OptionRow{"server", "host[:port]", "", "127.0.0.1", "where the server listens for gateways",
+    OptionRow{"server", "host[:port]", "", "127.0.0.1",
+              "where the server listens for gateways; none: without a server, on a line alone",
               [](Options& o, std::string_view v) -> Result<void> {
                 o.network.server = v;
+                o.has_server = v != "none";
                 return {};
               }},
     OptionRow{
@@ -107,6 +115,41 @@ constexpr std::array kRows{
                 }
                 return fail(Errc::Syntax, "'{}' is none of trace, debug, info, warn, error", v);
               }},
+    OptionRow{
+        "line", "address", "", "(none)",
+        "serial line at whose end this machine's control stands: a device, tcp://host:port or "
+        "rfc2217://host:port; programs then come from there",
+        [](Options& o, std::string_view v) -> Result<void> {
+          line_of(o).address = v;
+          return {};
+        }},
+    OptionRow{"line-template", "name", "", "(the control's)",
+              "the line's settings, as listed by dnc port templates",
+              [](Options& o, std::string_view v) -> Result<void> {
+                line_of(o).template_name = v;
+                return {};
+              }},
+    OptionRow{"line-setting", "key=value", "", "(none)",
+              "changes one of the template's settings; more than once for more",
+              [](Options& o, std::string_view v) -> Result<void> {
+                line_of(o).changes = v;
+                return {};
+              },
+              true},
+    OptionRow{"line-buffer", "number", "byte", "65536",
+              "the control's memory for a program being fed: when it is full the host is held",
+              [](Options& o, std::string_view v) -> Result<void> {
+                const auto bytes = number<std::size_t>(v, 256, 16 * 1024 * 1024);
+                if (!bytes) return fail(bytes.error());
+                line_of(o).buffer_bytes = *bytes;
+                return {};
+              }},
+    OptionRow{"line-request", "name", "", "(none)",
+              "program the control asks its host for; next: whichever is next, after each run",
+              [](Options& o, std::string_view v) -> Result<void> {
+                line_of(o).request = v;
+                return {};
+              }},
     OptionRow{"witness", "file", "", "(none)", "for tests: counts what was truly executed",
               [](Options& o, std::string_view v) -> Result<void> {
                 o.witness = v;
@@ -114,9 +157,21 @@ constexpr std::array kRows{
               }},
 };
 
+/// ["baud=9600", "parity=even"]: one a line.
+Result<std::string> lines_of(const toml::array& list) {
+  std::string lines;
+  for (const toml::node& entry : list) {
+    const auto* text = entry.as_string();
+    if (text == nullptr) return fail(Errc::Syntax, "expected a list of texts");
+    lines += text->get() + "\n";
+  }
+  return lines;
+}
+
 Result<std::string> text_of(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
+  if (const auto* list = node.as_array()) return lines_of(*list);
   return fail(Errc::Syntax, "expected a text or a whole number");
 }
 
@@ -125,6 +180,41 @@ const OptionRow* find_row(std::string_view key) {
     if (row.key == key) return &row;
   }
   return nullptr;
+}
+
+/// Without a name, the first made for this control; there may be none.
+Result<const wire::LineTemplate*> template_of(const LineOptions& line, std::string_view control) {
+  if (!line.template_name.empty()) return wire::find_template(line.template_name);
+  for (const wire::LineTemplate& known : wire::line_templates()) {
+    if (known.control == control) return &known;
+  }
+  return wire::find_template("plain");
+}
+
+Result<void> change(wire::LineSettings& settings, std::string_view changes) {
+  while (!changes.empty()) {
+    const std::size_t end = std::min(changes.find_first_of("\n,"), changes.size());
+    const std::string_view entry = changes.substr(0, end);
+    changes.remove_prefix(std::min(end + 1, changes.size()));
+    if (entry.empty()) continue;
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string_view::npos)
+      return fail(Errc::Syntax, "line-setting '{}' is not key=value", entry);
+    const auto done = wire::set_value(settings, entry.substr(0, equals), entry.substr(equals + 1));
+    if (!done) return fail(done.error().code, "line-setting: {}", done.error().what);
+  }
+  return {};
+}
+
+Result<void> complete_line(Options& options) {
+  LineOptions& line = *options.line;
+  if (line.address.empty())
+    return fail(Errc::Syntax, "--line ADDRESS is required with the other line options");
+  const auto found = template_of(line, options.control);
+  if (!found) return fail(found.error());
+  line.template_name = (*found)->name;
+  line.settings = (*found)->settings;
+  return change(line.settings, line.changes);
 }
 
 }  // namespace
@@ -158,6 +248,8 @@ Result<void> apply_config(std::string_view toml, GatewayOptions& options) {
     const OptionRow* row = find_row(key.str());
     if (row == nullptr) return fail(Errc::Syntax, "unknown key '{}'", key.str());
     const auto text = text_of(node);
+    if (node.is_array() && !row->may_repeat)
+      return fail(Errc::Syntax, "{}: expected one value, not a list", key.str());
     if (!text) return fail(Errc::Syntax, "{}: {}", key.str(), text.error().what);
     if (const auto done = row->set(options, *text); !done)
       return fail(done.error().code, "{}: {}", key.str(), done.error().what);
@@ -168,6 +260,12 @@ Result<void> apply_config(std::string_view toml, GatewayOptions& options) {
 Result<void> complete(GatewayOptions& options) {
   if (options.machine.empty()) return fail(Errc::Syntax, "--machine NAME is required");
   if (options.control.empty()) return fail(Errc::Syntax, "--control NAME is required");
+  if (options.line) {
+    if (const auto done = complete_line(options); !done) return done;
+  } else if (!options.has_server) {
+    return fail(Errc::Syntax,
+                "--server none needs --line ADDRESS: programs must come from somewhere");
+  }
   if (!options.state.empty()) return {};
   const auto state = default_state_folder(process_environment, ::geteuid() == 0);
   if (!state) return fail(state.error());

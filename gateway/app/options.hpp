@@ -8,6 +8,7 @@
 
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
+#include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {
 
@@ -18,6 +19,16 @@ struct Speed {
 /// "1x", "100x", "0.5x" or "max". Errors: Syntax, LimitExceeded (not above 0, or above 10^6).
 Result<Speed> parse_speed(std::string_view text);
 
+/// The gateway in the place of a control at the end of a line.
+struct LineOptions {
+  std::string address;
+  std::string template_name;    ///< empty: the first for this control, or "plain"
+  std::string changes;          ///< key=value, one a line
+  wire::LineSettings settings;  ///< what the two above come to; made by `complete`
+  std::size_t buffer_bytes = 64 * 1024;
+  std::string request;  ///< a program's name, or "next"; empty: the host begins
+};
+
 struct GatewayOptions {
   std::string machine;
   std::string control;
@@ -27,6 +38,8 @@ struct GatewayOptions {
   std::optional<std::filesystem::path> setup, log, witness;
   std::string log_level = "info";
   std::string description;
+  std::optional<LineOptions> line;
+  bool has_server = true;  ///< without one the gateway lives on its line alone
 };
 
 /// One key of the configuration: the command line (--key), the TOML file and the help all read this
@@ -38,6 +51,7 @@ struct OptionRow {
   std::string_view fallback;  ///< for people; the values themselves stand in GatewayOptions
   std::string_view text;
   Result<void> (*set)(GatewayOptions&, std::string_view value);
+  bool may_repeat = false;  ///< values are joined, one a line
 };
 std::span<const OptionRow> option_rows();
 
@@ -46,7 +60,7 @@ std::span<const OptionRow> option_rows();
 Result<void> apply_config(std::string_view toml, GatewayOptions& options);
 
 /// What is left out gets its default; what is required is checked. Errors: Syntax, NotFound (no
-/// home folder to put the state in).
+/// home folder to put the state in, no such line template or setting), LimitExceeded.
 Result<void> complete(GatewayOptions& options);
 
 }  // namespace dripline::gateway

@@ -29,17 +29,14 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   std::unique_ptr<RunSession> session(new RunSession(std::move(parts), setup));
   interpreter::Setup given = setup;
   given.answers.clear();
-  auto made = dialect.make(given, session->feed_, session->parts_.machine.events());
+  auto made = dialect.make(given, session->feed(), session->parts_.machine.events());
   if (!made) return fail(made.error());
   session->interpreter_ = std::move(*made);
   return session;
 }
 
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
-    : parts_(std::move(parts)),
-      setup_(setup),
-      feed_({parts_.machine_name, parts_.gateway_session, parts_.run.run, parts_.run.size},
-            parts_.feed, parts_.ask) {}
+    : parts_(std::move(parts)), setup_(setup) {}
 
 std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
@@ -129,14 +126,14 @@ Result<void> RunSession::answer(const std::string& text) {
 }
 
 void RunSession::size_feed(std::optional<double> speed_factor) {
-  if (!speed_factor) return feed_.set_consumption(std::nullopt);
+  if (!speed_factor) return feed().set_consumption(std::nullopt);
   const double seconds = parts_.machine.buffered().count() / *speed_factor;
   const interpreter::Origin& ahead = interpreter_->origin();
   const interpreter::Origin at = parts_.machine.status().origin;
-  if (ahead.block == 0) return feed_.set_consumption(0);
+  if (ahead.block == 0) return feed().set_consumption(0);
   // Across a call or a jump back the distance in bytes says nothing; the last size stays.
   if (ahead.program != at.program || ahead.offset <= at.offset || seconds <= 0) return;
-  feed_.set_consumption(static_cast<double>(ahead.offset - at.offset) / seconds);
+  feed().set_consumption(static_cast<double>(ahead.offset - at.offset) / seconds);
 }
 
 }  // namespace dripline::gateway

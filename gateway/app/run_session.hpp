@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gateway/app/execution_recorder.hpp"
-#include "gateway/feed/pull_feed.hpp"
+#include "gateway/feed/program_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/machine/machine.hpp"
 
@@ -18,10 +18,7 @@ class RunSession {
  public:
   struct Parts {
     report::ActiveRun run;
-    std::uint64_t gateway_session = 0;
-    std::string machine_name;
-    feed::PullFeedOptions feed;
-    feed::PullFeed::Ask ask;
+    std::unique_ptr<feed::ProgramFeed> feed;  ///< where its text comes from
     machine::Machine& machine;
     ExecutionRecorder& recorder;
     const Clock& clock;
@@ -43,8 +40,8 @@ class RunSession {
   Result<void> answer(const std::string& text);
 
   const report::ActiveRun& run() const { return parts_.run; }
-  feed::PullFeed& feed() { return feed_; }
-  const feed::PullFeed& feed() const { return feed_; }
+  feed::ProgramFeed& feed() { return *parts_.feed; }
+  const feed::ProgramFeed& feed() const { return *parts_.feed; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }
   /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
   void size_feed(std::optional<double> speed_factor);
@@ -63,7 +60,6 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
   std::size_t next_answer_ = 0;
-  feed::PullFeed feed_;
   std::unique_ptr<interpreter::Interpreter> interpreter_;
   Waits waits_ = Waits::ForNothing;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;

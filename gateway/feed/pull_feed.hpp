@@ -9,10 +9,7 @@
 #include <vector>
 
 #include "gateway/feed/chunk_cache.hpp"
-#include "gateway/interpreter/program_source.hpp"
-#include "protocol/base/clock.hpp"
-#include "protocol/base/digest.hpp"
-#include "protocol/dds/message.hpp"
+#include "gateway/feed/program_feed.hpp"
 
 namespace dripline::feed {
 
@@ -44,7 +41,7 @@ struct FeedRun {
 /// has come; asking is idempotent, so lost, doubled, reordered, late and foreign answers do no
 /// harm. Memory: `cache_bytes` and one stitched window. Pure: time comes in, requests go out
 /// through a callback. One thread.
-class PullFeed final : public interpreter::ProgramSource {
+class PullFeed final : public ProgramFeed {
  public:
   /// False: not taken, try in the next poll.
   using Ask = std::function<bool(const dds::BlockRequest&)>;
@@ -55,25 +52,19 @@ class PullFeed final : public interpreter::ProgramSource {
                                 std::size_t min_bytes) override;
   interpreter::ProgramLookup find(std::string_view name) override;
 
-  /// An answer. Anything that is not of this run and session is ignored.
-  void on_data(const dds::BlockData& data, SteadyTime now);
-  /// Sends the requests that are due. Cheap when nothing is missing.
-  void poll(SteadyTime now);
-  /// When poll has something to do without anything else happening; nullopt: never.
-  std::optional<SteadyTime> next_poll() const { return next_poll_; }
-  /// A server has (re)appeared: everything missing is asked for at once.
-  void ask_again();
-
+  void on_data(const dds::BlockData& data, SteadyTime now) override;
+  void poll(SteadyTime now) override;
+  std::optional<SteadyTime> next_poll() const override { return next_poll_; }
+  void ask_again() override;
   /// Sizes the window to `target_seconds`; nullopt: as fast as possible, the whole window.
-  void set_consumption(std::optional<double> bytes_per_second);
+  void set_consumption(std::optional<double> bytes_per_second) override;
 
   /// Why the program can not be had any more; empty: it can.
   const std::string& failure() const { return failure_; }
-  /// The *sent* counter: bytes of the main program received without a gap from its beginning.
-  std::uint64_t sent() const { return hashed_; }
-  /// SHA-256 of those bytes; equals the revision's once sent() is the program's size.
-  Digest content_digest() const { return hash_.digest(); }
-  std::uint64_t content_length() const { return hashed_; }
+  std::uint64_t sent() const override { return hashed_; }
+  /// Equals the revision's once sent() is the program's size.
+  Digest content_digest() const override { return hash_.digest(); }
+  std::uint64_t content_length() const override { return hashed_; }
   /// Contiguous bytes held after the cursor.
   std::uint64_t bytes_ahead() const;
 

@@ -51,10 +51,10 @@ MemorySource::Loader loader_of(const GoldenCase& golden) {
 }
 
 std::optional<Verdict> verdict_of(const std::string& program) {
-  char id[16] = {};
+  char id[32] = {};
   unsigned long line = 0;
   unsigned column = 0;
-  if (std::sscanf(program.c_str(), "(expect %15[A-Z0-9] %lu:%u)", id, &line, &column) != 3) {
+  if (std::sscanf(program.c_str(), "(expect %31[-A-Za-z0-9] %lu:%u)", id, &line, &column) != 3) {
     return std::nullopt;
   }
   return Verdict{id, line, column};

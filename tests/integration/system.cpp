@@ -75,7 +75,7 @@ std::vector<std::string> System::gateway_command(const std::string& machine,
                                    "--machine",
                                    machine,
                                    "--control",
-                                   "centurion",
+                                   options_.control,
                                    "--state",
                                    folder() / state / machine,
                                    "--speed",
@@ -121,7 +121,7 @@ nlohmann::json System::push(const std::string& name, const std::string& text) {
   constexpr std::size_t kPiece = 4 << 20;
   const RestClient client = rest();
   const auto upload =
-      client.post("/api/v1/uploads", {{"program", name}, {"control", "centurion"}}).json();
+      client.post("/api/v1/uploads", {{"program", name}, {"control", options_.control}}).json();
   const std::string path = "/api/v1/uploads/" + upload.value("id", "none");
   for (std::size_t at = 0; at < text.size(); at += kPiece) {
     const auto reply =

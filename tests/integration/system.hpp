@@ -20,6 +20,7 @@ class System {
     std::string speed = "max";
     std::vector<std::string> server_arguments;
     std::vector<std::string> gateway_arguments;
+    std::string control = "centurion";  ///< of gateways and pushed programs
   };
   System() : System(Options{}) {}
   explicit System(Options options);

@@ -114,7 +114,7 @@ void LineSimulator::step(LineTime time) {
 /// The driver's first character is on the line and meets its fate.
 void LineSimulator::leave(std::size_t from) {
   Wire& wire = wires_[from];
-  std::byte character = wire.driver[0];
+  const std::byte character = wire.driver[0];
   wire.driver[0] = wire.driver[1];
   if (--wire.held > 0) wire.leaves_at = now_ + character_time_;
   ++wire.counts.characters;
@@ -122,46 +122,51 @@ void LineSimulator::leave(std::size_t from) {
     wire.counts.left_after_stop = std::max(wire.counts.left_after_stop, ++wire.left_since_stop);
   }
 
-  std::optional<LineFault> fault;
-  std::size_t copies = 1;
-  if (faults_.rate > 0 && dice_.fraction() < faults_.rate) {
-    ++wire.counts.faults;
-    switch (faults_.kinds[dice_.below(faults_.kinds.size())]) {
-      case Kind::Drop:
-        copies = 0;
-        break;
-      case Kind::Double:
-        copies = 2;
-        break;
-      case Kind::Flip:
-        character ^= static_cast<std::byte>(1U << dice_.below(settings_.data_bits));
-        if (settings_.parity == wire::Parity::Even || settings_.parity == wire::Parity::Odd) {
-          fault = LineFault::Parity;
-        }
-        break;
-      case Kind::Delay:
-        wire.delayed_until =
-            now_ + LineTime(static_cast<std::int64_t>(
-                       dice_.fraction() * static_cast<double>(faults_.longest_delay.count())));
-        break;
-      case Kind::Break:
-        fault = LineFault::Break;
-        break;
-      case Kind::Parity:
-        fault = LineFault::Parity;
-        break;
-      case Kind::StuckXoff:
-        if (settings_.flow == wire::Flow::RtsCts) {
-          wire.is_cts_stuck = true;
-        } else {
-          wire.arrivals.push_back({std::max(now_, wire.delayed_until), kDc3, std::nullopt});
-        }
-        break;
-    }
+  Fate fate{character, std::nullopt};
+  if (faults_.rate > 0 && dice_.fraction() < faults_.rate) meet_fault(wire, fate);
+  if (fate.fault) ++wire.counts.reported;
+  for (std::size_t i = 0; i < fate.copies; ++i) {
+    wire.arrivals.push_back({std::max(now_, wire.delayed_until), fate.character, fate.fault});
   }
-  for (std::size_t i = 0; i < copies; ++i) {
-    wire.arrivals.push_back({std::max(now_, wire.delayed_until), character, fault});
+}
+
+void LineSimulator::meet_fault(Wire& wire, Fate& fate) {
+  ++wire.counts.faults;
+  switch (faults_.kinds[dice_.below(faults_.kinds.size())]) {
+    case Kind::Drop:
+      fate.copies = 0;
+      break;
+    case Kind::Double:
+      fate.copies = 2;
+      break;
+    case Kind::Flip:
+      fate.character ^= static_cast<std::byte>(1U << dice_.below(settings_.data_bits));
+      if (settings_.parity == wire::Parity::Even || settings_.parity == wire::Parity::Odd) {
+        fate.fault = LineFault::Parity;
+      } else {
+        ++wire.counts.silent;
+      }
+      break;
+    case Kind::Delay:
+      wire.delayed_until =
+          now_ + LineTime(static_cast<std::int64_t>(
+                     dice_.fraction() * static_cast<double>(faults_.longest_delay.count())));
+      break;
+    case Kind::Break:
+      fate.fault = LineFault::Break;
+      break;
+    case Kind::Parity:
+      fate.fault = LineFault::Parity;
+      break;
+    case Kind::StuckXoff:
+      if (settings_.flow == wire::Flow::RtsCts) {
+        wire.is_cts_stuck = true;
+      } else {
+        wire.arrivals.push_back({std::max(now_, wire.delayed_until), kDc3, std::nullopt});
+      }
+      break;
   }
+  if (fate.copies != 1) ++wire.counts.silent;
 }
 
 void LineSimulator::arrive(std::size_t from) {
@@ -244,24 +249,24 @@ void LineSimulator::serve(std::size_t end) {
   for (;;) {
     std::vector<wire::Event> events = ends_[end].line->take_events();
     for (const wire::Event& event : events) handle(ends_[end], event);
-    offer(ends_[end]);
-    if (events.empty()) return;
+    if (!offer(ends_[end]) && events.empty()) return;
   }
 }
 
-void LineSimulator::offer(LineEnd& end) {
-  if (end.is_all_offered || end.line->state().phase != wire::Phase::Sending) return;
+bool LineSimulator::offer(LineEnd& end) {
+  if (end.is_all_offered || end.line->state().phase != wire::Phase::Sending) return false;
   const std::size_t rest = end.to_send.size() - end.offered;
   const std::size_t count = std::min({rest, end.offer_at_most, end.line->room()});
-  if (count == 0 && rest > 0) return;
+  if (count == 0 && rest > 0) return false;
   const std::string_view piece = std::string_view(end.to_send).substr(end.offered, count);
   const auto offered = end.line->offer(piece, count == rest, now_);
   if (!offered) {  // the transfer may have failed before; the event says so
     end.is_all_offered = true;
-    return;
+    return true;
   }
   end.offered += count;
   end.is_all_offered = count == rest;
+  return true;
 }
 
 void LineSimulator::handle(LineEnd& end, const wire::Event& event) {

@@ -101,6 +101,8 @@ class LineSimulator {
   struct Direction {
     std::uint64_t characters = 0;  ///< that left the driver
     std::uint64_t faults = 0;
+    std::uint64_t reported = 0;  ///< of them: the UART said so
+    std::uint64_t silent = 0;    ///< of them: characters lost, doubled or changed without a word
     /// Most characters, control characters not counted, that left the driver after the sending end
     /// was told to stop; and those that were given to the driver then.
     std::uint64_t left_after_stop = 0, given_after_stop = 0;
@@ -132,6 +134,13 @@ class LineSimulator {
   bool is_quiet() const;
   void step(wire::LineTime time);
   void leave(std::size_t from);
+  /// What becomes of the character: how often it arrives, and as which fault.
+  struct Fate {
+    std::byte character;
+    std::optional<wire::LineFault> fault;
+    std::size_t copies = 1;
+  };
+  void meet_fault(Wire& wire, Fate& fate);
   void arrive(std::size_t from);
   void deliver(std::size_t to, const Arrival& arrival);
   void note_stop(std::size_t end, std::byte character);
@@ -139,7 +148,7 @@ class LineSimulator {
   void pump();
   void transmit(std::size_t from);
   void serve(std::size_t end);
-  void offer(LineEnd& end);
+  bool offer(LineEnd& end);  ///< whether anything was taken
   void handle(LineEnd& end, const wire::Event& event);
   void hold_now_and_then(std::size_t end);
 

@@ -115,6 +115,11 @@ void PtyCable::unplug() {
   host_.unplug();
 }
 
+void PtyCable::unplug_control() {
+  stop();
+  control_.unplug();
+}
+
 void PtyCable::plug_in() {
   host_.plug_in();
   start();

@@ -50,6 +50,7 @@ class PtyCable {
   /// The host's adapter is pulled out and plugged in again.
   void unplug();
   void plug_in();
+  void unplug_control();
   /// Characters that have passed from host to control.
   std::uint64_t passed() const { return passed_; }
 

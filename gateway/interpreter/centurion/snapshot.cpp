@@ -1,6 +1,6 @@
 #include "gateway/interpreter/centurion/snapshot.hpp"
 
-#include "gateway/interpreter/impl/state_archive.hpp"
+#include "gateway/interpreter/language/state_archive.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -8,12 +8,12 @@ namespace {
 constexpr std::string_view kDialect = "centurion";
 constexpr std::size_t kMaxName = kMaxBlockBytes;
 
-using Writer = StateWriter;
-using Reader = StateReader;
+using Writer = language::StateWriter;
+using Reader = language::StateReader;
 
 template <class Archive, class... Values>
 void all(Archive& archive, Values&... values) {
-  visit_values(archive, values...);
+  language::visit_all(archive, values...);
 }
 
 template <class Archive>
@@ -126,8 +126,8 @@ void visit_sparse(Archive& archive, int count, Value value_at) {
     for (std::size_t i = 0; i < used; ++i) {
       int number = 0;
       archive(number);
-      if (number < 0 || number >= count) archive.is_damaged = true;
-      if (archive.is_damaged) return;
+      if (number < 0 || number >= count) archive.damage();
+      if (archive.is_damaged()) return;
       archive(value_at(number));
     }
   }
@@ -170,7 +170,7 @@ Snapshot take_snapshot(const Run& run) {
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
-  return {std::string(kDialect), kSnapshotVersion, std::move(writer.out)};
+  return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
@@ -188,7 +188,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit_parameters(reader, parameters);
   visit(reader, origin);
   visit_name(reader, name, is_settled);
-  if (reader.is_damaged || reader.at != snapshot.bytes.size() || !is_plausible(state)) {
+  if (!reader.is_complete() || !is_plausible(state)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
   }
   run.state = std::move(state);

@@ -28,6 +28,9 @@ class StateWriter {
     (*this)(stored);
     return true;
   }
+  /// What is written is never damaged; for code that serves both ways.
+  void damage() {}
+  bool is_damaged() const { return false; }
   std::vector<std::byte> take() { return std::move(out_); }
 
  private:

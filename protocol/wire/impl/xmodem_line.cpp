@@ -59,7 +59,8 @@ void XmodemLine::fault(LineFault /*fault*/, LineTime now) {
   if (step_ == Step::InBlock) {
     reader_.damage();
     take_block(std::byte{0}, now);
-  } else if (step_ == Step::AwaitBlock || step_ == Step::BehindEot || step_ == Step::Purge) {
+  } else if (step_ == Step::AwaitBlock || step_ == Step::BehindBlock || step_ == Step::BehindEot ||
+             step_ == Step::Purge) {
     purge(now);
   }
   // An answer that can not be read is no answer.

@@ -40,9 +40,10 @@ class XmodemLine final : public DisciplineBase {
     Ask,         ///< for the first block
     AwaitBlock,  ///< the next one, EOT or CAN
     InBlock,
-    BehindEot,  ///< silence proves that it was one
-    Purge,      ///< nonsense came: silence, then NAK
-    Withhold,   ///< a good block, but no room: ACK later
+    BehindBlock,  ///< a good one; one character more and it was not (a character came twice)
+    BehindEot,    ///< silence proves that it was one
+    Purge,        ///< nonsense came: silence, then NAK
+    Withhold,     ///< a good block, but no room: ACK later
   };
   bool is_sender_step() const { return step_ >= Step::AwaitStart && step_ <= Step::AwaitEnd; }
 
@@ -54,6 +55,7 @@ class XmodemLine final : public DisciplineBase {
 
   // Sender
   void take_answer(char character, LineTime now);
+  bool choose_check(char character);
   void take_start(char character, LineTime now);
   void block_accepted(LineTime now);
   void block_refused(LineTime now);
@@ -67,6 +69,7 @@ class XmodemLine final : public DisciplineBase {
   void take_block_start(char character, LineTime now);
   void take_block(std::byte character, LineTime now);
   void block_complete(LineTime now);
+  void judge_block(LineTime now);
   void block_good(LineTime now);
   void accept_block(LineTime now);
   void purge(LineTime now);

@@ -12,6 +12,7 @@ constexpr unsigned kCrcAsks = 4;  ///< then the checksum is asked for
 constexpr LineTime kAskingPeriod = std::chrono::seconds(10);
 /// Silence inside a block, behind nonsense, or behind an EOT.
 constexpr LineTime kSilence = std::chrono::seconds(1);
+constexpr int kSilenceBehindBlock = 2;  ///< character times
 constexpr LineTime kLongestNonsense = std::chrono::seconds(60);
 
 }  // namespace
@@ -50,7 +51,9 @@ void XmodemLine::ask(LineTime now) {
 
 void XmodemLine::take_block_start(char character, LineTime now) {
   if (step_ == Step::Withhold) return;
-  if (step_ == Step::Purge || step_ == Step::BehindEot) return purge(now);
+  if (step_ == Step::Purge || step_ == Step::BehindEot || step_ == Step::BehindBlock) {
+    return purge(now);
+  }
   if (character == kSoh || (character == kStx && check_ == Check::Crc)) {
     is_sender_there_ = true;
     reader_.begin(character, check_);
@@ -79,6 +82,11 @@ void XmodemLine::take_block(std::byte character, LineTime now) {
 void XmodemLine::block_complete(LineTime now) {
   was_can_ = false;
   if (!reader_.is_good()) return purge(now);
+  step_ = Step::BehindBlock;
+  deadline_ = now + kSilenceBehindBlock * character_time(settings_);
+}
+
+void XmodemLine::judge_block(LineTime now) {
   if (reader_.number() == number_) return block_good(now);
   const auto before = static_cast<std::uint8_t>(number_ - 1);
   if (reader_.number() == before && !is_first_block_) {
@@ -155,6 +163,8 @@ void XmodemLine::tick(LineTime now) {
       return say_end(now);
     case Step::Ask:
       return ask(now);
+    case Step::BehindBlock:
+      return judge_block(now);
     case Step::BehindEot:
       was_eot_refused_ = true;
       return ask_again(now);

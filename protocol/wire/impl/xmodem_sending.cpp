@@ -94,11 +94,16 @@ void XmodemLine::take_answer(char character, LineTime now) {
   switch (step_) {
     case Step::AwaitStart:
       return take_start(character, now);
+    case Step::NeedText:
+      // The receiver may have changed its mind while the first block was not full.
+      if (number_ == 1 && block_.empty()) choose_check(character);
+      return;
     case Step::AwaitAnswer:
       if (character == kAck) return block_accepted(now);
       if (character == kNak || (character == kCrcWanted && number_ == 1)) block_refused(now);
       return;
     case Step::AwaitEnd:
+      if (has_controls()) return;  // EOT has not left: a doubled answer to the last block
       if (character == kAck) {
         if (text_taken_ > block_text_end_) emit(TextAccepted{text_taken_});
         return end_transfer(now);
@@ -110,10 +115,14 @@ void XmodemLine::take_answer(char character, LineTime now) {
   }
 }
 
-void XmodemLine::take_start(char character, LineTime now) {
-  if (character != kNak && character != kCrcWanted) return;
+bool XmodemLine::choose_check(char character) {
+  if (character != kNak && character != kCrcWanted) return false;
   check_ = character == kCrcWanted ? Check::Crc : Check::Sum;
-  prepare_block(now);
+  return true;
+}
+
+void XmodemLine::take_start(char character, LineTime now) {
+  if (choose_check(character)) prepare_block(now);
 }
 
 void XmodemLine::block_accepted(LineTime now) {

@@ -62,15 +62,26 @@ TEST(ApiJson, NamesWhatIsMissingOrOfTheWrongKind) {
             "member \"feed_override\" is missing of \"status\"");
 }
 
+TEST(ApiJson, ReadsRevisionsOfAServerThatKnowsNoHeldOnes) {
+  const auto revision = from_json<Revision>(nlohmann::json::parse(
+      R"({"program":"p","revision":1,"size":4,"sha256":"ab","created":"t"})"));
+  ASSERT_TRUE(revision) << revision.error().what;
+  EXPECT_FALSE(revision->held);
+}
+
 TEST(ApiJson, ReadsAHistory) {
   const auto json = nlohmann::json::parse(
       R"({"name":"p","revision":1,"size":4,"sha256":"ab","control":null,"comment":null,
-          "author":null,"created":"t","revisions":[{"program":"p","revision":1,"size":4,
-          "sha256":"ab","control":null,"comment":"c","author":null,"created":"t"}]})");
+          "author":null,"created":"t","held":false,"accepted":null,"held_revisions":1,
+          "revisions":[{"program":"p","revision":1,"size":4,
+          "sha256":"ab","control":null,"comment":"c","author":null,"created":"t",
+          "held":true,"accepted":"u"}]})");
   const auto history = from_json<ProgramHistory>(json);
   ASSERT_TRUE(history) << history.error().what;
   EXPECT_EQ(history->program.revisions, 1u);
   EXPECT_EQ(history->revisions.at(0).comment, "c");
+  EXPECT_TRUE(history->revisions.at(0).held);
+  EXPECT_EQ(history->program.held_revisions, 1u);
   EXPECT_EQ(nlohmann::json(to_json_value(*history)), json);
 }
 

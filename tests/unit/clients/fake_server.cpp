@@ -58,6 +58,7 @@ class FakeServer::Impl {
     add_machine_routes();
     add_run_routes();
     add_output_routes();
+    add_set_routes();
     port_ = server_.bind_to_any_port("127.0.0.1");
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     while (!server_.is_running()) std::this_thread::yield();
@@ -82,6 +83,8 @@ class FakeServer::Impl {
   std::vector<json> runs;
   std::map<std::string, json> machines;
   std::function<void(const std::string&, const json&)> order_handler;
+  std::map<std::string, std::pair<int, std::string>> answers;
+  std::vector<std::string> calls;
   FakeEventStream events;
 
   std::uint64_t add(const std::string& name, const std::string& content) {
@@ -283,13 +286,33 @@ class FakeServer::Impl {
     server_.Get(R"(/api/v1/reports/([\w-]+))", [](const Request& request, Response& response) {
       response.set_content("report as " + request.get_param_value("format") + "\n", "text/plain");
     });
-    server_.Get("/api/v1/events", [this](const Request&, Response& response) {
-      response.set_chunked_content_provider(
-          "text/event-stream",
-          [this, next = std::size_t{0}](std::size_t, httplib::DataSink& sink) mutable {
-            return events.send(sink, next);
-          });
-    });
+    server_.Get(R"(/api/v1/(events|ports/[\w-]+/traffic))",
+                [this](const Request&, Response& response) {
+                  response.set_chunked_content_provider(
+                      "text/event-stream",
+                      [this, next = std::size_t{0}](std::size_t, httplib::DataSink& sink) mutable {
+                        return events.send(sink, next);
+                      });
+                });
+  }
+
+  /// What a test says is answered.
+  void add_set_routes() {
+    const auto give = [this](const Request& request, Response& response) {
+      const std::lock_guard lock(mutex);
+      const std::string call = request.method + " " + request.path;
+      calls.push_back(call + " " + request.body);
+      const auto found = answers.find(call);
+      if (found == answers.end()) return answer_error(response, 404, "not_found");
+      response.status = found->second.first;
+      response.set_content(found->second.second, "application/json");
+    };
+    const std::string ports = R"(/api/v1/port.*)";
+    server_.Get(ports, give);
+    server_.Put(ports, give);
+    server_.Post(ports, give);
+    server_.Delete(ports, give);
+    server_.Post(R"(/api/v1/programs/.*)", give);
   }
 
   httplib::Server server_;
@@ -378,6 +401,16 @@ void FakeServer::set_machine(const json& machine) {
 
 void FakeServer::publish(const std::string& name, const json& data) {
   impl_->events.publish("event: " + name + "\ndata: " + data.dump() + "\n\n");
+}
+
+void FakeServer::set_answer(const std::string& call, int status, const std::string& body) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->answers[call] = {status, body};
+}
+
+std::vector<std::string> FakeServer::calls() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->calls;
 }
 
 void FakeServer::on_order(std::function<void(const std::string&, const json&)> handler) {

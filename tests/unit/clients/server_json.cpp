@@ -11,7 +11,8 @@ json revision_json(const std::string& program, const std::string& name_key, std:
   return {{name_key, program},      {"revision", number},
           {"size", content.size()}, {"sha256", sha256(content).hex()},
           {"control", "centurion"}, {"comment", nullptr},
-          {"author", "test"},       {"created", "2026-11-21T07:40:06.123456Z"}};
+          {"author", "test"},       {"created", "2026-11-21T07:40:06.123456Z"},
+          {"held", false},          {"accepted", nullptr}};
 }
 
 json machine_json(const std::string& name) {
@@ -23,6 +24,29 @@ json machine_json(const std::string& name) {
           {"first_seen", "2026-11-21T07:00:00Z"},
           {"last_seen", "2026-11-21T07:40:06.123456Z"},
           {"status", nullptr}};
+}
+
+json port_json(const std::string& name) {
+  return {{"name", name},
+          {"machine", "mill-3"},
+          {"address", "/dev/ttyUSB0"},
+          {"template", "tnc155"},
+          {"settings", {{"baud", "4800"}}},
+          {"rules", nullptr},
+          {"enabled", true},
+          {"effective", {{"line", "4800e71"}, {"flow", "xonxoff"}, {"baud", "4800"}}},
+          {"open", true},
+          {"trouble", nullptr},
+          {"line",
+           {{"phase", "idle"},
+            {"stopped", false},
+            {"stopping", false},
+            {"waiting_for", nullptr},
+            {"without_limit", false}}},
+          {"run", nullptr},
+          {"sent", 0},
+          {"received", 0},
+          {"waiting_since", nullptr}};
 }
 
 json run_json(const std::string& id, const std::string& state) {

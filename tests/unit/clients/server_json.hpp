@@ -10,6 +10,9 @@ namespace dripline::test_support {
 nlohmann::json machine_json(const std::string& name);
 nlohmann::json run_json(const std::string& id, const std::string& state);
 
+/// An open line with nothing on it.
+nlohmann::json port_json(const std::string& name);
+
 /// A revision of a program. Revisions are told apart by `program`; as the program's newest one its
 /// name stands under `name`.
 nlohmann::json revision_json(const std::string& program, const std::string& name_key,

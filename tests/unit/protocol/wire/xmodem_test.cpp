@@ -45,6 +45,12 @@ TestedLine receiver(const LineSettings& settings) {
   return line;
 }
 
+/// What the receiver says to a block, once it is sure that nothing follows.
+std::string answer(TestedLine& line) {
+  line.pass(std::chrono::milliseconds(10));
+  return line.say_now();
+}
+
 TEST(XmodemBlock, HasTheCheckValuesOfTheProtocol) {
   const std::string_view digits = "123456789";
   EXPECT_EQ(xmodem::crc16(std::as_bytes(std::span(digits))), 0x31c3);
@@ -96,6 +102,15 @@ TEST(XmodemSender, TakesNoAnswerForABlockThatHasNotLeft) {
   EXPECT_EQ(line.say_now(), block(3, std::string(44, 'X')));
 }
 
+TEST(XmodemSender, TakesNoAnswerForAnEndThatHasNotLeft) {
+  TestedLine line = sender(xmodem_line(), "M30\n");
+  line.hear("C");
+  line.say_now();
+  line.hear(kAck + kAck);
+  EXPECT_EQ(line.events(), "accepted 4\n");
+  EXPECT_EQ(line.say_now(), kEot);
+}
+
 TEST(XmodemSender, CountsABlockEndAcrossTwoBlocksWithTheSecond) {
   LineSettings settings = xmodem_line();
   settings.end_of_block = EndOfBlock::CrLf;
@@ -122,6 +137,14 @@ TEST(XmodemSender, WaitsForTextToFillABlock) {
   EXPECT_EQ(line.say_now(), "");
   ASSERT_TRUE(line.offer("", true));
   EXPECT_EQ(line.say_now(), kEot);
+}
+
+TEST(XmodemSender, FollowsAReceiverThatChangesItsMindBeforeTheFirstBlock) {
+  TestedLine line(xmodem_line(), Role::Host);
+  ASSERT_TRUE(line.line->begin_send("", line.now));
+  line.hear("CCCC" + kNak);
+  ASSERT_TRUE(line.offer("M30\n"));
+  EXPECT_EQ(line.say_now(), block(1, "M30\n", Check::Sum));
 }
 
 TEST(XmodemSender, SendsOnlyTheEndOfAnEmptyProgram) {
@@ -181,14 +204,14 @@ TEST(XmodemReceiver, AsksForCrcThenForTheChecksum) {
   }
   EXPECT_EQ(asked, "CCCC" + kNak);
   line.hear(block(1, "M30\n", Check::Sum));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
 }
 
 TEST(XmodemReceiver, TakesBlocksAndDropsThePadding) {
   TestedLine line = receiver(xmodem_line());
   EXPECT_EQ(line.say_now(), "C");
   line.hear(block(1, "G0\r\nM30\r\n"));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
   line.hear(kEot);
   EXPECT_EQ(line.say_now(), "") << "a lone character may be the rest of a damaged block";
   line.pass(seconds(1));
@@ -202,7 +225,7 @@ TEST(XmodemReceiver, RefusesADamagedBlockOnceTheLineIsSilent) {
   TestedLine line = receiver(xmodem_line());
   line.say_now();
   line.hear(block(1, "G0\n"));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
   std::string damaged = block(2, "M30\n");
   damaged[10] ^= 1;
   line.hear(damaged);
@@ -210,7 +233,7 @@ TEST(XmodemReceiver, RefusesADamagedBlockOnceTheLineIsSilent) {
   line.pass(seconds(1));
   EXPECT_EQ(line.say_now(), kNak);
   line.hear(block(2, "M30\n"));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
   EXPECT_EQ(line.events(), "text \"G0\\nM30\\n\"\n");
 }
 
@@ -238,17 +261,28 @@ TEST(XmodemReceiver, AcceptsARepeatedBlockWithoutItsText) {
   TestedLine line = receiver(xmodem_line());
   line.say_now();
   line.hear(block(1, "G0\n"));
+  EXPECT_EQ(answer(line), kAck);
   line.hear(block(1, "G0\n"));
-  EXPECT_EQ(line.say_now(), kAck + kAck);
+  EXPECT_EQ(answer(line), kAck);
   EXPECT_EQ(line.events(), "text \"G0\\n\"\n");
+}
+
+TEST(XmodemReceiver, RefusesABlockThatACharacterFollows) {
+  TestedLine line = receiver(xmodem_line());
+  line.say_now();
+  line.hear(block(1, "G0\n") + "X");
+  line.pass(seconds(1));
+  EXPECT_EQ(line.say_now(), "C");
+  EXPECT_EQ(line.events(), "");
 }
 
 TEST(XmodemReceiver, StopsAtABlockOutOfOrder) {
   TestedLine line = receiver(xmodem_line());
   line.say_now();
   line.hear(block(1, "G0\n"));
-  line.say_now();
+  answer(line);
   line.hear(block(3, "M30\n"));
+  line.pass(std::chrono::milliseconds(10));
   EXPECT_THAT(line.events(), HasSubstr("failed corrupt: block 3 came where block 2 belongs"));
   EXPECT_EQ(line.say_now(), kFiveCans);
 }
@@ -256,19 +290,24 @@ TEST(XmodemReceiver, StopsAtABlockOutOfOrder) {
 TEST(XmodemReceiver, TakesNoEndFromTheRestOfADamagedBlock) {
   TestedLine line = receiver(xmodem_line());
   line.say_now();
-  for (unsigned number = 1; number < 4; ++number) line.hear(block(number, "G0\n"));
-  line.say_now();
+  for (unsigned number = 1; number < 4; ++number) {
+    line.hear(block(number, "G0\n"));
+    answer(line);
+  }
+  answer(line);
   line.hear(block(4, "M30\n").substr(1));  // its number is EOT
   line.pass(seconds(1));
   EXPECT_EQ(line.say_now(), kNak);
   line.hear(block(4, "M30\n"));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
   EXPECT_EQ(line.events(), "text \"G0\\nG0\\nG0\\nM30\\n\"\n");
 }
 
 TEST(XmodemReceiver, AcceptsTheEndAgainWhenItsAnswerWasLost) {
   TestedLine line = receiver(xmodem_line());
-  line.hear(block(1, "G0\n") + kEot);
+  line.hear(block(1, "G0\n"));
+  answer(line);
+  line.hear(kEot);
   line.pass(seconds(1));
   line.hear(kEot);
   line.say_now();
@@ -291,7 +330,7 @@ TEST(XmodemReceiver, WithholdsItsAnswerWhileThereIsNoRoom) {
 TEST(XmodemReceiver, AsksAgainForALostBlockThenGivesUp) {
   TestedLine line = receiver(xmodem_line());
   line.hear(block(1, "G0\n"));
-  line.say_now();
+  answer(line);
   std::string asked;
   for (int i = 0; i < 4; ++i) {
     line.pass(seconds(10));
@@ -304,6 +343,7 @@ TEST(XmodemReceiver, AsksAgainForALostBlockThenGivesUp) {
 TEST(XmodemReceiver, GivesUpOnALineThatNeverFallsSilent) {
   TestedLine line = receiver(xmodem_line());
   line.hear(block(1, "G0\n"));
+  answer(line);
   for (int i = 0; i < 700 && line.line->state().phase == Phase::Receiving; ++i) {
     line.hear("X");
     line.pass(std::chrono::milliseconds(100));
@@ -317,7 +357,7 @@ TEST(XmodemReceiver, TakesLongBlocks) {
   std::string data(1024, 'X');
   const std::uint16_t crc = xmodem::crc16(std::as_bytes(std::span(data)));
   line.hear("\x02\x01\xfe" + data + static_cast<char>(crc >> 8) + static_cast<char>(crc & 0xff));
-  EXPECT_EQ(line.say_now(), kAck);
+  EXPECT_EQ(answer(line), kAck);
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "clients/cli/context.hpp"
+
+/// What ports there are and how they are set. Each gives the exit status.
+namespace dripline::cli {
+
+int list_ports(Context& context);
+int show_port(Context& context, const std::string& name);
+/// `name` empty: all of them.
+int list_templates(Context& context, const std::string& name);
+
+}  // namespace dripline::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "clients/cli/context.hpp"
+
+/// What passes over a line, now and lately. Each gives the exit status.
+namespace dripline::cli {
+
+struct MonitorCommand {
+  std::string name;
+  bool is_hex = false;
+};
+/// Until Ctrl-C.
+int monitor_port(Context& context, const MonitorCommand& command);
+
+struct RecordingCommand {
+  std::string name;
+  std::string output;  ///< empty: for people, on standard output
+  bool is_hex = false;
+};
+int show_recording(Context& context, const RecordingCommand& command);
+
+}  // namespace dripline::cli

@@ -1,0 +1,137 @@
+#include "clients/cli/traffic_text.hpp"
+
+#include <fmt/format.h>
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "clients/cli/terminal.hpp"
+#include "clients/cli/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+constexpr std::size_t kHexWidth = 16;   ///< bytes a line
+constexpr std::size_t kTextWidth = 96;  ///< bytes a line, when no block ends before
+constexpr double kPause = 0.5;          ///< seconds
+
+constexpr std::array<std::string_view, 32> kNames{
+    "NUL", "SOH", "STX", "ETX", "EOT", "ENQ", "ACK", "BEL", "BS",  "HT",  "LF",
+    "VT",  "FF",  "CR",  "SO",  "SI",  "DLE", "DC1", "DC2", "DC3", "DC4", "NAK",
+    "SYN", "ETB", "CAN", "EM",  "SUB", "ESC", "FS",  "GS",  "RS",  "US"};
+
+struct Kind {
+  std::string_view what, sign;
+  Style style;
+};
+constexpr std::array kKinds{
+    Kind{"sent", "→", Style::Good},   Kind{"received", "←", Style::Busy},
+    Kind{"fault", "!", Style::Bad},   Kind{"lines", "~", Style::Faint},
+    Kind{"state", "=", Style::Plain}, Kind{"lost", "!", Style::Bad},
+};
+
+Kind kind_of(std::string_view what) {
+  for (const Kind& kind : kKinds) {
+    if (kind.what == what) return kind;
+  }
+  return {what, "·", Style::Plain};
+}
+
+std::optional<std::string> bytes_of_hex(std::string_view hex) {
+  std::string bytes;
+  if (hex.size() % 2 != 0) return std::nullopt;
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    unsigned value = 0;
+    const char* first = hex.data() + i;
+    if (const auto read = std::from_chars(first, first + 2, value, 16); read.ptr != first + 2) {
+      return std::nullopt;
+    }
+    bytes += static_cast<char>(value);
+  }
+  return bytes;
+}
+
+bool is_line_end(char c) {
+  return c == '\n' || c == '\r' || c == '\0';
+}
+
+std::string hex_line(std::string_view bytes) {
+  std::string digits, text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    digits += fmt::format("{:02x} ", byte);
+    text += byte >= 0x20 && byte < 0x7F ? c : '.';
+  }
+  return fmt::format("{:<{}} {}", digits, 3 * kHexWidth, text);
+}
+
+}  // namespace
+
+std::string named_characters(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < kNames.size()) {
+      text += fmt::format("<{}>", kNames[byte]);
+    } else if (byte == 0x7F) {
+      text += "<DEL>";
+    } else if (byte > 0x7F) {
+      text += fmt::format("<{:02X}>", byte);
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string TrafficText::line(std::string_view time, std::string_view what,
+                              std::string_view text) const {
+  const Kind kind = kind_of(what);
+  return fmt::format("{}  {}  {}\n", styled(clock_text(time), Style::Faint, look_.has_colour),
+                     styled(kind.sign, kind.style, look_.has_colour),
+                     styled(text, kind.style, look_.has_colour));
+}
+
+std::string TrafficText::flush() {
+  if (bytes_.empty()) return {};
+  std::string out =
+      line(first_time_, what_, look_.is_hex ? hex_line(bytes_) : named_characters(bytes_));
+  bytes_.clear();
+  return out;
+}
+
+bool TrafficText::joins(const client::Traffic& traffic) const {
+  return traffic.what == what_ && seconds_between(last_time_, traffic.time) < kPause;
+}
+
+/// `next` would begin a line of its own.
+bool TrafficText::is_full(char next) const {
+  if (bytes_.empty()) return false;
+  if (look_.is_hex) return bytes_.size() >= kHexWidth;
+  return bytes_.size() >= kTextWidth || (is_line_end(bytes_.back()) && !is_line_end(next));
+}
+
+void TrafficText::append(std::string& out, std::string_view bytes, const client::Traffic& traffic) {
+  for (const char c : bytes) {
+    if (is_full(c)) out += flush();
+    if (bytes_.empty()) first_time_ = traffic.time;
+    bytes_ += c;
+  }
+  last_time_ = traffic.time;
+}
+
+std::string TrafficText::add(const client::Traffic& traffic) {
+  std::string out;
+  if (!joins(traffic)) out = flush();
+  what_ = traffic.what;
+  if (traffic.what != "sent" && traffic.what != "received") {
+    return out + line(traffic.time, traffic.what, printable(traffic.text));
+  }
+  if (const auto bytes = bytes_of_hex(traffic.bytes)) {
+    append(out, *bytes, traffic);
+    return out;
+  }
+  return out + line(traffic.time, traffic.what, printable(traffic.bytes));
+}
+
+}  // namespace dripline::cli

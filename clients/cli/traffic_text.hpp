@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "clients/lib/api_types.hpp"
+
+namespace dripline::cli {
+
+/// "N10 G01<CR><LF>": control characters by their names, bytes over 0x7F as `<B1>`.
+std::string named_characters(std::string_view bytes);
+
+/// Turns what passed over a line into lines for people: time, direction, and the characters as text
+/// or in hexadecimal. Characters of one direction are put together up to the end of a block, a
+/// pause of half a second, or the width of a line. Pure.
+class TrafficText {
+ public:
+  struct Look {
+    bool is_hex = false;
+    bool has_colour = false;
+  };
+  explicit TrafficText(Look look) : look_(look) {}
+
+  /// The lines that are complete now, each with its line end. Errors in what the server said
+  /// (digits that are none) are shown as they are.
+  std::string add(const client::Traffic& traffic);
+  /// What still waits for more of its kind.
+  std::string flush();
+
+ private:
+  bool joins(const client::Traffic& traffic) const;
+  bool is_full(char next) const;
+  void append(std::string& out, std::string_view bytes, const client::Traffic& traffic);
+  std::string line(std::string_view time, std::string_view what, std::string_view text) const;
+
+  const Look look_;
+  std::string what_, first_time_, last_time_, bytes_;
+};
+
+}  // namespace dripline::cli

@@ -1,0 +1,39 @@
+#include "clients/lib/impl/request.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dripline::client::impl {
+
+HttpRequest get(std::string path) {
+  HttpRequest request;
+  request.path = std::move(path);
+  return request;
+}
+
+HttpRequest with_method(std::string method, std::string path) {
+  HttpRequest request = get(std::move(path));
+  request.method = std::move(method);
+  return request;
+}
+
+std::string path_of(std::string_view collection) {
+  return std::string("/api/v1/") + std::string(collection);
+}
+
+std::string path_of(std::string_view collection, std::string_view item) {
+  return path_of(collection) + "/" + url_encode(item);
+}
+
+std::string with_query(std::string path, std::string_view key, std::string_view value) {
+  if (value.empty()) return path;
+  path += path.find('?') == std::string::npos ? '?' : '&';
+  path += key;
+  path += '=';
+  return path + url_encode(value);
+}
+
+std::string dumped(const nlohmann::json& body) {
+  return body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace dripline::client::impl

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "clients/lib/http.hpp"
+
+/// How the calls of Client put their requests together. Pure.
+namespace dripline::client::impl {
+
+HttpRequest get(std::string path);
+HttpRequest with_method(std::string method, std::string path);
+/// `/api/v1/COLLECTION` and, percent-encoded, `/ITEM`.
+std::string path_of(std::string_view collection);
+std::string path_of(std::string_view collection, std::string_view item);
+/// Adds `key=value` to a path's query; nothing for an empty value.
+std::string with_query(std::string path, std::string_view key, std::string_view value);
+/// A body; bytes that are not UTF-8 are replaced.
+std::string dumped(const nlohmann::json& body);
+
+}  // namespace dripline::client::impl

@@ -1,0 +1,64 @@
+// The calls of Client that concern serial ports.
+#include "clients/lib/api_json.hpp"
+#include "clients/lib/client.hpp"
+#include "clients/lib/impl/request.hpp"
+
+namespace dripline::client {
+
+using impl::dumped;
+using impl::get;
+using impl::path_of;
+using impl::with_method;
+
+Reply<std::vector<Port>> Client::ports() {
+  return fetch_list<Port>(path_of("ports"), "ports");
+}
+
+Reply<Port> Client::port(std::string_view name) {
+  return fetch<Port>(get(path_of("ports", name)));
+}
+
+Reply<Port> Client::save_port(const PortRequest& request) {
+  nlohmann::json json{{"machine", request.machine},
+                      {"address", request.address},
+                      {"settings", request.settings},
+                      {"enabled", request.enabled}};
+  if (!request.line_template.empty()) json["template"] = request.line_template;
+  if (!request.rules.empty()) json["rules"] = request.rules;
+  const std::string body = dumped(json);
+  HttpRequest http = with_method("PUT", path_of("ports", request.name));
+  http.body = body;
+  return fetch<Port>(http);
+}
+
+Reply<void> Client::remove_port(std::string_view name) {
+  auto response = exchange(with_method("DELETE", path_of("ports", name)));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<PortTest> Client::test_port(std::string_view name) {
+  return fetch<PortTest>(with_method("POST", path_of("ports", name) + "/test"));
+}
+
+Reply<RuleVerdict> Client::test_rules(std::string_view name, std::string_view text) {
+  const std::string body = dumped({{"text", text}});
+  HttpRequest http = with_method("POST", path_of("ports", name) + "/test-rules");
+  http.body = body;
+  return fetch<RuleVerdict>(http);
+}
+
+Reply<void> Client::recording(std::string_view name,
+                              const std::function<bool(std::string_view)>& sink) {
+  HttpRequest request = get(path_of("ports", name) + "/recording");
+  request.on_body = sink;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<PortTemplates> Client::port_templates() {
+  return fetch<PortTemplates>(get(path_of("port-templates")));
+}
+
+}  // namespace dripline::client

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/serial/line_driver.hpp"
+
+namespace dripline::feed {
+
+/// What came over a line, in order.
+struct LineItem {
+  enum class What : std::uint8_t {
+    Began,    ///< a program; `text` is its name, may be empty
+    Text,     ///< of the program
+    Ended,    ///< all of it came
+    Failed,   ///< no more of it comes; `text` says why
+    Offered,  ///< the host wants to send one, `text` is its name: answer with `expect`
+    Asked,    ///< the host wants one, `text` is its name
+    Trouble,  ///< something else was wrong; `text` says what
+    Channel,  ///< the line is open (empty text), or why it is not
+  };
+  What what = What::Text;
+  std::string text;
+};
+
+/// A control's end of a line: takes programs into a memory of limited size, holds the sender while
+/// that is full, and sends text back. The line has a thread of its own; everything here may be
+/// called from one other thread. Bounds: the memory, plus what the sender sends after being held
+/// (beyond kMaxOverrun the program fails); kMaxOutput of text to be sent.
+class ControlLine {
+ public:
+  struct Parts {
+    std::string address;
+    wire::LineSettings settings;
+    std::size_t buffer_bytes = 64 * 1024;  ///< the control's memory for a program being fed
+    /// Something is there for `take`; called on the line's thread.
+    std::function<void()> wake;
+    std::function<Result<std::unique_ptr<serial::Channel>>()> open = {};  ///< for tests
+  };
+  /// The channel may come later. Errors: Unsupported (settings that exclude each other).
+  static Result<std::unique_ptr<ControlLine>> start(Parts parts);
+  ControlLine(const ControlLine&) = delete;
+  ControlLine& operator=(const ControlLine&) = delete;
+
+  /// Everything since the last call.
+  std::vector<LineItem> take();
+  /// So much of the text taken is used up: its memory is free.
+  void release(std::size_t bytes);
+
+  /// Listens for a program, or asks for one by `request`, as soon as the line is not busy sending.
+  /// What is wrong with that comes as Trouble; on a line that is listening it means nothing.
+  void expect(const wire::TransferRequest* request = nullptr);
+  void refuse(std::string reason);
+  /// Gives up the program that is coming, and tells the host where the protocol can.
+  void abort();
+  /// Sends text when the line lets it, behind everything sent before. False: no room for it.
+  bool send(std::string_view text);
+  /// Nothing has come for so long that what comes next is something new.
+  bool is_quiet() const;
+  /// Everything sent has left, or could not.
+  bool has_sent_all() const;
+
+  bool is_open() const { return driver_->is_open(); }
+  wire::LineState state() const { return driver_->state(); }
+  const std::string& address() const { return parts_.address; }
+  const wire::LineSettings& settings() const { return parts_.settings; }
+
+  static constexpr std::size_t kMaxOverrun = 64 * 1024;
+  static constexpr std::size_t kMaxOutput = 1024 * 1024;
+  static constexpr std::size_t kMaxItems = 4096;
+
+ private:
+  explicit ControlLine(Parts parts) : parts_(std::move(parts)) {}
+  // On the line's thread
+  void on_event(wire::Event& event);
+  void on_text(std::string&& text);
+  void listen(wire::Discipline& end, wire::LineTime now);
+  void pump(wire::Discipline& end, wire::LineTime now);
+  void post_pump();
+  void go_on();
+  void put(LineItem::What what, std::string text);
+
+  Parts parts_;
+  mutable std::mutex mutex_;
+  std::vector<LineItem> items_;
+  std::size_t held_ = 0;  ///< bytes of text not released
+  bool is_ready_ = true;
+  std::string output_;
+  enum class Sending : std::uint8_t { Nothing, Text, End } sending_ = Sending::Nothing;
+  bool is_overrun_ = false;
+  bool is_expecting_ = false;                     ///< on the line's thread, like what follows
+  std::optional<wire::TransferRequest> request_;  ///< to be made; nothing: only listens
+  std::atomic<std::int64_t> heard_{0};            ///< steady nanoseconds
+  std::unique_ptr<serial::LineDriver> driver_;    ///< last: its thread ends first
+};
+
+}  // namespace dripline::feed

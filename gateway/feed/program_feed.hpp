@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/interpreter/program_source.hpp"
+#include "protocol/base/clock.hpp"
+#include "protocol/base/digest.hpp"
+#include "protocol/dds/message.hpp"
+
+namespace dripline::feed {
+
+/// A run's text together with what its owner must know of its arrival. What a kind of feed has no
+/// use for does nothing. One thread, the one that steps the interpreter.
+class ProgramFeed : public interpreter::ProgramSource {
+ public:
+  /// An answer from the server. Anything that is not of this run and session is ignored.
+  virtual void on_data(const dds::BlockData& /*data*/, SteadyTime /*now*/) {}
+  /// Sends the requests that are due. Cheap when nothing is missing.
+  virtual void poll(SteadyTime /*now*/) {}
+  /// When poll has something to do without anything else happening; nullopt: never.
+  virtual std::optional<SteadyTime> next_poll() const { return std::nullopt; }
+  /// A server has (re)appeared: everything missing is asked for at once.
+  virtual void ask_again() {}
+  /// How fast the text is used up; nullopt: as fast as possible.
+  virtual void set_consumption(std::optional<double> /*bytes_per_second*/) {}
+
+  /// The *sent* counter: bytes of the main program received without a gap from its beginning.
+  virtual std::uint64_t sent() const = 0;
+  /// SHA-256 of the first content_length() bytes.
+  virtual Digest content_digest() const = 0;
+  virtual std::uint64_t content_length() const = 0;
+};
+
+}  // namespace dripline::feed

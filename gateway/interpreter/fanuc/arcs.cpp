@@ -1,0 +1,202 @@
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/fanuc/motion.hpp"
+#include "gateway/interpreter/fanuc/path.hpp"
+#include "gateway/interpreter/fanuc/tool_offsets.hpp"
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kSamePoint = 1e-6;
+
+/// A point of the plane in the order of its axes.
+struct Flat {
+  double first = 0;
+  double second = 0;
+};
+
+std::size_t place(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+double distance(const Flat& a, const Flat& b) {
+  return std::hypot(a.first - b.first, a.second - b.second);
+}
+double direction(const Flat& from, const Flat& to) {
+  return std::atan2(to.second - from.second, to.first - from.first) * (180.0 / Angle::kPi);
+}
+
+double sweep_of(const Flat& start, const Flat& end, const Flat& centre, Turn turn) {
+  if (distance(start, end) <= kSamePoint) return 360;
+  double sweep = direction(centre, end) - direction(centre, start);
+  if (turn == Turn::Clockwise) sweep = -sweep;
+  while (sweep <= 0) sweep += 360;
+  while (sweep > 360) sweep -= 360;
+  return sweep;
+}
+
+/// The words of one arc in program coordinates.
+struct ArcWords {
+  PlaneAxes axes{};
+  Turn turn = Turn::Clockwise;
+  Point3 start{};
+  Point3 end{};
+  Flat centre;
+};
+
+Flat flat(const ArcWords& arc, const Point3& point) {
+  return {point[place(arc.axes.first)], point[place(arc.axes.second)]};
+}
+
+constexpr std::array<Address, 3> kOffsetOf{I, J, K};
+
+/// The centre of an arc of radius R; the short one when R > 0.
+bool centre_by_radius(Run& run, double radius, ArcWords& arc) {
+  const Flat start = flat(arc, arc.start);
+  const Flat end = flat(arc, arc.end);
+  const double chord = distance(start, end);
+  double size = std::fabs(radius);
+  if (chord / 2 > size) {
+    const double missing = chord / 2 - size;
+    if (missing > run.options.arc_error && !run.options.short_radius_is_semicircle) {
+      return run.fail(ErrorCode::IllegalRadius, run.block.words.column(R),
+                      fmt::format("R{} does not span {}", run.in_units(Axis::X, radius),
+                                  run.in_units(Axis::X, chord)));
+    }
+    size = chord / 2;
+  }
+  const double height = std::sqrt(std::max(0.0, size * size - chord * chord / 4));
+  // The centre of a short counterclockwise arc lies to the left of the way from start to end.
+  const double side = (radius > 0) == (arc.turn == Turn::Clockwise) ? -height : height;
+  const double along_first = (end.first - start.first) / chord;
+  const double along_second = (end.second - start.second) / chord;
+  arc.centre = {(start.first + end.first) / 2 - side * along_second,
+                (start.second + end.second) / 2 + side * along_first};
+  return true;
+}
+
+bool centre_by_offsets(Run& run, ArcWords& arc) {
+  const Words& words = run.block.words;
+  arc.centre = flat(arc, arc.start);
+  const Address first = kOffsetOf[place(arc.axes.first)];
+  const Address second = kOffsetOf[place(arc.axes.second)];
+  const Address third = kOffsetOf[place(arc.axes.normal)];
+  if (words.has(third)) return run.fail(ErrorCode::IllegalPlaneAxis, words.column(third));
+  if (words.has(first)) arc.centre.first += run.length(words[first]);
+  if (words.has(second)) arc.centre.second += run.length(words[second]);
+  const double start_radius = distance(arc.centre, flat(arc, arc.start));
+  const double end_radius = distance(arc.centre, flat(arc, arc.end));
+  if (start_radius <= kSamePoint) {
+    return run.fail(ErrorCode::NoRadius, words.first_column(kCentreWords),
+                    "the centre is the start");
+  }
+  const double error = std::fabs(start_radius - end_radius);
+  if (run.options.arc_error > 0 && error > run.options.arc_error) {
+    return run.fail(ErrorCode::RadiusTolerance, words.first_column(kCentreWords),
+                    fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
+  }
+  return true;
+}
+
+/// An end that unequal factors have put off the circle is reached straight.
+bool emit(Run& run, const ArcWords& words, const Position& end) {
+  ModalState& state = run.state;
+  Point3 centre = words.start;
+  centre[place(words.axes.first)] = words.centre.first;
+  centre[place(words.axes.second)] = words.centre.second;
+  Arc arc;
+  arc.plane = state.plane();
+  arc.turn = words.turn;
+  arc.feed = run.active_feed();
+  arc.to = end;
+  if (state.is_transformed) {
+    centre = transform(state, centre);
+    if (is_plane_mirrored(state, arc.plane)) {
+      arc.turn = arc.turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
+    }
+  }
+  const auto in_machine = [&](Axis axis) {
+    return centre[place(axis)] + state.origin[place(axis)];
+  };
+  const Flat middle{in_machine(words.axes.first), in_machine(words.axes.second)};
+  const Flat start{state.position.raw(words.axes.first), state.position.raw(words.axes.second)};
+  const Flat stop{end.raw(words.axes.first), end.raw(words.axes.second)};
+  arc.center_first = Length::mm(middle.first);
+  arc.center_second = Length::mm(middle.second);
+  arc.sweep = Angle::degrees(sweep_of(start, stop, middle, arc.turn));
+  const double radius = distance(middle, start);
+  const double reach = distance(middle, stop);
+  const double error = std::fabs(radius - reach);
+  if (!state.is_transformed || error <= std::fmax(run.options.arc_error, kSamePoint) ||
+      reach == 0) {
+    return arc_to(run, arc);
+  }
+  arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
+  arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
+  return arc_to(run, arc) && line_to(run, end, arc.feed);
+}
+
+/// G45 to G48 on a quarter: the radius grows or shrinks with the end.
+bool offset_arc(Run& run, ArcWords& arc, Position& end) {
+  const Flat start = flat(arc, arc.start);
+  const double sweep = sweep_of(start, flat(arc, arc.end), arc.centre, arc.turn);
+  constexpr double kClose = 1e-3;
+  const bool is_quarter = std::fabs(sweep - 90) < kClose || std::fabs(sweep - 270) < kClose;
+  if (!is_quarter || run.state.is_transformed || run.block.words.has(R)) {
+    return run.fail(ErrorCode::OffsetArc, run.block.parts.g_column);
+  }
+  const Position plain = end;
+  if (!offset_target(run, end)) return false;
+  const double change = std::fabs(end.raw(arc.axes.first) - plain.raw(arc.axes.first));
+  const double way = plain.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
+  const double moved = end.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
+  const double grown = std::fabs(moved) < std::fabs(way) ? -change : change;
+  const double radius = distance(arc.centre, start);
+  const double factor = (radius + grown) / radius;
+  if (!(factor > 0)) return run.fail(ErrorCode::OffsetArc, run.block.parts.g_column);
+  arc.centre = {start.first + (arc.centre.first - start.first) * factor,
+                start.second + (arc.centre.second - start.second) * factor};
+  return true;
+}
+
+}  // namespace
+
+bool move_on_arc(Run& run) {
+  const Words& words = run.block.words;
+  const ModalState& state = run.state;
+  if (!words.has_any(kAxisWords | kCentreWords)) return true;  // R alone: end and start are one
+  if (words.has_any(kAxisWords & ~set_of(X, Y, Z))) {
+    return run.fail(ErrorCode::IllegalPlaneAxis, words.first_column(kAxisWords & ~set_of(X, Y, Z)));
+  }
+  if (state.g[kRotationGroup] == 68 && state.rotation.plane != state.plane()) {
+    return run.fail(ErrorCode::RotationPlane, words.first_column(kAxisWords | kCentreWords));
+  }
+  Position end;
+  if (!read_target(run, end) || !check_feed(run)) return false;
+  ArcWords arc;
+  arc.axes = axes_of(state.plane());
+  arc.turn = state.g[kMotionGroup] == 2 ? Turn::Clockwise : Turn::CounterClockwise;
+  arc.start = program_position(run);
+  const Point3 work_end{end.raw(Axis::X) - state.origin[0], end.raw(Axis::Y) - state.origin[1],
+                        end.raw(Axis::Z) - state.origin[2]};
+  arc.end = state.is_transformed ? transform_back(state, work_end) : work_end;
+  if (words.has(R) && run.length(words[R]) != 0) {
+    if (distance(flat(arc, arc.start), flat(arc, arc.end)) <= kSamePoint) {
+      return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
+    }
+    if (!centre_by_radius(run, run.length(words[R]), arc)) return false;
+  } else if (words.has_any(kCentreWords)) {
+    if (!centre_by_offsets(run, arc)) return false;
+  } else {
+    if (run.options.arc_needs_centre) {
+      return run.fail(ErrorCode::NoRadius, words.first_column(kAxisWords));
+    }
+    return line_to(run, end, run.active_feed());
+  }
+  const std::uint8_t one_shot = run.block.parts.one_shot;
+  if (one_shot >= 45 && one_shot <= 48 && !offset_arc(run, arc, end)) return false;
+  return emit(run, arc, end);
+}
+
+}  // namespace dripline::interpreter::fanuc

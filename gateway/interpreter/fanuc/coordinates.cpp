@@ -1,0 +1,128 @@
+#include "gateway/interpreter/fanuc/coordinates.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/fanuc/cutter_compensation.hpp"
+#include "gateway/interpreter/fanuc/tool_offsets.hpp"
+#include "gateway/interpreter/fanuc/transformation.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
+
+/// `use(index, value)` for every axis word of the block.
+template <class Use>
+void each_axis_word(const Run& run, Use use) {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const Address address = kWordOfAxis[i];
+    if (run.block.words.has(address)) {
+      use(i, run.coordinate(static_cast<Axis>(i), run.block.words[address]));
+    }
+  }
+}
+
+bool refuse_transformed(Run& run, ErrorCode code) {
+  return run.fail(code, run.block.parts.g_column);
+}
+
+/// G10 L2 and L20: zero offsets.
+bool set_work_offset(Run& run, bool more) {
+  const Words& words = run.block.words;
+  const double number = words.has(P) ? run.whole(words[P]) : 0;
+  const double most = more ? kMoreWorkCount : 6;
+  if (!(number >= (more ? 1 : 0) && number <= most)) {
+    return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("P{}", number));
+  }
+  const auto system = static_cast<std::size_t>(number) + (more ? 6 : 0);
+  AxisValues& offset = run.memory.coordinates.work[system];
+  const bool adds = run.state.is_incremental();
+  each_axis_word(
+      run, [&](std::size_t i, double value) { offset[i] = adds ? offset[i] + value : value; });
+  interrupt_compensation(run);
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+}  // namespace
+
+bool select_work_system(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  const std::uint8_t code = run.block.g[kWorkGroup];
+  if (state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  if (code == kMoreWorkSystems) {
+    const double number = words.has(P) ? run.whole(words[P]) : 1;
+    if (!(number >= 1 && number <= kMoreWorkCount)) {
+      return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("G54.1 P{}", number));
+    }
+    run.memory.coordinates.more_work = static_cast<int>(number);
+  }
+  interrupt_compensation(run);
+  state.g[kWorkGroup] = code;
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_local_zero(Run& run) {
+  if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  interrupt_compensation(run);
+  each_axis_word(run,
+                 [&](std::size_t i, double value) { run.memory.coordinates.local[i] = value; });
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_position(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  if (words.has_any(kAxisWords) && state.is_transformed) {
+    return refuse_transformed(run, ErrorCode::PositionUnderTransform);
+  }
+  interrupt_compensation(run);
+  Coordinates& all = run.memory.coordinates;
+  each_axis_word(run, [&](std::size_t i, double value) {
+    const auto axis = static_cast<Axis>(i);
+    // The local zero of the axis goes; what is left makes this place `value`. Positions leave the
+    // tool's length out already, so that they are those of the tip.
+    const double without = state.origin[i] - all.shift[i] - all.local[i];
+    all.local[i] = 0;
+    all.shift[i] = state.position.raw(axis) - without - value;
+  });
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_data(Run& run) {
+  const Words& words = run.block.words;
+  const double list = words.has(L) ? run.whole(words[L]) : 1;
+  if (list == 2 || list == 20) {
+    if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+    return set_work_offset(run, list == 20);
+  }
+  if (list == 1 || (list >= 10 && list <= 13)) return set_offset_data(run, static_cast<int>(list));
+  return run.fail(ErrorCode::IllegalPInG10, words.column(L), fmt::format("G10 L{}", list));
+}
+
+bool set_stroke_zone(Run& run) {
+  ModalState& state = run.state;
+  const std::uint8_t code = run.block.g[kStrokeGroup];
+  state.g[kStrokeGroup] = code;
+  state.zone.is_on = code == 22;
+  if (code == 23) return true;
+  constexpr std::array<Address, 3> kOneCorner{X, Y, Z};
+  constexpr std::array<Address, 3> kOther{I, J, K};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Words& words = run.block.words;
+    if (words.has(kOneCorner[i])) state.zone.high[i] = run.length(words[kOneCorner[i]]);
+    if (words.has(kOther[i])) state.zone.low[i] = run.length(words[kOther[i]]);
+    if (state.zone.low[i] > state.zone.high[i]) std::swap(state.zone.low[i], state.zone.high[i]);
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,99 @@
+#include "gateway/interpreter/fanuc/cutter_compensation.hpp"
+
+#include "gateway/interpreter/fanuc/run.hpp"
+#include "gateway/interpreter/fanuc/tool_offsets.hpp"
+#include "gateway/interpreter/fanuc/transformation.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+using compensation::FaultKind;
+
+compensation::Cutter cutter_of(const Run& run) {
+  compensation::Cutter cutter;
+  cutter.plane = run.state.plane();
+  cutter.side =
+      run.state.g[kCompensationGroup] == 41 ? compensation::Side::Left : compensation::Side::Right;
+  cutter.radius = Length::mm(radius_of_offset(run, run.state.d_number));
+  if (run.state.is_transformed && is_plane_mirrored(run.state, run.state.plane())) {
+    cutter.side = cutter.side == compensation::Side::Left ? compensation::Side::Right
+                                                          : compensation::Side::Left;
+  }
+  return cutter;
+}
+
+ErrorCode code_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::NoIntersection:
+      return ErrorCode::NoSolution;
+    case FaultKind::StartUpNotStraight:
+    case FaultKind::CancelNotStraight:
+      return ErrorCode::ArcAtStartUp;
+    case FaultKind::OtherPlane:
+      return ErrorCode::PlaneInCompensation;
+    default:
+      return ErrorCode::Interference;
+  }
+}
+
+void turn_on(Run& run) {
+  ModalState& state = run.state;
+  if (!state.uses_compensator) {
+    run.events();  // the header first
+    run.compensator.reset(state.position);
+    state.uses_compensator = true;
+  }
+  run.compensator.turn_on(cutter_of(run));
+}
+
+}  // namespace
+
+compensation::Policy policy_of(const ControlOptions& options) {
+  compensation::Policy policy;
+  if (options.start_up_b) {
+    policy.start_up = compensation::StartUp::Corner;
+    policy.cancel = compensation::Cancel::Corner;
+  }
+  return policy;
+}
+
+bool apply_compensation(Run& run) {
+  ModalState& state = run.state;
+  const Block& block = run.block;
+  const bool was_on = state.is_compensating();
+  if (was_on && block.names(kPlaneGroup) && block.g[kPlaneGroup] != state.g[kPlaneGroup]) {
+    return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);
+  }
+  if (block.words.has(D) && !read_offset_number(run, D, state.d_number)) return false;
+  if (!block.names(kCompensationGroup)) {
+    if (was_on && block.words.has(D)) turn_on(run);
+    return true;
+  }
+  const std::uint8_t code = block.g[kCompensationGroup];
+  const bool changes = code != state.g[kCompensationGroup] || block.words.has(D);
+  state.g[kCompensationGroup] = code;
+  if (code != 40) {
+    if (changes) turn_on(run);
+  } else if (was_on) {
+    run.compensator.turn_off();
+  }
+  return true;
+}
+
+void interrupt_compensation(Run& run) {
+  if (run.state.uses_compensator && run.state.is_compensating()) run.compensator.leave();
+}
+
+void resume_compensation(Run& run) {
+  if (!run.state.uses_compensator || !run.state.is_compensating()) return;
+  run.compensator.turn_on(cutter_of(run));
+}
+
+bool check_compensation(Run& run) {
+  const auto& fault = run.compensator.fault();
+  if (!fault) return true;
+  run.origin.line = fault->origin.line;
+  return run.fail(code_of(fault->kind), 0, compensation::describe(*fault));
+}
+
+}  // namespace dripline::interpreter::fanuc

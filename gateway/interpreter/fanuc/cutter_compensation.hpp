@@ -1,0 +1,21 @@
+#pragma once
+
+#include "gateway/interpreter/compensation/policy.hpp"
+#include "gateway/interpreter/fanuc/options.hpp"
+
+/// Cutter compensation C: how G40, G41, G42 and D drive the shared stage that offsets the path.
+namespace dripline::interpreter::fanuc {
+
+struct Run;
+
+compensation::Policy policy_of(const ControlOptions& options);
+
+/// G40, G41, G42 and D of the block, before its motion. False: an alarm.
+bool apply_compensation(Run& run);
+/// What interrupts compensation calls `interrupt` before and `resume` after its moves.
+void interrupt_compensation(Run& run);
+void resume_compensation(Run& run);
+/// False: the alarm of a contour that can not be offset.
+bool check_compensation(Run& run);
+
+}  // namespace dripline::interpreter::fanuc

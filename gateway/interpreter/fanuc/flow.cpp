@@ -1,0 +1,409 @@
+#include "gateway/interpreter/fanuc/flow.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/fanuc/call_arguments.hpp"
+#include "gateway/interpreter/fanuc/machine_functions.hpp"
+#include "gateway/interpreter/fanuc/variables.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+std::size_t loop_base(const ModalState& state) {
+  return state.calls.empty() ? 0 : state.calls.back().loop_base;
+}
+
+bool refuse_two(Run& run) {
+  return run.fail(ErrorCode::ImproperCommand, 0, "two calls or ends in one block");
+}
+
+/// Something that could go on for ever has happened once more.
+bool count_jump_back(Run& run) {
+  if (++run.state.limits.jumps_back <= run.options.max_loops) return true;
+  return run.fail(ErrorCode::LoopLimit, 0,
+                  fmt::format("more than {} jumps back", run.options.max_loops));
+}
+
+void open_call(Run& run, CallKind kind, std::uint32_t program, std::uint32_t passes) {
+  Jump& jump = run.state.jump;
+  jump = Jump{};
+  jump.kind = JumpKind::Call;
+  jump.call = kind;
+  jump.number = program;
+  jump.passes = passes;
+  jump.from = run.state.at;
+}
+
+/// P of M98: a program, with repeats before its last four digits where the form allows.
+bool plan_subprogram(Run& run, int code) {
+  const Words& words = run.block.words;
+  const CallForm form = run.options.call_form;
+  if (run.options.is_dnc && code == 198) return run.fail(ErrorCode::ExternalCall, 0);
+  if (!words.has(P)) return run.fail(ErrorCode::NoP, 0);
+  const double value = run.whole(words[P]);
+  const bool takes_l = form != CallForm::EightDigits && words.has(L);
+  const bool splits = form != CallForm::L && !takes_l;
+  if (!(value >= 1 && value <= (splits ? 99'999'999 : 9999)) || value != std::trunc(value)) {
+    return run.fail(ErrorCode::NumberNotFound, words.column(P), fmt::format("P{}", value));
+  }
+  auto program = static_cast<std::uint32_t>(value);
+  std::uint32_t passes = 1;
+  if (program > 9999) {
+    passes = program / 10000;
+    program %= 10000;
+  }
+  if (takes_l) {
+    const double repeats = run.whole(words[L]);
+    if (!(repeats >= 1 && repeats <= 9999)) {
+      return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", repeats));
+    }
+    passes = static_cast<std::uint32_t>(repeats);
+  }
+  if (program == 0) return run.fail(ErrorCode::NumberNotFound, words.column(P), "O0000");
+  open_call(run, CallKind::Subprogram, program, passes);
+  return true;
+}
+
+bool plan_return(Run& run) {
+  const Words& words = run.block.words;
+  run.block.parts.ending = Ending::Return;
+  if (!words.has(P)) return true;
+  const double value = run.whole(words[P]);
+  if (!(value >= 1 && value <= 99999)) {
+    return run.fail(ErrorCode::SequenceNotFound, words.column(P), fmt::format("P{}", value));
+  }
+  run.block.parts.ending_number = static_cast<std::uint32_t>(value);
+  return true;
+}
+
+void end_program(Run& run, std::uint64_t blocks, bool rewind) {
+  all_off(run);
+  if (run.state.uses_compensator && run.state.is_compensating()) run.compensator.leave();
+  run.events().on_end({run.origin, blocks, rewind});
+  run.state.phase = RunPhase::Ended;
+}
+
+void drop_frame(ModalState& state) {
+  const CallFrame& frame = state.calls.back();
+  state.loops.resize(std::min<std::size_t>(state.loops.size(), frame.loop_base));
+  state.modals.resize(std::min<std::size_t>(state.modals.size(), frame.modal_count));
+  state.modal_active = frame.modal_active;
+  if (frame.kind != CallKind::Subprogram) state.locals.pop_back();
+  state.calls.pop_back();
+}
+
+void begin_pass(ModalState& state) {
+  CallFrame& frame = state.calls.back();
+  state.loops.resize(std::min<std::size_t>(state.loops.size(), frame.loop_base));
+  if (frame.kind != CallKind::Subprogram) state.locals.back() = frame.arguments;
+  state.at = frame.entry;
+}
+
+void open_goto(Run& run, std::uint32_t number) {
+  Jump& jump = run.state.jump;
+  jump = Jump{};
+  jump.kind = JumpKind::Goto;
+  jump.is_return = true;
+  jump.number = number;
+  jump.from = run.state.at;
+}
+
+/// M99 of the main program: from its head again, or to a block.
+bool go_round(Run& run, std::uint32_t number) {
+  ModalState& state = run.state;
+  if (run.options.is_dnc) {
+    if (number != 0) return run.fail(ErrorCode::MacroInDnc, 0, "M99 P");
+    run.warn(WarningCode::EndOfTapeByReturn, 0);
+    end_program(run, state.blocks + 1, false);
+    return true;
+  }
+  if (!count_jump_back(run)) return false;
+  if (number != 0) {
+    open_goto(run, number);
+    return true;
+  }
+  state.loops.clear();
+  state.at.offset = state.at.segment_offset;
+  state.at.line = state.at.segment_line;
+  state.at.code_seen = false;
+  return true;
+}
+
+bool return_from_call(Run& run, std::uint32_t number) {
+  ModalState& state = run.state;
+  if (state.calls.empty()) return go_round(run, number);
+  CallFrame& frame = state.calls.back();
+  if (frame.passes_left > 0) {
+    --frame.passes_left;
+    if (!count_jump_back(run)) return false;
+    begin_pass(state);
+    return true;
+  }
+  state.at = frame.back;
+  drop_frame(state);
+  run.update_special();
+  if (number == 0) return true;
+  if (run.options.is_dnc && state.at.program == kMainProgram) {
+    return run.fail(ErrorCode::MacroInDnc, 0, "M99 P into the program from the line");
+  }
+  open_goto(run, number);
+  return true;
+}
+
+bool return_to_loop(Run& run, std::uint64_t block_offset) {
+  ModalState& state = run.state;
+  if (state.loops.size() <= loop_base(state) || state.loops.back().end_offset != block_offset ||
+      state.loops.back().number != run.block.parts.loop_number) {
+    return run.fail(ErrorCode::MissingEnd, run.block.parts.statement_column, "END without its DO");
+  }
+  if (!count_jump_back(run)) return false;
+  state.at = state.loops.back().head;
+  state.loops.pop_back();
+  return true;
+}
+
+bool check_depth(Run& run) {
+  const ModalState& state = run.state;
+  const bool is_subprogram = state.jump.call == CallKind::Subprogram;
+  const auto same = std::count_if(state.calls.begin(), state.calls.end(),
+                                  [is_subprogram](const CallFrame& frame) {
+                                    return (frame.kind == CallKind::Subprogram) == is_subprogram;
+                                  });
+  const std::size_t most = is_subprogram ? run.options.max_call_depth : kMostMacroLevels - 1;
+  if (static_cast<std::size_t>(same) < most && state.calls.size() < run.options.max_nesting) {
+    return true;
+  }
+  return run.fail(ErrorCode::Nesting, 0,
+                  fmt::format("O{:04} is called too deep", state.jump.number));
+}
+
+JumpOutcome enter_call(Run& run, const TextPosition& entry) {
+  ModalState& state = run.state;
+  if (!check_depth(run)) return JumpOutcome::Failed;
+  const Jump& jump = state.jump;
+  CallFrame frame;
+  frame.kind = jump.call;
+  frame.back = state.at;
+  frame.entry = entry;
+  frame.arguments = jump.arguments;
+  frame.passes_left = jump.passes - 1;
+  frame.loop_base = static_cast<std::uint8_t>(state.loops.size());
+  frame.modal_active = state.modal_active;
+  frame.modal_count = static_cast<std::uint8_t>(state.modals.size());
+  if (jump.call == CallKind::Modal && jump.modal >= 0) {
+    state.modal_active = state.modals[static_cast<std::size_t>(jump.modal)].outer;
+  }
+  if (frame.kind != CallKind::Subprogram) state.locals.push_back(frame.arguments);
+  state.calls.push_back(frame);
+  state.at = entry;
+  run.update_special();
+  return JumpOutcome::Taken;
+}
+
+JumpOutcome call_library(Run& run) {
+  const std::uint32_t number = run.state.jump.number;
+  const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", number));
+  run.text.forget();
+  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotFound) {
+    run.fail(ErrorCode::NumberNotFound, 0, fmt::format("O{:04}", number));
+    return JumpOutcome::Failed;
+  }
+  TextPosition entry;
+  entry.program = lookup.program;
+  return enter_call(run, entry);
+}
+
+JumpOutcome enter_loop(Run& run, const LoopFrame& loop) {
+  ModalState& state = run.state;
+  if (!state.jump.condition) {
+    state.at = loop.next;
+    return JumpOutcome::Taken;
+  }
+  if (state.loops.size() - loop_base(state) >= OpenLoops::kMost) {
+    run.fail(ErrorCode::LoopNumber, 0, "more than 3 loops within one another");
+    return JumpOutcome::Failed;
+  }
+  state.loops.push_back(loop);
+  return JumpOutcome::Taken;
+}
+
+/// The loops around the target must be those that are running; the others are left.
+JumpOutcome go_to(Run& run, const TextPosition& found, const OpenLoops& open) {
+  ModalState& state = run.state;
+  const std::size_t base = loop_base(state);
+  for (std::size_t i = 0; i < open.count; ++i) {
+    if (base + i < state.loops.size() && state.loops[base + i].head.offset == open.loop[i].offset) {
+      continue;
+    }
+    run.fail(ErrorCode::MissingEnd, 0, fmt::format("GOTO {} leads into a loop", state.jump.number));
+    return JumpOutcome::Failed;
+  }
+  if (found.offset <= state.jump.from.offset && !count_jump_back(run)) return JumpOutcome::Failed;
+  state.loops.resize(base + open.count);
+  state.at = found;
+  return JumpOutcome::Taken;
+}
+
+JumpOutcome refuse_missing(Run& run) {
+  const Jump& jump = run.state.jump;
+  if (jump.kind == JumpKind::Loop) {
+    run.fail(ErrorCode::MissingEnd, 0, fmt::format("DO{}", jump.loop_number));
+  } else {
+    run.fail(jump.is_return ? ErrorCode::SequenceNotFound : ErrorCode::MacroSequence, 0,
+             fmt::format("N{}", jump.number));
+  }
+  return JumpOutcome::Failed;
+}
+
+OpenLoops running_loops(const ModalState& state) {
+  OpenLoops open;
+  for (std::size_t i = loop_base(state); i < state.loops.size() && open.count < OpenLoops::kMost;
+       ++i) {
+    open.loop[open.count++] = {state.loops[i].number, state.loops[i].head.offset};
+  }
+  return open;
+}
+
+}  // namespace
+
+bool plan_flow_of_m_codes(Run& run) {
+  Block& block = run.block;
+  for (std::size_t i = 0; i < block.parts.m_count; ++i) {
+    const int code = block.m[i];
+    const bool is_flow = code == 2 || code == 30 || code == 98 || code == 99 || code == 198;
+    if (!is_flow) {
+      if (code == 199 && run.options.is_dnc) return run.fail(ErrorCode::ExternalCall, 0);
+      continue;
+    }
+    if (block.parts.ending != Ending::None || run.state.jump.kind != JumpKind::None) {
+      return refuse_two(run);
+    }
+    if (code == 98 || code == 198) {
+      if (!plan_subprogram(run, code)) return false;
+    } else if (code == 99) {
+      if (!plan_return(run)) return false;
+    } else {
+      block.parts.ending = Ending::EndOfProgram;
+      block.parts.rewinds = code == 30;
+    }
+  }
+  return true;
+}
+
+bool plan_macro_call(Run& run) {
+  ModalState& state = run.state;
+  const Block::Parts& parts = run.block.parts;
+  if (!parts.has_call_program) {
+    return run.fail(ErrorCode::NoP, parts.g_column);
+  }
+  Locals arguments;
+  if (!assign_arguments(run, arguments)) return false;
+  if (parts.call == CallKind::Code && parts.variable != 0) {
+    if (!write_variable(run, parts.variable, parts.g_column, parts.value)) return false;
+  }
+  if (!parts.is_modal_call) {
+    open_call(run, parts.call, parts.call_program, parts.call_passes);
+    state.jump.arguments = arguments;
+    return true;
+  }
+  if (state.modals.size() == kMostModalCalls) {
+    return run.fail(ErrorCode::TooManyModalCalls, parts.g_column);
+  }
+  state.modals.push_back({parts.call_program, parts.call_passes, state.modal_active, arguments});
+  state.modal_active = static_cast<std::int8_t>(state.modals.size() - 1);
+  state.g[kModalCallGroup] = 66;
+  run.update_special();
+  return true;
+}
+
+void cancel_modal_call(Run& run) {
+  ModalState& state = run.state;
+  state.g[kModalCallGroup] = 67;
+  if (state.modal_active < 0) return;
+  const std::size_t floor = state.calls.empty() ? 0 : state.calls.back().modal_count;
+  state.modal_active = state.modals[static_cast<std::size_t>(state.modal_active)].outer;
+  if (state.modals.size() > floor) state.modals.pop_back();
+  if (state.modal_active >= 0) state.g[kModalCallGroup] = 66;
+  run.update_special();
+}
+
+bool plan_modal_call(Run& run) {
+  ModalState& state = run.state;
+  if (state.modal_active < 0 || !run.block.parts.has_motion) [[likely]]
+    return true;
+  if (state.jump.kind != JumpKind::None || run.block.parts.ending != Ending::None) return true;
+  const ModalCall& call = state.modals[static_cast<std::size_t>(state.modal_active)];
+  open_call(run, CallKind::Modal, call.program, call.passes);
+  state.jump.arguments = call.arguments;
+  state.jump.modal = state.modal_active;
+  return true;
+}
+
+bool leave_block(Run& run) {
+  const Block::Parts& parts = run.block.parts;
+  ModalState& state = run.state;
+  if (parts.has_code) state.at.code_seen = state.at.head_seen = true;
+  const std::uint64_t offset = run.text.offset();
+  run.text.advance(state.at, run.text.begin() + parts.end);
+  if (parts.ending != Ending::None) [[unlikely]] {
+    if (parts.ending == Ending::Return) return return_from_call(run, parts.ending_number);
+    end_program(run, state.blocks + 1, parts.rewinds);
+    return true;
+  }
+  if (parts.statement == StatementKind::EndLoop) [[unlikely]]
+    return return_to_loop(run, offset);
+  return true;
+}
+
+JumpOutcome take_jump(Run& run, TextSearch& search) {
+  ModalState& state = run.state;
+  Jump& jump = state.jump;
+  TextPosition found;
+  LoopFrame loop;
+  OpenLoops open = running_loops(state);
+  TextSearch::Outcome outcome{};
+  if (jump.kind == JumpKind::Loop) {
+    outcome = search.find_end(jump.from, state.at, jump.loop_number, loop);
+  } else if (jump.kind == JumpKind::Call) {
+    // A program from the line can not be searched: what it calls is in memory.
+    outcome =
+        run.options.is_dnc ? TextSearch::Outcome::Missing : search.find_program(jump.number, found);
+  } else {
+    outcome = search.find_label(state.at, jump.number, open, found);
+  }
+  JumpOutcome result = JumpOutcome::Failed;
+  switch (outcome) {
+    case TextSearch::Outcome::NotYet:
+      return JumpOutcome::NeedsText;
+    case TextSearch::Outcome::More:
+      return JumpOutcome::More;
+    case TextSearch::Outcome::TooLong:
+      run.fail(ErrorCode::LineTooLong, 0, "met in a search");
+      break;
+    case TextSearch::Outcome::Failed:
+      run.fail(ErrorCode::TextFailed, 0, run.text.failure());
+      break;
+    case TextSearch::Outcome::Crossed:
+      run.fail(ErrorCode::MissingEnd, 0, "DO and END do not belong together");
+      break;
+    case TextSearch::Outcome::Missing:
+      result = jump.kind == JumpKind::Call ? call_library(run) : refuse_missing(run);
+      break;
+    case TextSearch::Outcome::Found:
+      result = jump.kind == JumpKind::Call   ? enter_call(run, found)
+               : jump.kind == JumpKind::Loop ? enter_loop(run, loop)
+                                             : go_to(run, found, open);
+      break;
+  }
+  if (result == JumpOutcome::Taken) jump = Jump{};
+  return result;
+}
+
+bool run_off_end(Run& run) {
+  return run.fail(ErrorCode::EndOfRecord, 0);
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,317 @@
+#include "gateway/interpreter/fanuc/hole_cycles.hpp"
+
+#include <fmt/core.h>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "gateway/interpreter/fanuc/machine_functions.hpp"
+#include "gateway/interpreter/fanuc/motion.hpp"
+#include "gateway/interpreter/fanuc/path.hpp"
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+/// One thing a cycle does at its hole.
+enum class Step : std::uint8_t {
+  RapidToRetract,
+  FeedToBottom,
+  PeckWithBreak,    ///< feeds by Q, d back between
+  PeckWithRetract,  ///< feeds by Q, out to R between
+  FeedToRetract,
+  RapidToReturn,  ///< the initial level with G98, R with G99
+  RapidToInitial,
+  Dwell,
+  Clockwise,
+  CounterClockwise,
+  SpindleOff,
+  Orient,
+  FormerDirection,  ///< the spindle as before the cycle, clockwise when it did not turn
+  ShiftAway,
+  ShiftBack,
+  ByHand,  ///< the operator retracts to the return level
+};
+
+using enum Step;
+constexpr std::array kPeckBreak{RapidToRetract, PeckWithBreak, RapidToReturn};
+constexpr std::array kPeckRetract{RapidToRetract, PeckWithRetract, RapidToReturn};
+constexpr std::array kDrill{RapidToRetract, FeedToBottom, RapidToReturn};
+constexpr std::array kCounterbore{RapidToRetract, FeedToBottom, Dwell, RapidToReturn};
+constexpr std::array kTap{RapidToRetract,   Clockwise,     FeedToBottom, SpindleOff, Dwell,
+                          CounterClockwise, FeedToRetract, Dwell,        Clockwise,  RapidToReturn};
+constexpr std::array kLeftTap{
+    RapidToRetract, CounterClockwise, FeedToBottom, SpindleOff,       Dwell,
+    Clockwise,      FeedToRetract,    Dwell,        CounterClockwise, RapidToReturn};
+constexpr std::array kFineBore{RapidToRetract, FeedToBottom,  Dwell,     Orient,
+                               ShiftAway,      RapidToReturn, ShiftBack, FormerDirection};
+constexpr std::array kBore{RapidToRetract, FeedToBottom, FeedToRetract, RapidToReturn};
+constexpr std::array kBoreStop{RapidToRetract, FeedToBottom, SpindleOff, RapidToReturn,
+                               FormerDirection};
+constexpr std::array kBackBore{Orient,          ShiftAway,      RapidToRetract, ShiftBack,
+                               FormerDirection, FeedToBottom,   Dwell,          Orient,
+                               ShiftAway,       RapidToInitial, ShiftBack,      FormerDirection};
+constexpr std::array kByHand{RapidToRetract, FeedToBottom, Dwell,
+                             SpindleOff,     ByHand,       FormerDirection};
+constexpr std::array kBoreDwell{RapidToRetract, FeedToBottom, Dwell, FeedToRetract, RapidToReturn};
+
+std::span<const Step> steps_of(std::uint8_t code) {
+  switch (code) {
+    case 73:
+      return kPeckBreak;
+    case 74:
+      return kLeftTap;
+    case 76:
+      return kFineBore;
+    case 82:
+      return kCounterbore;
+    case 83:
+      return kPeckRetract;
+    case 84:
+      return kTap;
+    case 85:
+      return kBore;
+    case 86:
+      return kBoreStop;
+    case 87:
+      return kBackBore;
+    case 88:
+      return kByHand;
+    case 89:
+      return kBoreDwell;
+    default:
+      return kDrill;
+  }
+}
+
+/// Feeds of one block, so that a step never delivers without bound.
+constexpr double kMostPecks = 100'000;
+
+std::size_t place(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+
+/// One hole while it is made. Levels and places are program coordinates.
+class Hole {
+ public:
+  Hole(Run& run, Point3 at) : run_(run), axes_(axes_of(run.state.plane())), at_(at) {
+    const SpindleState now = run.state.spindle.state;
+    former_ = now == SpindleState::CounterClockwise ? now : SpindleState::Clockwise;
+  }
+
+  bool make() {
+    for (const Step step : steps_of(run_.state.g[kCycleGroup])) {
+      if (!perform(step)) return false;
+    }
+    return true;
+  }
+
+ private:
+  const CycleData& data() const { return run_.state.cycle; }
+  double return_level() const {
+    return run_.state.g[kReturnGroup] == 98 ? data().initial : data().retract;
+  }
+
+  bool rapid(double level) {
+    at_[place(axes_.normal)] = level;
+    return rapid_to(run_, machine_point(run_, at_));
+  }
+  bool feed(double level) {
+    at_[place(axes_.normal)] = level;
+    return line_to(run_, machine_point(run_, at_), run_.active_feed());
+  }
+  bool shift(double sign) {
+    const double by = sign * data().depth;
+    Position to = run_.state.position;
+    to.set_raw(axes_.first, to.raw(axes_.first) + by * run_.options.shift_first);
+    to.set_raw(axes_.second, to.raw(axes_.second) + by * run_.options.shift_second);
+    if (sign < 0) to = machine_point(run_, at_);
+    return rapid_to(run_, to);
+  }
+  bool spindle(SpindleState state) {
+    turn_spindle(run_, state);
+    return true;
+  }
+
+  bool perform(Step step) {
+    switch (step) {
+      case RapidToRetract: {
+        if (run_.state.g[kCycleGroup] != 87) return rapid(data().retract);
+        // The tool stays shifted on its way down.
+        Position to = run_.state.position;
+        at_[place(axes_.normal)] = data().retract;
+        to.set_raw(axes_.normal, machine_point(run_, at_).raw(axes_.normal));
+        return rapid_to(run_, to);
+      }
+      case FeedToBottom:
+        return feed(data().bottom);
+      case PeckWithBreak:
+        return peck(false);
+      case PeckWithRetract:
+        return peck(true);
+      case FeedToRetract:
+        return feed(data().retract);
+      case RapidToReturn:
+        return out(return_level());
+      case RapidToInitial:
+        return out(data().initial);
+      case Dwell:
+        if (data().dwell > 0) run_.events().on_dwell({run_.origin, data().dwell, {}});
+        return true;
+      case Clockwise:
+        return spindle(SpindleState::Clockwise);
+      case CounterClockwise:
+        return spindle(SpindleState::CounterClockwise);
+      case SpindleOff:
+        return spindle(SpindleState::Off);
+      case Orient:
+        return spindle(SpindleState::Oriented);
+      case FormerDirection:
+        return spindle(former_);
+      case ShiftAway:
+        return shift(1);
+      case ShiftBack:
+        return shift(-1);
+      case ByHand:
+        run_.events().on_stop({run_.origin, StopKind::Operator});
+        at_[place(axes_.normal)] = return_level();
+        arrive(run_, machine_point(run_, at_));
+        return true;
+    }
+    return true;
+  }
+
+  /// Along the hole's axis only: a shifted tool stays shifted.
+  bool out(double level) {
+    at_[place(axes_.normal)] = level;
+    Position to = run_.state.position;
+    to.set_raw(axes_.normal, machine_point(run_, at_).raw(axes_.normal));
+    return rapid_to(run_, to);
+  }
+
+  bool peck(bool to_retract) {
+    const double way = data().bottom - data().retract;
+    const double sign = way < 0 ? -1 : 1;
+    const double back = to_retract ? run_.options.peck_clearance : run_.options.peck_return;
+    const double count = std::ceil(std::fabs(way) / data().depth - 1e-9);
+    for (double n = 1; n < count; ++n) {
+      const double depth = data().retract + sign * n * data().depth;
+      if (!feed(depth)) return false;
+      if (to_retract && !rapid(data().retract)) return false;
+      // Never above R: a clearance can be longer than the first peck.
+      const double above = std::fmin(back, n * data().depth);
+      if (!rapid(depth - sign * above)) return false;
+    }
+    return feed(data().bottom);
+  }
+
+  Run& run_;
+  PlaneAxes axes_;
+  Point3 at_;
+  SpindleState former_;
+};
+
+bool read_repeats(Run& run, double& repeats) {
+  const Words& words = run.block.words;
+  const RepeatAddress by = run.options.repeat_address;
+  const bool by_k = by != RepeatAddress::L && words.has(K);
+  const bool by_l = by != RepeatAddress::K && words.has(L);
+  repeats = 1;
+  if (!by_k && !by_l) return true;
+  const Word& word = words[by_k ? K : L];
+  repeats = run.whole(word);
+  if (repeats >= 0 && repeats <= 9999 && repeats == std::trunc(repeats)) return true;
+  return run.fail(ErrorCode::TooManyDigits, word.column,
+                  fmt::format("{} repeats are not 0 to 9999", repeats));
+}
+
+/// Z, R, Q and P of the block; R counts from the initial level in G91, Z from R.
+bool keep_data(Run& run, double present) {
+  ModalState& state = run.state;
+  CycleData& data = state.cycle;
+  const Words& words = run.block.words;
+  constexpr std::array<Address, 3> kLevels{X, Y, Z};
+  const Address level = kLevels[place(axes_of(state.plane()).normal)];
+  const bool is_incremental = state.is_incremental();
+  if (words.has(R)) {
+    const double value = run.length(words[R]);
+    data.retract = is_incremental ? data.initial + value : value;
+    data.has_retract = true;
+  } else if (!data.has_retract) {
+    data.retract = present;
+  }
+  if (words.has(level)) {
+    const double value = run.length(words[level]);
+    data.bottom = is_incremental ? data.retract + value : value;
+    data.has_bottom = true;
+  } else if (!data.has_bottom) {
+    data.bottom = data.retract;
+  }
+  if (words.has(Q)) {
+    data.depth = std::fabs(run.length(words[Q]));
+    data.has_depth = true;
+  }
+  if (words.has(P)) data.dwell = run.whole(words[P]) / 1000;
+  const std::uint8_t code = state.g[kCycleGroup];
+  const bool pecks = code == 73 || code == 83;
+  if (pecks && !(data.has_depth && data.depth > 0)) {
+    return run.fail(ErrorCode::NoQ, run.block.parts.g_column);
+  }
+  return true;
+}
+
+bool check_pecks(Run& run, double repeats) {
+  const CycleData& data = run.state.cycle;
+  const std::uint8_t code = run.state.g[kCycleGroup];
+  if (code != 73 && code != 83) return true;
+  const double pecks = std::fabs(data.bottom - data.retract) / data.depth * repeats;
+  if (pecks <= kMostPecks) return true;
+  return run.fail(ErrorCode::LoopLimit, run.block.words.column(Q),
+                  fmt::format("{:.0f} pecks in one block", pecks));
+}
+
+/// Where the next hole is; the hole's own axis stays at the level reached.
+bool position_hole(Run& run, Point3& at) {
+  const PlaneAxes axes = axes_of(run.state.plane());
+  Position to;
+  if (!read_target(run, to)) return false;
+  Point3 work{};
+  for (std::size_t i = 0; i < 3; ++i) work[i] = to.raw(static_cast<Axis>(i)) - run.state.origin[i];
+  Point3 point = run.state.is_transformed ? transform_back(run.state, work) : work;
+  point[place(axes.normal)] = program_position(run)[place(axes.normal)];
+  Position over = machine_point(run, point);
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C, Axis::U, Axis::V, Axis::W}) {
+    if (to.raw(axis) != over.raw(axis)) over.set_raw(axis, to.raw(axis));
+  }
+  at = point;
+  return position_to(run, over);
+}
+
+}  // namespace
+
+void begin_cycle_mode(Run& run) {
+  run.state.cycle = CycleData{};
+  run.state.cycle.initial = program_position(run)[place(axes_of(run.state.plane()).normal)];
+}
+
+bool execute_cycle(Run& run) {
+  const Words& words = run.block.words;
+  ModalState& state = run.state;
+  if (!words.has_any(kAxisWords | set_of(R))) return true;
+  const double present = program_position(run)[place(axes_of(state.plane()).normal)];
+  double repeats = 1;
+  if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;
+  if (!check_pecks(run, repeats)) return false;
+  if (repeats > 0 && !check_feed(run)) return false;
+  if (state.is_compensating()) run.warn(WarningCode::CycleInCompensation, run.block.parts.g_column);
+  if (state.g[kCycleGroup] == 87 && state.g[kReturnGroup] == 99) {
+    run.warn(WarningCode::BackBoringLevel, run.block.parts.g_column);
+  }
+  for (double n = 0; n < repeats; ++n) {
+    Point3 at{};
+    if (!position_hole(run, at) || !Hole(run, at).make()) return false;
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "gateway/interpreter/fanuc/run.hpp"
+#include "gateway/interpreter/fanuc/text_search.hpp"
+
+namespace dripline::interpreter::fanuc {
+
+/// A Fanuc-class machining centre control: text to events, one block at a time.
+class FanucInterpreter final : public Interpreter {
+ public:
+  FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
+                   ProgramSource& source, EventSink& sink);
+
+  StepState step(std::uint64_t max_blocks) override;
+  const Question& question() const override { return run_.question; }
+  Result<void> answer(const Answer& answer) override;
+  std::uint64_t blocks() const override { return run_.state.blocks; }
+  const Origin& origin() const override { return run_.origin; }
+  Snapshot snapshot() const override;
+  Result<void> restore(const Snapshot& snapshot) override;
+
+ private:
+  enum class BlockOutcome : std::uint8_t { Finished, NoBlock, NeedsText, Paused };
+
+  BlockOutcome run_block();
+  BlockOutcome meet_line_state(TextCursor::State state);
+  BlockOutcome read();
+  bool begin_other_block();
+  bool is_plain() const;
+  void settle_name();
+  bool finish_block();
+  bool count_block();
+  StepState paused();
+  void place_origin();
+
+  Run run_;
+  TextSearch search_;
+  bool is_asking_ = false;
+  bool is_leader_ = false;
+  std::size_t answers_of_reading_ = 0;
+};
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,263 @@
+#include "gateway/interpreter/fanuc/motion.hpp"
+
+#include <fmt/core.h>
+#include <bit>
+
+#include "gateway/interpreter/fanuc/path.hpp"
+#include "gateway/interpreter/fanuc/tool_offsets.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kMostMillimetres = 99999.999;
+constexpr double kMostInches = 9999.9999 * Length::kMillimetresPerInch;
+
+bool refuse_range(Run& run, Axis axis, double value) {
+  return run.fail(ErrorCode::TooManyDigits, run.block.words.first_column(set_of_axis(axis)),
+                  fmt::format("{}{} is beyond the range", letter(axis), run.in_units(axis, value)));
+}
+
+/// Letter order of Axis: X Y Z A B C U V W.
+constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
+
+bool read_transformed_target(Run& run, Position& to) {
+  const Words& words = run.block.words;
+  Point3 point = program_position(run);
+  const Point3 before = point;
+  const double most = run.state.units == Units::Inch ? kMostInches : kMostMillimetres;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!words.has(kWordOfAxis[i])) continue;
+    const double value = run.length(words[kWordOfAxis[i]]);
+    if (!(std::fabs(value) <= most)) return refuse_range(run, static_cast<Axis>(i), value);
+    point[i] = run.state.is_incremental() ? before[i] + value : value;
+  }
+  const Point3 work = transform(run.state, point);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double raw = run.state.origin[i] + work[i];
+    if (!(std::fabs(raw) <= kMostMillimetres * 10)) {
+      return run.fail(ErrorCode::ScaledOverflow, words.first_column(kAxisWords));
+    }
+    const auto axis = static_cast<Axis>(i);
+    // What going there and back leaves of a place is no move.
+    if (std::fabs(raw - to.raw(axis)) > 1e-9) to.set_raw(axis, raw);
+    if (words.has(kWordOfAxis[i])) to.mark(axis);
+  }
+  return true;
+}
+
+bool single_direction(Run& run, const Position& to) {
+  Position first = to;
+  for (const Axis axis : kAllAxes) {
+    const double overrun = run.options.single_direction[static_cast<std::size_t>(axis)];
+    if (overrun == 0 || to.raw(axis) == run.state.position.raw(axis)) continue;
+    first.set_raw(axis, to.raw(axis) + overrun);
+  }
+  return rapid_to(run, first) && rapid_to(run, to);
+}
+
+bool cut_thread(Run& run, const Position& to) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  // F of a thread is its lead: a length, whatever the feed mode.
+  if (words.has(F)) {
+    const Word& word = words[F];
+    const double unit = state.units == Units::Inch ? 0.0001 : 0.01;
+    const bool is_plain = word.form == WordForm::Whole && !run.options.calculator_point;
+    state.feed[1] = word.value * (is_plain ? unit : 1) * run.increments.mm_per_unit;
+  }
+  if (!(state.feed[1] > 0)) return run.fail(ErrorCode::NoFeed, words.first_column(kAxisWords));
+  std::optional<Angle> start;
+  if (words.has(Q)) start = Angle::degrees(run.angle(words[Q]));
+  return thread_to(run, to, Length::mm(state.feed[1]), start);
+}
+
+}  // namespace
+
+bool read_target(Run& run, Position& to) {
+  const ModalState& state = run.state;
+  const Words& words = run.block.words;
+  to = state.position;
+  const bool is_incremental = state.is_incremental();
+  AddressSet left = words.present() & kAxisWords;
+  if (state.is_transformed) [[unlikely]] {
+    if (!read_transformed_target(run, to)) return false;
+    left &= ~set_of(X, Y, Z);
+  }
+  const double most = state.units == Units::Inch ? kMostInches : kMostMillimetres;
+  const auto take = [&](Axis axis, Address address) {
+    const double value = run.coordinate(axis, words[address]);
+    if (!(std::fabs(value) <= most)) [[unlikely]]
+      return refuse_range(run, axis, value);
+    const double base =
+        is_incremental ? to.raw(axis) : state.origin[static_cast<std::size_t>(axis)];
+    to.set_raw(axis, base + value);
+    return true;
+  };
+  if ((left & set_of(X)) != 0 && !take(Axis::X, X)) return false;
+  if ((left & set_of(Y)) != 0 && !take(Axis::Y, Y)) return false;
+  if ((left & set_of(Z)) != 0 && !take(Axis::Z, Z)) return false;
+  left &= ~set_of(X, Y, Z);
+  if (left == 0) [[likely]]
+    return true;
+  for (std::size_t i = 3; i < kAxisCount; ++i) {
+    if ((left & set_of(kWordOfAxis[i])) == 0) continue;
+    if (!take(static_cast<Axis>(i), kWordOfAxis[i])) return false;
+  }
+  return true;
+}
+
+Position machine_point(const Run& run, const Point3& point) {
+  const Point3 work = run.state.is_transformed ? transform(run.state, point) : point;
+  Position to = run.state.position;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const double raw = work[i] + run.state.origin[i];
+    if (std::fabs(raw - to.raw(axis)) > 1e-9) to.set_raw(axis, raw);
+  }
+  return to;
+}
+
+bool apply_feed(Run& run) {
+  const Words& words = run.block.words;
+  if (!words.has(F)) return true;
+  ModalState& state = run.state;
+  const Word& word = words[F];
+  const bool is_inch = state.units == Units::Inch;
+  double value = word.value;
+  if (word.form == WordForm::Whole && !run.options.calculator_point) {
+    if (state.is_per_revolution()) {
+      value *= is_inch ? 0.0001 : 0.01;
+    } else if (is_inch) {
+      value *= run.options.feed_unit_inch;
+    }
+    if (is_inch) run.warn(WarningCode::FeedWithoutPoint, word.column);
+  }
+  const double most = state.is_per_revolution() ? (is_inch ? 9.9999 : 500)
+                      : is_inch                 ? 9600
+                                                : 240'000;
+  if (!(value >= 0 && value <= most)) {
+    return run.fail(ErrorCode::TooManyDigits, word.column,
+                    fmt::format("F{} is above {}", value, most));
+  }
+  state.last.f = value;
+  state.feed[state.is_per_revolution()] = value * run.increments.mm_per_unit;
+  return true;
+}
+
+bool check_feed(Run& run) {
+  if (run.state.feed[run.state.is_per_revolution()] > 0) [[likely]]
+    return true;
+  return run.fail(ErrorCode::NoFeed, run.block.words.first_column(kAxisWords | set_of(F)));
+}
+
+bool execute_plain(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has(F) && !apply_feed(run)) return false;
+  if (!words.has_any(kAxisWords)) return true;
+  Position to;
+  if (!read_target(run, to)) return false;
+  if (run.state.position.same_point(to)) return true;
+  if (run.state.g[kMotionGroup] == 0) {
+    run.events().on_rapid({run.origin, to});
+  } else {
+    if (!check_feed(run)) return false;
+    run.events().on_line({run.origin, to, run.active_feed()});
+  }
+  arrive(run, to);
+  return true;
+}
+
+bool offset_target(Run& run, Position& to) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  const std::uint8_t code = run.block.parts.one_shot;
+  if (state.is_compensating()) {
+    return run.fail(ErrorCode::OffsetInCompensation, run.block.parts.g_column);
+  }
+  if (words.has(H) && !words.has(D)) {
+    if (!read_offset_number(run, H, state.d_number)) return false;
+  }
+  double value = radius_of_offset(run, state.d_number);
+  if (run.options.offset_memory != OffsetMemory::C && value == 0) {
+    value = length_of_offset(run, state.d_number);
+  }
+  const double change =
+      (code == 45 || code == 46 ? value : 2 * value) * (code == 45 || code == 47 ? 1 : -1);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (!words.has(kWordOfAxis[i])) continue;
+    const auto axis = static_cast<Axis>(i);
+    const double way = to.raw(axis) - state.position.raw(axis);
+    double sign = way > 0 ? 1 : -1;
+    if (way == 0) {
+      if (!state.is_incremental()) continue;
+      sign = words[kWordOfAxis[i]].is_negative ? -1 : 1;
+    }
+    to.set_raw(axis, to.raw(axis) + sign * change);
+  }
+  return true;
+}
+
+bool position_to(Run& run, const Position& to) {
+  if (run.block.parts.one_shot == 60) return single_direction(run, to);
+  return rapid_to(run, to);
+}
+
+bool move(Run& run) {
+  const Words& words = run.block.words;
+  const ModalState& state = run.state;
+  const std::uint8_t mode = state.g[kMotionGroup];
+  if (run.block.parts.one_shot != 60 && (mode == 2 || mode == 3)) return move_on_arc(run);
+  if (!words.has_any(kAxisWords)) return true;
+  Position to;
+  if (!read_target(run, to)) return false;
+  const std::uint8_t one_shot = run.block.parts.one_shot;
+  if (one_shot >= 45 && one_shot <= 48 && !offset_target(run, to)) return false;
+  if (mode == 0 || one_shot == 60) return position_to(run, to);
+  if (mode == 33) return cut_thread(run, to);
+  return check_feed(run) && line_to(run, to, run.active_feed());
+}
+
+bool move_in_machine_coordinates(Run& run) {
+  const Words& words = run.block.words;
+  if (run.state.is_incremental()) return true;  // G53 is ignored in G91
+  Position to = run.state.position;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (!words.has(kWordOfAxis[i])) continue;
+    const auto axis = static_cast<Axis>(i);
+    to.set_raw(axis, run.coordinate(axis, words[kWordOfAxis[i]]));
+  }
+  return rapid_to(run, to);
+}
+
+bool start_skip(Run& run) {
+  if (run.state.is_compensating()) {
+    return run.fail(ErrorCode::SkipInCompensation, run.block.parts.g_column);
+  }
+  Position to;
+  if (!check_feed(run) || !read_target(run, to) || !check_stroke(run, to)) return false;
+  if (run.state.position.same_point(to)) return true;
+  ProbeQuestion question;
+  question.probe = {run.origin, run.state.position, to, ProbeUntil::Contact, run.active_feed(), {}};
+  question.probe.from.mark_all_of(to);
+  run.events();  // the header comes before anything the question brings about
+  return run.ask(question);
+}
+
+void finish_skip(Run& run, const ProbeResult& result) {
+  Probe probe = std::get<ProbeQuestion>(run.question).probe;
+  probe.origin = run.origin;
+  Position at = probe.to;
+  for (const Axis axis : kAllAxes) {
+    if (result.at.raw(axis) != at.raw(axis) && probe.to.raw(axis) != run.state.position.raw(axis)) {
+      at.set_raw(axis, result.at.raw(axis));
+    }
+  }
+  probe.result = ProbeResult{result.tripped, at};
+  run.events().on_probe(probe);
+  arrive(run, at);
+  for (const Axis axis : kAllAxes) {
+    run.state.skip[static_cast<std::size_t>(axis)] = run.work_position(axis);
+  }
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "gateway/interpreter/fanuc/run.hpp"
+
+/// The way out of all motion: stroke limits and imaginary axes on the way to the sink. `to` is in
+/// machine coordinates, its marks say which axes have moved or are named. False: an alarm, before
+/// the move. The present position follows.
+namespace dripline::interpreter::fanuc {
+
+bool rapid_to(Run& run, const Position& to);
+bool line_to(Run& run, const Position& to, const Feed& feed);
+bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);
+/// `arc.origin` is set here.
+bool arc_to(Run& run, Arc arc);
+
+/// Whether the straight way there keeps out of what is forbidden; else alarm OT500.
+bool check_stroke(Run& run, const Position& to);
+/// The tool is here, whatever way it came.
+inline void arrive(Run& run, const Position& to) {
+  Position kept = to;
+  for (const Axis axis : kAllAxes) {
+    if (to.raw(axis) == run.state.position.raw(axis) && !run.state.position.has(axis)) {
+      kept.unmark(axis);
+    }
+  }
+  run.state.position = kept;
+}
+
+/// A point of an arc, by the angle travelled from its start.
+Position point_on_arc(const Arc& arc, const Position& from, double degrees);
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,149 @@
+#include "gateway/interpreter/rs274ngc/check.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+struct UnusedWord {
+  char letter;
+  ErrorCode code;
+};
+constexpr std::array kWordsWithUsers{
+    UnusedWord{'D', ErrorCode::UnusedD}, UnusedWord{'E', ErrorCode::UnusedE},
+    UnusedWord{'H', ErrorCode::UnusedH}, UnusedWord{'I', ErrorCode::UnusedI},
+    UnusedWord{'J', ErrorCode::UnusedJ}, UnusedWord{'K', ErrorCode::UnusedK},
+    UnusedWord{'L', ErrorCode::UnusedL}, UnusedWord{'P', ErrorCode::UnusedP},
+    UnusedWord{'Q', ErrorCode::UnusedQ}, UnusedWord{'R', ErrorCode::UnusedR}};
+constexpr AddressSet kNeedUser = set_of("DEHIJKLPQR");
+
+/// What the NIST program knows of the words that its successor takes in more places.
+constexpr AddressSet kNotInNist[2] = {set_of("P"), set_of("D")};
+
+AddressSet words_of(const Run& run, const GRow& row) {
+  if (run.is_linuxcnc()) return row.words;
+  switch (row.code) {
+    case 20:
+    case 30:
+    case 640:
+    case 840:
+      return row.words & ~(kNotInNist[0] | set_of("Q"));
+    case 100:
+      return set_of("LP");
+    case 830:
+      return row.words & ~kNotInNist[1];
+    default:
+      return row.words;
+  }
+}
+
+bool check_unused(Run& run, AddressSet taken) {
+  const Words& words = run.block.words;
+  for (const UnusedWord& each : kWordsWithUsers) {
+    if (words.has(each.letter) && (taken & set_of(each.letter)) == 0) {
+      return run.fail_word(each.code, each.letter,
+                           fmt::format("{}{}", each.letter, words[each.letter]));
+    }
+  }
+  return true;
+}
+
+AddressSet words_taken(const Run& run) {
+  const Block& block = run.block;
+  AddressSet taken = 0;
+  for (std::size_t i = 0; i < kGGroups; ++i) {
+    if ((block.g_groups >> i & 1u) == 0) continue;
+    taken |= words_of(run, *g_row(block.g_codes[i], run.options.profile));
+  }
+  for (std::size_t i = 0; i < kMGroups; ++i) {
+    if ((block.m_groups >> i & 1u) == 0) continue;
+    taken |= m_row(block.m_codes[i], run.options.profile)->words;
+  }
+  if (block.motion >= 0) taken |= words_of(run, *g_row(block.motion, run.options.profile));
+  return taken;
+}
+
+/// A motion code of the line itself.
+bool decide_explicit(Run& run, int code, bool has_axes) {
+  Block& block = run.block;
+  if (code == 800) {
+    if (has_axes && block.axis_user == nullptr) return run.fail(ErrorCode::AxisWithG80, 0);
+    if (!has_axes && block.g(GGroup::OneShot) == 920) {
+      return run.fail(ErrorCode::AllAxesMissingG92, 0);
+    }
+    block.motion = code;
+    return true;
+  }
+  if (block.axis_user != nullptr) {
+    return run.fail(ErrorCode::AxisTwice, 0,
+                    fmt::format("G{} and G{}", block.axis_user->code / 10.0, code / 10.0));
+  }
+  const bool may_stand_alone = run.is_linuxcnc() && !is_cycle(code) && !is_probe(code);
+  if (!has_axes && !may_stand_alone) {
+    return run.fail(ErrorCode::AllAxesMissingMotion, 0, fmt::format("G{}", code / 10.0));
+  }
+  block.motion = code;
+  return true;
+}
+
+bool decide_motion(Run& run) {
+  Block& block = run.block;
+  const bool has_polar = block.words.has_any(kPolarWords);
+  const bool has_axes = block.words.has_any(kAxisWords) || has_polar;
+  if (block.has(GGroup::Motion)) return decide_explicit(run, block.g(GGroup::Motion), has_axes);
+  if (block.axis_user != nullptr) {
+    const int code = block.axis_user->code;
+    if (!has_axes && (code == 920 || code == 520)) return run.fail(ErrorCode::AllAxesMissingG92, 0);
+    return true;
+  }
+  if (!has_axes) return true;
+  const int modal = run.state.modes.motion;
+  if (modal == 800) return run.fail(ErrorCode::AxisWithoutG, 0);
+  block.motion = modal;
+  return true;
+}
+
+bool check_one_shot(Run& run) {
+  const Block& block = run.block;
+  if (block.g(GGroup::OneShot) == 40) {
+    if (!block.words.has('P') || block.words['P'] < 0) {
+      return run.fail_word(ErrorCode::MissingG4P, 'P');
+    }
+    return true;
+  }
+  if (block.g(GGroup::OneShot) != 530) return true;
+  if (block.motion != 0 && block.motion != 10) return run.fail(ErrorCode::G53Motion, 0);
+  const bool is_incremental = block.has(GGroup::Distance) ? block.g(GGroup::Distance) == 910
+                                                          : run.state.modes.is_incremental;
+  if (is_incremental) return run.fail(ErrorCode::G53Incremental, 0);
+  return true;
+}
+
+/// G10 of the NIST program knows L2 only.
+bool check_g10(Run& run) {
+  const Words& words = run.block.words;
+  if (run.is_linuxcnc()) return true;
+  if (!words.has('L') || words['L'] != 2) return run.fail_word(ErrorCode::G10L, 'L');
+  const double p = words.value_or('P', 0);
+  const double whole = std::round(p);
+  if (!(std::fabs(p - whole) <= 0.0001)) return run.fail_word(ErrorCode::G10PInteger, 'P');
+  if (!(whole >= 1 && whole <= kSystems)) return run.fail_word(ErrorCode::G10PRange, 'P');
+  return true;
+}
+
+}  // namespace
+
+bool check_line(Run& run) {
+  if (!decide_motion(run)) return false;
+  const Block& block = run.block;
+  if (block.words.has_any(kNeedUser)) {
+    if (!check_unused(run, words_taken(run))) return false;
+  }
+  if (!block.has(GGroup::OneShot)) [[likely]]
+    return true;
+  if (block.g(GGroup::OneShot) == 100 && !check_g10(run)) return false;
+  return check_one_shot(run);
+}
+
+}  // namespace dripline::interpreter::rs274ngc

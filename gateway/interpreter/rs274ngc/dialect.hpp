@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/registry.hpp"
+
+namespace dripline::interpreter {
+
+/// RS274/NGC: the NIST language, version 3, and what LinuxCNC made of it.
+extern const Dialect kRs274NgcDialect;
+
+}  // namespace dripline::interpreter

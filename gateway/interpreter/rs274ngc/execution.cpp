@@ -1,0 +1,114 @@
+#include "gateway/interpreter/rs274ngc/execution.hpp"
+
+#include "gateway/interpreter/rs274ngc/arcs.hpp"
+#include "gateway/interpreter/rs274ngc/comments.hpp"
+#include "gateway/interpreter/rs274ngc/coordinates.hpp"
+#include "gateway/interpreter/rs274ngc/cycles.hpp"
+#include "gateway/interpreter/rs274ngc/machine_functions.hpp"
+#include "gateway/interpreter/rs274ngc/modes.hpp"
+#include "gateway/interpreter/rs274ngc/motion.hpp"
+#include "gateway/interpreter/rs274ngc/probe.hpp"
+#include "gateway/interpreter/rs274ngc/splines.hpp"
+#include "gateway/interpreter/rs274ngc/thread.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+bool before_machine(Run& run) {
+  const Block& block = run.block;
+  if (block.setting_count != 0) apply_settings(run);
+  if (block.comment_begin != nullptr && !execute_comment(run)) return false;
+  if (!apply_spindle_mode(run) || !apply_feed(run)) return false;
+  return !block.words.has_any(set_of("ST")) || apply_speed_and_tool(run);
+}
+
+bool execute_one_shots(Run& run) {
+  const int code = run.block.g(GGroup::OneShot);
+  if (code == 280 || code == 300) return home_move(run, code);
+  if (code == 40 || code == 530) return true;
+  return execute_one_shot(run, code);
+}
+
+bool dwell(Run& run) {
+  if (run.block.g(GGroup::OneShot) != 40) return true;
+  run.events().on_dwell({run.origin, run.block.words['P'], {}});
+  return true;
+}
+
+bool execute_motion_code(Run& run, int code) {
+  switch (code) {
+    case 0:
+    case 10:
+      return straight_move(run, code);
+    case 20:
+    case 30:
+      return arc_move(run, code == 20);
+    case 50:
+    case 51:
+    case 52:
+    case 53:
+      return spline_move(run, code);
+    case 330:
+    case 331:
+      return synchronised_move(run, code);
+    case 760:
+      return thread_cycle(run);
+    case 800:
+      return true;
+    default:
+      return is_probe(code) ? probe_move(run, code) : execute_cycle(run, code);
+  }
+}
+
+bool execute_motion(Run& run) {
+  const int code = run.block.motion;
+  if (code < 0) return true;
+  State& state = run.state;
+  const bool keeps_series = is_cycle(code);
+  if (!keeps_series) state.cycle.is_series = false;
+  if (code != 50) state.follows_spline = false;
+  if (!execute_motion_code(run, code)) return false;
+  state.modes.motion = static_cast<std::int16_t>(code);
+  return true;
+}
+
+}  // namespace
+
+void apply_settings(Run& run) {
+  const Block& block = run.block;
+  for (std::uint8_t i = 0; i < block.setting_count; ++i) {
+    const Setting& setting = block.settings[i];
+    if (setting.index >= 0) {
+      run.parameters[static_cast<std::size_t>(setting.index)] = setting.value;
+    } else {
+      run.names.set(static_cast<NameId>(-1 - setting.index), run.state.calls.size(), setting.value);
+    }
+  }
+}
+
+bool execute_line(Run& run) {
+  Block& block = run.block;
+  if (block.stage == Stage::Before) {
+    if (!before_machine(run)) return false;
+    block.stage = Stage::Input;
+  }
+  if (block.stage == Stage::Input) {
+    if (block.m_groups != 0 && !apply_inputs(run)) return false;
+    block.stage = Stage::Machine;
+  }
+  if (block.stage == Stage::Machine) {
+    if (block.m_groups != 0 && !apply_machine_functions(run)) return false;
+    if (block.g_groups != 0) {
+      if (!dwell(run) || !apply_modes(run)) return false;
+      if (block.has(GGroup::OneShot) && !execute_one_shots(run)) return false;
+    }
+    block.stage = Stage::Motion;
+  }
+  if (block.stage == Stage::Motion) {
+    if (!execute_motion(run)) return false;
+    block.stage = Stage::After;
+  }
+  return !block.has(MGroup::Stop) || apply_stops(run);
+}
+
+}  // namespace dripline::interpreter::rs274ngc

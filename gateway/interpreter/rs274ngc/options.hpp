@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/rs274ngc/codes.hpp"
+#include "gateway/interpreter/rs274ngc/parameters.hpp"
+#include "gateway/interpreter/rs274ngc/state.hpp"
+#include "gateway/interpreter/setup.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+
+/// A row of the tool table; millimetres.
+struct Tool {
+  int number = 0;
+  Axes length{};
+  double diameter = 0;
+};
+
+/// What a machine's builder and operator have set: the `[control]` options and the panel's
+/// switches.
+struct ControlOptions {
+  Profile profile = Profile::Nist;
+  bool block_skip = false;
+  bool optional_stop = false;
+  AddressSet axes = 0;  ///< words of the axes the machine has
+  bool ignores_missing_axes = false;
+  int slots = 128;                       ///< of the tool changer
+  std::uint64_t max_passes = 1'000'000;  ///< of loops and calls, together
+  std::uint64_t max_restarts = 1000;     ///< of the main program by M99
+  double mm_per_machine_unit = 1;        ///< of stored parameters
+  std::vector<std::int64_t> pins;
+  bool answers_pins = false;  ///< `pins` was given: nobody need be asked
+
+  bool is_linuxcnc() const { return profile == Profile::LinuxCnc; }
+};
+
+/// Errors: Syntax, Unsupported (an option this control does not have).
+Result<ControlOptions> read_options(const Setup& setup);
+
+/// The control's memory at the start: position, parameters, offsets, tools. Tools are those of the
+/// setup. Errors: Unsupported, naming the record that this control does not have.
+Result<void> load_memory(const Setup& setup, const ControlOptions& options, State& state,
+                         Parameters& parameters, std::vector<Tool>& tools);
+
+}  // namespace dripline::interpreter::rs274ngc
