@@ -29,19 +29,9 @@ Result<std::string> text_of(const Place& place, std::string_view key) {
 Result<std::string> value_of(const Place& place, std::string_view key) {
   if (const auto* text = place.node.as_string()) return text->get();
   if (const auto* number = place.node.as_integer()) return std::to_string(number->get());
-  if (const auto* flag = place.node.as_boolean()) return flag->get() ? "true" : "false";
-  return wrong(place, fmt::format("{} must be a string, a whole number, true or false", key));
-}
-
-Result<void> read_settings(client::Settings& settings, const Place& place) {
-  const auto* table = place.node.as_table();
-  if (table == nullptr) return wrong(place, "settings must be a table");
-  for (const auto& [key, node] : *table) {
-    auto value = value_of({place.file, node}, key.str());
-    if (!value) return fail(value.error());
-    settings[std::string(key.str())] = *std::move(value);
-  }
-  return {};
+  if (const auto* number = place.node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = place.node.as_boolean()) return flag->get() ? "yes" : "no";
+  return wrong(place, fmt::format("{} must be a string, a number, true or false", key));
 }
 
 Result<void> read_rules(client::PortRequest& port, const Place& place) {
@@ -54,8 +44,17 @@ Result<void> read_rules(client::PortRequest& port, const Place& place) {
   return {};
 }
 
+/// The texts of a port; every other key is a setting of its line.
+std::string* member_of(client::PortRequest& port, std::string_view key) {
+  if (key == "name") return &port.name;
+  if (key == "machine") return &port.machine;
+  if (key == "address") return &port.address;
+  if (key == "template") return &port.line_template;
+  if (key == "rules") return &port.rules;
+  return nullptr;
+}
+
 Result<void> read_key(client::PortRequest& port, std::string_view key, const Place& place) {
-  if (key == "settings") return read_settings(port.settings, place);
   if (key == "rules_file") return read_rules(port, place);
   if (key == "enabled") {
     const auto* flag = place.node.as_boolean();
@@ -63,19 +62,10 @@ Result<void> read_key(client::PortRequest& port, std::string_view key, const Pla
     port.enabled = flag->get();
     return {};
   }
-  std::string* member = key == "name"       ? &port.name
-                        : key == "machine"  ? &port.machine
-                        : key == "address"  ? &port.address
-                        : key == "template" ? &port.line_template
-                                            : nullptr;
-  if (member == nullptr) {
-    return wrong(place, fmt::format("key '{}' of a port is not known: name, machine, address, "
-                                    "template, enabled, rules_file or settings",
-                                    key));
-  }
-  auto text = text_of(place, key);
+  std::string* member = member_of(port, key);
+  auto text = member != nullptr ? text_of(place, key) : value_of(place, key);
   if (!text) return fail(text.error());
-  *member = *std::move(text);
+  (member != nullptr ? *member : port.settings[std::string(key)]) = *std::move(text);
   return {};
 }
 
@@ -86,9 +76,10 @@ Result<client::PortRequest> read_port(const Place& place) {
   for (const auto& [key, node] : *table) {
     if (auto read = read_key(port, key.str(), {place.file, node}); !read) return fail(read.error());
   }
-  if (port.name.empty() || port.machine.empty() || port.address.empty()) {
-    return wrong(place, "a port needs name, machine and address");
+  if (port.machine.empty() || port.address.empty()) {
+    return wrong(place, "a port needs a machine and an address");
   }
+  if (port.name.empty()) port.name = port.machine;
   return port;
 }
 

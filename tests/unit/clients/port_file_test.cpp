@@ -32,10 +32,12 @@ machine = "mill-3"
 address = "/dev/ttyUSB0"
 template = "tnc155"
 rules_file = "calls.toml"
-settings = { baud = 4800, wait_for_xon = true, eob = "lf" }
+baud = 4800
+wait_for_xon = true
+reader_cps = 1.5
+eob = "lf"
 
 [[port]]
-name = "line-2"
 machine = "lathe-1"
 address = "tcp://10.0.0.9:4001"
 enabled = false
@@ -45,19 +47,19 @@ enabled = false
   EXPECT_EQ(ports->at(0).line_template, "tnc155");
   EXPECT_EQ(ports->at(0).rules, "reply = \"O9998\"\n");
   EXPECT_EQ(ports->at(0).settings,
-            (client::Settings{{"baud", "4800"}, {"eob", "lf"}, {"wait_for_xon", "true"}}));
+            (client::Settings{
+                {"baud", "4800"}, {"eob", "lf"}, {"reader_cps", "1.5"}, {"wait_for_xon", "yes"}}));
   EXPECT_TRUE(ports->at(0).enabled);
+  EXPECT_EQ(ports->at(1).name, "lathe-1") << "of its machine";
   EXPECT_EQ(ports->at(1).address, "tcp://10.0.0.9:4001");
   EXPECT_FALSE(ports->at(1).enabled);
 }
 
 TEST_F(PortFile, SaysWhereItIsWrong) {
-  expect_refused("[[port]]\nname = \"a\"\nmachine = \"m\"\nadress = \"x\"\n",
-                 "line 4: key 'adress' of a port is not known");
-  expect_refused("[[port]]\nname = \"a\"\n", "needs name, machine and address");
+  expect_refused("[[port]]\nname = \"a\"\n", "needs a machine and an address");
   expect_refused("[[port]]\nname = 1\n", "line 2: name must be a string");
   expect_refused("[[port]]\nenabled = \"no\"\n", "enabled must be true or false");
-  expect_refused("[[port]]\nsettings = { baud = 1.5 }\n", "baud must be a string, a whole number");
+  expect_refused("[[port]]\nbaud = [9600]\n", "line 2: baud must be a string, a number");
   expect_refused("[[port]]\nrules_file = \"none.toml\"\n", "none.toml");
   expect_refused("port = [1]\n", "write [[port]]");
   expect_refused("[port]\n", "write [[port]]");
