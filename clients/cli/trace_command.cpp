@@ -27,6 +27,26 @@ int trace(const OfflineCommand& command) {
   return outcome->ended ? kExitOk : kExitNo;
 }
 
+/// The program in the control's own words, for controls that keep something else than the text.
+int list_events(const OfflineCommand& command) {
+  auto program = OfflineProgram::open(command);
+  if (!program) return complain(program.error());
+  const interpreter::Dialect& dialect = program->dialect();
+  if (dialect.list == nullptr) {
+    return complain(Error{Errc::Unsupported, std::string(dialect.name) +
+                                                 " keeps programs as their text; "
+                                                 "--events is for controls that keep events"});
+  }
+  const auto list = dialect.list(program->text());
+  if (!list) {
+    complain(list.error());
+    return kExitNo;
+  }
+  StandardOutput output;
+  (void)output.write(*list).has_value();
+  return output.error() ? output.complain() : kExitOk;
+}
+
 }  // namespace
 
 void add_trace_command(CLI::App& app, Context& context) {
@@ -34,12 +54,17 @@ void add_trace_command(CLI::App& app, Context& context) {
       app.add_subcommand("trace", "Print what a program on disk does, one JSON object a line");
   auto options = std::make_shared<OfflineCommand>();
   add_offline_options(*command, *options);
+  auto events = std::make_shared<bool>(false);
+  command->add_flag("--events", *events,
+                    "The events a control stores instead (prototrak-plus), as it would send them");
   command->footer(
       "No server is needed. Positions are in the program's units. Called programs come from the "
       "setup's\nlibrary, or from FILE's folder.\n\nExit status: 0 the end was reached, 1 an alarm "
       "(the last object), 2 usage, unreadable file, unknown control.\n\nExample:\n  dnc trace "
       "--control centurion --setup lathe.toml shaft.nc");
-  command->callback([&context, options] { context.status = trace(*options); });
+  command->callback([&context, options, events] {
+    context.status = *events ? list_events(*options) : trace(*options);
+  });
 }
 
 }  // namespace dripline::cli

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/centurion/dialect.hpp"
 #include "gateway/interpreter/fanuc/dialect.hpp"
+#include "gateway/interpreter/prototrak/dialect.hpp"
 #include "gateway/interpreter/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/tektronix1704/dialect.hpp"
 
@@ -15,8 +16,8 @@ constexpr int kClearLead = 30;
 
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
-  static const std::vector<Dialect> kTable{kCenturionDialect, kFanucDialect, kRs274NgcDialect,
-                                           kTektronix1704Dialect};
+  static const std::vector<Dialect> kTable{kCenturionDialect, kFanucDialect, kProtoTrakDialect,
+                                           kRs274NgcDialect, kTektronix1704Dialect};
   return kTable;
 }
 

@@ -27,6 +27,9 @@ struct Dialect {
   /// Units of the control's own memory at power on: of a setup file that names none.
   Units units = Units::Millimetre;
   MachineKind machine = MachineKind::Mill;
+  /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
+  /// Syntax.
+  Result<std::string> (*list)(std::string_view text) = nullptr;
 };
 
 std::span<const Dialect> dialects();

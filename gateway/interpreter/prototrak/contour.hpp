@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/prototrak/program_event.hpp"
+
+namespace dripline::interpreter::prototrak {
+
+/// A straight or circular piece of a part's edge, in mm.
+struct Element {
+  bool is_arc = false;
+  XY from, to;
+  XY center;
+  double radius = 0;
+  bool is_counter_clockwise = false;
+};
+Element element_of(const ProgramEvent& cut);
+
+double distance(XY a, XY b);
+/// Of travel at an element's ends; unit length.
+XY direction_at_start(const Element& element);
+XY direction_at_end(const Element& element);
+/// The corner turns left (> 0), right (< 0) or not at all: the sine of the change of direction.
+double turn_at(const Element& first, const Element& second);
+
+/// The conrad between two elements that meet: the arc that touches both on the inside of the turn,
+/// nearest to the corner. nullopt: there is none that touches them within their length (spec 11.3).
+std::optional<Element> conrad(const Element& first, const Element& second, double radius);
+
+}  // namespace dripline::interpreter::prototrak

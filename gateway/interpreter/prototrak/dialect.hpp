@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/registry.hpp"
+
+namespace dripline::interpreter {
+
+/// ProtoTRAK Plus: a two-axis mill that stores events.
+extern const Dialect kProtoTrakDialect;
+
+}  // namespace dripline::interpreter

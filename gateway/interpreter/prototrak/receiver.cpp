@@ -1,0 +1,574 @@
+#include "gateway/interpreter/prototrak/receiver.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+namespace dripline::interpreter::prototrak {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+constexpr char kDosEnd = 0x1a;
+constexpr std::string_view kFanucHint = "is this a Fanuc program without the three changes?";
+
+bool is_layout(char c) {
+  return c == '\r' || c == '\n' || c == '\t' || c == '\0' || c == 0x7f;
+}
+
+bool is_known(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view(" +-.():/").find(c) != std::string_view::npos;
+}
+
+char upper(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+bool is_axis(Address address) {
+  return address <= Address::YO || (address >= Address::X && address <= Address::K);
+}
+
+}  // namespace
+
+// Characters to blocks.
+
+Receiver::State Receiver::take(const SourceLine& line) {
+  line_ = line.place.line;
+  offset_ = line.place.offset;
+  for (const char c : line.text) {
+    if (state_ != State::Receiving) return state_;
+    if (!take_character(upper(c))) return state_ = State::Failed;
+    ++offset_;
+  }
+  return state_;
+}
+
+Receiver::State Receiver::end_of_text(std::uint64_t line) {
+  line_ = line;
+  fail(part_ == Part::Title ? Fault::NoBlockEnd : Fault::NoEnd, "");
+  return state_ = State::Failed;
+}
+
+Receiver::State Receiver::fail_line(Fault fault, std::string_view detail) {
+  fail(fault, detail);
+  return state_ = State::Failed;
+}
+
+bool Receiver::take_character(char c) {
+  if (is_layout(c)) return true;
+  if (c == kDosEnd) {
+    notice(Fault::Noticed, "DOS end of file ends the program");
+    c = '%';
+  }
+  if (block_.empty() && !in_comment_ && c != ' ') {
+    block_line_ = line_;
+    block_offset_ = offset_;
+  }
+  if (c == '%') {
+    const bool has_content = block_.find_first_not_of(' ') != std::string::npos || in_comment_;
+    if (part_ == Part::Title || has_content) {
+      return fail(Fault::NoBlockEnd, kFanucHint);
+    }
+    if (part_ == Part::BeforeStart && program_.events.empty()) {
+      part_ = Part::Title;
+      return true;
+    }
+    state_ = State::Complete;
+    return true;
+  }
+  if (block_.size() >= kMaxBlock) {
+    return fail(Fault::NoBlockEnd,
+                fmt::format("more than {} characters without ';'; {}", kMaxBlock, kFanucHint));
+  }
+  if (part_ == Part::Title) {
+    block_ += c;
+    if (c == ';') {
+      part_ = Part::Blocks;
+      block_.clear();
+    }
+    return true;
+  }
+  if (in_comment_) {
+    in_comment_ = c != ')';
+    return true;
+  }
+  if (c == '(') {
+    in_comment_ = true;
+    return true;
+  }
+  if (c == ';') {
+    part_ = Part::Blocks;
+    const bool done = end_block();
+    block_.clear();
+    return done;
+  }
+  if (!is_known(c)) return fail(Fault::Character, fmt::format("code {}", int{c}));
+  if (c != ' ' || !block_.empty()) block_ += c;
+  return true;
+}
+
+bool Receiver::end_block() {
+  int skipped = 0;
+  ReadWords read = read_words(block_, program_.events.empty(), skipped);
+  if (skipped > 0) notice(Fault::Ignored, fmt::format("{} words before the first event", skipped));
+  switch (read.fault) {
+    case WordFault::None:
+      break;
+    case WordFault::Character:
+      return fail(Fault::Character,
+                  std::string(1, block_[std::min<std::size_t>(read.column, block_.size() - 1)]));
+    case WordFault::NoNumber:
+      return fail(Fault::NoNumber, block_);
+    case WordFault::NotAWord:
+      return fail(Fault::UnknownWord, block_.substr(read.column));
+  }
+  BlockWords block;
+  for (const Word& word : read.words) {
+    if (word.address == Address::G) {
+      block.g_codes.push_back(static_cast<int>(std::min(word.number.digits, 999.0)));
+    } else {
+      block.words.push_back(word);
+    }
+  }
+  sequence_ = -1;
+  return apply_modes(block) && take_header_words(block) && apply_modal_words(block) &&
+         make_event(block);
+}
+
+bool Receiver::fail(Fault fault, std::string_view detail) {
+  const FaultRow& row = fault_row(fault);
+  failure_ = {line_, block_offset_, {row.id, std::string(row.text), line_, 0}};
+  if (block_line_ != 0 && fault >= Fault::Range)
+    failure_.line = failure_.diagnostic.line = block_line_;
+  if (!detail.empty()) failure_.diagnostic.text.append(": ").append(detail);
+  return false;
+}
+
+void Receiver::notice(Fault fault, std::string_view detail) {
+  if (notices_.size() >= kMaxNotices) return;
+  const FaultRow& row = fault_row(fault);
+  const std::uint64_t line = block_line_ != 0 ? block_line_ : line_;
+  Notice made{line, block_offset_, {row.id, std::string(row.text), line, 0}};
+  if (!detail.empty()) made.diagnostic.text.append(": ").append(detail);
+  notices_.push_back(std::move(made));
+}
+
+const Word* Receiver::BlockWords::find(Address address) const {
+  for (auto word = words.rbegin(); word != words.rend(); ++word) {  // the last one counts
+    if (word->address == address) return &*word;
+  }
+  return nullptr;
+}
+
+bool Receiver::BlockWords::has_g(int code) const {
+  return std::find(g_codes.begin(), g_codes.end(), code) != g_codes.end();
+}
+
+// Numbers.
+
+double Receiver::largest() const {
+  return modal_.is_metric ? 9999.99 : 99.9999 * kMillimetresPerInch;
+}
+
+/// To the control's resolution, half away from zero.
+double Receiver::rounded(const Word& word, double value) {
+  const double steps = modal_.is_metric ? 100 : 10'000;
+  const double whole = std::round(value * steps) / steps;
+  if (std::fabs(whole - value) > 1e-9) {
+    notice(Fault::Noticed, fmt::format("{} is rounded to {}", name_of(word.address), whole));
+  }
+  return whole;
+}
+
+bool Receiver::dimension(const BlockWords& block, Address address, double& mm) {
+  const Word* word = block.find(address);
+  if (word == nullptr) return true;
+  const double written = rounded(*word, word->number.value(modal_.is_metric ? 2 : 4));
+  const double value = modal_.is_metric ? written : written * kMillimetresPerInch;
+  if (std::fabs(value) > largest() * (1 + 1e-12)) {
+    return fail(Fault::Range, fmt::format("{}{} is over {}", name_of(address), written,
+                                          modal_.is_metric ? 9999.99 : 99.9999));
+  }
+  mm = value;
+  return true;
+}
+
+/// Absolute, or counted from `reference`: by the word's tag, else by G90 or G91.
+bool Receiver::coordinate(const BlockWords& block, Address address, double reference, double& mm) {
+  const Word* word = block.find(address);
+  if (word == nullptr) return true;
+  double value = 0;
+  if (!dimension(block, address, value)) return false;
+  const bool is_incremental =
+      word->tag == Tag::None ? modal_.is_incremental : word->tag == Tag::Incremental;
+  mm = is_incremental ? reference + value : value;
+  return true;
+}
+
+bool Receiver::size(const BlockWords& block, Address address, double least, double& mm) {
+  const Word* word = block.find(address);
+  if (word == nullptr) return true;
+  double value = 0;
+  if (!dimension(block, address, value)) return false;
+  if (value < least * (1 - 1e-12) || word->number.is_negative) {
+    return fail(Fault::Range, fmt::format("{}{}", name_of(address), word->number.value(4)));
+  }
+  mm = value;
+  return true;
+}
+
+bool Receiver::integer(const BlockWords& block, Address address, std::int64_t least,
+                       std::int64_t most, std::int64_t& value) {
+  const Word* word = block.find(address);
+  if (word == nullptr) return true;
+  const double number = word->number.value(0);
+  if (number < static_cast<double>(least) || number > static_cast<double>(most) ||
+      number != std::floor(number)) {
+    return fail(Fault::Range,
+                fmt::format("{}{} is not {} to {}", name_of(address), number, least, most));
+  }
+  value = static_cast<std::int64_t>(number);
+  return true;
+}
+
+bool Receiver::require(const BlockWords& block, std::initializer_list<Address> addresses) {
+  for (const Address address : addresses) {
+    if (!block.has(address)) return fail(Fault::MissingWord, name_of(address));
+  }
+  return true;
+}
+
+// Modes and words that stay.
+
+bool Receiver::apply_modes(const BlockWords& block) {
+  for (const int code : block.g_codes) {
+    switch (code) {
+      case 20:
+      case 21:
+        modal_.is_metric = code == 21;
+        if (!has_units_) program_.is_metric = modal_.is_metric;
+        has_units_ = true;
+        break;
+      case 40:
+        modal_.side = ToolSide::Center;
+        break;
+      case 41:
+        modal_.side = ToolSide::Left;
+        break;
+      case 42:
+        modal_.side = ToolSide::Right;
+        break;
+      case 90:
+      case 91:
+        modal_.is_incremental = code == 91;
+        break;
+      default:
+        if (code > 3 && (code < 100 || code > 109)) {
+          notice(Fault::Ignored, fmt::format("G{:02}", code));
+        }
+    }
+  }
+  return true;
+}
+
+bool Receiver::take_header_words(const BlockWords& block) {
+  std::int64_t number = 0;
+  if (!integer(block, Address::PN, 0, 99'999'999, number)) return false;
+  if (block.has(Address::PN)) {
+    if (program_.has_part_number) notice(Fault::Noticed, "part number is given again");
+    program_.part_number = static_cast<std::uint32_t>(number);
+    program_.has_part_number = true;
+  }
+  std::int64_t sequence = -1;
+  if (!integer(block, Address::N, 0, 9999, sequence)) return false;
+  if (sequence > 999) notice(Fault::Noticed, fmt::format("N{} is over 999", sequence));
+  sequence_ = sequence;
+  return true;
+}
+
+bool Receiver::apply_modal_words(const BlockWords& block) {
+  if (const Word* word = block.find(Address::F)) {
+    const double feed = word->number.value(modal_.is_metric ? 0 : 1);
+    const double least = modal_.is_metric ? 5 : 0.1;
+    const double most = modal_.is_metric ? 2535 : 99.9;
+    if (feed < least || feed > most) {
+      return fail(Fault::Range, fmt::format("F{} is not {} to {}", feed, least, most));
+    }
+    modal_.feed = modal_.is_metric ? feed : feed * kMillimetresPerInch;
+    modal_.has_feed = true;
+  }
+  std::int64_t tool = modal_.tool;
+  std::int64_t side = static_cast<std::int64_t>(modal_.side);
+  const bool is_repeat = block.has_g(105);
+  if (!integer(block, Address::T, 1, 99, tool) || !integer(block, Address::TC, 0, 2, side)) {
+    return false;
+  }
+  if (!is_repeat) {
+    if (!size(block, Address::D, 0, modal_.diameter)) return false;
+    modal_.tool = static_cast<std::uint8_t>(tool);
+  }
+  modal_.side = static_cast<ToolSide>(side);
+  for (const Word& word : block.words) {
+    if (word.address == Address::H || word.address == Address::M || word.address == Address::S) {
+      notice(Fault::Ignored, fmt::format("{}{:g}", name_of(word.address), word.number.value(0)));
+    }
+    if (block.find(word.address) != &word) {
+      notice(Fault::Noticed,
+             fmt::format("{} is repeated; the last one counts", name_of(word.address)));
+    }
+  }
+  return true;
+}
+
+// Events.
+
+XY Receiver::reference() const {
+  if (moved_reference_) return *moved_reference_;
+  return program_.events.empty() ? XY{} : reference_of(program_, program_.events.size() - 1);
+}
+
+bool Receiver::make_event(const BlockWords& block) {
+  if (block.has(Address::Z)) z_changed_ = true;
+  int event_code = -1;
+  bool has_other = false;
+  for (const int code : block.g_codes) {
+    const bool makes_event = code <= 3 || (code >= 100 && code <= 109);
+    if (makes_event && event_code >= 0 && code != event_code) {
+      return fail(Fault::UnknownWord,
+                  fmt::format("G{:02} and G{:02} in one block", event_code, code));
+    }
+    if (makes_event) event_code = code;
+    has_other |=
+        code == 28 || code == 92 || (code >= 43 && code <= 49) || (code >= 80 && code <= 89);
+  }
+  if (block.has_g(92) || block.has_g(28)) {
+    if (block.has_g(92)) {
+      XY here = reference();
+      double x = here.x, y = here.y;
+      if (!dimension(block, Address::X, x) || !dimension(block, Address::Y, y)) return false;
+      moved_reference_ = XY{x, y};
+    }
+    return true;
+  }
+  if (event_code >= 100) return make_native(block, event_code);
+  if (event_code >= 0) return make_converted(block, event_code);
+  const bool has_axes = std::any_of(block.words.begin(), block.words.end(),
+                                    [](const Word& word) { return is_axis(word.address); });
+  const bool is_excused = has_other || !block.g_codes.empty();
+  if (has_axes && !is_excused) return fail(Fault::NoFunction, block_);
+  return true;
+}
+
+/// G00 to G03 (spec 13): Z decides whether cuts are connected.
+bool Receiver::make_converted(const BlockWords& block, int code) {
+  const bool moves = block.has(Address::X) || block.has(Address::Y);
+  const bool is_circle = code >= 2 && (block.has(Address::I) || block.has(Address::J));
+  if (!moves && !is_circle) return true;
+  ProgramEvent event;
+  event.is_converted = true;
+  const XY from = reference();
+  event.begin = from;
+  if (!coordinate(block, Address::XB, from.x, event.begin.x) ||
+      !coordinate(block, Address::YB, from.y, event.begin.y)) {
+    return false;
+  }
+  XY to = event.begin;
+  if (!coordinate(block, Address::X, from.x, to.x) ||
+      !coordinate(block, Address::Y, from.y, to.y)) {
+    return false;
+  }
+  event.end = to;
+  if (code == 0) {
+    event.begin = to;
+    return store(event);
+  }
+  event.kind = code == 1 ? EventKind::Mill : EventKind::Arc;
+  event.is_counter_clockwise = code == 3;
+  if (code >= 2 && !fill_arc_center(block, event)) return false;
+  if (!program_.events.empty()) {
+    ProgramEvent& last = program_.events.back();
+    if (last.is_converted && last.is_cut() && !z_changed_) last.is_connected = true;
+  }
+  return store(event);
+}
+
+bool Receiver::make_native(const BlockWords& block, int code) {
+  ProgramEvent event;
+  bool is_good = false;
+  switch (code) {
+    case 100: {
+      event.kind = EventKind::Position;
+      event.begin = reference();
+      is_good = coordinate(block, Address::X, event.begin.x, event.begin.x) &&
+                coordinate(block, Address::Y, event.begin.y, event.begin.y) &&
+                (block.has(Address::X) || require(block, {Address::Y}));
+      event.end = event.begin;
+      break;
+    }
+    case 101:
+      event.kind = EventKind::Mill;
+      is_good = (block.has(Address::XE) || require(block, {Address::YE})) && fill_cut(block, event);
+      break;
+    case 102:
+    case 103:
+      event.kind = EventKind::Arc;
+      event.is_counter_clockwise = code == 103;
+      is_good = fill_cut(block, event) && fill_arc_center(block, event);
+      break;
+    case 104:
+      event.kind = EventKind::BoltHole;
+      is_good = fill_circle(block, event);
+      break;
+    case 105:
+      event.kind = EventKind::Repeat;
+      is_good = fill_repeat(block, event);
+      break;
+    case 106:
+    case 107:
+      event.kind = code == 106 ? EventKind::RectangularPocket : EventKind::RectangularFrame;
+      is_good = fill_rectangle(block, event);
+      break;
+    default:
+      event.kind = code == 108 ? EventKind::CircularPocket : EventKind::CircularFrame;
+      is_good = fill_circle(block, event);
+  }
+  return is_good && store(event);
+}
+
+bool Receiver::fill_cut(const BlockWords& block, ProgramEvent& event) {
+  event.begin = reference();
+  if (!coordinate(block, Address::XB, event.begin.x, event.begin.x) ||
+      !coordinate(block, Address::YB, event.begin.y, event.begin.y)) {
+    return false;
+  }
+  event.end = event.begin;
+  return coordinate(block, Address::XE, event.begin.x, event.end.x) &&
+         coordinate(block, Address::YE, event.begin.y, event.end.y) && fill_conrad(block, event);
+}
+
+/// XC and YC count from the end point when incremental, I and J always from the begin point.
+bool Receiver::fill_arc_center(const BlockWords& block, ProgramEvent& event) {
+  const bool has_center = block.has(Address::XC) || block.has(Address::YC);
+  const bool has_distance = block.has(Address::I) || block.has(Address::J);
+  if (!has_center && !has_distance) return require(block, {Address::XC});
+  if (has_center && has_distance) notice(Fault::Noticed, "XC and YC count, I and J do not");
+  double i = 0, j = 0;
+  if (!dimension(block, Address::I, i) || !dimension(block, Address::J, j)) return false;
+  event.center = {event.begin.x + i, event.begin.y + j};
+  if (has_center) {
+    event.center = {};
+    if (modal_.is_incremental) event.center = event.end;
+    if (!coordinate(block, Address::XC, event.end.x, event.center.x) ||
+        !coordinate(block, Address::YC, event.end.y, event.center.y)) {
+      return false;
+    }
+  }
+  const double first = std::hypot(event.begin.x - event.center.x, event.begin.y - event.center.y);
+  event.radius = first;
+  return true;
+}
+
+bool Receiver::fill_conrad(const BlockWords& block, ProgramEvent& event) {
+  event.is_connected = true;
+  const Word* word = block.find(Address::CR);
+  if (word == nullptr) return true;
+  event.is_connected = !word->number.is_negative;
+  double value = 0;
+  if (!dimension(block, Address::CR, value)) return false;
+  event.conrad = event.is_connected ? value : 0;
+  return true;
+}
+
+bool Receiver::fill_repeat(const BlockWords& block, ProgramEvent& event) {
+  const auto previous = static_cast<std::int64_t>(program_.events.size());
+  std::int64_t from = previous, to = previous, passes = 0, tool = 0;
+  if (!require(block, {Address::RE}) || !integer(block, Address::FE, 1, 255, from) ||
+      !integer(block, Address::LE, 1, 255, to) || !integer(block, Address::RE, 1, 99, passes) ||
+      !integer(block, Address::T, 1, 99, tool) || !dimension(block, Address::XO, event.end.x) ||
+      !dimension(block, Address::YO, event.end.y) || !size(block, Address::D, 0, event.diameter)) {
+    return false;
+  }
+  event.from_event = static_cast<std::uint8_t>(from);
+  event.to_event = static_cast<std::uint8_t>(to);
+  event.passes = static_cast<std::uint8_t>(passes);
+  event.has_tool = block.has(Address::T);
+  event.has_diameter = block.has(Address::D);
+  if (event.has_tool) event.tool = static_cast<std::uint8_t>(tool);
+  return true;
+}
+
+bool Receiver::fill_rectangle(const BlockWords& block, ProgramEvent& event) {
+  using enum Address;
+  const XY from = reference();
+  std::int64_t direction = 1;
+  if (!require(block, {XB, YB, XD, YD}) || !coordinate(block, XB, from.x, event.begin.x) ||
+      !coordinate(block, YB, from.y, event.begin.y) ||
+      !coordinate(block, XD, event.begin.x, event.end.x) ||
+      !coordinate(block, YD, event.begin.y, event.end.y) || !size(block, FC, 0, event.finish_cut) ||
+      !integer(block, DR, 1, 2, direction) || !fill_conrad(block, event)) {
+    return false;
+  }
+  if (!event.is_connected) notice(Fault::Noticed, "a negative conrad is taken as 0");
+  event.is_connected = false;
+  event.is_counter_clockwise = direction == 2;
+  return true;
+}
+
+bool Receiver::fill_circle(const BlockWords& block, ProgramEvent& event) {
+  using enum Address;
+  const XY from = reference();
+  std::int64_t direction = 1, holes = 0;
+  const double least = modal_.is_metric ? 0.01 : 0.0005 * kMillimetresPerInch;
+  if (!require(block, {XC, YC, R}) || !coordinate(block, XC, from.x, event.begin.x) ||
+      !coordinate(block, YC, from.y, event.begin.y) || !size(block, R, least, event.radius) ||
+      !size(block, FC, 0, event.finish_cut) || !integer(block, DR, 1, 2, direction) ||
+      !integer(block, HL, 1, 999, holes)) {
+    return false;
+  }
+  if (event.kind == EventKind::BoltHole && !require(block, {HL})) return false;
+  if (const Word* angle = block.find(A)) event.angle = angle->number.value(3);
+  event.holes = static_cast<std::uint16_t>(holes);
+  event.is_counter_clockwise = direction == 2;
+  return true;
+}
+
+bool Receiver::store(ProgramEvent event) {
+  if (program_.events.size() >= kMaxEvents) {
+    return fail(Fault::MemoryFull, fmt::format("more than {} events", kMaxEvents));
+  }
+  const double default_feed = modal_.is_metric ? 25.0 : kMillimetresPerInch;
+  event.is_metric = modal_.is_metric;
+  event.feed = modal_.has_feed ? modal_.feed : default_feed;
+  event.side = modal_.side;
+  if (event.kind != EventKind::Repeat) {
+    event.diameter = modal_.diameter;
+    event.tool = modal_.tool;
+  }
+  event.line = block_line_;
+  event.offset = block_offset_;
+  event.sequence = sequence_;
+  if (!has_units_ && program_.events.empty()) program_.is_metric = modal_.is_metric;
+  const bool is_pocket =
+      event.kind == EventKind::CircularPocket || event.kind == EventKind::RectangularPocket;
+  const ToolSide inside = event.is_counter_clockwise ? ToolSide::Left : ToolSide::Right;
+  if (is_pocket && event.side != ToolSide::Center && event.side != inside) {
+    notice(Fault::SideContradicts, "");
+  }
+  program_.events.push_back(event);
+  moved_reference_.reset();
+  z_changed_ = false;
+  return true;
+}
+
+XY reference_of(const StoredProgram& program, std::size_t index) {
+  for (std::size_t depth = 0; depth <= program.events.size(); ++depth) {
+    const ProgramEvent& event = program.events[index];
+    if (event.is_cut()) return event.end;
+    if (event.kind != EventKind::Repeat) return event.begin;
+    if (event.from_event < 2 || event.from_event > index + 1) return {};
+    index = event.from_event - 2U;
+  }
+  return {};
+}
+
+}  // namespace dripline::interpreter::prototrak
