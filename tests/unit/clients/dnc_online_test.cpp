@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <csignal>
+#include <mutex>
 
 #include "tests/unit/clients/dnc_process.hpp"
 #include "tests/unit/clients/fake_server.hpp"
@@ -94,13 +95,17 @@ TEST_F(DncOnline, FindsRunsByLatestAndByPrefix) {
 
 TEST_F(DncOnline, GivesOrders) {
   server.set_run(run_json("aa11", "active"));
+  std::mutex mutex;  // the server's threads write what this one reads
   std::vector<std::string> orders;
-  server.on_order(
-      [&](const std::string& run, const json& body) { orders.push_back(run + " " + body.dump()); });
+  server.on_order([&](const std::string& run, const json& body) {
+    const std::lock_guard lock(mutex);
+    orders.push_back(run + " " + body.dump());
+  });
   EXPECT_EQ(dnc({"run", "hold", "latest"}).status, 0);
   EXPECT_EQ(dnc({"run", "answer", "aa", "16.5"}).status, 0);
   EXPECT_EQ(dnc({"run", "override", "latest", "--feed", "50", "--rapid", "25"}).status, 0);
   EXPECT_EQ(dnc({"run", "switch", "latest", "single_block", "on"}).status, 0);
+  const std::lock_guard lock(mutex);
   EXPECT_EQ(orders, (std::vector<std::string>{
                         R"(aa11 {"action":"hold"})", R"(aa11 {"action":"answer","text":"16.5"})",
                         R"(aa11 {"action":"feed_override","value":0.5})",
