@@ -85,7 +85,8 @@ void run_faults(const FaultCase& fault_case, std::uint64_t first, std::size_t co
     FaultDice dice(seed ^ 0x5eed);
     FaultRun run;
     run.seed = seed;
-    run.text = random_program(dice, 1 + dice.below(8));
+    const std::size_t blocks = 1 + dice.below(8);
+    run.text = fault_case.program ? fault_case.program(dice, blocks) : random_program(dice, blocks);
     run.expected = fault_case.expected ? fault_case.expected(run.text) : run.text;
 
     LineSimulator line({fault_case.settings, make(fault_case.settings, wire::Role::Host),

@@ -22,6 +22,8 @@ struct FaultCase {
   wire::LineTime limit = std::chrono::hours(1);  ///< virtual
   /// What the receiver shall get of a text; text as it was sent unless set.
   std::function<std::string(const std::string&)> expected;
+  /// Makes a text of so many blocks; random_program unless set.
+  std::function<std::string(FaultDice&, std::size_t)> program;
 };
 
 /// One transfer that has ended.

@@ -11,6 +11,7 @@ namespace dripline::wire {
 namespace {
 
 constexpr std::size_t kMaxTapeBlock = 1024;
+constexpr std::size_t kShownHead = 40;
 
 /// The control reading tape, as the Tektronix 1704 does.
 ///
@@ -119,7 +120,9 @@ class TapeReaderControl final : public DisciplineBase {
     limit_.reset();
     block_.clear();
     row_ = 0;
-    is_stop_last_ = false;
+    is_stop_last_ = has_block_ = false;
+    is_head_text_ = true;
+    head_.clear();
     decoder_ = CharacterDecoder(settings_.code);
   }
 
@@ -142,14 +145,32 @@ class TapeReaderControl final : public DisciplineBase {
   void hunt(std::uint8_t row, TapeRow meaning, LineTime now) {
     using enum RowKind;
     if (meaning.kind == Blank || meaning.kind == Delete) return;
-    if (meaning.kind != BlockEnd && meaning.kind != CarriageReturn) {
-      is_stop_last_ = meaning.kind == RewindStop;
-      return;
-    }
+    if (meaning.kind != BlockEnd && meaning.kind != CarriageReturn) return note_head(meaning);
     (void)decoder_.decode(static_cast<std::byte>(row));  // so that it knows the companions
     is_hunting_ = false;
-    if (std::exchange(is_stop_last_, false) && !search_) emit_text("%\n");
+    const bool has_stop = std::exchange(is_stop_last_, false);
+    if (has_stop && !search_) emit_text("%\n");
+    if (!has_stop) say_head();
     run_on(now);
+  }
+
+  /// The head of a tape is a rewind stop and an end of block, nothing between them.
+  void say_head() {
+    if (is_head_text_ && !head_.empty()) {
+      emit_trouble(
+          {Errc::Corrupt, fmt::format("no end of block before '{}', which was skipped", head_)});
+    } else {
+      emit_trouble({Errc::Corrupt, "no rewind stop just before the first end of block"});
+    }
+  }
+
+  /// What is skipped: a title, or a first block that has no end of block before it.
+  void note_head(TapeRow meaning) {
+    is_stop_last_ = meaning.kind == RowKind::RewindStop;
+    if (is_stop_last_) head_.clear();
+    if (is_stop_last_) is_head_text_ = true;
+    if (meaning.kind == RowKind::WrongParity) is_head_text_ = false;
+    if (meaning.kind == RowKind::Text && head_.size() < kShownHead) head_ += meaning.character;
   }
 
   void take(std::uint8_t row, TapeRow meaning, LineTime now) {
@@ -157,6 +178,11 @@ class TapeReaderControl final : public DisciplineBase {
       return read_error(fmt::format("wrong parity, 0x{:02X}", static_cast<unsigned>(row)), now);
     }
     if (meaning.kind == RowKind::RewindStop) return end_of_tape(now);
+    // Skipped as the control does, and said: one hole lost makes a blank of EIA's minus, 0, 1, 2,
+    // 4, 8 and end of block.
+    if (meaning.kind == RowKind::Blank && settings_.code == CharacterCode::Eia && !block_.empty()) {
+      emit_trouble({Errc::Corrupt, fmt::format("row {}: blank tape behind '{}'", row_, block_)});
+    }
     auto decoded = decoder_.decode(static_cast<std::byte>(row));
     if (decoded.trouble) emit_trouble(std::move(*decoded.trouble));
     if (!decoded.text) return;
@@ -169,6 +195,11 @@ class TapeReaderControl final : public DisciplineBase {
 
   /// Read forwards, the rewind stop ends the program.
   void end_of_tape(LineTime now) {
+    if (!has_block_) {  // at the head, behind an end of block in the leader
+      is_hunting_ = is_stop_last_ = is_head_text_ = true;
+      head_.clear();
+      return;
+    }
     if (search_) return stop_with({Errc::NotFound, not_found()}, now);
     if (!block_.empty()) return read_error("rewind stop inside a block", now);
     emit_text("%\n");
@@ -177,6 +208,8 @@ class TapeReaderControl final : public DisciplineBase {
 
   void end_block(LineTime now) {
     const std::string block = std::exchange(block_, {});
+    if (block.empty() && !has_block_) return run_on(now);  // still the head
+    has_block_ = true;
     if (search_ && word_value(block, 'N') == search_) search_.reset();
     if (!search_) emit_text(block + "\n");
     const TapeEnd end = tape_end(block);
@@ -226,7 +259,9 @@ class TapeReaderControl final : public DisciplineBase {
   std::optional<std::uint64_t> search_;
   std::string block_;
   std::uint64_t row_ = 0;
-  bool is_hunting_ = true, is_stop_last_ = false, is_ready_ = true;
+  bool is_hunting_ = true, is_stop_last_ = false, is_ready_ = true, has_block_ = false;
+  std::string head_;  ///< the first of what was skipped
+  bool is_head_text_ = true;
 };
 
 }  // namespace

@@ -261,6 +261,10 @@ void TncStandard::on_character(char c, LineTime now) {
   if ((c < ' ' && !is_line_end) || c == 0x7F) return;
   if (phase_ == Phase::Idle && is_host() && !is_line_end) {
     begin_transfer(Phase::Receiving, "");
+    if (spoiled_ && now - *spoiled_ < settings_.idle_end) {
+      emit_trouble({Errc::Corrupt, "a character before the first one was spoiled"});
+    }
+    spoiled_.reset();
     if (!is_ready_) {
       is_holding_ = true;
       queue_control(kDc3);
@@ -273,10 +277,12 @@ void TncStandard::on_character(char c, LineTime now) {
 }
 
 void TncStandard::fault(LineFault fault, LineTime now) {
-  if (!is_receiving() || (!has_received_ && line_.empty())) return;
   static constexpr std::string_view kWords[] = {"parity", "framing", "overrun", "break"};
+  if (phase_ == Phase::Idle) spoiled_ = now;
+  if (!is_receiving()) return;
   emit_trouble({Errc::Corrupt, fmt::format("{} error behind '{}'",
                                            kWords[static_cast<std::size_t>(fault)], line_)});
+  if (!has_received_ && line_.empty()) return;  // most likely a blank of the leader
   restart_silence(now);
   add('?', now);
 }

@@ -56,6 +56,7 @@ class TncStandard final : public DisciplineBase {
   void restart_silence(LineTime now);
 
   std::optional<LineTime> limit_;
+  std::optional<LineTime> spoiled_;  ///< when the UART found a character wrong while idle
   Stage stage_ = Stage::Start;
   unsigned blanks_left_ = 0;
   std::string out_;
