@@ -1,6 +1,9 @@
 #include "server/serial/answer_text.hpp"
 
 #include <fmt/format.h>
+#include <map>
+
+#include "server/serial/program_head.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -52,6 +55,19 @@ std::vector<std::string> listing(std::span<const storage::ProgramSummary> progra
   }
   if (more > 0) lines.push_back(fmt::format("AND {} MORE", more));
   return lines;
+}
+
+std::vector<storage::Revision> numbered_programs(std::span<const storage::ProgramSummary> programs,
+                                                 const std::string& control) {
+  std::map<std::pair<std::size_t, std::string>, storage::Revision> in_order;
+  for (const auto& program : programs) {
+    const std::string number = program_number(program.latest.program);
+    if (number.empty() || !is_offered(program, control)) continue;
+    in_order.emplace(std::pair(number.size(), number), program.latest);
+  }
+  std::vector<storage::Revision> revisions;
+  for (auto& [number, revision] : in_order) revisions.push_back(std::move(revision));
+  return revisions;
 }
 
 }  // namespace dripline::ports

@@ -82,6 +82,8 @@ void CallDesk::carry_out(RuleAction action, const std::string& argument) {
 void CallDesk::answer(const wire::TransferRequest& request) {
   using Kind = wire::TransferRequest::Kind;
   if (request.kind == Kind::Directory) return send_listing(true);
+  if (request.kind == Kind::SendProgram && request.name.empty()) return send_next();
+  offered_.clear();
   if (request.kind == Kind::SendProgram) return send(request.name, true);
   if (const auto line = parts_.directory.line_of(parts_.machine)) {
     line->accept_receive(request.name);
@@ -130,6 +132,31 @@ void CallDesk::send_listing(bool is_request) {
   send_answer(name, comment_program(name.empty() ? "O9998" : name, lines));
 }
 
+/// A control that names none gets all that have a number, one a request, and then "no more": so it
+/// lists them, or takes those it wants. They are no runs.
+void CallDesk::send_next() {
+  const SteadyTime now = parts_.clock.steady_now();
+  const bool is_forgotten = now - std::exchange(offered_at_, now) > kOfferLife;
+  if (offered_.empty() || is_forgotten) {
+    const auto programs = parts_.store.programs({.limit = kMostPrograms});
+    if (!programs) return say_no(programs.error().what, true);
+    offered_ = numbered_programs(*programs, control());
+    next_offered_ = 0;
+  }
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  if (next_offered_ >= offered_.size()) {
+    offered_.clear();
+    return line->refuse("");
+  }
+  const auto& revision = offered_[next_offered_++];
+  SendJob job;
+  job.name = program_number(revision.program);
+  job.content = revision.content;
+  job.size = revision.size;
+  put_on_line(std::move(job));
+}
+
 void CallDesk::say_no(const std::string& why, bool is_request) const {
   spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);
@@ -146,13 +173,17 @@ void CallDesk::report(const std::string& words) const {
 }
 
 void CallDesk::send_answer(std::string name, std::string text) const {
-  const auto line = parts_.directory.line_of(parts_.machine);
-  if (!line) return;
   SendJob job;
-  job.id = fmt::format("{}-{}", kAnswerPrefix, random_hex(4));
   job.name = std::move(name);
   job.size = text.size();
   job.text = std::move(text);
+  put_on_line(std::move(job));
+}
+
+void CallDesk::put_on_line(SendJob job) const {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  job.id = fmt::format("{}-{}", kAnswerPrefix, random_hex(4));
   line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
     if (!begun) spdlog::warn("answer not sent machine={}: {}", machine, begun.error().what);
   });

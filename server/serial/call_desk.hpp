@@ -14,10 +14,14 @@ namespace dripline::ports {
 /// refused request, or a program of comments when the rules name one. On the machine's strand.
 class CallDesk {
  public:
+  /// A control that asks for "the next program" after this begins with the first one again.
+  static constexpr std::chrono::seconds kOfferLife{60};
+
   struct Parts {
     storage::Store& store;
     SerialFeed& feed;
     const LineDirectory& directory;
+    const Clock& clock;
     std::string machine;
     std::shared_ptr<const RuleSet> rules;
   };
@@ -34,14 +38,20 @@ class CallDesk {
   void send(const std::string& name, bool is_request);
   void restart(const std::string& block);
   void send_listing(bool is_request);
+  void send_next();
   void say_no(const std::string& why, bool is_request) const;
   void send_answer(std::string name, std::string text) const;
+  void put_on_line(SendJob job) const;
   SerialFeed::Started on_started(bool is_request) const;
   /// The library's name for what the control calls `name`. Errors: NotFound.
   Result<std::string> find_program(const std::string& name) const;
   std::string control() const;
 
   Parts parts_;
+  /// Of a control that asks for one program after the other (its directory, all programs).
+  std::vector<storage::Revision> offered_;
+  std::size_t next_offered_ = 0;
+  SteadyTime offered_at_{};
 };
 
 /// What an operator writes to name a block: `N120` or `120` its N number, `L7` its line, `B4096` a

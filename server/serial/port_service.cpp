@@ -200,8 +200,12 @@ void PortService::open(Entry& entry) {
 
 PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
   const std::string& name = entry.port.machine;
-  CallDesk::Parts calls{
-      .store = store_, .feed = feed_, .directory = *this, .machine = name, .rules = entry.rules};
+  CallDesk::Parts calls{.store = store_,
+                        .feed = feed_,
+                        .directory = *this,
+                        .clock = clock_,
+                        .machine = name,
+                        .rules = entry.rules};
   const auto reception = std::make_shared<Reception>(Reception::Parts{.store = store_,
                                                                       .programs = programs_,
                                                                       .records = machine.records,

@@ -99,6 +99,13 @@ bool is_same_program(std::string_view a, std::string_view b) {
   return bare(a) == bare(b);
 }
 
+std::string program_number(std::string_view stored_name) {
+  constexpr std::size_t kMaxDigits = 8;
+  const std::string number = bare(stored_name.substr(0, stored_name.rfind('.')));
+  const bool is_number = leading_digits(number).size() == number.size();
+  return is_number && number.size() <= kMaxDigits ? number : std::string();
+}
+
 std::optional<std::string> find_trigger(std::string_view head, std::string_view key) {
   std::optional<std::string> value;
   const std::string wanted = upper(trim(key));

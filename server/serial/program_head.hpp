@@ -20,6 +20,10 @@ std::string program_name(std::string_view head);
 /// Whether two names are the same program's: `O0015`, `o15` and `15` are.
 bool is_same_program(std::string_view a, std::string_view b);
 
+/// The digits by which protocols with numbered programs know a stored one: "15" for `O0015`, `15.h`
+/// and `15`; empty when it has no number of at most 8 digits.
+std::string program_number(std::string_view stored_name);
+
 /// Looks for a comment `(KEY)` or `(KEY=value)`, or `;KEY=value` to the end of its line. Letters of
 /// either case; blanks around key and value do not count. The value; empty when it has none.
 std::optional<std::string> find_trigger(std::string_view head, std::string_view key);

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 #include <future>
 
+#include "server/serial/program_head.hpp"
+
 namespace dripline::ports {
 namespace {
 
@@ -13,6 +15,10 @@ Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
   if (answer.wait_for(SerialFeed::kAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "{}: the line did not answer within {} s; the outcome is unknown",
               what, SerialFeed::kAnswerLimit.count());
+}
+
+bool has_numbered_programs(wire::Flow flow) {
+  return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
 }
 
 dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
@@ -115,7 +121,11 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const feeds::Start
   announce(run->id);
   auto job = runs_.job(*run, request.from);
   if (!job) return started(conclude(*run, fail(job.error())));
-  if (!wire_name.empty()) job->name = wire_name;
+  if (!wire_name.empty()) {
+    job->name = wire_name;
+  } else if (has_numbered_programs(port.settings.flow)) {
+    job->name = program_number(run->program);
+  }
   line->begin(*std::move(job), [this, run = *run, started](const Result<void>& begun) {
     started(conclude(run, begun));
   });

@@ -59,6 +59,50 @@ TEST(Settings, OfAFileAreCheckedByKeyTypeAndRange) {
   EXPECT_NE(says("dds-domain = ").find("line 1"), std::string::npos);
 }
 
+TEST(Settings, OfAFileMayHoldSerialPorts) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.path() / "calls.toml") << "reply = \"O9998\"\n";
+  const auto path = folder.path() / "dncd.toml";
+  std::ofstream(path) << R"(
+[[port]]
+machine = "mill-3"
+address = "/dev/ttyUSB0"
+template = "tnc155"
+rules_file = "calls.toml"
+baud = 4800
+wait_for_xon = true
+[[port]]
+name = "com2"
+machine = "lathe"
+address = "tcp://10.0.0.7:4001"
+enabled = false
+)";
+  const auto line = read({"--config", path.c_str()});
+  ASSERT_EQ(line.print, "");
+  ASSERT_EQ(line.settings.ports.size(), 2u);
+  const auto& mill = line.settings.ports[0];
+  EXPECT_EQ(mill.name, "mill-3");
+  EXPECT_EQ(mill.line_template, "tnc155");
+  EXPECT_EQ(mill.rules, "reply = \"O9998\"\n");
+  ASSERT_EQ(mill.settings.size(), 2u);
+  EXPECT_EQ(mill.settings[0], std::pair(std::string("baud"), std::string("4800")));
+  EXPECT_EQ(mill.settings[1].second, "yes");
+  EXPECT_FALSE(line.settings.ports[1].is_enabled);
+}
+
+TEST(Settings, OfAPortAreRefusedWithLineAndKey) {
+  Settings settings;
+  const auto says = [&](const char* toml) {
+    const auto applied = apply_toml(settings, toml);
+    return applied ? std::string("taken") : applied.error().what;
+  };
+  EXPECT_NE(says("port = 3").find("write [[port]]"), std::string::npos);
+  EXPECT_NE(says("[[port]]\nmachine = \"a\"").find("address"), std::string::npos);
+  EXPECT_NE(says("[[port]]\nmachine = 3").find("line 2: machine"), std::string::npos);
+  EXPECT_NE(says("[[port]]\nbaud = []").find("line 2: baud"), std::string::npos);
+  EXPECT_NE(says("[[port]]\nrules_file = \"/nowhere\"").find("/nowhere"), std::string::npos);
+}
+
 TEST(Settings, WithWrongUseEndWithTwo) {
   EXPECT_EQ(read({"--colour"}).exit_code, 2);
   EXPECT_EQ(read({"--dds-domain", "231"}).exit_code, 2);

@@ -1,0 +1,115 @@
+#include "tests/support/played_control.hpp"
+#include "tests/unit/server/serial_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using storage::RunState;
+using test_support::PlayedControl;
+
+/// A control that speaks a protocol of its own, at the end of the port's line.
+class SerialProtocolTest : public SerialTest {
+ protected:
+  void add_control(const std::string& flow) {
+    start_ports();
+    add_machine("mill", "tnc155");
+    auto port = mill();
+    port.settings = {{"baud", "115200"}, {"flow", flow}};
+    add_port(port);
+    control_ = std::make_unique<PlayedControl>(ports_->port("com1")->settings, line());
+  }
+  static std::string tnc_program(int number, int count) {
+    std::string text = fmt::format("0 BEGIN PGM {} MM\n", number);
+    for (int i = 1; i <= count; ++i) text += fmt::format("{} L X+{} Y-{} F200 M\n", i, i, i);
+    return text + fmt::format("{} END PGM {} MM\n", count + 1, number);
+  }
+  std::vector<Run> runs() {
+    return store_->runs({.machine = "mill", .program = {}, .state = {}}, {}).value();
+  }
+  std::unique_ptr<PlayedControl> control_;
+};
+
+TEST_F(SerialProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
+  add_control("xmodem");
+  const std::string text = blocks(200);
+  push("O1", text, "tnc155");
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  EXPECT_TRUE(control_->programs[0] == text) << control_->programs[0].size();
+  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state != RunState::Active; }));
+  const auto stored = store_->run(run->id);
+  EXPECT_EQ(stored->state, RunState::Completed);
+  EXPECT_EQ(stored->counters.sent, text.size());
+  EXPECT_EQ(stored->counters.accepted, 200u);
+  EXPECT_EQ(stored->counters.executed, 0u);
+}
+
+TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
+  add_control("heidenhain_bcc");
+  const std::string text = tnc_program(15, 50);
+  push("15.h", text, "tnc155");
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::SendProgram, "15"}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  EXPECT_TRUE(control_->programs[0] == text) << control_->programs[0];
+  ASSERT_TRUE(control_->until([&] { return runs().front().state == RunState::Completed; }));
+  EXPECT_EQ(runs().front().program, "15.h");
+  EXPECT_EQ(runs().front().counters.accepted, 52u);
+}
+
+TEST_F(SerialProtocolTest, TellsATncWhatThereIsNot) {
+  add_control("heidenhain_bcc");
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::SendProgram, "77"}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return !control_->failures.empty(); }));
+  EXPECT_TRUE(runs().empty());
+}
+
+TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
+  add_control("heidenhain_bcc");
+  push("O0007", tnc_program(7, 2), "tnc155");
+  push("15.h", tnc_program(15, 2), "tnc155");
+  push("no-number", tnc_program(1, 2), "tnc155");
+  push("O3", "%C\nG0\n", "centurion");
+  const auto ask = [&] {
+    return control_->line().request({wire::TransferRequest::Kind::Directory, ""}, control_->now());
+  };
+  for (std::size_t count = 1; count <= 2; ++count) {
+    ASSERT_TRUE(ask());
+    ASSERT_TRUE(control_->until([&] { return control_->programs.size() == count; }));
+  }
+  ASSERT_TRUE(ask());
+  ASSERT_TRUE(control_->until([&] { return !control_->failures.empty(); }));
+  EXPECT_EQ(control_->failures[0].what, "the device has no program left");
+  EXPECT_NE(control_->programs[0].find("BEGIN PGM 7 "), std::string::npos);
+  EXPECT_NE(control_->programs[1].find("BEGIN PGM 15 "), std::string::npos);
+  EXPECT_TRUE(runs().empty());
+}
+
+TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
+  add_control("heidenhain_bcc");
+  const std::string text = tnc_program(33, 20);
+  ASSERT_TRUE(control_->send(text, "33"));
+  ASSERT_TRUE(control_->until([&] { return store_->revision("33", 1).has_value(); }));
+  EXPECT_TRUE(store_->revision("33", 1)->is_held);
+  EXPECT_EQ(store_->revision("33", 1)->content, sha256(text));
+}
+
+TEST_F(SerialProtocolTest, WaitsForTheTncToAskForTheRun) {
+  add_control("heidenhain_bcc");
+  const std::string text = tnc_program(15, 5);
+  push("O0015", text, "tnc155");
+  const auto run = start("O0015");
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
+  EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::SendProgram, "15"}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state == RunState::Completed; }));
+  EXPECT_TRUE(control_->received == text);
+}
+
+}  // namespace
+}  // namespace dripline::server_test
