@@ -104,6 +104,9 @@ struct LineState {
 /// then `take_events`. `now` never goes backwards. Cutting the received bytes into other pieces
 /// gives the same events, apart from how TextReceived is cut.
 ///
+/// Plain lines carry both directions at once: a reception may begin and end while the phase is
+/// Sending, begin_send and begin_receive only look at their own direction, and a failure ends both.
+///
 /// Bounds: what `room()` says is all the text it keeps (at most 64 KiB); events are taken after
 /// each call; TextReceived that its owner can not keep is held off by `set_ready(false)`. Not
 /// thread-safe.
