@@ -143,8 +143,8 @@ void LineSimulator::meet_fault(Wire& wire, Fate& fate) {
       fate.character ^= static_cast<std::byte>(1U << dice_.below(settings_.data_bits));
       if (settings_.parity == wire::Parity::Even || settings_.parity == wire::Parity::Odd) {
         fate.fault = LineFault::Parity;
-      } else {
-        ++wire.counts.silent;
+      } else if (settings_.code != wire::CharacterCode::Iso) {
+        ++wire.counts.silent;  // ISO's own parity tells
       }
       break;
     case Kind::Delay:

@@ -89,6 +89,12 @@ LineSettings with_flow(Flow flow) {
   return settings;
 }
 
+LineSettings iso() {
+  LineSettings settings = settings_of("plain");
+  settings.code = CharacterCode::Iso;
+  return settings;
+}
+
 LineSettings with_parity(LineSettings settings) {
   EXPECT_TRUE(apply_short_form("9600e71", settings));
   return settings;
@@ -130,6 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
     Plain, UncheckedLine,
     testing::ValuesIn(parts_of(both_ways({{"xonxoff", settings_of("plain")},
                                           {"xonxoff_parity", with_parity(settings_of("plain"))},
+                                          {"iso", iso()},
                                           {"rtscts", with_flow(Flow::RtsCts)},
                                           {"paced", paced()},
                                           {"dc_codes", settings_of("fanuc")},
@@ -163,27 +170,36 @@ INSTANTIATE_TEST_SUITE_P(Plain, ProtoTrakLine,
 
 class XmodemLineFaults : public testing::TestWithParam<Part> {};
 
+/// How many of so many runs may deliver something wrong: a CRC of 16 bits misses one damaged block
+/// in 65,536, and most runs have none. Of the tests' own runs: none.
+std::size_t wrong_at_most(const FaultCase& fault_case, std::size_t runs) {
+  return runs / (fault_case.settings.xmodem_crc ? 20'000 : 2'000);
+}
+
 TEST_P(XmodemLineFaults, DeliversExactlyOrSaysWhyNot) {
   FaultCase fault_case = case_of(GetParam());
   // Eight bits of checksum miss one damaged block in some hundred: only for lines that are nearly
-  // good. A CRC misses one in 65,536.
+  // good.
   if (!fault_case.settings.xmodem_crc) fault_case.faults.rate /= 20;
+  std::size_t runs = 0, wrong = 0;
+  std::string story;
   run_part(GetParam(), fault_case, [&](const FaultRun& run) {
+    ++runs;
     ASSERT_TRUE(run.has_ended()) << run.story();
-    if (run.receiver->receptions > 0) {
-      ASSERT_EQ(run.receiver->received, run.expected) << run.story();
-    } else {
+    if (run.receiver->receptions == 0) {
       ASSERT_FALSE(run.receiver->failures.empty()) << run.story();
     }
     if (run.sender->sends > 0) {
       ASSERT_EQ(run.sender->accepted, run.text.size()) << run.story();
-      ASSERT_TRUE(run.is_exact()) << run.story();
+      ASSERT_EQ(run.receiver->receptions, 1u) << run.story();
     } else {
       ASSERT_FALSE(run.sender->failures.empty()) << run.story();
     }
-    ASSERT_EQ(run.expected.substr(0, run.receiver->received.size()), run.receiver->received)
-        << run.story();
+    const bool is_whole = run.receiver->receptions == 0 || run.is_exact();
+    if (is_whole && run.expected.starts_with(run.receiver->received)) return;
+    if (wrong++ == 0) story = run.story();
   });
+  EXPECT_LE(wrong, wrong_at_most(fault_case, runs)) << story;
 }
 
 LineSettings xmodem(bool has_crc) {
