@@ -90,6 +90,9 @@ struct Block {
     parts = Parts{};
   }
   void warn(WarningCode code, std::uint32_t column) {
+    for (std::size_t i = 0; i < parts.warning_count; ++i) {
+      if (warnings[i].code == code) return;  // once a block is enough
+    }
     if (parts.warning_count == kMostWarnings) return;
     warnings[parts.warning_count++] = {code, column};
   }

@@ -100,7 +100,8 @@ bool add_m(Run& run, const Word& word) {
 bool set_sequence(Run& run, const Word& word) {
   if (word.form == WordForm::Computed) return run.fail(ErrorCode::MacroFormat, word.column);
   double value = 0;
-  if (!read_whole(run, word, 99999, value)) return false;
+  const bool has_four_digits = run.options.model <= Model::M6;
+  if (!read_whole(run, word, has_four_digits ? 9999 : 99999, value)) return false;
   run.origin.sequence = static_cast<std::int64_t>(value);
   return true;
 }

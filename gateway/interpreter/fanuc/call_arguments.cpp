@@ -96,6 +96,9 @@ bool add_argument(Run& run, char letter, const Word& word) {
   Block& block = run.block;
   double value = 0;
   if (letter == 'P' && block.parts.call != CallKind::Code) {
+    if (run.options.model == Model::M0 && word.form == WordForm::Computed) {
+      return run.fail(ErrorCode::ImproperG, word.column, "MACRO A");
+    }
     if (!read_call_number(run, word, 9999, ErrorCode::IllegalProgramNumber, value)) return false;
     block.parts.call_program = static_cast<std::uint32_t>(value);
     block.parts.has_call_program = true;

@@ -80,8 +80,13 @@ bool apply_compensation(Run& run) {
   return true;
 }
 
-void interrupt_compensation(Run& run) {
-  if (run.state.uses_compensator && run.state.is_compensating()) run.compensator.leave();
+void interrupt_compensation(Run& run, bool first_keeps_distance) {
+  if (!run.state.uses_compensator || !run.state.is_compensating()) return;
+  if (first_keeps_distance) {
+    run.compensator.leave_in_parallel();
+  } else {
+    run.compensator.leave();
+  }
 }
 
 void resume_compensation(Run& run) {

@@ -12,8 +12,9 @@ compensation::Policy policy_of(const ControlOptions& options);
 
 /// G40, G41, G42 and D of the block, before its motion. False: an alarm.
 bool apply_compensation(Run& run);
-/// What interrupts compensation calls `interrupt` before and `resume` after its moves.
-void interrupt_compensation(Run& run);
+/// What interrupts compensation calls `interrupt` before and `resume` after its moves. By choice
+/// the first of them keeps the distance that the tool has.
+void interrupt_compensation(Run& run, bool first_keeps_distance = false);
 void resume_compensation(Run& run);
 /// False: the alarm of a contour that can not be offset.
 bool check_compensation(Run& run);

@@ -126,13 +126,6 @@ bool set_imaginary(Run& run) {
   return true;
 }
 
-bool interrupted(Run& run, bool (*move)(Run&)) {
-  interrupt_compensation(run);
-  if (!move(run)) return false;
-  resume_compensation(run);
-  return true;
-}
-
 bool execute_one_shot(Run& run) {
   Block& block = run.block;
   switch (block.parts.one_shot) {
@@ -149,7 +142,9 @@ bool execute_one_shot(Run& run) {
     case 29:
     case 30:
       block.parts.has_motion = block.words.has_any(kAxisWords);
-      return interrupted(run, execute_reference);
+      if (!execute_reference(run)) return false;
+      resume_compensation(run);
+      return true;
     case 31:
       block.parts.has_motion = block.words.has_any(kAxisWords);
       if (run.state.is_cycle())
@@ -159,7 +154,10 @@ bool execute_one_shot(Run& run) {
       return set_local_zero(run);
     case 53:
       block.parts.has_motion = block.words.has_any(kAxisWords);
-      return interrupted(run, move_in_machine_coordinates);
+      interrupt_compensation(run);
+      if (!move_in_machine_coordinates(run)) return false;
+      resume_compensation(run);
+      return true;
     default:
       return set_position(run);  // 92
   }

@@ -88,9 +88,11 @@ void end_program(Run& run, std::uint64_t blocks, bool rewind) {
 void drop_frame(ModalState& state) {
   const CallFrame& frame = state.calls.back();
   state.loops.resize(std::min<std::size_t>(state.loops.size(), frame.loop_base));
-  state.modals.resize(std::min<std::size_t>(state.modals.size(), frame.modal_count));
-  state.modal_active = frame.modal_active;
-  if (frame.kind != CallKind::Subprogram) state.locals.pop_back();
+  if (frame.kind != CallKind::Subprogram) {  // a subprogram shares what is modal with its caller
+    state.modals.resize(std::min<std::size_t>(state.modals.size(), frame.modal_count));
+    state.modal_active = frame.modal_active;
+    state.locals.pop_back();
+  }
   state.calls.pop_back();
 }
 
@@ -190,7 +192,7 @@ JumpOutcome enter_call(Run& run, const TextPosition& entry) {
   frame.arguments = jump.arguments;
   frame.passes_left = jump.passes - 1;
   frame.loop_base = static_cast<std::uint8_t>(state.loops.size());
-  frame.modal_active = state.modal_active;
+  if (frame.kind != CallKind::Subprogram) frame.modal_active = state.modal_active;
   frame.modal_count = static_cast<std::uint8_t>(state.modals.size());
   if (jump.call == CallKind::Modal && jump.modal >= 0) {
     state.modal_active = state.modals[static_cast<std::size_t>(jump.modal)].outer;
@@ -297,7 +299,9 @@ bool plan_macro_call(Run& run) {
   ModalState& state = run.state;
   const Block::Parts& parts = run.block.parts;
   if (!parts.has_call_program) {
-    return run.fail(ErrorCode::NoP, parts.g_column);
+    const bool is_macro_a = run.options.model == Model::M0;
+    return is_macro_a ? run.fail(ErrorCode::ImproperG, parts.g_column, "MACRO A")
+                      : run.fail(ErrorCode::NoP, parts.g_column);
   }
   Locals arguments;
   if (!assign_arguments(run, arguments)) return false;
@@ -314,19 +318,19 @@ bool plan_macro_call(Run& run) {
   }
   state.modals.push_back({parts.call_program, parts.call_passes, state.modal_active, arguments});
   state.modal_active = static_cast<std::int8_t>(state.modals.size() - 1);
-  state.g[kModalCallGroup] = 66;
   run.update_special();
   return true;
 }
 
 void cancel_modal_call(Run& run) {
   ModalState& state = run.state;
-  state.g[kModalCallGroup] = 67;
   if (state.modal_active < 0) return;
-  const std::size_t floor = state.calls.empty() ? 0 : state.calls.back().modal_count;
+  const auto macro =
+      std::find_if(state.calls.rbegin(), state.calls.rend(),
+                   [](const CallFrame& frame) { return frame.kind != CallKind::Subprogram; });
+  const std::size_t floor = macro == state.calls.rend() ? 0 : macro->modal_count;
   state.modal_active = state.modals[static_cast<std::size_t>(state.modal_active)].outer;
   if (state.modals.size() > floor) state.modals.pop_back();
-  if (state.modal_active >= 0) state.g[kModalCallGroup] = 66;
   run.update_special();
 }
 

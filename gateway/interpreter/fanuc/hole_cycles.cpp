@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "gateway/interpreter/fanuc/cutter_compensation.hpp"
 #include "gateway/interpreter/fanuc/machine_functions.hpp"
 #include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/path.hpp"
@@ -303,7 +304,10 @@ bool execute_cycle(Run& run) {
   if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;
   if (!check_pecks(run, repeats)) return false;
   if (repeats > 0 && !check_feed(run)) return false;
-  if (state.is_compensating()) run.warn(WarningCode::CycleInCompensation, run.block.parts.g_column);
+  if (state.is_compensating()) {
+    run.warn(WarningCode::CycleInCompensation, run.block.parts.g_column);
+    interrupt_compensation(run);  // holes are where they are programmed
+  }
   if (state.g[kCycleGroup] == 87 && state.g[kReturnGroup] == 99) {
     run.warn(WarningCode::BackBoringLevel, run.block.parts.g_column);
   }
@@ -311,6 +315,7 @@ bool execute_cycle(Run& run) {
     Point3 at{};
     if (!position_hole(run, at) || !Hole(run, at).make()) return false;
   }
+  resume_compensation(run);
   return true;
 }
 

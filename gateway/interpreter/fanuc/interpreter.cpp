@@ -106,7 +106,8 @@ FanucInterpreter::BlockOutcome FanucInterpreter::read() {
   place_origin();
   run_.block.clear();
   run_.answers_used = 0;
-  if (c == '%' || upper(c) == 'O' || c == ':' || kind_of(c) == CharKind::Blank) [[unlikely]] {
+  if (c == '%' || upper(c) == 'O' || c == ':' || c == '(' || kind_of(c) == CharKind::Blank)
+      [[unlikely]] {
     is_leader_ = false;
     if (!begin_other_block()) return BlockOutcome::Paused;
     if (is_leader_) return BlockOutcome::NoBlock;

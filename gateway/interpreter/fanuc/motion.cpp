@@ -55,6 +55,13 @@ bool single_direction(Run& run, const Position& to) {
   return rapid_to(run, first) && rapid_to(run, to);
 }
 
+/// What #5061 and up show.
+void note_skip(Run& run) {
+  for (const Axis axis : kAllAxes) {
+    run.state.skip[static_cast<std::size_t>(axis)] = run.work_position(axis);
+  }
+}
+
 bool cut_thread(Run& run, const Position& to) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
@@ -235,7 +242,10 @@ bool start_skip(Run& run) {
   }
   Position to;
   if (!check_feed(run) || !read_target(run, to) || !check_stroke(run, to)) return false;
-  if (run.state.position.same_point(to)) return true;
+  if (run.state.position.same_point(to)) {
+    note_skip(run);
+    return true;
+  }
   ProbeQuestion question;
   question.probe = {run.origin, run.state.position, to, ProbeUntil::Contact, run.active_feed(), {}};
   question.probe.from.mark_all_of(to);
@@ -255,9 +265,7 @@ void finish_skip(Run& run, const ProbeResult& result) {
   probe.result = ProbeResult{result.tripped, at};
   run.events().on_probe(probe);
   arrive(run, at);
-  for (const Axis axis : kAllAxes) {
-    run.state.skip[static_cast<std::size_t>(axis)] = run.work_position(axis);
-  }
+  note_skip(run);
 }
 
 }  // namespace dripline::interpreter::fanuc

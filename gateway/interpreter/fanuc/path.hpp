@@ -17,13 +17,7 @@ bool arc_to(Run& run, Arc arc);
 bool check_stroke(Run& run, const Position& to);
 /// The tool is here, whatever way it came.
 inline void arrive(Run& run, const Position& to) {
-  Position kept = to;
-  for (const Axis axis : kAllAxes) {
-    if (to.raw(axis) == run.state.position.raw(axis) && !run.state.position.has(axis)) {
-      kept.unmark(axis);
-    }
-  }
-  run.state.position = kept;
+  run.state.position = to;
 }
 
 /// A point of an arc, by the angle travelled from its start.

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/fanuc/cutter_compensation.hpp"
 #include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/path.hpp"
+#include "gateway/interpreter/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -13,15 +15,10 @@ bool names_axis(const Run& run, Axis axis) {
   return (run.block.words.present() & set_of_axis(axis)) != 0;
 }
 
-/// A target that moves the named axes only.
-bool read_named_target(Run& run, Position& to) {
-  return read_target(run, to);
-}
-
 bool check_reference(Run& run) {
   constexpr double kAtReference = 1e-6;
   Position to;
-  if (!read_named_target(run, to) || !rapid_to(run, to)) return false;
+  if (!read_target(run, to) || !rapid_to(run, to)) return false;
   for (const Axis axis : kAllAxes) {
     if (!names_axis(run, axis)) continue;
     const double reference = run.options.reference[0][static_cast<std::size_t>(axis)];
@@ -32,10 +29,18 @@ bool check_reference(Run& run) {
   return true;
 }
 
+bool moves_in_plane(const Run& run, const Position& to) {
+  const PlaneAxes axes = axes_of(run.state.plane());
+  const Position& from = run.state.position;
+  return to.raw(axes.first) != from.raw(axes.first) || to.raw(axes.second) != from.raw(axes.second);
+}
+
+/// The intermediate point is reached with the compensation's vector, the reference point without.
 bool return_to(Run& run, std::size_t point) {
   ModalState& state = run.state;
   Position to;
-  if (!read_named_target(run, to)) return false;
+  if (!read_target(run, to)) return false;
+  interrupt_compensation(run, moves_in_plane(run, to));
   for (const Axis axis : kAllAxes) {
     if (!names_axis(run, axis)) continue;
     const auto i = static_cast<std::size_t>(axis);
@@ -82,10 +87,12 @@ bool execute_reference(Run& run) {
   if (!words.has_any(kAxisWords)) return true;
   switch (run.block.parts.one_shot) {
     case 27:
+      interrupt_compensation(run);
       return check_reference(run);
     case 28:
       return return_to(run, 0);
     case 29:
+      interrupt_compensation(run);
       return come_back(run);
     default:
       break;

@@ -144,6 +144,7 @@ bool apply_length_offset(Run& run) {
     if (!read_offset_number(run, H, state.h_number)) return false;
     state.last.h = state.h_number;
   }
+  if (block.names(kLengthGroup)) state.g[kLengthGroup] = block.g[kLengthGroup];
   const std::uint8_t code = state.g[kLengthGroup];
   if (block.names(kLengthGroup) && code != 49) {
     const AddressSet axes = block.words.present() & set_of(X, Y, Z);

@@ -1,0 +1,2 @@
+(expect loop-limit 2:0)
+M99
