@@ -72,8 +72,9 @@ Ran run(const Dialect& dialect, const std::string& text) {
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
-void measure(benchmark::State& state, const std::string& text, const std::string& executed) {
-  const Dialect& dialect = **find_dialect("centurion");
+void measure(benchmark::State& state, std::string_view control, const std::string& text,
+             const std::string& executed) {
+  const Dialect& dialect = **find_dialect(control);
   Ran total;
   double scanned = 0;
   for (auto _ : state) {
@@ -89,7 +90,7 @@ void measure(benchmark::State& state, const std::string& text, const std::string
 
 void CenturionStraightBlocks(benchmark::State& state) {
   static const std::string kText = straight_blocks();
-  measure(state, kText, kText);
+  measure(state, "centurion", kText, kText);
 }
 BENCHMARK(CenturionStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
 
@@ -101,9 +102,33 @@ void CenturionMacros(benchmark::State& state) {
     for (int pass = 0; pass < kMacroPasses; ++pass) executed += kText;
     return executed;
   }();
-  measure(state, kText, kExecuted);
+  measure(state, "centurion", kText, kExecuted);
 }
 BENCHMARK(CenturionMacros)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+void FanucStraightBlocks(benchmark::State& state) {
+  static const std::string kText = straight_blocks() + "M30\n";
+  measure(state, "fanuc", kText, kText);
+}
+BENCHMARK(FanucStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+/// As the Centurion's, in custom macro B.
+std::string custom_macro_text() {
+  return "O1\n#1=0\n#2=16.4856\nPOPEN\nF20.\nN10#3=#2/2*SIN[30+#1/1000]\n#4=-[#3*#3+.01]\n"
+         "IF[#3GT#2]THEN#3=#2\nG01X[#3*2]Z[#4/5]\nDPRNT[G1*X#3[44]Z#4[24]]\n#1=#1+1\n"
+         "IF[#1LT100000]GOTO10\nPCLOS\nM30\n";
+}
+
+void FanucMacros(benchmark::State& state) {
+  static const std::string kText = custom_macro_text();
+  static const std::string kExecuted = [] {
+    std::string executed;
+    for (int pass = 0; pass < kMacroPasses; ++pass) executed += kText;
+    return executed;
+  }();
+  measure(state, "fanuc", kText, kExecuted);
+}
+BENCHMARK(FanucMacros)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter
