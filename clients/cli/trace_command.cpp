@@ -27,15 +27,15 @@ int trace(const OfflineCommand& command) {
   return outcome->ended ? kExitOk : kExitNo;
 }
 
-/// The program in the control's own words, for controls that keep something else than the text.
-int list_events(const OfflineCommand& command) {
+/// The program in the form the control knows it in, where that is not its text.
+int print_listing(const OfflineCommand& command) {
   auto program = OfflineProgram::open(command);
   if (!program) return complain(program.error());
   const interpreter::Dialect& dialect = program->dialect();
   if (dialect.list == nullptr) {
     return complain(Error{Errc::Unsupported, std::string(dialect.name) +
                                                  " keeps programs as their text; "
-                                                 "--events is for controls that keep events"});
+                                                 "it has no listing of its own"});
   }
   const auto list = dialect.list(program->text());
   if (!list) {
@@ -55,15 +55,16 @@ void add_trace_command(CLI::App& app, Context& context) {
   auto options = std::make_shared<OfflineCommand>();
   add_offline_options(*command, *options);
   auto events = std::make_shared<bool>(false);
-  command->add_flag("--events", *events,
-                    "The events a control stores instead (prototrak-plus), as it would send them");
+  command->add_flag("--events,--listing", *events,
+                    "The program in the control's own form instead: the events that a "
+                    "prototrak-plus stores, the planning sheet of a tektronix-1704");
   command->footer(
       "No server is needed. Positions are in the program's units. Called programs come from the "
       "setup's\nlibrary, or from FILE's folder.\n\nExit status: 0 the end was reached, 1 an alarm "
       "(the last object), 2 usage, unreadable file, unknown control.\n\nExample:\n  dnc trace "
       "--control centurion --setup lathe.toml shaft.nc");
   command->callback([&context, options, events] {
-    context.status = *events ? list_events(*options) : trace(*options);
+    context.status = *events ? print_listing(*options) : trace(*options);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gateway/interpreter/tektronix1704/interpreter.hpp"
+#include "gateway/interpreter/tektronix1704/planning_sheet.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -44,6 +45,7 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .likelihood = likelihood,
                                     .make = make,
                                     .units = Units::Inch,
-                                    .machine = MachineKind::Mill};
+                                    .machine = MachineKind::Mill,
+                                    .list = planning_sheet};
 
 }  // namespace dripline::interpreter
