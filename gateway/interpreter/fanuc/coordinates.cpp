@@ -79,9 +79,8 @@ bool set_local_zero(Run& run) {
 bool set_position(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
-  if (words.has_any(kAxisWords) && state.is_transformed) {
-    return refuse_transformed(run, ErrorCode::PositionUnderTransform);
-  }
+  if (!words.has_any(kAxisWords)) return true;  // G92 S
+  if (state.is_transformed) return refuse_transformed(run, ErrorCode::PositionUnderTransform);
   interrupt_compensation(run);
   Coordinates& all = run.memory.coordinates;
   each_axis_word(run, [&](std::size_t i, double value) {

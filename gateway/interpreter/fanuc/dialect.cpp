@@ -55,7 +55,7 @@ int likelihood(std::string_view head, std::string_view) {
   // Words of other controls: plain language, RS274/NGC's O words and names, Centurion's P
   // variables.
   if (contains_any(text, {"BEGINPGM", "TOOLCALL", "\nPROGRAM", "GOSUB", "IFP", "POPENP", "#<",
-                          "PB81", "**", "CALL["})) {
+                          "PB81", "ENDSUB", "ENDIF", "ENDWHILE", "CALL["})) {
     return 0;
   }
   int points = 0;
@@ -65,7 +65,7 @@ int likelihood(std::string_view head, std::string_view) {
   if (contains_any(text, {"IF[", "WHILE[", "GOTO", "POPEN\n", "DPRNT[", "#3000=", "#3006="})) {
     points += 30;
   }
-  if (contains_any(text, {"#1", "#2", "#5"})) points += 10;
+  if (contains_any(text, {"\n#1", "\n#2", "\n#3", "\n#5"})) points += 25;
   return std::min(points, 90);
 }
 

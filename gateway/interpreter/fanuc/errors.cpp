@@ -24,8 +24,6 @@ constexpr std::array kRows{
     ErrorRow{NoRadius, "PS022", "NO CIRCLE RADIUS"},
     ErrorRow{IllegalRadius, "PS023", "ILLEGAL RADIUS COMMAND"},
     ErrorRow{NoLengthAxis, "PS027", "NO AXES COMMANDED IN G43/G44"},
-    ErrorRow{IllegalPlane, "PS028", "ILLEGAL PLANE SELECT"},
-    ErrorRow{IllegalOffsetValue, "PS029", "ILLEGAL OFFSET VALUE"},
     ErrorRow{IllegalOffsetNumber, "PS030", "ILLEGAL OFFSET NUMBER"},
     ErrorRow{IllegalPInG10, "PS031", "ILLEGAL P COMMAND IN G10"},
     ErrorRow{IllegalValueInG10, "PS032", "ILLEGAL OFFSET VALUE IN G10"},

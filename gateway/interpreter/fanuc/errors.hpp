@@ -20,8 +20,6 @@ enum class ErrorCode : std::uint16_t {
   NoRadius = 22,
   IllegalRadius = 23,
   NoLengthAxis = 27,
-  IllegalPlane = 28,
-  IllegalOffsetValue = 29,
   IllegalOffsetNumber = 30,
   IllegalPInG10 = 31,
   IllegalValueInG10 = 32,

@@ -2,9 +2,9 @@
 
 #include <bit>
 
+#include "gateway/interpreter/fanuc/calls.hpp"
 #include "gateway/interpreter/fanuc/coordinates.hpp"
 #include "gateway/interpreter/fanuc/cutter_compensation.hpp"
-#include "gateway/interpreter/fanuc/flow.hpp"
 #include "gateway/interpreter/fanuc/hole_cycles.hpp"
 #include "gateway/interpreter/fanuc/machine_functions.hpp"
 #include "gateway/interpreter/fanuc/motion.hpp"
@@ -31,7 +31,9 @@ void apply_motion_groups(Run& run) {
   ModalState& state = run.state;
   const bool names_cycle = block.names(kCycleGroup);
   const bool names_motion = block.names(kMotionGroup);
-  if (names_motion && (!names_cycle || block.parts.last_motion_group == kMotionGroup)) {
+  const bool ends_cycle = names_cycle && block.g[kCycleGroup] == 80;
+  if (names_motion &&
+      (!names_cycle || ends_cycle || block.parts.last_motion_group == kMotionGroup)) {
     state.g[kMotionGroup] = block.g[kMotionGroup];
     state.g[kCycleGroup] = 80;
     return;
@@ -94,7 +96,7 @@ bool dwell(Run& run) {
   std::uint32_t column = 0;
   if (words.has(X) || words.has(U)) {
     const Word& word = words[words.has(X) ? X : U];
-    const bool counts = word.form == WordForm::Whole;
+    const bool counts = word.form == WordForm::Whole && !run.options.calculator_point;
     seconds = counts ? word.value / 1000 : word.value;
     column = word.column;
   } else if (words.has(P)) {

@@ -3,16 +3,8 @@
 #include "gateway/interpreter/fanuc/run.hpp"
 #include "gateway/interpreter/fanuc/text_search.hpp"
 
-/// Where a block leads: calls, returns, jumps, loops and the program's end.
+/// Where a block leads: jumps and calls are taken, loops and programs come to their ends.
 namespace dripline::interpreter::fanuc {
-
-/// M02, M30, M98, M99 of the block.
-bool plan_flow_of_m_codes(Run& run);
-/// G65, G66 and codes that call.
-bool plan_macro_call(Run& run);
-/// After a block with motion while G66 is in force.
-bool plan_modal_call(Run& run);
-void cancel_modal_call(Run& run);
 
 /// Moves the place in the text behind the block, or back, or asks for a jump.
 bool leave_block(Run& run);

@@ -196,7 +196,7 @@ bool has_plausible_stacks(const ModalState& state) {
   }
   const Jump& jump = state.jump;
   return state.locals.size() == levels && is_modal(state.modal_active) && is_modal(jump.modal) &&
-         jump.kind <= JumpKind::ToHead && jump.call <= CallKind::Code && jump.passes >= 1 &&
+         jump.kind <= JumpKind::Call && jump.call <= CallKind::Code && jump.passes >= 1 &&
          jump.loop_number <= 3;
 }
 

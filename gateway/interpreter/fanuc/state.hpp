@@ -124,7 +124,7 @@ struct ModalCall {
 };
 
 /// A jump that a block asked for and that needs text of another place; taken before the next block.
-enum class JumpKind : std::uint8_t { None, Goto, Loop, Call, ToHead };
+enum class JumpKind : std::uint8_t { None, Goto, Loop, Call };
 struct Jump {
   JumpKind kind = JumpKind::None;
   CallKind call = CallKind::Subprogram;

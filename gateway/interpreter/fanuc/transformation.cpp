@@ -69,9 +69,13 @@ bool begin_rotation(Run& run) {
   }
   const Point3 present = program_position(run);
   constexpr std::array<Address, 3> kCentre{X, Y, Z};
+  // Under scaling the centre is scaled as any point is; a mirror image turns the other way.
   const auto centre = [&](Axis axis) {
-    const Address address = kCentre[place(axis)];
-    return words.has(address) ? run.length(words[address]) : present[place(axis)];
+    const std::size_t i = place(axis);
+    const Address address = kCentre[i];
+    const double at = words.has(address) ? run.length(words[address]) : present[i];
+    if (state.g[kScalingGroup] != 51) return at;
+    return state.scaling.centre[i] + state.scaling.factor[i] * (at - state.scaling.centre[i]);
   };
   Rotation rotation;
   rotation.plane = state.plane();
@@ -84,6 +88,7 @@ bool begin_rotation(Run& run) {
   if (was_on && state.is_incremental() && run.options.rotate_incremental) {
     rotation.degrees += state.rotation.degrees;
   }
+  if (is_plane_mirrored(state, state.plane())) rotation.degrees = -rotation.degrees;
   rotation.sine = language::sine(rotation.degrees).value;
   rotation.cosine = language::cosine(rotation.degrees).value;
   state.rotation = rotation;

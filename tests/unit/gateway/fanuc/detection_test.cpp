@@ -16,6 +16,7 @@ TEST(FanucDetection, MacroProgramsAreRecognised) {
             "fanuc");
   EXPECT_EQ(first_candidate("O9100\nIF[#1EQ#0]GOTO10\nPOPEN\nDPRNT[X#1[53]]\nPCLOS\nM99\n"),
             "fanuc");
+  EXPECT_EQ(first_candidate("O0009\n#2=4.5\nPOPEN\nDPRNT[**SUM*#2[33]]\nPCLOS\nM30\n"), "fanuc");
   EXPECT_EQ(first_candidate(":0007\nG00 G90 X0 Y0\nG81 X1. Y1. Z-1. R.1 F5.\nM30\n"), "fanuc");
 }
 
