@@ -8,6 +8,8 @@ namespace dripline::interpreter {
 namespace {
 
 constexpr std::uint64_t kMostBlocks = 2'000;
+/// Some blocks do much: hole cycles with repeats.
+constexpr std::size_t kMostEvents = 50'000;
 /// NotYet at each fetch and one more byte a fetch: a few steps for each byte of each block.
 constexpr std::uint64_t kMostIdleSteps = 100'000;
 
@@ -55,7 +57,8 @@ std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view
   auto interpreter = dialect.make(Setup{}, source, log);
   if (!interpreter) __builtin_trap();
   Interpreter& run = **interpreter;
-  for (std::uint64_t idle = 0; run.blocks() < kMostBlocks; ++idle) {
+  for (std::uint64_t idle = 0; run.blocks() < kMostBlocks && log.lines().size() < kMostEvents;
+       ++idle) {
     if (idle > kMostIdleSteps) __builtin_trap();
     const std::uint64_t before = run.blocks();
     const StepState state = run.step(1);
