@@ -34,10 +34,7 @@ void Gateway::serve_line(SteadyTime now) {
   if (line_ == Line::Closed) listen(true);
   for (LineItem& item : parts_.line->take()) take_line_item(item);
   release_line();
-  if (line_ == Line::Draining && !session_ && parts_.line->is_quiet()) {
-    parts_.line->abort();
-    listen_at_ = now;
-  }
+  if (line_ == Line::Draining && !session_ && parts_.line->is_quiet()) listen_at_ = now;
   if (listen_at_ && now >= *listen_at_) listen(true);
 }
 

@@ -146,10 +146,9 @@ void ControlLine::refuse(std::string reason) {
 
 void ControlLine::abort() {
   driver_->post([this](wire::Discipline& end, wire::LineTime now) {
-    end.abort(now);
+    // A line that sends and receives at once has no way to say so; what is printed goes on.
     const std::lock_guard lock(mutex_);
-    sending_ = Sending::Nothing;
-    output_.clear();
+    if (sending_ == Sending::Nothing) end.abort(now);
   });
 }
 

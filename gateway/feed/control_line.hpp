@@ -56,7 +56,7 @@ class ControlLine {
   /// What is wrong with that comes as Trouble; on a line that is listening it means nothing.
   void expect(const wire::TransferRequest* request = nullptr);
   void refuse(std::string reason);
-  /// Gives up the program that is coming, and tells the host where the protocol can.
+  /// Gives up the program that is coming, and tells the host where the protocol can; output stays.
   void abort();
   /// Sends text when the line lets it, behind everything sent before. False: no room for it.
   bool send(std::string_view text);

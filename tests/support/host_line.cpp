@@ -51,6 +51,13 @@ void HostLine::on_event(wire::Event& event) {
     receiving_.clear();
   } else if (auto* asked = std::get_if<wire::TransferRequest>(&event)) {
     requests_.push_back(*asked);
+    if (asked->kind == wire::TransferRequest::Kind::SendProgram && !answer_.empty()) {
+      text_ = std::exchange(answer_, {});
+      name_ = asked->name;
+      is_sending_ = true;
+      is_begun_ = false;
+      line_->post([this](wire::Discipline& end, wire::LineTime now) { pump(end, now); });
+    }
     if (asked->kind != wire::TransferRequest::Kind::TakeProgram) return;
     line_->post(
         [](wire::Discipline& end, wire::LineTime now) { (void)end.begin_receive("", now); });
@@ -91,6 +98,15 @@ void HostLine::abort() {
   const std::lock_guard lock(mutex_);
   text_.clear();
   is_sending_ = false;
+}
+
+void HostLine::receive() {
+  line_->post([](wire::Discipline& end, wire::LineTime now) { (void)end.begin_receive("", now); });
+}
+
+void HostLine::answer_with(std::string text) {
+  const std::lock_guard lock(mutex_);
+  answer_ = std::move(text);
 }
 
 std::string HostLine::received() const {

@@ -18,6 +18,10 @@ class HostLine {
   /// One transfer; waits for nothing.
   void send(std::string text, std::string name = "");
   void abort();
+  /// Expects a transfer, where the protocol needs that to be said.
+  void receive();
+  /// Sends this when the other end asks for a program, once.
+  void answer_with(std::string text);
 
   std::string received() const;       ///< of all transfers
   std::string last_received() const;  ///< of the last complete one
@@ -34,7 +38,7 @@ class HostLine {
   void pump(wire::Discipline& end, wire::LineTime now);
 
   mutable std::mutex mutex_;
-  std::string text_, name_, received_, receiving_, last_received_;
+  std::string answer_, text_, name_, received_, receiving_, last_received_;
   bool is_begun_ = false, is_sending_ = false;
   std::uint64_t sent_ = 0;
   std::size_t transfers_received_ = 0;
