@@ -75,6 +75,9 @@ struct ControlSettings {
   ControlKind kind = ControlKind::Plain;
   /// Characters the control still takes after it asked the host to stop; more is an overrun.
   unsigned buffer_size = 256;
+  /// Said by a Centurion when it begins and ends to read (tape start and stop); a host that waits
+  /// for XON takes the first for one.
+  std::optional<char> tape_start, tape_stop;
   bool splits_programs = false;  ///< each O line begins a program of its own
   DncMode dnc = DncMode::Off;
   unsigned dnc_skip = 0;  ///< blocks that a DNC run reads and drops first (SKIP)

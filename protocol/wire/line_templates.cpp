@@ -38,6 +38,15 @@ LineSettings centurion() {
   return settings;
 }
 
+/// The secondary port's tape key: the control starts and stops what stands for the reader.
+LineSettings centurion_tape() {
+  LineSettings settings = centurion();
+  settings.wait_for_xon = true;
+  settings.control.tape_start = '\x11';
+  settings.control.tape_stop = '\x13';
+  return settings;
+}
+
 LineSettings fanuc() {
   LineSettings settings = line(4800, 7, Parity::Even, StopBits::Two);
   settings.flow = Flow::DcCodes;
@@ -90,6 +99,8 @@ const auto& templates() {
                    fanuc()},
       LineTemplate{"centurion", "Milltronics Centurion, 9600 7E2, XON/XOFF", "centurion",
                    centurion()},
+      LineTemplate{"centurion-tape", "Milltronics Centurion, secondary port as its tape reader",
+                   "centurion", centurion_tape()},
       LineTemplate{"prototrak", "ProtoTRAK Plus, 4800 7E1, paced", "prototrak", prototrak()},
       LineTemplate{"tnc155", "HEIDENHAIN TNC 151/155, 2400 7E1, standard interface", "tnc155",
                    tnc155(Flow::Heidenhain)},

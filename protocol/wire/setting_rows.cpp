@@ -98,21 +98,21 @@ constexpr SettingRow character(std::string_view text) {
           [](const LineSettings& settings) { return character_text(at<kPath...>(settings)); }};
 }
 
-template <Key kKey, auto kMember>
+template <Key kKey, auto... kPath>
 constexpr SettingRow optional_character(std::string_view text) {
   return {kKey.view(), "character|none", text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
             if (value == "none") {
-              (settings.*kMember).reset();
+              at<kPath...>(settings).reset();
               return {};
             }
             const auto parsed = parse_character(kKey.view(), value);
             if (!parsed) return fail(parsed.error());
-            settings.*kMember = *parsed;
+            at<kPath...>(settings) = *parsed;
             return {};
           },
           [](const LineSettings& settings) -> std::string {
-            const auto& value = settings.*kMember;
+            const auto& value = at<kPath...>(settings);
             return value ? character_text(*value) : "none";
           }};
 }
@@ -221,6 +221,10 @@ constexpr std::array kRows{
     choice<"control", kControls, &S::control, &C::kind>("whose rules our end follows as a control"),
     number<"buffer_size", 1, kMaximumBufferSize, &S::control, &C::buffer_size>(
         "characters a control still takes after it said stop"),
+    optional_character<"tape_start", &S::control, &C::tape_start>(
+        "Centurion: said when it begins to read a tape"),
+    optional_character<"tape_stop", &S::control, &C::tape_stop>(
+        "Centurion: said when it has read a tape"),
     flag<"split_programs", &S::control, &C::splits_programs>(
         "Centurion: each O line begins a program"),
     choice<"dnc_mode", kDncModes, &S::control, &C::dnc>("Centurion: run what comes in"),

@@ -32,6 +32,7 @@ void PlainLine::receive(std::span<const std::byte> bytes, LineTime now) {
 
 /// Whether `dc` steers the line.
 bool PlainLine::take_dc(char dc, LineTime now) {
+  if (waits_for_dc1() && dc == settings_.control.tape_start) dc = kDc1;
   if (!understands_dc1() || dc < kDc1 || dc > kDc4) return false;
   if (dc == kDc2 || dc == kDc4) {
     if (!is_dc_codes() || role_ != Role::Host) return false;
@@ -70,12 +71,16 @@ void PlainLine::tick(LineTime now) {
   if (pause_until_ && *pause_until_ <= now) pause_until_.reset();
   if (const auto at = hold_deadline(); at && *at <= now) held_too_long(now);
   if (const auto at = silence_deadline(); at && *at <= now) silent_too_long(now);
+  if (release_again_ && *release_again_ <= now) {
+    release_again_.reset();
+    say(kDc1);
+  }
 }
 
 std::optional<LineTime> PlainLine::deadline() const {
   std::optional<LineTime> first;
   for (const auto& at : {is_sending() && may_send() ? pause_until_ : std::nullopt, hold_deadline(),
-                         silence_deadline()}) {
+                         silence_deadline(), release_again_}) {
     if (at && (!first || *at < *first)) first = at;
   }
   return first;
@@ -98,9 +103,9 @@ Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
 
 void PlainLine::abort(LineTime now) {
   const bool was_punching = is_sending() && is_dc_codes() && role_ == Role::Control;
-  const bool was_reading = reception_.is_open && is_dc_codes() && role_ == Role::Control;
+  const bool was_reading = reception_.is_open;
   if (was_punching) say(kDc4);
-  if (was_reading) say(kDc3);
+  if (was_reading) stop_reading();
   drop_transfer(now);
   is_stopped_ = waits_for_dc1();
 }
@@ -111,6 +116,7 @@ void PlainLine::transfer_over(LineTime /*now*/) {
   has_started_ = false;
   held_since_.reset();
   pause_until_.reset();
+  release_again_.reset();
   close_reception();
   if (waits_for_dc1()) is_stopped_ = true;
 }

@@ -37,6 +37,8 @@ class PlainLine final : public DisciplineBase, private TextSink {
     return role_ == Role::Host && (is_dc_codes() || settings_.wait_for_xon);
   }
   void say(char dc);
+  void start_reading();
+  void stop_reading();
 
   // Sending
   bool may_send() const { return !is_stopped_ && (settings_.flow != Flow::RtsCts || input_.cts); }
@@ -51,6 +53,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   // Receiving
   bool take_dc(char dc, LineTime now);
   void take_data(std::byte character, LineTime now);
+  bool is_overrun(LineTime now);
   void punch_on(LineTime now);
   void punch_off(LineTime now);
   void open_reception(std::string name, LineTime now);
@@ -88,7 +91,8 @@ class PlainLine final : public DisciplineBase, private TextSink {
   bool is_ready_ = true;
   bool is_stop_said_ = false;  ///< our DC3 has left, or RTS is off: what comes now is counted
   std::size_t after_stop_ = 0;
-  bool is_asked_ = false;  ///< the other end's request waits for an answer
+  std::optional<LineTime> release_again_;  ///< our DC1 may have been lost: said once more then
+  bool is_asked_ = false;                  ///< the other end's request waits for an answer
 };
 
 }  // namespace dripline::wire

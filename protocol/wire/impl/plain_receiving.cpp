@@ -3,6 +3,16 @@
 
 namespace dripline::wire {
 
+namespace {
+
+/// A sender that goes on behind our DC3 has not heard it: it is said again every so many
+/// characters.
+constexpr std::size_t kStopAgain = 16;
+/// A sender that stays silent behind our DC1 may not have heard it.
+constexpr LineTime kReleaseAgain = std::chrono::seconds(1);
+
+}  // namespace
+
 Result<void> PlainLine::begin_receive(std::string_view name, LineTime now) {
   if (reception_.is_open) return fail(reader_.rules().busy());
   if (is_dc_codes()) {
@@ -10,8 +20,21 @@ Result<void> PlainLine::begin_receive(std::string_view name, LineTime now) {
   }
   if (const auto can = reader_.rules().check_begin(); !can) return can;
   open_reception(std::string(name), now);
-  if (role_ == Role::Control && is_softly_held() && is_ready_) say(kDc1);
+  start_reading();
   return {};
+}
+
+/// A control tells the reader, or whoever stands for it.
+void PlainLine::start_reading() {
+  if (role_ != Role::Control) return;
+  if (settings_.control.tape_start) return say(*settings_.control.tape_start);
+  if (is_softly_held() && is_ready_) say(kDc1);
+}
+
+void PlainLine::stop_reading() {
+  if (role_ != Role::Control) return;
+  if (settings_.control.tape_stop) return say(*settings_.control.tape_stop);
+  if (is_dc_codes()) say(kDc3);
 }
 
 void PlainLine::open_reception(std::string name, LineTime /*now*/) {
@@ -29,7 +52,7 @@ void PlainLine::close_reception() {
 void PlainLine::end_reception(LineTime /*now*/) {
   emit(TransferEnded{true});
   close_reception();
-  if (is_dc_codes() && role_ == Role::Control) say(kDc3);
+  stop_reading();
 }
 
 /// What a host hears while it feeds is no program: the feed goes on.
@@ -39,7 +62,7 @@ void PlainLine::fail_reception(Error error, LineTime now) {
     end_reception(now);
     return;
   }
-  if (is_dc_codes() && role_ == Role::Control) say(kDc3);
+  stop_reading();
   fail_transfer(std::move(error), now);
 }
 
@@ -51,12 +74,8 @@ void PlainLine::take_data(std::byte character, LineTime now) {
     if (is_dc_codes()) emit_trouble({Errc::Corrupt, "text came without DC2 before it"});
     open_reception("", now);
   }
-  if (is_stop_said_ && ++after_stop_ > settings_.control.buffer_size) {
-    if (const auto error = reader_.rules().overrun(settings_.control.buffer_size)) {
-      fail_reception(*error, now);
-      return;
-    }
-  }
+  release_again_.reset();
+  if (is_stop_said_ && is_overrun(now)) return;
   const auto read = reader_.read(character);
   if (!read) {
     fail_reception(read.error(), now);
@@ -65,6 +84,19 @@ void PlainLine::take_data(std::byte character, LineTime now) {
   } else if (reader_.has_begun()) {
     reception_.heard = now;
   }
+}
+
+/// A character came although we have said stop; whether that ends the reception.
+bool PlainLine::is_overrun(LineTime now) {
+  ++after_stop_;
+  if (after_stop_ > settings_.control.buffer_size) {
+    if (const auto error = reader_.rules().overrun(settings_.control.buffer_size)) {
+      fail_reception(*error, now);
+      return true;
+    }
+  }
+  if (settings_.flow == Flow::XonXoff && after_stop_ % kStopAgain == 0) say(kDc3);
+  return false;
 }
 
 void PlainLine::punch_on(LineTime now) {
@@ -110,6 +142,10 @@ void PlainLine::set_ready(bool is_ready, LineTime now) {
   if (is_ready && reception_.heard) reception_.heard = now;      // the silence was our doing
   const bool is_reading = !is_dc_codes() || reception_.is_open;  // DC1 starts an idle reader
   if (is_softly_held() && is_reading) say(is_ready ? kDc1 : kDc3);
+  // Elsewhere DC1 asks for a program.
+  const bool may_repeat = settings_.flow == Flow::XonXoff && !settings_.wait_for_xon;
+  release_again_.reset();
+  if (is_ready && may_repeat && reception_.is_open) release_again_ = now + kReleaseAgain;
   if (settings_.flow == Flow::RtsCts) output_.rts = is_ready;
 }
 

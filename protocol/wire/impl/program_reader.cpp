@@ -1,6 +1,7 @@
 #include "protocol/wire/impl/program_reader.hpp"
 
 #include "protocol/wire/impl/line_character.hpp"
+#include "protocol/wire/impl/line_limits.hpp"
 
 namespace dripline::wire {
 
@@ -19,6 +20,7 @@ void ProgramReader::begin() {
   decoder_ = CharacterDecoder(settings_.code);
   place_ = Place::Before;
   has_mark_ = false;
+  block_length_ = 0;
   rules_->begin();
 }
 
@@ -106,6 +108,12 @@ void ProgramReader::begin_text() {
 }
 
 Result<bool> ProgramReader::take(char character) {
+  block_length_ = character == '\n' ? 0 : block_length_ + 1;
+  if (block_length_ == kLongestBlock + 1) {
+    sink_.trouble({Errc::Corrupt, fmt::format("line {} is longer than {} characters: ends of block "
+                                              "are missing",
+                                              decoder_.blocks() + 1, kLongestBlock)});
+  }
   if (const auto taken = rules_->take(character, sink_); !taken) return fail(taken.error());
   return false;
 }

@@ -45,6 +45,7 @@ class ProgramReader {
   Place place_ = Place::Before;
   bool has_mark_ = false;
   char mark_ = 0;
+  std::size_t block_length_ = 0;
 };
 
 }  // namespace dripline::wire

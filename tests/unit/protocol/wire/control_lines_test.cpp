@@ -250,6 +250,27 @@ TEST(CenturionControl, SendsCrAloneOrCrLf) {
   }
 }
 
+TEST(CenturionControl, StartsAndStopsWhatStandsForItsTapeReader) {
+  TestedLine control(
+      template_with("centurion-tape",
+                    {{"tape_start", "STX"}, {"tape_stop", "EM"}, {"end_char", "EOT"}}),
+      Role::Control);
+  ASSERT_TRUE(control.line->begin_receive("", control.now));
+  EXPECT_EQ(control.say(), "\x02");
+  control.hear("O1\r\nM30\r\n\x04");
+  EXPECT_EQ(control.say(), "\x19");
+  EXPECT_EQ(control.events(), "receiving\ntext \"O1\\nM30\\n\"\nreceived\n");
+}
+
+TEST(CenturionHost, SendsWhenItsTapeStartCharacterComes) {
+  TestedLine host(template_with("centurion-tape", {{"tape_start", "STX"}}), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("M30\n"));
+  EXPECT_EQ(host.say_now(), "");
+  host.hear("\x02");
+  EXPECT_EQ(host.say(), "M30\r\n");
+}
+
 TEST(CenturionControl, PutsTapeCharactersAroundWhatItSends) {
   TestedLine control(template_with("centurion", {{"start_char", "DC2"}, {"end_char", "DC4"}}),
                      Role::Control);

@@ -271,6 +271,37 @@ TEST(PlainReceiving, HoldsTheOtherEndWithDc3) {
   EXPECT_EQ(control.say_now(), kDc1);
 }
 
+TEST(PlainReceiving, SaysDc3AgainToASenderThatGoesOn) {
+  TestedLine control(LineSettings{}, Role::Control);
+  ASSERT_TRUE(control.line->begin_receive("", control.now));
+  control.line->set_ready(false, control.now);
+  control.say_now();
+  control.hear(std::string(15, 'X'));
+  EXPECT_EQ(control.say_now(), "");
+  control.hear("X");
+  EXPECT_EQ(control.say_now(), kDc3);
+}
+
+TEST(PlainReceiving, SaysDc1OnceMoreToASenderThatStaysSilent) {
+  TestedLine control(LineSettings{}, Role::Control);
+  ASSERT_TRUE(control.line->begin_receive("", control.now));
+  control.line->set_ready(false, control.now);
+  control.line->set_ready(true, control.now);
+  EXPECT_EQ(control.say_now(), kDc1 + kDc3 + kDc1);
+  control.pass(seconds(1));
+  EXPECT_EQ(control.say_now(), kDc1);
+  control.pass(seconds(60));
+  EXPECT_EQ(control.say_now(), "");
+}
+
+TEST(PlainReceiving, SaysThatEndsOfBlockAreMissing) {
+  TestedLine host(LineSettings{}, Role::Host);
+  host.hear("G1\r\n" + std::string(1024, 'X'));
+  EXPECT_THAT(host.events(), testing::Not(HasSubstr("trouble")));
+  host.hear("XX");
+  EXPECT_THAT(host.events(), HasSubstr("trouble corrupt: line 2 is longer than 1024 characters"));
+}
+
 TEST(PlainReceiving, HoldsTheOtherEndWithRts) {
   TestedLine control(settings_with({{"flow", "rtscts"}}), Role::Control);
   control.line->set_ready(false, control.now);
