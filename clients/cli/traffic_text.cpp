@@ -55,6 +55,12 @@ bool is_line_end(char c) {
   return c == '\n' || c == '\r' || c == '\0';
 }
 
+/// What one end says to hold, begin or confirm.
+bool is_handshake(char c) {
+  constexpr std::string_view kHandshakes = "\x04\x05\x06\x11\x12\x13\x14\x15\x18";
+  return kHandshakes.find(c) != std::string_view::npos;
+}
+
 std::string hex_line(std::string_view bytes) {
   std::string digits, text;
   for (const char c : bytes) {
@@ -92,46 +98,60 @@ std::string TrafficText::line(std::string_view time, std::string_view what,
                      styled(text, kind.style, look_.has_colour));
 }
 
-std::string TrafficText::flush() {
-  if (bytes_.empty()) return {};
-  std::string out =
-      line(first_time_, what_, look_.is_hex ? hex_line(bytes_) : named_characters(bytes_));
-  bytes_.clear();
+std::string TrafficText::end(Begun& begun) const {
+  if (begun.bytes.empty()) return {};
+  std::string out = line(begun.first_time, begun.what,
+                         look_.is_hex ? hex_line(begun.bytes) : named_characters(begun.bytes));
+  begun.bytes.clear();
   return out;
 }
 
-bool TrafficText::joins(const client::Traffic& traffic) const {
-  return traffic.what == what_ && seconds_between(last_time_, traffic.time) < kPause;
+std::string TrafficText::flush() {
+  const bool is_sent_first = sent_.first_time <= received_.first_time;
+  std::string out = end(is_sent_first ? sent_ : received_);
+  out += end(is_sent_first ? received_ : sent_);
+  return out;
 }
 
 /// `next` would begin a line of its own.
-bool TrafficText::is_full(char next) const {
-  if (bytes_.empty()) return false;
-  if (look_.is_hex) return bytes_.size() >= kHexWidth;
-  return bytes_.size() >= kTextWidth || (is_line_end(bytes_.back()) && !is_line_end(next));
+bool TrafficText::is_full(const Begun& begun, char next) const {
+  if (begun.bytes.empty()) return false;
+  if (look_.is_hex) return begun.bytes.size() >= kHexWidth;
+  return begun.bytes.size() >= kTextWidth || is_handshake(begun.bytes.back()) ||
+         (is_line_end(begun.bytes.back()) && !is_line_end(next));
 }
 
-void TrafficText::append(std::string& out, std::string_view bytes, const client::Traffic& traffic) {
+std::string TrafficText::append(Begun& begun, std::string_view bytes,
+                                const client::Traffic& traffic) const {
+  std::string out;
+  if (seconds_between(begun.last_time, traffic.time) >= kPause) out += end(begun);
   for (const char c : bytes) {
-    if (is_full(c)) out += flush();
-    if (bytes_.empty()) first_time_ = traffic.time;
-    bytes_ += c;
+    if (is_full(begun, c)) out += end(begun);
+    if (begun.bytes.empty()) begun.first_time = traffic.time;
+    begun.bytes += c;
   }
-  last_time_ = traffic.time;
+  begun.last_time = traffic.time;
+  // A handshake is news at once.
+  if (!look_.is_hex && !bytes.empty() && is_handshake(bytes.back())) out += end(begun);
+  return out;
 }
 
 std::string TrafficText::add(const client::Traffic& traffic) {
-  std::string out;
-  if (!joins(traffic)) out = flush();
-  what_ = traffic.what;
-  if (traffic.what != "sent" && traffic.what != "received") {
-    return out + line(traffic.time, traffic.what, printable(traffic.text));
+  if (traffic.what == "sent" || traffic.what == "received") {
+    const bool is_sent = traffic.what == "sent";
+    Begun& begun = is_sent ? sent_ : received_;
+    Begun& other = is_sent ? received_ : sent_;
+    std::string out;
+    if (!other.bytes.empty() && is_line_end(other.bytes.back())) out = end(other);
+    if (const auto bytes = bytes_of_hex(traffic.bytes)) {
+      out += append(begun, *bytes, traffic);
+      return out;
+    }
+    out += end(begun);
+    return out + line(traffic.time, traffic.what, printable(traffic.bytes));
   }
-  if (const auto bytes = bytes_of_hex(traffic.bytes)) {
-    append(out, *bytes, traffic);
-    return out;
-  }
-  return out + line(traffic.time, traffic.what, printable(traffic.bytes));
+  std::string out = flush();
+  return out + line(traffic.time, traffic.what, printable(traffic.text));
 }
 
 }  // namespace dripline::cli

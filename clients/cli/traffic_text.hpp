@@ -12,7 +12,8 @@ std::string named_characters(std::string_view bytes);
 
 /// Turns what passed over a line into lines for people: time, direction, and the characters as text
 /// or in hexadecimal. Characters of one direction are put together up to the end of a block, a
-/// pause of half a second, or the width of a line. Pure.
+/// handshake (DC3, ACK ...), a pause of half a second, or the width of a line; the other direction
+/// goes on meanwhile. The time is that of a line's first character. Pure.
 class TrafficText {
  public:
   struct Look {
@@ -28,13 +29,18 @@ class TrafficText {
   std::string flush();
 
  private:
-  bool joins(const client::Traffic& traffic) const;
-  bool is_full(char next) const;
-  void append(std::string& out, std::string_view bytes, const client::Traffic& traffic);
+  /// A line of one direction that may grow.
+  struct Begun {
+    std::string_view what;
+    std::string first_time, last_time, bytes;
+  };
+  bool is_full(const Begun& begun, char next) const;
+  std::string end(Begun& begun) const;
+  std::string append(Begun& begun, std::string_view bytes, const client::Traffic& traffic) const;
   std::string line(std::string_view time, std::string_view what, std::string_view text) const;
 
   const Look look_;
-  std::string what_, first_time_, last_time_, bytes_;
+  Begun sent_{"sent", {}, {}, {}}, received_{"received", {}, {}, {}};
 };
 
 }  // namespace dripline::cli

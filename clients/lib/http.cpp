@@ -118,10 +118,7 @@ class HttplibHttp final : public Http {
   /// The body is sent from where it lies, in pieces, so that nothing is copied and progress shows.
   static void add_body(const HttpRequest& request, httplib::Request& raw) {
     raw.set_header("Content-Type", request.content_type);
-    if (request.body.empty()) {
-      raw.set_header("Content-Length", "0");
-      return;
-    }
+    if (request.body.empty()) return;  // the library says Content-Length: 0; twice is an error
     raw.content_length_ = request.body.size();
     raw.content_provider_ = [&request](std::size_t offset, std::size_t length,
                                        httplib::DataSink& sink) {

@@ -79,6 +79,7 @@ void PortService::end() {
   std::map<std::string, Machine> machines;
   {
     const std::lock_guard lock(mutex_);
+    if (std::exchange(is_ended_, true)) return;  // the pool has stopped: nothing would be drained
     entries = entries_;
     machines = machines_;
   }

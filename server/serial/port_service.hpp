@@ -97,6 +97,7 @@ class PortService final : public PortControl, private LineDirectory {
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;
   std::map<std::string, Machine> machines_;
+  bool is_ended_ = false;
   mutable std::mutex traffic_mutex_;
   std::function<void(const PortTraffic&)> on_traffic_;
   feeds::WorkerPool pool_;  // last: its tasks use the others

@@ -246,7 +246,7 @@ TEST_F(DncPort, SetsUpThePortsOfAFile) {
   EXPECT_EQ(applied.status, 0) << applied.err;
   EXPECT_EQ(last_body("PUT /api/v1/ports/line-2")["machine"], "mill-4");
   const auto calls = server.calls().size();
-  dnc.write("ports.toml", good + "colour=1\n");
+  dnc.write("ports.toml", good + "enabled=1\n");
   EXPECT_EQ(dnc({"port", "apply", "ports.toml"}).status, 2);
   EXPECT_EQ(server.calls().size(), calls) << "a bad file changes nothing";
 }

@@ -30,15 +30,23 @@ TEST_F(Traffic, ShowsABlockALineHoweverItCame) {
   EXPECT_EQ(text.flush(), "");
 }
 
-TEST_F(Traffic, ShowsTheOtherDirectionOnALineOfItsOwn) {
+TEST_F(Traffic, ShowsAHandshakeAtOnceAndGoesOnWithTheBlock) {
   std::string out = text.add(item("sent", "4731"));
   out += text.add(item("received", "13", "06.250000"));
-  out += text.add(item("sent", "58", "06.300000"));
+  EXPECT_EQ(out, "07:40:06.250  ←  <DC3>\n");
+  out = text.add(item("sent", "580d0a", "06.300000"));
   out += text.flush();
-  EXPECT_EQ(out,
-            "07:40:06.100  →  G1\n"
-            "07:40:06.250  ←  <DC3>\n"
-            "07:40:06.300  →  X\n");
+  EXPECT_EQ(out, "07:40:06.100  →  G1X<CR><LF>\n");
+}
+
+TEST_F(Traffic, KeepsBothDirectionsApart) {
+  std::string out;
+  for (const char c : {'1', '2', '3'}) {
+    out += text.add(item("sent", std::string("4") + c));
+    out += text.add(item("received", std::string("5") + c));
+  }
+  EXPECT_EQ(out, "");
+  EXPECT_EQ(text.flush(), "07:40:06.100  →  ABC\n07:40:06.100  ←  QRS\n");
 }
 
 TEST_F(Traffic, BeginsANewLineAfterAPause) {

@@ -4,6 +4,8 @@
 #include <httplib.h>
 #include <thread>
 
+#include "clients/lib/client.hpp"
+#include "clients/lib/event_stream.hpp"
 #include "tests/unit/server/api_fixture.hpp"
 
 namespace dripline::server_test {
@@ -67,6 +69,46 @@ TEST_F(Http, TakesAndGivesALargeProgram) {
   ASSERT_TRUE(range);
   EXPECT_EQ(range->status, 206);
   EXPECT_EQ(range->body, text.substr(5'000'000, 10));
+}
+
+TEST_F(Http, TakesAPostOfOurClientThatHasNoBody) {
+  ports::PortView view;
+  view.port.name = "line-1";
+  ports_.views.push_back(view);
+  client::Client ours(
+      client::ServerAddress{fmt::format("http://127.0.0.1:{}", server_->port()), kSecret, {}});
+  const auto test = ours.test_port("line-1");
+  ASSERT_TRUE(test) << test.error().what;
+  EXPECT_EQ(test->findings.size(), 1u);
+  const auto ports = ours.ports();
+  ASSERT_TRUE(ports) << ports.error().what;
+  EXPECT_EQ(ports->at(0).name, "line-1");
+}
+
+TEST_F(Http, StreamsWhatPassesOverALineToOurClient) {
+  ports::PortView view;
+  view.port.name = "line-1";
+  ports_.views.push_back(view);
+  auto stream = client::EventStream::of_port(
+      {fmt::format("http://127.0.0.1:{}", server_->port()), kSecret, {}}, "line-1");
+  const auto publish = api::publish_traffic_to(events_);
+  bool has_port = false, has_traffic = false;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!has_traffic && std::chrono::steady_clock::now() < end) {
+    const auto item = stream.next(std::chrono::milliseconds(1000));
+    if (!item) continue;
+    if (std::get_if<client::Port>(&*item) != nullptr) {
+      has_port = true;
+      publish({"line-1", clock_.now(), "received", "\x13", ""});
+    }
+    if (const auto* traffic = std::get_if<client::Traffic>(&*item)) {
+      has_traffic = true;
+      EXPECT_EQ(traffic->bytes, "13");
+      EXPECT_EQ(traffic->what, "received");
+    }
+  }
+  EXPECT_TRUE(has_port);
+  EXPECT_TRUE(has_traffic);
 }
 
 TEST_F(Http, RefusesDeepJsonAndBadUrls) {
