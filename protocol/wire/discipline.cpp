@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "protocol/wire/impl/line_character.hpp"
 #include "protocol/wire/impl/protocols.hpp"
+#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/tape_code.hpp"
 
 namespace dripline::wire {
 namespace {
@@ -28,6 +31,23 @@ Result<void> check_tnc(const LineSettings& settings) {
   return {};
 }
 
+/// The characters around a program: the code must have them, and they must not steer the line.
+Result<void> check_mark(std::string_view key, std::optional<char> mark,
+                        const LineSettings& settings) {
+  if (!mark) return {};
+  if (!to_line(settings.code, *mark)) {
+    return fail(Errc::Unsupported, "{} {}: the code {} does not have it", key,
+                character_text(*mark), code_name(settings.code));
+  }
+  const bool is_softly_held = settings.flow == Flow::XonXoff || settings.flow == Flow::DcCodes;
+  const bool steers = *mark == kDc1 || *mark == kDc3 ||
+                      (settings.flow == Flow::DcCodes && (*mark == kDc2 || *mark == kDc4));
+  if (is_softly_held && steers) {
+    return fail(Errc::Unsupported, "{} {}: it steers this line", key, character_text(*mark));
+  }
+  return {};
+}
+
 /// Settings that exclude each other.
 Result<void> check(const LineSettings& settings) {
   if (settings.code != CharacterCode::Ascii && settings.data_bits != 8) {
@@ -48,6 +68,10 @@ Result<void> check(const LineSettings& settings) {
   // 0x13 is the digit 3 in EIA, 0x11 no character at all: a control could not be told to stop.
   if (is_softly_held && settings.code == CharacterCode::Eia) {
     return fail(Errc::Unsupported, "eia has no DC1 and DC3 (0x13 is its digit 3): use rtscts");
+  }
+  for (const auto& [key, mark] : {std::pair{"start_char", settings.start_character},
+                                  std::pair{"end_char", settings.end_character}}) {
+    if (const auto checked = check_mark(key, mark, settings); !checked) return checked;
   }
   if (settings.flow == Flow::Heidenhain || settings.flow == Flow::HeidenhainBcc) {
     return check_tnc(settings);

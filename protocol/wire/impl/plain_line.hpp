@@ -64,7 +64,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   void silent_too_long(LineTime now);
 
   // TextSink
-  void text(std::string_view text) override;
+  void text(std::string_view text) override { emit_text(text); }
   void trouble(Error error) override { emit_trouble(std::move(error)); }
   void next_program(std::string name) override;
 
@@ -84,7 +84,6 @@ class PlainLine final : public DisciplineBase, private TextSink {
 
   struct Reception {
     bool is_open = false;
-    bool has_text = false;
     std::optional<LineTime> heard;  ///< the last character that meant something
   };
   Reception reception_;

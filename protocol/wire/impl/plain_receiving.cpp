@@ -149,11 +149,6 @@ void PlainLine::set_ready(bool is_ready, LineTime now) {
   if (settings_.flow == Flow::RtsCts) output_.rts = is_ready;
 }
 
-void PlainLine::text(std::string_view text) {
-  reception_.has_text = true;
-  emit_text(text);
-}
-
 void PlainLine::next_program(std::string name) {
   emit(TransferEnded{true});
   emit(TransferBegan{true, std::move(name)});

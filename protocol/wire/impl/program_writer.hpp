@@ -34,7 +34,6 @@ class ProgramWriter {
   enum class Stage : std::uint8_t { Text, End };
   void put_mark(char mark);
   void put_end_of_block();
-  bool is_blank_behind_end(char character);
 
   const LineSettings& settings_;
   CharacterEncoder checked_, encoder_;
@@ -48,7 +47,6 @@ class ProgramWriter {
   unsigned blanks_ = 0;  ///< of the leader or, at the end, of the trailer
   std::vector<std::byte> pending_;
   std::size_t next_ = 0;
-  std::size_t end_of_block_from_ = 0;  ///< in pending_; its last character ends a block
   char last_ = '\n';
   bool pending_ends_block_ = false, ends_block_ = false;
 };

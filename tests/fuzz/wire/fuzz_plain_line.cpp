@@ -19,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   settings.leader = data[1] / 16 % 4;
   settings.trailer = data[1] / 64;
   const auto role = (data[0] & 1) != 0 ? wire::Role::Control : wire::Role::Host;
+  if (!wire::make_discipline(settings, role)) return 0;  // DC2 steers such a line
   fuzz::play_line_script(settings, role, std::as_bytes(std::span(data + 2, size - 2)));
   return 0;
 }

@@ -342,6 +342,20 @@ TEST(PlainReceiving, GoesOnWhileTheHostFeeds) {
   EXPECT_EQ(host.events(), "sending\nreceiving\ntext \"LINE 1\\n\"\nreceived\nsent\n");
 }
 
+TEST(PlainSettings, RefuseMarksThatTheLineCanNotCarry) {
+  const auto refused =
+      [](std::initializer_list<std::pair<std::string_view, std::string_view>> set) {
+        const auto made = make_discipline(settings_with(set), Role::Host);
+        return made ? std::string() : made.error().what;
+      };
+  EXPECT_THAT(refused({{"end_char", "DC3"}}), HasSubstr("end_char DC3: it steers"));
+  EXPECT_THAT(refused({{"flow", "dc_codes"}, {"start_char", "DC2"}}), HasSubstr("start_char DC2"));
+  EXPECT_THAT(refused({{"flow", "rtscts"}, {"code", "eia"}, {"end_char", "ETX"}}),
+              HasSubstr("the code"));
+  EXPECT_EQ(refused({{"flow", "rtscts"}, {"code", "eia"}, {"end_char", "%"}}), "");
+  EXPECT_EQ(refused({{"start_char", "DC2"}, {"end_char", "DC4"}}), "");
+}
+
 TEST(PlainSettings, ThatExcludeEachOtherAreNamed) {
   LineSettings eia;
   eia.code = CharacterCode::Eia;
