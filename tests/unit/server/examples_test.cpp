@@ -1,0 +1,48 @@
+// The files below deploy/examples are what users begin with: they must be taken as they are.
+#include <gtest/gtest.h>
+#include <fstream>
+#include <sstream>
+
+#include "server/app/settings.hpp"
+#include "server/serial/port_settings.hpp"
+#include "server/serial/rule_reader.hpp"
+
+namespace dripline {
+namespace {
+
+std::string read(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
+  app::Settings settings;
+  const auto taken =
+      app::apply_toml(settings, read("deploy/examples/ports.toml"), "deploy/examples");
+  ASSERT_TRUE(taken) << taken.error().what;
+  ASSERT_EQ(settings.ports.size(), 3u);
+  for (const auto& port : settings.ports) {
+    const auto line = ports::effective_settings(port);
+    EXPECT_TRUE(line) << port.name << ": " << line.error().what;
+    const auto rules = ports::read_rules(port.rules);
+    EXPECT_TRUE(rules) << port.name << ": " << rules.error().what;
+  }
+  EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
+}
+
+TEST(Examples, CallsDoWhatTheirCommentsSay) {
+  const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
+  ASSERT_TRUE(rules) << rules.error().what;
+  const auto verdict = [&](const std::string& text) {
+    const auto found = rules->explain(text);
+    return found.action + " " + found.argument;
+  };
+  EXPECT_EQ(verdict("%\nO9999\n(PRG=0042)\nM30\n%\n"), "send O0042");
+  EXPECT_TRUE(verdict("%\nO9999\n(DIR=)\nM30\n%\n").starts_with("directory"));
+  EXPECT_TRUE(verdict("%\nO9999\n(BLOCK=N1200)\nM30\n%\n").starts_with("restart"));
+  EXPECT_TRUE(verdict("PROBE X1.5\n").starts_with("report"));
+}
+
+}  // namespace
+}  // namespace dripline
