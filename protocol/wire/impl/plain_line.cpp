@@ -98,6 +98,7 @@ Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   if (!std::exchange(is_asked_, false)) {
     return fail(Errc::ModalConflict, "the other end asked for nothing");
   }
+  is_stopped_ = waits_for_dc1();  // the DC1 that asked is used up
   return {};
 }
 

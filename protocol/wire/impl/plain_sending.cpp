@@ -5,9 +5,9 @@ namespace dripline::wire {
 
 Result<void> PlainLine::begin_send(std::string_view name, LineTime now) {
   if (const auto idle = check_idle(); !idle) return idle;
-  if (is_dc_codes() && reception_.is_open) {
-    if (reader_.has_begun()) return fail(Errc::Busy, "the line is receiving");
-    close_reception();  // nothing has come yet
+  // One that only waits goes on waiting.
+  if (is_dc_codes() && reception_.is_open && reader_.has_begun()) {
+    return fail(Errc::Busy, "the line is receiving");
   }
   is_asked_ = false;
   has_started_ = false;

@@ -85,6 +85,23 @@ TEST(DcCodes, ControlPunchesBetweenDc2AndDc4) {
   EXPECT_EQ(control.say(), "\x12%\nO7\nM30\n%\x14");
 }
 
+TEST(DcCodes, ControlGoesOnListeningBehindWhatItPunches) {
+  TestedLine control = receiving("fanuc");
+  ASSERT_TRUE(control.line->begin_send("", control.now));
+  ASSERT_TRUE(control.offer("X1\n"));
+  control.say();
+  control.hear("%\nO1\n%");
+  EXPECT_EQ(control.events(), "sending\nsent\ntext \"O1\\n\"\nreceived\n");
+}
+
+TEST(DcCodes, IsOneThingAtATime) {
+  TestedLine control = receiving("fanuc");
+  control.hear("%\nO1");
+  const auto begun = control.line->begin_send("", control.now);
+  ASSERT_FALSE(begun);
+  EXPECT_EQ(begun.error().code, Errc::Busy);
+}
+
 TEST(DcCodes, HostTakesWhatIsPunched) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x12%\nO7\nM30\n%\x14");

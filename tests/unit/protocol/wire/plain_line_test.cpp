@@ -188,6 +188,18 @@ TEST(PlainSending, StartsAtOnceWhenDc1CameFirst) {
   EXPECT_EQ(host.say(), "AB\r\n");
 }
 
+TEST(PlainSending, UsesUpTheDc1ThatWasRefused) {
+  TestedLine host(settings_with({{"wait_for_xon", "yes"}}), Role::Host);
+  host.hear(kDc1);
+  ASSERT_TRUE(host.line->refuse("", host.now));
+  host.events();
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("AB\n"));
+  EXPECT_EQ(host.say_now(), "");
+  host.hear(kDc1);
+  EXPECT_EQ(host.say(), "AB\r\n");
+}
+
 TEST(PlainSending, PausesBehindBlocksAndCharacters) {
   TestedLine host(
       settings_with(
