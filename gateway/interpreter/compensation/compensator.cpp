@@ -7,7 +7,6 @@
 #include "gateway/interpreter/compensation/impl/corner.hpp"
 #include "gateway/interpreter/compensation/impl/path_writer.hpp"
 #include "gateway/interpreter/compensation/impl/state_bytes.hpp"
-#include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::compensation {
 
@@ -63,8 +62,7 @@ void Compensator::turn_on(const Cutter& cutter) {
 }
 
 void Compensator::turn_on(const Cutter& cutter, StartUp start_up) {
-  invariant(!state_.has_element || cutter.plane == state_.plane,
-            "the plane of compensation changes only when nothing waits");
+  if (cutter.plane != state_.plane) leave();
   // a contour that waits goes on, even after a cancel without a move
   if (state_.has_element) state_.phase = Phase::On;
   if (state_.phase != Phase::On) state_.phase = Phase::Starting;

@@ -30,9 +30,9 @@ class Compensator final : public EventSink {
   Compensator(const Policy& policy, EventSink& sink, const Position& start = {});
 
   /// The next move in the plane is the start-up move. While on: the elements from here on are
-  /// offset by the new cutter, in the same plane. On the same side a corner between two radii is
-  /// a corner as any other; between two sides the first element ends and the second begins on its
-  /// own normal, joined by a straight piece.
+  /// offset by the new cutter; another plane is left and started anew. On the same side a corner
+  /// between two radii is a corner as any other; between two sides the first element ends and the
+  /// second begins on its own normal, joined by a straight piece.
   void turn_on(const Cutter& cutter);
   /// As above, with another start-up than the policy's for this one time.
   void turn_on(const Cutter& cutter, StartUp start_up);

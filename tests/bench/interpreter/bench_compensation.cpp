@@ -1,7 +1,10 @@
 #include <benchmark/benchmark.h>
-#include <cmath>
+#include <fmt/core.h>
+#include <string>
 
 #include "gateway/interpreter/compensation/compensator.hpp"
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
 
 /// What the compensation stage costs a block: moves through it while it is off, and while it
 /// offsets a pocket of lines and arcs. The difference of the times per block is its price.
@@ -86,6 +89,40 @@ void CompensationOn(benchmark::State& state) {
   measure(state, true);
 }
 BENCHMARK(CompensationOn)->Unit(benchmark::kMillisecond);
+
+/// The same contour as a program: `tests/bench/run` shows what compensation adds to a whole block.
+std::string pocket_program(std::string_view start_up) {
+  std::string text = fmt::format("O0001\nG21G90G17\nG1{}X50.Y0F500.\n", start_up);
+  for (int i = 0; i < kLaps; ++i) {
+    text += "X90.\nG3X100.Y10.J10.\nG1Y60.\nX0\nY10.\nG3X10.Y0I10.\nG1X50.\n";
+  }
+  return text + "G40Y30.\nM30\n";
+}
+
+void measure_program(benchmark::State& state, std::string_view start_up) {
+  const std::string text = pocket_program(start_up);
+  const Dialect& control = **find_dialect("fanuc");
+  auto setup = parse_setup("[[tool]]\nnumber = 1\nradius = 4.0\n", control.units);
+  CountingSink sink;
+  for (auto _ : state) {
+    MemorySource source(text);
+    const auto outcome = run_offline(control, *setup, source, sink);
+    if (!outcome || outcome->alarm) state.SkipWithError("the pocket can not be cut");
+  }
+  benchmark::DoNotOptimize(sink.sum);
+  state.counters["blocks_per_second"] =
+      benchmark::Counter(static_cast<double>(sink.blocks), benchmark::Counter::kIsRate);
+}
+
+void FanucContour(benchmark::State& state) {
+  measure_program(state, "");
+}
+BENCHMARK(FanucContour)->Unit(benchmark::kMillisecond);
+
+void FanucContourCompensated(benchmark::State& state) {
+  measure_program(state, "G41D1");
+}
+BENCHMARK(FanucContourCompensated)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter::compensation

@@ -133,6 +133,24 @@ TEST(StartUp, LeavingInParallelKeepsTheDistance) {
   expect_ends(contour.log, {{0, 2}, {10, 2}, {10, 42}, {10, 42}, {0, 42}, {-10, 42}, {-20, 0}});
 }
 
+TEST(StartUp, AnotherPlaneStartsAnew) {
+  Contour contour{corners_at_both_ends(), {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0).off();
+  ASSERT_TRUE(contour.compensator.is_waiting()) << "for the cancel move";
+  contour.compensator.turn_on({.plane = Plane::ZX,
+                               .side = Side::Left,
+                               .radius = Length::mm(2),
+                               .tip_first = {},
+                               .tip_second = {}});
+  contour.aside(-30).line(30, 0);
+  contour.compensator.settle();
+  // in ZX now: down along Z, then to X 30 with the tool on the side of smaller Z
+  ASSERT_EQ(contour.log.moves.size(), 4u);
+  EXPECT_NEAR(contour.log.moves[1].to.second, 2, kNear) << "ended on its own normal";
+  EXPECT_NEAR(contour.log.moves[3].z, -32, kNear);
+  EXPECT_NEAR(contour.log.moves[3].to.first, 30, kNear);
+}
+
 TEST(StartUp, ARadiusOfZeroFollowsTheProgram) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(0).line(0, 0).line(10, 0).line(10, -10).arc({0, -10}, -90).off().line(0, 0);
