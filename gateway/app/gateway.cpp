@@ -12,7 +12,12 @@ namespace {
 machine::MachineLimits limits_of(std::string_view control) {
   const auto dialect = interpreter::find_dialect(control);
   const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
-  return is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
+  auto limits = is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
+  limits.waits_at_tool_change = dialect && (*dialect)->waits_at_tool_change;
+  if (dialect && (*dialect)->feed_dial.fastest) {
+    limits.fastest_feed_per_minute = (*dialect)->feed_dial.fastest->mm();
+  }
+  return limits;
 }
 
 }  // namespace

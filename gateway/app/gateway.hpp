@@ -77,6 +77,7 @@ class Gateway {
   Reply operate(const dds::Order& order);
   Reply set_switch(const dds::Order& order);
   Reply set_override(const dds::Order& order);
+  std::optional<std::string> refusal_of_feed_dial(double factor) const;
   void keep_result(const dds::Order& order, const Reply& reply);
   void answer(const dds::Order& order, const Reply& reply);
   void send_results();

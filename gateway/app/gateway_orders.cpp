@@ -201,6 +201,18 @@ Gateway::Reply Gateway::set_switch(const dds::Order& order) {
   return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
 }
 
+/// Controls whose knob has positions do not stand between them.
+std::optional<std::string> Gateway::refusal_of_feed_dial(double factor) const {
+  const interpreter::FeedDial& dial = parts_.dialect.feed_dial;
+  if (dial.step <= 0) return std::nullopt;
+  const double position = factor / dial.step;
+  constexpr double kNoise = 1e-6;
+  if (factor <= dial.most + kNoise && std::fabs(position - std::round(position)) <= kNoise)
+    return std::nullopt;
+  return fmt::format("{:.4g} %: this control's knob goes in steps of {:.4g} to {:.4g} %",
+                     factor * 100, dial.step * 100, dial.most * 100);
+}
+
 Gateway::Reply Gateway::set_override(const dds::Order& order) {
   machine::OperatorPanel panel = machine_.panel();
   double& knob = order.action == OrderAction::FeedOverride    ? panel.feed_override
@@ -209,6 +221,9 @@ Gateway::Reply Gateway::set_override(const dds::Order& order) {
   knob = order.value;
   if (!std::isfinite(order.value) || panel.clamped() != panel)
     return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
+  if (order.action == OrderAction::FeedOverride) {
+    if (auto refusal = refusal_of_feed_dial(order.value)) return refuse(std::move(*refusal));
+  }
   machine_.set_panel(panel);
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,13 @@ namespace dripline::interpreter {
 
 /// What the control moves: decides the axes of a simulated machine.
 enum class MachineKind : std::uint8_t { Mill, Lathe };
+
+/// The knob for feeds on a control's panel.
+struct FeedDial {
+  double step = 0;  ///< between its positions, as a factor; 0: turns freely
+  double most = 2;
+  std::optional<Length> fastest;  ///< per minute; no position goes beyond it
+};
 
 /// One control family. A new dialect is a new folder and one line in registry.cpp.
 struct Dialect {
@@ -27,6 +35,8 @@ struct Dialect {
   /// Units of the control's own memory at power on: of a setup file that names none.
   Units units = Units::Millimetre;
   MachineKind machine = MachineKind::Mill;
+  FeedDial feed_dial = {};
+  bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START goes on
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.
   Result<std::string> (*list)(std::string_view text) = nullptr;

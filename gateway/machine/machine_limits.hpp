@@ -31,6 +31,8 @@ struct MachineLimits {
   /// How far a corner may be cut in thought to find the speed it is passed at: a corner is taken at
   /// the speed of the circle that leaves it by this much (mm). 0: full stop at every corner.
   double corner_deviation = 0.02;
+  /// Path feed per minute that no override goes beyond, where the control says so.
+  double fastest_feed_per_minute = std::numeric_limits<double>::infinity();
   bool waits_at_tool_change = false;  ///< a tool change stop waits for resume, as a program stop
 
   const std::optional<AxisLimits>& axis(interpreter::Axis axis) const {

@@ -71,6 +71,7 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .make = make,
                                 .units = Units::Inch,
                                 .machine = MachineKind::Mill,
+                                .waits_at_tool_change = true,
                                 .list = list};
 
 }  // namespace dripline::interpreter

@@ -46,6 +46,8 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .make = make,
                                     .units = Units::Inch,
                                     .machine = MachineKind::Mill,
+                                    .feed_dial = {0.125, 1.25, Length::inch(200)},
+                                    .waits_at_tool_change = true,
                                     .list = planning_sheet};
 
 }  // namespace dripline::interpreter

@@ -64,6 +64,7 @@ std::optional<Refusal> MoveBuilder::check_travel(const Path& path) const {
 void MoveBuilder::set_axis_limits(Move& move) const {
   move.ceiling = move.acceleration = kUnlimited;
   const bool at_rapid = move.pace == Pace::Rapid || move.pace == Pace::Thread;
+  if (!at_rapid) move.ceiling = limits_.fastest_feed_per_minute / 60;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const double share = move.path.share(i);
     if (share == 0) continue;

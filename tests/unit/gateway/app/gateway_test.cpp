@@ -163,6 +163,7 @@ TEST(Gateway, OrdersForAnotherRunAreRefused) {
   EXPECT_FALSE(shop.send(hold).accepted);
 }
 
+/// Row: TK-30.
 TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
   Shop shop("1x");
   const auto change = [&](OrderAction action, double value, const std::string& name = "") {
@@ -173,6 +174,7 @@ TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
   };
   EXPECT_TRUE(change(OrderAction::FeedOverride, 0.5));
   EXPECT_FALSE(change(OrderAction::FeedOverride, 3));
+  EXPECT_FALSE(change(OrderAction::FeedOverride, 0.52)) << "between the knob's positions";
   EXPECT_FALSE(change(OrderAction::RapidOverride, std::nan("")));
   EXPECT_TRUE(change(OrderAction::Switch, 1, "single_block"));
   EXPECT_FALSE(change(OrderAction::Switch, 1, "turbo"));

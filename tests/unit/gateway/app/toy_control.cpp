@@ -107,7 +107,8 @@ const Dialect& toy_control() {
       .make = [](const Setup&, ProgramSource& source,
                  EventSink& sink) -> Result<std::unique_ptr<Interpreter>> {
         return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(source, sink));
-      }};
+      },
+      .feed_dial = {.step = 0.05, .most = 2, .fastest = std::nullopt}};
   return toy;
 }
 

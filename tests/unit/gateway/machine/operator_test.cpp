@@ -32,6 +32,18 @@ TEST(Override, ScalesTheFeed) {
   }
 }
 
+/// Row: TK-30.
+TEST(Override, NeverGoesBeyondTheControlsFastestFeed) {
+  MachineLimits limits = plain_lathe();
+  limits.fastest_feed_per_minute = 1500;
+  for (const double factor : {1.0, 1.25, 2.0}) {
+    TestMachine test(limits);
+    test.machine.set_panel(with_feed(factor));
+    test.program.line(0, 100, 1200);
+    EXPECT_NEAR(test.run_all(), trapezoid(100, std::min(20 * factor, 25.0), 1000), 1e-9) << factor;
+  }
+}
+
 TEST(Override, OfRapidsLeavesFeedsAlone) {
   OperatorPanel panel;
   panel.rapid_override = 0.25;
