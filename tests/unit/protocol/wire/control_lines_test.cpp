@@ -152,7 +152,7 @@ TEST(DcCodes, SteerInIsoWithTheirParity) {
   EXPECT_EQ(control.say(), "\x93");
 }
 
-// ProtoTRAK Plus
+// ProtoTRAK Plus. Rows: PT-01, PT-03, PT-05, PT-07.
 
 TEST(ProtoTrakControl, KeepsOneBlockALineUpToThePercentSign) {
   TestedLine control = receiving("prototrak");

@@ -106,6 +106,7 @@ TEST(LineDiagnosis, TellsAMissingGroundFromAStrangeRate) {
   EXPECT_FALSE(diagnose(seen).settings);
 }
 
+// Rows: PT-02, PT-38: jumpers and the tester's lights are told from the modem lines.
 TEST(LineDiagnosis, SaysWhatSilenceMeansByTheModemLines) {
   LineObservation seen;
   seen.samples = {sample(9600, "")};

@@ -98,6 +98,7 @@ TEST_P(TapeReaderLine, SaysWhenABlockIsNotOnTheTape) {
   EXPECT_TRUE(wire.host().line->state().is_stopped);
 }
 
+// Rows: TK-04.
 TEST_P(TapeReaderLine, StopsAtASpoiledRowAndDropsTheBlock) {
   const std::pair<ReaderFault, std::string> kFaults[] = {{ReaderFault::Parity, "wrong parity"},
                                                          {ReaderFault::Chad, "wrong parity"}};
