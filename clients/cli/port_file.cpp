@@ -124,6 +124,16 @@ Result<std::vector<client::PortRequest>> read_port_file(const std::string& path)
   return ports;
 }
 
+namespace {
+
+/// The short form says all four, so none of the port's own may stand over it.
+void set_line(client::Settings& settings, std::string_view value) {
+  for (const char* part : {"baud", "parity", "data_bits", "stop_bits"}) settings.erase(part);
+  settings["line"] = std::string(value);
+}
+
+}  // namespace
+
 Result<void> apply_setting(client::Settings& settings, std::string_view text) {
   const auto equals = text.find('=');
   if (equals == 0) return fail(Errc::Syntax, "'{}' has no key before its =", text);
@@ -132,13 +142,15 @@ Result<void> apply_setting(client::Settings& settings, std::string_view text) {
     if (!is_short_form) {
       return fail(Errc::Syntax, "'{}' is neither KEY=VALUE nor a line such as 9600e72", text);
     }
-    settings["line"] = std::string(text);
+    set_line(settings, text);
     return {};
   }
   const std::string key(text.substr(0, equals));
   const std::string_view value = text.substr(equals + 1);
   if (value.empty()) {
     settings.erase(key);
+  } else if (key == "line") {
+    set_line(settings, value);
   } else {
     settings[key] = std::string(value);
   }

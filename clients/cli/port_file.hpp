@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxRulesFile = 32 * 1024;
 /// Syntax and LimitExceeded (naming file, line and key), and those of read_small_file.
 Result<std::vector<client::PortRequest>> read_port_file(const std::string& path);
 
-/// One `key=value` of a command line, or a short form such as 9600e72; an empty value takes the
-/// port's own setting away. Errors: Syntax.
+/// One `key=value` of a command line, or a short form such as 9600e72, which takes away what stood
+/// over it (baud, parity ...); an empty value takes the port's own setting away. Errors: Syntax.
 Result<void> apply_setting(client::Settings& settings, std::string_view text);
 
 }  // namespace dripline::cli

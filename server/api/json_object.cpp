@@ -1,6 +1,7 @@
 #include "server/api/json_object.hpp"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace dripline::api {
@@ -36,11 +37,12 @@ Result<JsonObject> JsonObject::parse(std::string_view text) {
     return fail(Errc::Syntax, "the body is JSON nested deeper than {} levels", kMaxDepth);
   }
   using Json = nlohmann::json;
-  std::set<std::string> names;
+  std::map<int, std::set<std::string>> names;  // of the objects being read, by depth
   std::string doubled;
   const auto look_for_doubled = [&](int depth, Json::parse_event_t event, Json& value) {
-    const bool is_member = event == Json::parse_event_t::key && depth == 1;
-    if (is_member && !names.insert(value.get<std::string>()).second) {
+    if (event == Json::parse_event_t::object_start) names[depth + 1].clear();
+    if (event == Json::parse_event_t::key &&
+        !names[depth].insert(value.get<std::string>()).second) {
       doubled = value.get<std::string>();
     }
     return true;

@@ -1,5 +1,6 @@
 #include "server/app/port_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -86,6 +87,9 @@ Result<storage::Port> read_port(const toml::table& table, const std::string& fol
     return fail(Errc::Syntax, "line {}: a port needs a machine and an address", line_of(table));
   }
   if (port.name.empty()) port.name = port.machine;
+  // A table has no order: baud and its like change what the short form says.
+  std::ranges::stable_partition(port.settings,
+                                [](const auto& setting) { return setting.first == "line"; });
   return port;
 }
 

@@ -78,16 +78,24 @@ TEST_F(PortFile, BoundsWhatItReads) {
 
 TEST(PortSetting, IsAKeyWithAValueOrALine) {
   client::Settings settings;
-  EXPECT_TRUE(apply_setting(settings, "baud=4800"));
-  EXPECT_TRUE(apply_setting(settings, "end_char==").has_value()) << "the value may be =";
+  EXPECT_TRUE(apply_setting(settings, "eob=lf"));
+  EXPECT_TRUE(apply_setting(settings, "end_char==")) << "the value may be =";
   EXPECT_TRUE(apply_setting(settings, "57600n81"));
-  EXPECT_EQ(settings,
-            (client::Settings{{"baud", "4800"}, {"end_char", "="}, {"line", "57600n81"}}));
-  EXPECT_TRUE(apply_setting(settings, "baud="));
-  EXPECT_FALSE(settings.contains("baud"));
+  EXPECT_EQ(settings, (client::Settings{{"eob", "lf"}, {"end_char", "="}, {"line", "57600n81"}}));
+  EXPECT_TRUE(apply_setting(settings, "eob="));
+  EXPECT_FALSE(settings.contains("eob"));
   EXPECT_FALSE(apply_setting(settings, "=4800"));
   EXPECT_FALSE(apply_setting(settings, "fast"));
   EXPECT_FALSE(apply_setting(settings, ""));
+}
+
+TEST(PortSetting, OfALineTakesAwayWhatStoodOverIt) {
+  client::Settings settings{{"baud", "300"}, {"parity", "odd"}, {"flow", "none"}};
+  EXPECT_TRUE(apply_setting(settings, "9600e72"));
+  EXPECT_EQ(settings, (client::Settings{{"flow", "none"}, {"line", "9600e72"}}));
+  EXPECT_TRUE(apply_setting(settings, "baud=4800"));
+  EXPECT_TRUE(apply_setting(settings, "line=2400e71"));
+  EXPECT_EQ(settings, (client::Settings{{"flow", "none"}, {"line", "2400e71"}}));
 }
 
 }  // namespace

@@ -105,6 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
         BodyCase{"port_long_address", port,
                  R"({"machine":"m1","address":")" + std::string(256, '/') + "\"}",
                  Errc::LimitExceeded, "256 bytes: at most 255"},
+        BodyCase{"port_setting_twice", port, port_with(R"("settings":{"eob":"lf","eob":"cr"})"),
+                 Errc::Syntax, "'eob' is given twice"},
         BodyCase{"port_settings_list", port, port_with(R"("settings":["baud"])"), Errc::Syntax,
                  "'settings' must be an object"},
         BodyCase{"port_setting_nested", port, port_with(R"("settings":{"baud":[1]})"), Errc::Syntax,

@@ -31,6 +31,15 @@ TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
   EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
 }
 
+TEST(Examples, BaudOfAPortChangesWhatItsLineSays) {
+  app::Settings settings;
+  const auto taken = app::apply_toml(
+      settings, "[[port]]\nmachine='m'\naddress='/dev/x'\nbaud=4800\nline='9600e72'\n");
+  ASSERT_TRUE(taken) << taken.error().what;
+  const auto line = ports::effective_settings(settings.ports.at(0));
+  EXPECT_EQ(wire::short_form(line.value()), "4800e72");
+}
+
 TEST(Examples, CallsDoWhatTheirCommentsSay) {
   const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
   ASSERT_TRUE(rules) << rules.error().what;
