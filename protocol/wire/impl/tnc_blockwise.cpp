@@ -60,7 +60,7 @@ void TncBlockwise::handle(const TncFrame& frame, LineTime now) {
 /// An answer counts when the whole block is out; one that comes earlier belongs to the block before
 /// it and came twice.
 void TncBlockwise::on_block_answer(bool is_good, LineTime now) {
-  if (!is_out_empty()) return;
+  if (!is_out_heard(now)) return;
   set_stopped(false);
   is_garbled_ = false;
   if (!is_good) {
@@ -182,24 +182,35 @@ void TncBlockwise::out_sent(LineTime now) {
   on_out_sent(now);
 }
 
-void TncBlockwise::put_out(std::string characters) {
+void TncBlockwise::put_out(std::string characters, std::size_t tail) {
   out_ = std::move(characters);
   out_at_ = 0;
+  out_tail_ = tail;
+}
+
+/// The other end answers when it has the BCC, while the DC1 behind it is still on its way.
+bool TncBlockwise::is_out_heard(LineTime now) {
+  if (is_out_empty()) return true;
+  if (out_.size() - out_at_ > out_tail_) return false;
+  while (!is_out_empty()) queue_control(out_[out_at_++]);
+  out_sent(now);
+  return true;
 }
 
 void TncBlockwise::send_block(std::string_view line, std::size_t bytes) {
   const auto& tnc = settings_.heidenhain;
   block_ = make_tnc_block(tnc.stx, line, tnc);
-  if (role_ == Role::Control || tnc.sends_dc1_after_block) block_ += kDc1;
+  block_tail_ = role_ == Role::Control || tnc.sends_dc1_after_block ? 1 : 0;
+  block_.append(block_tail_, kDc1);
   block_bytes_ = bytes;
   is_counted_ = false;
   begin_tries();
-  put_out(block_);
+  put_out(block_, block_tail_);
   wait_for(Wait::BlockAnswer, std::nullopt);
 }
 
 void TncBlockwise::resend_block(LineTime) {
-  put_out(block_);
+  put_out(block_, block_tail_);
   wait_for(Wait::BlockAnswer, std::nullopt);
 }
 

@@ -56,7 +56,11 @@ class TncBlockwise : public DisciplineBase {
   void send_next(LineTime now);
   void resend_block(LineTime now);
   bool has_block_out() const { return !block_.empty(); }
-  void put_out(std::string characters);
+  /// The last `tail` characters stand behind what is answered (DC1).
+  void put_out(std::string characters, std::size_t tail = 0);
+  /// Whether the other end can have heard what it answers; then the tail counts as sent, and goes
+  /// before whatever comes next.
+  bool is_out_heard(LineTime now);
   /// Whether everything given to `put_out` has left.
   bool is_out_empty() const { return out_at_ == out_.size(); }
   void wait_for(Wait wait, std::optional<LineTime> limit);
@@ -89,9 +93,9 @@ class TncBlockwise : public DisciplineBase {
   TncFrameReader reader_;
   std::optional<LineTime> limit_, silence_, hold_seen_;
   std::string out_;  ///< block, heading or end being sent
-  std::size_t out_at_ = 0;
+  std::size_t out_at_ = 0, out_tail_ = 0;
   std::string block_;  ///< the last one sent, until it is accepted
-  std::size_t block_bytes_ = 0;
+  std::size_t block_bytes_ = 0, block_tail_ = 0;
   std::uint64_t accepted_ = 0;
   std::size_t column_ = 0;  ///< of the text offered
   unsigned tries_ = 0;

@@ -45,19 +45,19 @@ class TncBlockwiseControl final : public TncBlockwise {
   }
 
   void send_heading() {
-    put_out(heading_);
+    put_out(heading_, 1);
     wait_for(Wait::HeadingAnswer, std::nullopt);
   }
 
   void on_ack(LineTime now) override {
-    if (wait_ != Wait::HeadingAnswer || !is_out_empty()) return;
+    if (wait_ != Wait::HeadingAnswer || !is_out_heard(now)) return;
     if (!is_output_) return begin_receiving(name_, now);
     begin_transfer(Phase::Sending, name_);
     wait_for(Wait::Nothing, std::nullopt);
   }
 
   void on_nak(LineTime now) override {
-    if (wait_ != Wait::HeadingAnswer || !is_out_empty()) return;
+    if (wait_ != Wait::HeadingAnswer || !is_out_heard(now)) return;
     if (may_try_again()) return send_heading();
     give_up({Errc::Corrupt, "the device refused the heading again and again"}, now);
   }
@@ -90,7 +90,7 @@ class TncBlockwiseControl final : public TncBlockwise {
 
   void on_stray_block(LineTime now) override {
     if (phase_ == Phase::Idle) return queue_control(settings_.heidenhain.eot);
-    if (wait_ != Wait::HeadingAnswer || is_output_ || !is_out_empty()) return;
+    if (wait_ != Wait::HeadingAnswer || is_output_ || !is_out_heard(now)) return;
     // The ACK before it was lost. Refused, the block comes again.
     begin_receiving(name_, now);
     queue_control(settings_.heidenhain.nak);

@@ -219,6 +219,27 @@ TEST(TncBlockwise, TakesNoSecondAckForTheNextBlock) {
   EXPECT_EQ(accepted, 7U);
 }
 
+/// A host that answers at once is heard while the DC1 behind the BCC is still to leave.
+TEST(TncBlockwise, TakesAnAnswerThatOvertakesTheDc1BehindTheBlock) {
+  const auto control = make_discipline(settings_of(Flow::HeidenhainBcc), Role::Control).value();
+  const auto sent = [&](std::size_t most) {
+    std::vector<std::byte> room(most);
+    room.resize(control->transmit(room, LineTime{}));
+    return std::string(reinterpret_cast<const char*>(room.data()), room.size());
+  };
+  const auto hear = [&](char answer) {
+    control->receive(std::as_bytes(std::span(&answer, 1)), LineTime{});
+  };
+  ASSERT_TRUE(control->begin_send("8", LineTime{}));
+  EXPECT_EQ(sent(5).substr(0, 4), "\x01%8A");
+  EXPECT_EQ(sent(1).size(), 1U);  // ETB and BCC are out, DC1 is not
+  hear(6);
+  ASSERT_TRUE(control->offer("0 STOP\n1 STOP\n", true, LineTime{}));
+  EXPECT_EQ(sent(10).substr(0, 9), std::string("\x11\x02", 2) + "0 STOP\x17");
+  hear(6);
+  EXPECT_EQ(sent(64).substr(0, 9), std::string("\x11\x02", 2) + "1 STOP\x17");
+}
+
 TEST(TncBlockwise, TakesARepeatedBlockOnce) {
   const auto settings = settings_of(Flow::HeidenhainBcc);
   auto control = make_discipline(settings, Role::Control).value();
