@@ -23,6 +23,13 @@ bool is_open_ended(const wire::LineSettings& settings) {
   return is_plain && !settings.end_character && !settings.wait_for_xon;
 }
 
+/// On such a line nothing comes unless the control's operator asks.
+bool must_ask(const wire::LineSettings& settings) {
+  return settings.flow == wire::Flow::Heidenhain || settings.flow == wire::Flow::HeidenhainBcc;
+}
+
+constexpr std::string_view kNext = "next";
+
 bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
 }
@@ -92,8 +99,8 @@ void Gateway::line_text_ended() {
 }
 
 void Gateway::line_failed(const std::string& reason) {
-  spdlog::warn("line {}: {} {}", parts_.line->address(), reason, label());
-  line_trouble_ = fmt::format("line: {}", reason);
+  if (const auto text = fmt::format("line: {}", reason); std::exchange(line_trouble_, text) != text)
+    spdlog::warn("{} {}", text, label());
   if (line_ == Line::Feeding) {
     line_feed_->break_off(line_trouble_);
     line_ = Line::Complete;
@@ -116,6 +123,7 @@ bool Gateway::begin_line_run() {
     last_message_ = valid_text(done.error().what, kMaxReason);
     return false;
   }
+  if (line_request_ != kNext) line_request_.clear();  // asked for until it has come
   line_feed_ = raw;
   line_released_ = 0;
   line_ = Line::Feeding;
@@ -128,10 +136,13 @@ void Gateway::listen(bool may_ask) {
   listen_at_.reset();
   line_ = Line::Listening;
   line_program_.clear();
-  std::string& wanted = line_request_;
-  if (!may_ask || wanted.empty()) return parts_.line->expect();
+  const std::string& wanted = line_request_;
+  if (!may_ask || wanted.empty()) {
+    if (must_ask(parts_.line->settings())) return;
+    return parts_.line->expect();
+  }
   wire::TransferRequest request;
-  if (wanted != "next") request.name = std::exchange(wanted, {});  // asked for once
+  if (wanted != kNext) request.name = wanted;
   parts_.line->expect(&request);
 }
 

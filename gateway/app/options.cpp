@@ -144,12 +144,14 @@ constexpr std::array kRows{
                 line_of(o).buffer_bytes = *bytes;
                 return {};
               }},
-    OptionRow{"line-request", "name", "", "(none)",
-              "program the control asks its host for; next: whichever is next, after each run",
-              [](Options& o, std::string_view v) -> Result<void> {
-                line_of(o).request = v;
-                return {};
-              }},
+    OptionRow{
+        "line-request", "name", "", "(none)",
+        "program the control asks its host for; next: whichever is next, after each run, as on a "
+        "HEIDENHAIN line by itself",
+        [](Options& o, std::string_view v) -> Result<void> {
+          line_of(o).request = v;
+          return {};
+        }},
     OptionRow{"witness", "file", "", "(none)", "for tests: counts what was truly executed",
               [](Options& o, std::string_view v) -> Result<void> {
                 o.witness = v;
@@ -214,7 +216,11 @@ Result<void> complete_line(Options& options) {
   if (!found) return fail(found.error());
   line.template_name = (*found)->name;
   line.settings = (*found)->settings;
-  return change(line.settings, line.changes);
+  if (const auto done = change(line.settings, line.changes); !done) return done;
+  const bool must_ask = line.settings.flow == wire::Flow::Heidenhain ||
+                        line.settings.flow == wire::Flow::HeidenhainBcc;
+  if (line.request.empty() && must_ask) line.request = "next";
+  return {};
 }
 
 }  // namespace

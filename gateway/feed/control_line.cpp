@@ -38,7 +38,8 @@ Result<std::unique_ptr<ControlLine>> ControlLine::start(Parts parts) {
 void ControlLine::on_event(wire::Event& event) {
   if (auto* text = std::get_if<wire::TextReceived>(&event)) return on_text(std::move(text->text));
   if (auto* began = std::get_if<wire::TransferBegan>(&event)) {
-    if (began->is_receiving) put(What::Began, std::move(began->name));
+    if (!began->is_receiving) return post_pump();
+    put(What::Began, std::move(began->name));
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {
     if (ended->is_receiving) {
       put(What::Ended, {});
@@ -182,6 +183,8 @@ void ControlLine::pump(wire::Discipline& end, wire::LineTime now) {
     if (!end.begin_send("", now)) return;  // busy: tried again at the end of what is in progress
     sending_ = Sending::Text;
   }
+  // A TNC asks its device first, and goes on when that has agreed.
+  if (end.state().phase != wire::Phase::Sending) return;
   const std::size_t size = std::min(output_.size(), end.room());
   if (size == 0) return;
   const std::string piece = output_.substr(0, size);

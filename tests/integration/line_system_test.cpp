@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+#include <algorithm>
+
+#include "protocol/base/digest.hpp"
+#include "tests/integration/line_shop.hpp"
+#include "tests/integration/system.hpp"
+#include "tests/support/program_generator.hpp"
+#include "tests/support/pty.hpp"
+
+/// End to end: a real server feeds a real gateway, which plays a control at the other end of a
+/// line; what the program prints comes back over the line into the report.
+namespace dripline::integration {
+namespace {
+
+using namespace std::chrono_literals;
+using test_support::eventually;
+using test_support::PtyCable;
+
+/// A server with one port, and the control at its end.
+class ServedLine {
+ public:
+  explicit ServedLine(std::vector<std::string> settings, const std::string& request = "") {
+    settings.insert(settings.end(), {"line=115200n81", "idle_end_ms=300"});
+    system.start_server();
+    nlohmann::json changes = nlohmann::json::object();
+    for (const std::string& setting : settings) {
+      const std::size_t equals = setting.find('=');
+      changes[setting.substr(0, equals)] = setting.substr(equals + 1);
+    }
+    const nlohmann::json port{{"machine", "old-lathe"},
+                              {"address", cable.host()},
+                              {"template", "centurion"},
+                              {"settings", changes}};
+    const auto reply = system.rest().put_bytes("/api/v1/ports/port-1", port.dump());
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    EXPECT_TRUE(eventually([&] { return port_view().value("open", false); })) << port_view().dump();
+    std::vector<std::string> arguments;
+    if (!request.empty()) arguments = {"--line-request", request};
+    shop.emplace(LineShop::Options{.address = cable.control(),
+                                   .settings = std::move(settings),
+                                   .speed = "max",
+                                   .arguments = std::move(arguments)});
+  }
+  nlohmann::json port_view() const { return system.rest().get("/api/v1/ports/port-1").json(); }
+  std::string start(const std::string& name, const std::string& text) {
+    system.push(name, text);
+    return system.start_run(name, "old-lathe");
+  }
+
+  System system;
+  PtyCable cable;
+  std::optional<LineShop> shop;
+};
+
+std::string contour(std::uint64_t bytes) {
+  std::string text;
+  test_support::write_contour_of_size(bytes, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+std::uint64_t blocks_of(std::string_view text) {
+  return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+struct Protocol {
+  const char* name;
+  std::vector<std::string> settings;
+  const char* request = "";  ///< what the control asks for; nothing: the server begins
+  bool prints_back = true;
+};
+class LineSystem : public testing::TestWithParam<Protocol> {};
+
+TEST_P(LineSystem, FromTheServerOverTheLineToTheMachineAndBackIntoTheReport) {
+  ServedLine line(GetParam().settings, GetParam().request);
+  std::string text = "O0077\nG20 G98\nPOPEN P1\n";
+  std::vector<std::string> expected;
+  for (int i = 1; i <= 60; ++i) {
+    text += "G1 X1. Z-." + std::to_string(i % 9 + 1) + " F50.\n";
+    if (i % 6 != 0) continue;
+    text += "DPRNT [FLANGE " + std::to_string(i) + "]\n";
+    expected.push_back("FLANGE " + std::to_string(i));
+  }
+  text += "PCLOS\nM30\n";
+  const std::string id = line.start("O0077", text);
+  const auto run = line.system.wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  EXPECT_EQ(run.value("sent", 0U), text.size()) << run.dump();
+  ASSERT_TRUE(line.shop->wait_ended(1));
+  if (GetParam().prints_back) {
+    EXPECT_TRUE(eventually([&] { return line.system.report_lines(id) == expected; }))
+        << testing::PrintToString(line.system.report_lines(id)) << "\n"
+        << line.system.rest().get("/api/v1/ports/port-1/recording").body;
+  }
+  const auto endings = line.shop->endings();
+  ASSERT_GE(endings.size(), 1U);
+  EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
+  EXPECT_EQ(endings[0].executed, blocks_of(text));
+  EXPECT_EQ(line.shop->outputs(), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , LineSystem,
+    testing::Values(Protocol{"xonxoff", {"flow=xonxoff"}}, Protocol{"rtscts", {"flow=rtscts"}},
+                    Protocol{"none", {"flow=none", "line_delay_ms=2"}},
+                    Protocol{"dc_codes", {"flow=dc_codes", "start_char=%", "end_char=%"}, "next"},
+                    Protocol{"xmodem", {"flow=xmodem", "control=plain"}, "", false},
+                    Protocol{"heidenhain", {"flow=heidenhain", "control=plain"}, "next"},
+                    Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
+    [](const auto& i) { return std::string(i.param.name); });
+
+TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
+  ServedLine line({"flow=xonxoff"});
+  const std::string text = contour(150'000);
+  const std::string id = line.start("contour", text);
+  ASSERT_TRUE(eventually([&] { return line.cable.passed() > 5000; }));
+  line.cable.unplug();
+  const auto run = line.system.wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "interrupted") << run.dump();
+  const std::string reason = run.value("reason", "");
+  EXPECT_NE(reason.find("block"), std::string::npos) << reason;
+  EXPECT_FALSE(line.port_view().value("open", true));
+
+  // What the server says has left, and what the control has: apart by what was on the way.
+  const auto endings = line.shop->endings();
+  ASSERT_EQ(endings.size(), 1U);
+  const auto& ending = endings[0];
+  const auto sent = run.value("sent", std::uint64_t{0});
+  EXPECT_LE(ending.content_length, sent);
+  EXPECT_LE(sent - ending.content_length, 64U)
+      << "sent " << sent << ", held by the control " << ending.content_length;
+  const auto held = std::string_view(text).substr(0, ending.content_length);
+  EXPECT_EQ(ending.content_sha256, sha256(held).hex());
+  EXPECT_EQ(ending.executed, blocks_of(held));
+  EXPECT_EQ(run.value("executed", std::uint64_t{9}), 0U) << "a line does not tell what is executed";
+}
+
+TEST(LineSystemLoss, ResumesACheckedProtocolWhenTheCableIsBack) {
+  ServedLine line({"flow=xmodem", "control=plain", "answer_limit_ms=3000"});
+  const std::string text = contour(40'000);
+  const std::string id = line.start("contour", text);
+  ASSERT_TRUE(eventually([&] { return line.cable.passed() > 5000; }));
+  line.cable.unplug();
+  ASSERT_TRUE(eventually([&] { return !line.port_view().value("open", true); }));
+  line.cable.plug_in();
+  const auto run = line.system.wait_ended(id);
+  EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
+  ASSERT_TRUE(line.shop->wait_ended(1));
+  const auto endings = line.shop->endings();
+  ASSERT_GE(endings.size(), 1U);
+  EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
+  EXPECT_EQ(endings[0].executed, blocks_of(text));
+  EXPECT_EQ(endings[0].content_sha256,
+            sha256(std::string_view(text).substr(0, endings[0].content_length)).hex());
+}
+
+}  // namespace
+}  // namespace dripline::integration
