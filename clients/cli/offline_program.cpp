@@ -1,8 +1,11 @@
 #include "clients/cli/offline_program.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "clients/cli/program_folder.hpp"
+#include "protocol/wire/tape_image.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -11,6 +14,7 @@ namespace fs = std::filesystem;
 using interpreter::Dialect;
 
 constexpr std::size_t kHead = 64 * 1024;
+constexpr std::size_t kTapeHead = 64 * 1024;
 constexpr std::size_t kMaxSetup = 16 * 1024 * 1024;
 
 std::string names_of(const std::vector<const Dialect*>& dialects) {
@@ -57,6 +61,33 @@ Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& di
   return setup;
 }
 
+/// Program text has neither blank rows nor an eighth hole in its first rows.
+bool looks_like_tape(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, kTapeHead);
+  return std::any_of(head.begin(), head.end(),
+                     [](char c) { return c == '\0' || static_cast<unsigned char>(c) >= 0x80; });
+}
+
+/// The text of a tape image; nothing when the file is no tape. Errors: Corrupt, with the row.
+Result<std::unique_ptr<const std::string>> read_tape(const std::string& path,
+                                                     std::string_view bytes) {
+  if (!looks_like_tape(bytes)) return std::unique_ptr<const std::string>();
+  const auto rows = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  const auto code = wire::detect_code(rows);
+  if (!code || code->code == wire::CharacterCode::Ascii) {
+    return std::unique_ptr<const std::string>();  // whatever it is, its control will say so
+  }
+  wire::TapeReader reader({.code = code->code});
+  auto text = std::make_unique<std::string>();
+  auto done = reader.read(rows, *text);
+  if (done) done = reader.finish(*text);
+  if (!done) {
+    return fail(done.error().code, "{} ({} tape): {}", path, wire::code_name(code->code),
+                done.error().what);
+  }
+  return std::unique_ptr<const std::string>(std::move(text));
+}
+
 /// The folder of called programs.
 std::string library_folder(const OfflineCommand& command, const interpreter::Setup& setup) {
   const fs::path own = fs::path(command.file).parent_path();
@@ -69,18 +100,22 @@ std::string library_folder(const OfflineCommand& command, const interpreter::Set
 Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
   auto file = MappedFile::open(command.file);
   if (!file) return fail(file.error());
-  auto dialect = choose_dialect(command, file->text());
+  auto tape = read_tape(command.file, file->text());
+  if (!tape) return fail(tape.error());
+  const std::string_view text = *tape ? std::string_view(**tape) : file->text();
+  auto dialect = choose_dialect(command, text);
   if (!dialect) return fail(dialect.error());
   auto setup = read_setup(command.setup, **dialect);
   if (!setup) return fail(setup.error());
   OfflineProgram program(std::move(*file), **dialect);
+  program.tape_text_ = std::move(*tape);
   program.setup_ = std::move(*setup);
   program.library_ = library_folder(command, program.setup_);
   return program;
 }
 
 interpreter::MemorySource OfflineProgram::source() const {
-  return interpreter::MemorySource(file_.text(), [folder = library_](std::string_view name) {
+  return interpreter::MemorySource(text(), [folder = library_](std::string_view name) {
     return load_called_program(folder, name);
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "clients/cli/mapped_file.hpp"
@@ -17,7 +18,8 @@ struct OfflineCommand {
   std::string setup;    ///< empty: everything at its default
 };
 
-/// A program on disk with everything its interpretation needs.
+/// A program on disk with everything its interpretation needs. An image of a punched tape, EIA or
+/// ISO, is read as the text it holds.
 class OfflineProgram {
  public:
   /// Errors: Io, Unsupported, Syntax, NotFound; all are usage errors (exit status 2). A control
@@ -26,7 +28,7 @@ class OfflineProgram {
 
   const interpreter::Dialect& dialect() const { return *dialect_; }
   const interpreter::Setup& setup() const { return setup_; }
-  std::string_view text() const { return file_.text(); }
+  std::string_view text() const { return tape_text_ ? *tape_text_ : file_.text(); }
   /// Called programs come from the setup's library, or from the program's own folder when the setup
   /// names none. Must not outlive this object.
   interpreter::MemorySource source() const;
@@ -35,6 +37,8 @@ class OfflineProgram {
   OfflineProgram(MappedFile file, const interpreter::Dialect& dialect)
       : file_(std::move(file)), dialect_(&dialect) {}
   MappedFile file_;
+  std::unique_ptr<const std::string>
+      tape_text_;  ///< when the file is a tape image; stays where it is
   const interpreter::Dialect* dialect_;
   interpreter::Setup setup_;
   std::string library_;

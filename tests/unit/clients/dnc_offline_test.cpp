@@ -37,6 +37,50 @@ TEST_F(DncOffline, TracesAProgramToItsEnd) {
   EXPECT_EQ(events.back().at("event"), "end");
 }
 
+TEST_F(DncOffline, ReadsAPunchedTapeAsTheTextItHolds) {
+  const std::string text = "%\nN1X10000F500\nG01X20000\nG00Y5\nM30\n";
+  dnc.write("a.nc", text);
+  const auto trace = [&](const std::string& file) {
+    return dnc({"trace", "--control", "tektronix-1704", file});
+  };
+  for (const std::string code : {"eia", "iso"}) {
+    ASSERT_EQ(dnc({"convert", "a.nc", "-o", code, "--from", "ascii", "--to", code}).status, 0);
+    EXPECT_EQ(trace(code).out, trace("a.nc").out) << code;
+    EXPECT_EQ(trace(code).status, 0) << code;
+  }
+}
+
+TEST_F(DncOffline, PrintsWhatAControlMakesOfAProgram) {
+  dnc.write("a.pt", "PN1 G20 ;\nN1 G100 X15000 Y2. ;\n%\n");
+  EXPECT_EQ(dnc({"trace", "--events", "a.pt"}).out,
+            "PN1 G20 ;\r\nN001 G100 X1.5A Y2.A T1 ;\r\n%\r\n");
+  dnc.write("a.nc", "G0 X1\n");
+  const auto none = dnc({"trace", "--events", "--control", "centurion", "a.nc"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("centurion"), std::string::npos) << none.err;
+}
+
+TEST_F(DncOffline, ForecastsBlocksThatStarve) {
+  dnc.write("a.nc", "%\nF2000G01X1000\nX2000Y1\nG00X3000Y2\nM30\n");
+  const auto result =
+      dnc({"forecast", "--control", "tektronix-1704", "--line", "tektronix1704", "--json", "a.nc"});
+  EXPECT_EQ(result.status, 1) << result.err;
+  const auto report = json::parse(result.out);
+  EXPECT_EQ(report.at("starved"), 2);
+  EXPECT_EQ(report.at("worst").at(0).at("line"), 3);
+  EXPECT_NEAR(report.at("worst").at(0).at("feed_that_would_do").get<double>(), 138.5, 0.1);
+  EXPECT_EQ(dnc({"forecast", "--control", "tektronix-1704", "--cps", "5000", "a.nc"}).status, 0);
+  EXPECT_EQ(dnc({"forecast", "--control", "tektronix-1704", "a.nc"}).status, 2);
+}
+
+TEST_F(DncOffline, CutsAnArcIntoLines) {
+  const auto result =
+      dnc({"approximate", "--radius", "2", "--sweep", "90", "--tolerance", "0.2", "--blocks"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "G01X14142Y14142\nX0Y20000\n");
+  EXPECT_EQ(dnc({"approximate", "--radius", "2", "--tolerance", "0"}).status, 2);
+}
+
 TEST_F(DncOffline, EndsATraceWithTheAlarm) {
   dnc.write("a.nc", "G0 X1\nGOTO 77\nM30\n");
   const auto result = dnc({"trace", "--control", "centurion", "a.nc"});
