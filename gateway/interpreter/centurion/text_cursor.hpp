@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
 
 #include "gateway/interpreter/centurion/characters.hpp"
-#include "gateway/interpreter/program_source.hpp"
+#include "gateway/interpreter/language/line_window.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -47,65 +46,48 @@ inline const char* find_end_of_block(const char* at, const char* end) {
 /// use of the source makes the window stale: call `forget`.
 class TextCursor {
  public:
-  enum class State : std::uint8_t { Ready, NotYet, EndOfText, TooLong, Failed };
+  using State = language::LineWindow::State;
 
-  explicit TextCursor(ProgramSource& source) : source_(&source) {}
+  explicit TextCursor(ProgramSource& source) : window_(source, kMaxBlockBytes + 1) {}
 
   /// Makes the block at `position` visible; asks the source for as little as a block needs.
   State load(const TextPosition& position) {
-    if (position.program == program_ && position.offset >= base_ && position.offset < limit_) {
-      const char* at = window_ + (position.offset - base_);
-      if (position.after_cr && *at == '\n') ++at;
-      const char* end = find_end_of_block(at, window_ + (limit_ - base_));
-      if (end != window_ + (limit_ - base_) && end - at <= kLongest) {
-        begin_ = at;
-        end_ = end;
-        offset_ = base_ + static_cast<std::uint64_t>(at - window_);
-        is_terminated_ = true;
-        return State::Ready;
-      }
-    }
-    return load_from_source(position);
+    const bool after_cr = position.after_cr;
+    const State state = window_.load(position.program, position.offset,
+                                     [after_cr](const char* at, const char* limit) {
+                                       if (after_cr && at != limit && *at == '\n') ++at;
+                                       return find_end_of_block(at, limit);
+                                     });
+    if (state != State::Ready) [[unlikely]]
+      return state;
+    begin_ = window_.begin();
+    if (after_cr && begin_ != window_.end() && *begin_ == '\n') ++begin_;
+    if (!window_.is_terminated() && begin_ == end()) [[unlikely]]
+      return State::EndOfText;  // nothing but the LF of a CR LF was left
+    return static_cast<std::size_t>(end() - begin_) <= kMaxBlockBytes ? state : State::TooLong;
   }
 
   /// The block; `*end()` can be read and ends a block.
   const char* begin() const { return begin_; }
-  const char* end() const { return end_; }
+  const char* end() const { return window_.end(); }
   /// Of the block's first byte in its program.
-  std::uint64_t offset() const { return offset_; }
-  const std::string& failure() const { return failure_; }
+  std::uint64_t offset() const {
+    return window_.offset() + static_cast<std::uint64_t>(begin_ - window_.begin());
+  }
+  const std::string& failure() const { return window_.failure(); }
+  void forget() { window_.forget(); }
 
   /// Moves `position` behind the block that is visible.
   void advance(TextPosition& position) const {
-    position.offset = offset_ + static_cast<std::uint64_t>(end_ - begin_) + is_terminated_;
-    position.after_cr = is_terminated_ && *end_ == '\r';
+    position.offset =
+        offset() + static_cast<std::uint64_t>(end() - begin_) + (window_.is_terminated() ? 1 : 0);
+    position.after_cr = window_.is_terminated() && *end() == '\r';
     ++position.line;
   }
 
-  void forget() { limit_ = base_; }
-
  private:
-  static constexpr std::ptrdiff_t kLongest = kMaxBlockBytes;
-  State load_from_source(const TextPosition& position);
-  State take_last_block(const char* at, std::size_t size);
-
-  ProgramSource* source_;
-  const char* window_ = nullptr;
-  std::uint64_t base_ = 0;   ///< offset of window_[0]
-  std::uint64_t limit_ = 0;  ///< offset behind the window
-  ProgramIndex program_ = kMainProgram;
+  language::LineWindow window_;
   const char* begin_ = nullptr;
-  const char* end_ = nullptr;
-  std::uint64_t offset_ = 0;
-  bool is_terminated_ = false;
-  std::array<char, kMaxBlockBytes + 1> last_block_{};  ///< a last block without line end, with one
-  std::string failure_;
-  struct Place {
-    ProgramIndex program = kMainProgram;
-    std::uint64_t offset = 0;
-  };
-  Place wanted_at_;         ///< where the source was asked last,
-  std::size_t wanted_ = 1;  ///< and for how much
 };
 
 }  // namespace dripline::interpreter::centurion

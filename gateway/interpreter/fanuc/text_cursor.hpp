@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
 
 #include "gateway/interpreter/fanuc/characters.hpp"
-#include "gateway/interpreter/program_source.hpp"
+#include "gateway/interpreter/language/line_window.hpp"
 
 namespace dripline::interpreter::fanuc {
 
@@ -26,81 +25,58 @@ struct TextPosition {
   friend bool operator==(const TextPosition&, const TextPosition&) = default;
 };
 
-/// Shows the text from a block's beginning to the end of its line, through windows of the source.
-/// Memory is one line. Any other use of the source makes the window stale: call `forget`.
+/// Shows the text from a block's beginning to the LF that ends its line.
 class TextCursor {
  public:
-  enum class State : std::uint8_t { Ready, NotYet, EndOfText, TooLong, Failed };
+  using State = language::LineWindow::State;
 
   /// `comments_span_lines`: a LF within parentheses ends no block.
   TextCursor(ProgramSource& source, bool comments_span_lines)
-      : source_(&source), comments_span_lines_(comments_span_lines) {}
+      : window_(source, kMaxLineBytes), comments_span_lines_(comments_span_lines) {}
 
   State load(const TextPosition& position) {
-    if (position.program == program_ && position.offset >= base_ && position.offset < limit_) {
-      const char* at = window_ + (position.offset - base_);
-      const char* end = find_end(at, window_ + (limit_ - base_));
-      if (end != nullptr && end - at <= kLongest) {
-        begin_ = at;
-        end_ = end;
-        offset_ = position.offset;
-        is_terminated_ = true;
-        return State::Ready;
-      }
-    }
-    return load_from_source(position);
+    if (comments_span_lines_) [[unlikely]]
+      return load_across_lines(position);
+    return window_.load(position.program, position.offset, [](const char* at, const char* limit) {
+      const void* end = std::memchr(at, '\n', static_cast<std::size_t>(limit - at));
+      return end == nullptr ? limit : static_cast<const char*>(end);
+    });
   }
 
-  const char* begin() const { return begin_; }
+  const char* begin() const { return window_.begin(); }
   /// The LF that ends the line; it can be read.
-  const char* end() const { return end_; }
+  const char* end() const { return window_.end(); }
   /// Of the block's first byte in its program.
-  std::uint64_t offset() const { return offset_; }
-  const std::string& failure() const { return failure_; }
+  std::uint64_t offset() const { return window_.offset(); }
+  const std::string& failure() const { return window_.failure(); }
+  void forget() { window_.forget(); }
 
   /// Moves `position` behind the block that ends at `block_end`, a semicolon or the line's end.
   void advance(TextPosition& position, const char* block_end) const {
-    const bool at_line_end = block_end == end_;
-    position.offset = offset_ + static_cast<std::uint64_t>(block_end - begin_) +
-                      (!at_line_end || is_terminated_ ? 1 : 0);
+    const bool at_line_end = block_end == end();
+    position.offset = offset() + static_cast<std::uint64_t>(block_end - begin()) +
+                      (!at_line_end || window_.is_terminated() ? 1 : 0);
     position.line += at_line_end ? 1 : 0;
     if (comments_span_lines_) [[unlikely]] {
-      for (const char* at = begin_; at != block_end; ++at) position.line += *at == '\n';
+      for (const char* at = begin(); at != block_end; ++at) position.line += *at == '\n';
     }
   }
 
-  void forget() { limit_ = base_; }
-
  private:
-  static constexpr std::ptrdiff_t kLongest = kMaxLineBytes;
-
-  const char* find_end(const char* at, const char* limit) const {
-    if (comments_span_lines_) [[unlikely]]
-      return find_end_outside_comments(at, limit);
-    return static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(limit - at)));
+  State load_across_lines(const TextPosition& position) {
+    return window_.load(position.program, position.offset, [](const char* at, const char* limit) {
+      bool in_comment = false;
+      for (; at != limit; ++at) {
+        if (*at == '(') in_comment = true;
+        if (*at == ')') in_comment = false;
+        if (*at == '\n' && !in_comment) return at;
+      }
+      return limit;
+    });
   }
-  static const char* find_end_outside_comments(const char* at, const char* limit);
-  State load_from_source(const TextPosition& position);
-  State take_last_line(const char* at, std::size_t size);
 
-  ProgramSource* source_;
+  language::LineWindow window_;
   bool comments_span_lines_;
-  const char* window_ = nullptr;
-  std::uint64_t base_ = 0;   ///< offset of window_[0]
-  std::uint64_t limit_ = 0;  ///< offset behind the window
-  ProgramIndex program_ = kMainProgram;
-  const char* begin_ = nullptr;
-  const char* end_ = nullptr;
-  std::uint64_t offset_ = 0;
-  bool is_terminated_ = false;
-  std::array<char, kMaxLineBytes + 1> last_line_{};  ///< a last line without its end, with one
-  std::string failure_;
-  struct Place {
-    ProgramIndex program = kMainProgram;
-    std::uint64_t offset = 0;
-  };
-  Place wanted_at_;         ///< where the source was asked last,
-  std::size_t wanted_ = 1;  ///< and for how much
 };
 
 }  // namespace dripline::interpreter::fanuc
