@@ -152,9 +152,9 @@ bool apply_length_offset(Run& run) {
     if (run.options.length_axis_type == 'B') {
       constexpr std::array<Axis, 3> kNormals{Axis::Z, Axis::Y, Axis::X};
       state.length_axis = kNormals[static_cast<std::size_t>(state.plane())];
-    } else if (run.options.length_axis_type == 'C' && axes != 0) {
-      if (std::popcount(axes) > 1) {
-        return run.fail(ErrorCode::NoLengthAxis, block.parts.g_column, "two axes");
+    } else if (run.options.length_axis_type == 'C') {
+      if (std::popcount(axes) != 1) {
+        return run.fail(ErrorCode::NoLengthAxis, block.parts.g_column, "one axis is expected");
       }
       state.length_axis = axes == set_of(X) ? Axis::X : axes == set_of(Y) ? Axis::Y : Axis::Z;
     }
