@@ -162,7 +162,8 @@ void LineSimulator::meet_fault(Wire& wire, Fate& fate) {
       if (settings_.flow == wire::Flow::RtsCts) {
         wire.is_cts_stuck = true;
       } else {
-        wire.arrivals.push_back({std::max(now_, wire.delayed_until), kDc3, std::nullopt});
+        wire.arrivals.push_back(
+            {std::max(now_, wire.delayed_until), stop_character(), std::nullopt});
       }
       break;
   }
@@ -192,12 +193,18 @@ void LineSimulator::deliver(std::size_t to, const Arrival& arrival) {
   hold_now_and_then(to);
 }
 
+/// In ISO it has a parity bit; DC1 needs none.
+std::byte LineSimulator::stop_character() const {
+  return settings_.code == wire::CharacterCode::Iso ? std::byte{0x93} : kDc3;
+}
+
 /// `end` hears `character`: from DC3 on nothing more may leave it.
 void LineSimulator::note_stop(std::size_t end, std::byte character) {
   if (settings_.flow != wire::Flow::XonXoff && settings_.flow != wire::Flow::DcCodes) return;
   if (settings_.code == wire::CharacterCode::Ascii) character &= kSevenBits;
-  if (character != kDc1 && character != kDc3) return;
-  is_told_to_stop_[end] = character == kDc3;
+  const std::byte dc3 = stop_character();
+  if (character != kDc1 && character != dc3) return;
+  is_told_to_stop_[end] = character == dc3;
   wires_[end].left_since_stop = wires_[end].given_since_stop = 0;
 }
 

@@ -143,6 +143,7 @@ class LineSimulator {
   void meet_fault(Wire& wire, Fate& fate);
   void arrive(std::size_t from);
   void deliver(std::size_t to, const Arrival& arrival);
+  std::byte stop_character() const;
   void note_stop(std::size_t end, std::byte character);
   void join_lines();
   void pump();

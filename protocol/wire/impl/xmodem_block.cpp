@@ -38,10 +38,11 @@ std::uint8_t checksum(std::span<const std::byte> data) {
 
 std::vector<std::byte> make_block(std::uint8_t number, std::span<const std::byte> data,
                                   Check check) {
-  std::vector<std::byte> block{static_cast<std::byte>(kSoh), std::byte{number},
-                               std::byte{static_cast<std::uint8_t>(~number)}};
-  block.insert(block.end(), data.begin(), data.end());
-  block.resize(kHeadSize + kBlockSize, kPadding);
+  std::vector<std::byte> block(kHeadSize + kBlockSize, kPadding);
+  block[0] = static_cast<std::byte>(kSoh);
+  block[1] = std::byte{number};
+  block[2] = static_cast<std::byte>(~number);
+  std::copy(data.begin(), data.end(), block.begin() + kHeadSize);
   const auto body = std::span(block).subspan(kHeadSize);
   if (check == Check::Sum) {
     block.push_back(std::byte{checksum(body)});
