@@ -11,7 +11,10 @@ namespace {
 
 constexpr double kStepOver = 0.75;  ///< of the tool's diameter
 constexpr double kNoise = 1e-9;     ///< mm
-constexpr std::size_t kMaxRings = 10'000;
+/// One event of the control is one block, and a machine queues some 2,000 actions of a block at
+/// most.
+constexpr std::size_t kMaxCircleRings = 600;
+constexpr std::size_t kMaxRectangleRings = 200;
 
 XY middle(const ProgramEvent& event) {
   return {(event.begin.x + event.end.x) / 2, (event.begin.y + event.end.y) / 2};
@@ -19,10 +22,10 @@ XY middle(const ProgramEvent& event) {
 
 /// How far inside the wall each clearing ring runs, innermost first; the last one is the rough wall
 /// pass. Rings follow each other until less than a step is left to the middle.
-std::vector<double> ring_offsets(double to_middle, const ProgramEvent& event) {
+std::vector<double> ring_offsets(double to_middle, const ProgramEvent& event, std::size_t most) {
   const double step = kStepOver * event.diameter;
   std::vector<double> offsets{event.diameter / 2 + event.finish_cut};
-  while (to_middle - offsets.back() >= step && offsets.size() <= kMaxRings) {
+  while (to_middle - offsets.back() >= step && offsets.size() <= most) {
     offsets.push_back(offsets.back() + step);
   }
   std::reverse(offsets.begin(), offsets.end());
@@ -88,8 +91,8 @@ bool Executor::clear_circle(const ProgramEvent& event) {
                 fmt::format("D {:.4f} in a circle of {:.4f}", event.shown(event.diameter),
                             event.shown(2 * event.radius)));
   }
-  const auto offsets = ring_offsets(event.radius, event);
-  if (offsets.size() > kMaxRings) return fail(Fault::ToolDoesNotFit, "more than 10000 passes");
+  const auto offsets = ring_offsets(event.radius, event, kMaxCircleRings);
+  if (offsets.size() > kMaxCircleRings) return fail(Fault::ToolDoesNotFit, "more than 600 passes");
   load_tool(event);
   rapid(event.begin);
   wait(StopKind::Operator);
@@ -112,8 +115,10 @@ bool Executor::clear_rectangle(const ProgramEvent& event) {
                 fmt::format("D {:.4f}, CR {:.4f} in a width of {:.4f}", event.shown(event.diameter),
                             event.shown(event.conrad), event.shown(2 * shorter)));
   }
-  const auto offsets = ring_offsets(shorter, event);
-  if (offsets.size() > kMaxRings) return fail(Fault::ToolDoesNotFit, "more than 10000 passes");
+  const auto offsets = ring_offsets(shorter, event, kMaxRectangleRings);
+  if (offsets.size() > kMaxRectangleRings) {
+    return fail(Fault::ToolDoesNotFit, "more than 200 passes");
+  }
   if (event.conrad > 0 && event.conrad < event.diameter / 2) {
     warn(Fault::Noticed, "corners come out with the tool's radius");
   }
