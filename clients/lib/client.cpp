@@ -255,6 +255,7 @@ Reply<Machine> Client::machine(std::string_view name) {
 Reply<Run> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
+  if (!request.from.empty()) json["from"] = request.from;
   const std::string body = dumped(json);
   HttpRequest http = with_method("POST", path_of("runs"));
   http.body = body;

@@ -4,11 +4,13 @@
 
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
+#include "server/feeds/start_point.hpp"
 
 namespace dripline::api {
 namespace {
 
-constexpr std::size_t kMaxName = 256;      ///< longer ones are refused before they are looked at
+constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are looked at
+constexpr std::size_t kMaxStartPoint = 24;
 constexpr std::size_t kMaxArgument = 255;  ///< the order's member in the IDL
 
 struct ActionRow {
@@ -79,9 +81,14 @@ Result<feeds::StartRequest> decode_start(std::string_view body) {
   start.machine = object->required_text("machine", kMaxName);
   start.program = object->required_text("program", kMaxName);
   start.revision = object->optional_unsigned("revision");
+  const auto from = object->optional_text("from", kMaxStartPoint);
   if (auto good = object->finish(); !good) return fail(good.error());
   if (auto good = check_machine_name(start.machine); !good) return fail(good.error());
   if (auto good = check_program_name(start.program); !good) return fail(good.error());
+  if (!from) return start;
+  const auto point = feeds::parse_start_point(*from);
+  if (!point) return fail(Errc::Syntax, "from: {}", point.error().what);
+  start.from = *point;
   return start;
 }
 

@@ -3,10 +3,10 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "protocol/base/random.hpp"
 #include "server/feeds/called_programs.hpp"
+#include "server/feeds/start_point.hpp"
 #include "server/serial/answer_text.hpp"
 #include "server/serial/program_head.hpp"
 
@@ -33,26 +33,6 @@ std::vector<std::string> candidates(const std::string& name) {
 }
 
 }  // namespace
-
-Result<feeds::StartPoint> parse_start_point(std::string_view text) {
-  feeds::StartPoint point;
-  std::string_view digits = text;
-  char letter = 'N';
-  if (!digits.empty() && (digits[0] < '0' || digits[0] > '9')) {
-    letter = static_cast<char>(digits[0] & ~0x20);
-    digits.remove_prefix(1);
-  }
-  std::uint64_t value = 0;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool is_whole = read.ec == std::errc{} && read.ptr == digits.data() + digits.size();
-  if (!is_whole || (letter != 'N' && letter != 'L' && letter != 'B')) {
-    return fail(Errc::Syntax, "'{}' names no block: N120, L7 (line) or B4096 (byte)", text);
-  }
-  if (letter == 'N') point.sequence = value;
-  if (letter == 'L') point.line = value;
-  if (letter == 'B') point.byte = value;
-  return point;
-}
 
 std::string CallDesk::control() const {
   const auto machine = parts_.store.machine(parts_.machine);
@@ -106,7 +86,7 @@ void CallDesk::send(const std::string& name, bool is_request) {
 }
 
 void CallDesk::restart(const std::string& block) {
-  const auto point = parse_start_point(block);
+  const auto point = feeds::parse_start_point(block);
   if (!point) return say_no(point.error().what, false);
   const auto last =
       parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});

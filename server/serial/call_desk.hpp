@@ -54,8 +54,4 @@ class CallDesk {
   SteadyTime offered_at_{};
 };
 
-/// What an operator writes to name a block: `N120` or `120` its N number, `L7` its line, `B4096` a
-/// byte. Errors: Syntax.
-Result<feeds::StartPoint> parse_start_point(std::string_view text);
-
 }  // namespace dripline::ports

@@ -225,6 +225,9 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     on_failed(failed->error, line);
   } else if (const auto* trouble = std::get_if<wire::LineTrouble>(&event)) {
     host_.on_trouble(trouble->error);
+    if (is_receiving_) {
+      host_.on_incoming({.what = Incoming::What::Damaged, .text = trouble->error.what});
+    }
   } else if (const auto* request = std::get_if<wire::TransferRequest>(&event)) {
     host_.on_request(*request);
   }

@@ -45,9 +45,9 @@ struct SendEnd {
 
 /// What the control sends us, in order. Received text ends with Ended or Failed.
 struct Incoming {
-  enum class What : std::uint8_t { Began, Text, Ended, Failed };
+  enum class What : std::uint8_t { Began, Text, Damaged, Ended, Failed };
   What what = What::Text;
-  std::string text;  ///< Began: the name, when the protocol tells; Text; Failed: why
+  std::string text;  ///< Began: the name, when the protocol tells; Text; Damaged, Failed: why
 };
 
 /// What a session wants of its owner. Called on the line's thread; must return soon.

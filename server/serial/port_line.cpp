@@ -266,6 +266,7 @@ void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
 }
 
 void PortLine::on_sent(const SendEnd& end) {
+  refresh();  // whoever is told finds it gone
   parts_.strand.post([on_sent = parts_.listener.on_sent, end] { on_sent(end); });
 }
 

@@ -30,7 +30,21 @@ Result<void> PunchedProgram::append(const std::string& text) {
   text_ += text;
   if (text_.size() < kInMemory) return {};
   const std::string name = fit_program_name(program_name(text_));
-  return spill(name.empty() ? fallback_name() : name);
+  if (auto spilled = spill(name.empty() ? fallback_name() : name); !spilled) return spilled;
+  if (damages_ > 0) error_ = Error{Errc::Corrupt, "it came damaged: " + first_damage_};
+  return {};
+}
+
+void PunchedProgram::damage(const std::string& how) {
+  if (damages_++ == 0) first_damage_ = how;
+  if (upload_.empty() || error_) return;
+  error_ = Error{Errc::Corrupt, "it came damaged: " + how};
+}
+
+std::string PunchedProgram::comment() const {
+  std::string text = "punched by " + origin_.machine;
+  if (damages_ > 0) text += fmt::format("; DAMAGED {} times, first: {}", damages_, first_damage_);
+  return text.substr(0, library::Programs::kMaxComment);
 }
 
 Result<void> PunchedProgram::spill(const std::string& name) {
@@ -39,11 +53,9 @@ Result<void> PunchedProgram::spill(const std::string& name) {
     return fail(error);
   };
   if (upload_.empty()) {
-    auto upload = programs_.begin({.program = name,
-                                   .control = origin_.control,
-                                   .comment = "punched by " + origin_.machine,
-                                   .is_held = true},
-                                  who());
+    auto upload = programs_.begin(
+        {.program = name, .control = origin_.control, .comment = comment(), .is_held = true},
+        who());
     if (!upload) return keep(upload.error());
     upload_ = upload->id;
     upload_name_ = name;

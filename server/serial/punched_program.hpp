@@ -27,11 +27,15 @@ class PunchedProgram {
   Result<void> append(const std::string& text);
   /// `name` in the library, made fit to be one. Errors: the same, Syntax (empty).
   Result<library::Committed> store(const std::string& name);
+  /// Some of it came wrong: whoever is to accept it reads so in its comment. A long one, whose
+  /// comment was written before, can not be stored any more.
+  void damage(const std::string& how);
   /// What it is called when neither the protocol nor a rule nor the text says it.
   std::string fallback_name() const { return origin_.machine + "-punched"; }
 
  private:
   Result<void> spill(const std::string& name);
+  std::string comment() const;
   std::string who() const { return "machine " + origin_.machine; }
 
   library::Programs& programs_;
@@ -40,6 +44,8 @@ class PunchedProgram {
   std::string upload_;
   std::string upload_name_;
   std::uint64_t spilled_ = 0;
+  std::string first_damage_;
+  std::uint64_t damages_ = 0;
   std::optional<Error> error_;
 };
 

@@ -26,6 +26,10 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
     case Incoming::What::Text:
       items = intake_.take(incoming.text);
       break;
+    case Incoming::What::Damaged:
+      if (program_) program_->damage(incoming.text);
+      early_damage_ = incoming.text;
+      break;
     case Incoming::What::Ended:
       items = intake_.end();
       break;
@@ -43,6 +47,7 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
   }
   if (incoming.what == Incoming::What::Ended || incoming.what == Incoming::What::Failed) {
     is_in_transfer_ = false;
+    early_damage_.clear();
   }
   if (!is_in_transfer_) do_calls();
 }
@@ -90,6 +95,7 @@ void Reception::begin_program(const std::string& name) {
   program_.emplace(parts_.programs,
                    PunchedProgram::Origin{.machine = parts_.machine,
                                           .control = machine ? machine->control : std::string()});
+  if (!early_damage_.empty()) program_->damage(early_damage_);
 }
 
 void Reception::end_program(const std::string& head) {

@@ -59,6 +59,7 @@ class Reception {
   std::string program_name_;  ///< as the protocol told it
   std::string run_;
   bool is_in_transfer_ = false;
+  std::string early_damage_;   ///< of this transfer, last; a program may only begin behind it
   std::vector<Call> waiting_;  ///< for the end of the transfer they came in; at most kMaxWaiting
 };
 

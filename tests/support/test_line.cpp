@@ -7,17 +7,34 @@
 #include <array>
 #include <cerrno>
 #include <condition_variable>
+#include <deque>
+#include <optional>
 
 namespace dripline::test_support {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
 
+/// What the test has said about the characters; shared with the open channel.
+struct Faults {
+  std::mutex mutex;
+  std::deque<wire::LineFault> waiting;
+  std::optional<wire::LineFault> take() {
+    const std::lock_guard lock(mutex);
+    if (waiting.empty()) return std::nullopt;
+    const auto fault = waiting.front();
+    waiting.pop_front();
+    return fault;
+  }
+};
+
 class TestChannel final : public serial::Channel {
  public:
-  explicit TestChannel(int socket) : socket_(socket) {}
+  TestChannel(int socket, std::shared_ptr<Faults> faults)
+      : socket_(socket), faults_(std::move(faults)) {}
   ~TestChannel() override { ::close(socket_); }
   Result<serial::Received> read(std::span<std::byte> room) override {
+    if (const auto fault = faults_->take()) return serial::Received{.bytes = 0, .fault = fault};
     const auto size = ::recv(socket_, room.data(), room.size(), MSG_DONTWAIT);
     if (size > 0) return serial::Received{.bytes = static_cast<std::size_t>(size), .fault = {}};
     if (size < 0 && errno == EAGAIN) return serial::Received{};
@@ -38,6 +55,7 @@ class TestChannel final : public serial::Channel {
 
  private:
   int socket_;
+  std::shared_ptr<Faults> faults_;
 };
 
 }  // namespace
@@ -50,6 +68,7 @@ struct TestLine::Cable {
   std::condition_variable changed;
   bool is_pulled = false;
   int socket = -1;  ///< the control's end
+  std::shared_ptr<Faults> faults = std::make_shared<Faults>();
 };
 
 TestLine::TestLine() : cable_(std::make_shared<Cable>()) {}
@@ -65,7 +84,7 @@ Result<std::unique_ptr<serial::Channel>> TestLine::open() {
   if (cable_->socket >= 0) ::close(cable_->socket);
   cable_->socket = ends[0];
   cable_->changed.notify_all();
-  return std::unique_ptr<serial::Channel>(std::make_unique<TestChannel>(ends[1]));
+  return std::unique_ptr<serial::Channel>(std::make_unique<TestChannel>(ends[1], cable_->faults));
 }
 
 bool TestLine::wait_open() {
@@ -103,6 +122,12 @@ void TestLine::write(std::string_view text) {
     if (size <= 0) return;
     text.remove_prefix(static_cast<std::size_t>(size));
   }
+}
+
+/// Told with the next characters, in front of them.
+void TestLine::fault(wire::LineFault fault) {
+  const std::lock_guard lock(cable_->faults->mutex);
+  cable_->faults->waiting.push_back(fault);
 }
 
 void TestLine::pull() {

@@ -24,6 +24,8 @@ class TestLine {
   /// What comes within that time, however little it is.
   std::string read_for(std::chrono::milliseconds time);
   void write(std::string_view text);
+  /// The UART says this of the next character.
+  void fault(wire::LineFault fault);
   void pull();
   void put_back();
   bool wait_open();

@@ -93,6 +93,20 @@ TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
   EXPECT_FALSE(store_->revision("O0044", 1));
 }
 
+TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill());
+  line().write("%\nO0045\nG0 X");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 10; }));
+  line().fault(wire::LineFault::Parity);
+  line().write("1\nM30\n%\n");
+  ASSERT_TRUE(wait([&] { return store_->revision("O0045", 1).has_value(); }));
+  const auto revision = store_->revision("O0045", 1);
+  EXPECT_NE(revision->comment.find("DAMAGED"), std::string::npos) << revision->comment;
+  EXPECT_TRUE(revision->is_held);
+}
+
 TEST_F(SerialTest, SendsWhatIsCalledFromTheControl) {
   start_ports();
   add_machine("mill");

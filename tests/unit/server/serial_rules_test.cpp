@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "server/serial/call_desk.hpp"
+#include "server/feeds/start_point.hpp"
 #include "server/serial/intake.hpp"
 #include "server/serial/program_head.hpp"
 #include "server/serial/punched_program.hpp"
@@ -133,11 +133,12 @@ TEST(Rules, TellProgramsFromWhatIsPrinted) {
 }
 
 TEST(Rules, NameBlocksToBeginAt) {
-  EXPECT_EQ(parse_start_point("120")->sequence, 120u);
-  EXPECT_EQ(parse_start_point("N120")->sequence, 120u);
-  EXPECT_EQ(parse_start_point("l7")->line, 7u);
-  EXPECT_EQ(parse_start_point("B4096")->byte, 4096u);
-  for (const char* bad : {"", "N", "X5", "12a", "N-1"}) EXPECT_FALSE(parse_start_point(bad)) << bad;
+  EXPECT_EQ(feeds::parse_start_point("120")->sequence, 120u);
+  EXPECT_EQ(feeds::parse_start_point("N120")->sequence, 120u);
+  EXPECT_EQ(feeds::parse_start_point("l7")->line, 7u);
+  EXPECT_EQ(feeds::parse_start_point("B4096")->byte, 4096u);
+  for (const char* bad : {"", "N", "X5", "12a", "N-1"})
+    EXPECT_FALSE(feeds::parse_start_point(bad)) << bad;
 }
 
 TEST(Rules, MakeNamesFitForTheLibrary) {
