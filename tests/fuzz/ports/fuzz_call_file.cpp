@@ -1,0 +1,49 @@
+// A call file, a NUL, and what a control sends. Properties: any call file is read or refused; the
+// text is cut into the same lines and programs however it arrives; no line is longer than its
+// bound; a verdict has an action.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "server/serial/intake.hpp"
+#include "server/serial/rule_reader.hpp"
+
+namespace {
+
+using namespace dripline::ports;
+using What = Intake::Item::What;
+
+void add(std::vector<Intake::Item> items, std::string& told) {
+  for (const auto& item : items) {
+    if (item.what == What::Line && item.text.size() > Intake::kMaxLine) std::abort();
+    // Pieces of a program may be cut anywhere.
+    if (item.what != What::ProgramText) told += static_cast<char>('A' + static_cast<int>(item.what));
+    told += item.text;
+    if (item.what != What::ProgramText) told += '\0';
+  }
+}
+
+std::string told(const RuleSet& rules, std::string_view text, std::size_t step) {
+  Intake intake(rules);
+  std::string all;
+  for (std::size_t at = 0; at < text.size(); at += step) {
+    add(intake.take(text.substr(at, step)), all);
+  }
+  add(intake.end(), all);
+  return all;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view input(reinterpret_cast<const char*>(data), size);
+  const auto end = input.find('\0');
+  const auto read = read_rules(input.substr(0, end));
+  const RuleSet rules = read ? *read : RuleSet{};
+  if (end == std::string_view::npos) return 0;
+  const auto text = input.substr(end + 1);
+  const std::string whole = told(rules, text, text.size() + 1);
+  if (told(rules, text, 1) != whole || told(rules, text, 7) != whole) std::abort();
+  if (rules.explain(std::string(text)).action.empty()) std::abort();
+  return 0;
+}
