@@ -67,6 +67,8 @@ bool add_word(Run& run, char letter, const char* start, const char*& at) {
     if (run.options.ignores_missing_axes) return true;
     return run.fail(ErrorCode::NoSuchAxis, run.column(start), fmt::format("{}", letter));
   }
+  if (letter == 'X' && run.state.modes.is_diameter) [[unlikely]]
+    value /= 2;
   words.set(address_of(letter), value, run.column(start));
   return true;
 }

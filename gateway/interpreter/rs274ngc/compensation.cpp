@@ -28,12 +28,13 @@ bool diameter_of_tool(Run& run, double& diameter) {
   return true;
 }
 
-void switch_off(Run& run) {
+bool switch_off(Run& run) {
   Compensation& compensation = run.state.compensation;
-  if (compensation.side == Side::Off) return;
-  if (run.is_linuxcnc()) stop_trimming(run);
+  if (compensation.side == Side::Off) return true;
+  if (run.is_linuxcnc() && !stop_trimming(run)) return false;
   compensation.side = Side::Off;
   compensation.is_first = false;
+  return true;
 }
 
 bool is_plane_allowed(const Run& run) {
@@ -45,8 +46,7 @@ bool is_plane_allowed(const Run& run) {
 
 bool switch_compensation(Run& run, int g_code) {
   if (g_code == 400) {
-    switch_off(run);
-    return true;
+    return switch_off(run);
   }
   Compensation& compensation = run.state.compensation;
   if (!is_plane_allowed(run)) return run.fail(ErrorCode::CompNotXy, 0);

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "gateway/interpreter/geometry/plane_axes.hpp"
 #include "gateway/interpreter/rs274ngc/compensation_paths.hpp"
@@ -94,14 +95,15 @@ Curve held_curve(const Run& run, PlanePoint corner, PlanePoint tool) {
   return {false, tool, direction(corner, tool) + kQuarter, 0};
 }
 
-/// Shortens the held arc to end at `end`; false when that is no shortening.
-bool shorten_arc(const Run& run, Arc& arc, PlanePoint end) {
-  constexpr double kSlack = 1e-6;
+/// Ends the held arc at `end`; false when it would then be longer than it was programmed, for its
+/// corners have eaten it up.
+bool end_arc(const Run& run, Arc& arc, PlanePoint end) {
+  const double slack = run.state.units == Units::Inch ? 0.001 : 0.0254;  // radians
   const PlanePoint center{arc.center_first.mm(), arc.center_second.mm()};
   const PlanePoint start = plane_point(run, run.held.start());
-  const double turns = 360 * std::floor((arc.sweep.degrees() - kSlack) / 360);
-  double sweep = sweep_of(center, start, end, arc.turn);
-  if (sweep + turns > arc.sweep.degrees() + kSlack) return false;
+  const double turns = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
+  const double sweep = sweep_of(center, start, end, arc.turn);
+  if (sweep > run.state.compensation.held_sweep + slack * (180 / Angle::kPi)) return false;
   put(run, arc.to, end);
   arc.sweep = Angle::degrees(sweep + turns);
   return true;
@@ -119,8 +121,7 @@ bool finish_held(Run& run, PlanePoint end, double travel) {
   if (run.held.empty()) return true;
   auto& events = run.held.events();
   if (auto* arc = std::get_if<Arc>(&events.front())) {
-    const bool is_same = distance(plane_point(run, arc->to), end) < 1e-9;
-    if (!is_same && !shorten_arc(run, *arc, end)) return run.fail(ErrorCode::CompCorner, 0);
+    if (!end_arc(run, *arc, end)) return run.fail(ErrorCode::CompCorner, 0);
   } else {
     auto* line = std::get_if<Line>(&events.front());
     Position& to = line ? line->to : std::get<Rapid>(events.front()).to;
@@ -143,20 +144,24 @@ enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
 struct Entry {
   PlanePoint corner;  ///< machine coordinates
   PlanePoint tool;
-  double normal;  ///< of the tool at the start of the next move
+  double normal = 0;              ///< of the tool at the start of the next move
+  std::optional<Turn> next_turn;  ///< of an arc
 };
 
-bool turns_back_inside(const Run& run) {
+/// A way straight back leads into a valley, not around a point, where the arc beside it (the next
+/// move, or else the held one) bulges towards the tool.
+bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
+  if (next_turn) return !is_inside(run, *next_turn);
   const auto* arc = std::get_if<Arc>(&run.held.events().front());
-  if (arc == nullptr) return false;
-  return (arc->turn == Turn::CounterClockwise) == (run.state.compensation.side == Side::Right);
+  return arc != nullptr && !is_inside(run, arc->turn);
 }
 
 Corner corner_of(const Run& run, const Entry& entry) {
   const double old_normal = direction(entry.corner, entry.tool);
   const double turn = turned_into(side_sign(run) * (old_normal - entry.normal), -kQuarter);
   if (turn < -kStraightOn || turn > Angle::kPi + kStraightOn) return Corner::Concave;
-  if (turn > Angle::kPi - kStraightOn && turns_back_inside(run)) return Corner::Concave;
+  if (turn > Angle::kPi - kStraightOn && turns_back_inside(run, entry.next_turn))
+    return Corner::Concave;
   return turn > kStraightOn ? Corner::Convex : Corner::StraightOn;
 }
 
@@ -275,7 +280,9 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
   const double cosine = std::cos(direction(stop, tool) - toward_center);
   if (std::fabs(cosine) < 1e-6) return run.fail(ErrorCode::CompArcRadius, 0);
   const PlanePoint moved = along(stop, toward_center, distance(tool, stop) / 2 / cosine);
-  const double sweep = sweep_of(moved, tool, stop, turn) + 360 * (turns - 1);
+  const double once = sweep_of(moved, tool, stop, turn);
+  const double sweep = once + 360 * (turns - 1);
+  run.state.compensation.held_sweep = once;
   if (!Hold(run).arc(moved_to(run, target, stop), {moved.first, moved.second, turn, sweep}, feed)) {
     return false;
   }
@@ -299,8 +306,8 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   const double normal = direction(start, end) + side_sign(run) * kQuarter;
   const PlanePoint stop = along(end, normal, compensation.radius);
   const double turned = run.state.rotation * (Angle::kPi / 180);
-  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
-                    normal + turned};
+  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
+                    std::nullopt};
   const Curve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
   if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
   Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
@@ -322,7 +329,7 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
   const double outward = direction(center, start);
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
-                    (inside ? outward + Angle::kPi : outward) + turned};
+                    (inside ? outward + Angle::kPi : outward) + turned, turn};
   const Curve next{true, machine_point(run, center), 0, path};
   if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
   const PlanePoint stop = along(center, direction(center, end), path);
@@ -331,19 +338,24 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
                      feed)) {
     return false;
   }
+  run.state.compensation.held_sweep = sweep_of(center, start, end, turn);
   programmed_at(run, end);
   return true;
 }
 
-void stop_trimming(Run& run) {
+bool stop_trimming(Run& run) {
   Compensation& compensation = run.state.compensation;
-  release_held(run);
-  if (compensation.is_first) return;
+  if (compensation.is_first) return true;
+  const Entry end{machine_point(run, programmed_point(run)), machine_point(run, tool_point(run)), 0,
+                  std::nullopt};
+  if (!finish_held(run, end.tool, travel_of(run, end))) return false;
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   run.state[plane.first] = compensation.x;
   run.state[plane.second] = compensation.y;
   run.state.machine = to_machine(run, run.state.position);
   compensation.was_on = true;
+  run.state.is_displaced = true;
+  return true;
 }
 
 }  // namespace dripline::interpreter::rs274ngc

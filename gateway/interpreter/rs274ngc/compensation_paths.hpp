@@ -14,7 +14,8 @@ bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, doub
 bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
 bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
                  const Feed& feed);
-void stop_trimming(Run& run);
+/// Ends the path where the tool is. Errors: the last move can not be made.
+bool stop_trimming(Run& run);
 
 /// Where the tool is, in the plane.
 PlanePoint tool_point(const Run& run);

@@ -124,6 +124,7 @@ class CycleRun {
 
  private:
   bool check_sticky(bool is_missing, ErrorCode code, const char* what);
+  bool check_words_of_code();
   bool place_heights();
   void raise_to_r();
   bool make_hole(double height);
@@ -197,16 +198,21 @@ bool CycleRun::check_sticky(bool is_missing, ErrorCode code, const char* what) {
   return run_.fail(code, 0, fmt::format("G{} needs {}", row_.code / 10.0, what));
 }
 
+/// The later program finds these missing only when it has gone up to R.
+bool CycleRun::check_words_of_code() {
+  const bool has_offsets = words().has('I') && words().has('J') && words().has('K');
+  return check_sticky(row_.needs_p && !words().has('P'), ErrorCode::CycleMissingP, "P") &&
+         check_sticky(row_.needs_q && !words().has('Q'), ErrorCode::CycleMissingQ, "Q") &&
+         check_sticky(row_.needs_ijk && !has_offsets, ErrorCode::CycleMissingIjk, "I, J and K");
+}
+
 /// Words of this line, or those that stay in force while the same code does.
 bool CycleRun::read_words() {
   CycleWords& cycle = run_.state.cycle;
   const std::string bottom(1, axes_.bottom);
   if (!check_sticky(!words().has('R'), ErrorCode::CycleRMissing, "R") ||
       !check_sticky(!words().has(axes_.bottom), ErrorCode::CycleDepthMissing, bottom.c_str()) ||
-      !check_sticky(row_.needs_p && !words().has('P'), ErrorCode::CycleMissingP, "P") ||
-      !check_sticky(row_.needs_q && !words().has('Q'), ErrorCode::CycleMissingQ, "Q") ||
-      !check_sticky(row_.needs_ijk && !(words().has('I') && words().has('J') && words().has('K')),
-                    ErrorCode::CycleMissingIjk, "I, J and K")) {
+      (!run_.is_linuxcnc() && !check_words_of_code())) {
     return false;
   }
   cycle.r = words().value_or('R', cycle.r);
@@ -278,6 +284,7 @@ void CycleRun::raise_to_r() {
 
 bool CycleRun::make() {
   raise_to_r();
+  if (run_.is_linuxcnc() && !check_words_of_code()) return false;
   // The first hole is reached at the height where the tool is, the others at the clear one.
   double height = present_ > r_ || !run_.is_linuxcnc() ? present_ : clear_;
   for (double left = repeats_; left > 0; --left) {
@@ -289,6 +296,7 @@ bool CycleRun::make() {
   // G88 leaves the tool to the operator; it is taken to be clear afterwards.
   if (present(axes_.plane.normal) != clear_) {
     run_.state[axes_.plane.normal] = clear_;
+    run_.state.is_displaced = true;
     run_.state.machine = to_machine(run_, run_.state.position);
   }
   return true;

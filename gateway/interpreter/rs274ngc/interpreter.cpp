@@ -68,8 +68,8 @@ StepState Rs274NgcInterpreter::paused() {
     is_asking_ = true;
     return StepState::NeedsAnswer;
   }
-  run_.events();  // the header
-  release_held(run_);
+  run_.held.drop();  // a move whose end was never found is not made
+  run_.events();     // the header
   run_.sink.on_alarm({run_.origin, run_.alarm});
   run_.state.phase = RunPhase::Alarmed;
   return StepState::Alarmed;

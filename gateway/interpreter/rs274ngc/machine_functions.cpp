@@ -227,12 +227,9 @@ bool apply_machine_functions(Run& run) {
   return true;
 }
 
-void reset_at_end(Run& run) {
+bool reset_at_end(Run& run) {
   State& state = run.state;
-  if (state.compensation.side != Side::Off) {
-    run.block.words.remove(~AddressSet{0});
-    switch_compensation(run, 400);
-  }
+  if (!switch_compensation(run, 400)) return false;
   state.compensation = Compensation{};
   reset_coordinates(run);
   state.modes.plane = Plane::XY;
@@ -248,6 +245,7 @@ void reset_at_end(Run& run) {
   }
   if (state.spindle.state != SpindleState::Off) turn_spindle(run, SpindleState::Off);
   apply_coolant(run, 9);
+  return true;
 }
 
 bool apply_stops(Run& run) {
@@ -266,7 +264,7 @@ bool apply_stops(Run& run) {
       return true;
     case 2:
     case 30:
-      reset_at_end(run);
+      if (!reset_at_end(run)) return false;
       if (code == 30) run.events().on_miscellaneous({run.origin, code});
       run.state.phase = RunPhase::Ended;
       return true;

@@ -19,7 +19,7 @@ bool apply_spindle_mode(Run& run);
 /// M0, M1, M60, M2, M30.
 bool apply_stops(Run& run);
 /// What M2, M30 and the end of a program leave behind (11.3).
-void reset_at_end(Run& run);
+bool reset_at_end(Run& run);
 
 void save_modes(const Run& run, SavedModes& saved);
 void restore_modes(Run& run, const SavedModes& saved);

@@ -86,7 +86,7 @@ void name_turned_axes(const Run& run, Target& target) {
 }
 
 bool is_no_move(const Run& run, const Axes& to) {
-  return to == run.state.position && !run.state.compensation.was_on;
+  return to == run.state.position && !run.state.is_displaced;
 }
 
 }  // namespace
@@ -167,6 +167,8 @@ bool home_move(Run& run, int g_code) {
 
 const Position& arrive(Run& run, const Target& target) {
   State& state = run.state;
+  state.is_displaced = false;
+  state.compensation.was_on = false;
   if (state.rotation == 0) [[likely]] {
     for (AxisBits left = target.named; left != 0; left = static_cast<AxisBits>(left & (left - 1))) {
       const auto i = static_cast<std::size_t>(__builtin_ctz(left));
@@ -188,14 +190,12 @@ const Position& arrive(Run& run, const Target& target) {
 void rapid_to(Run& run, const Target& target) {
   if (is_no_move(run, target.to)) return;
   const Position& to = arrive(run, target);
-  run.state.compensation.was_on = false;
   run.events().on_rapid({run.origin, to});
 }
 
 void line_to(Run& run, const Target& target, const Feed& feed) {
   if (is_no_move(run, target.to)) return;
   const Position& to = arrive(run, target);
-  run.state.compensation.was_on = false;
   run.events().on_line({run.origin, to, feed});
 }
 

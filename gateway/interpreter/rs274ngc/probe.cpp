@@ -75,7 +75,6 @@ bool finish_probe(Run& run, const Target& target, int g_code) {
   const Position& at = arrive(run, stop);
   probe.result = ProbeResult{result.tripped, marked(at, target)};
   run.events().on_probe(probe);
-  run.state.compensation.was_on = false;
   store_result(run, result.tripped);
   if (result.tripped || g_code == 383 || g_code == 385) return true;
   return run.fail(ErrorCode::ProbeNotTripped, 0);

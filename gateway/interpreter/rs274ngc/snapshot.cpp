@@ -83,7 +83,7 @@ void visit_axes(Archive& archive, Axes& axes) {
 
 template <class Archive>
 void visit_coordinates(Archive& archive, State& state) {
-  archive(state.units);
+  visit_all(archive, state.units, state.is_displaced);
   visit_axes(archive, state.position);
   visit_position(archive, state.machine);
   visit_axes(archive, state.system_offset);
@@ -104,7 +104,7 @@ void visit_modal(Archive& archive, State& state) {
             cycle.j, cycle.k, cycle.d, cycle.is_series, cycle.initial);
   Compensation& compensation = state.compensation;
   visit_all(archive, compensation.side, compensation.radius, compensation.is_first,
-            compensation.was_on, compensation.x, compensation.y);
+            compensation.was_on, compensation.x, compensation.y, compensation.held_sweep);
   visit_all(archive, state.spline_i, state.spline_j, state.follows_spline);
 }
 

@@ -74,6 +74,7 @@ struct Compensation {
   bool is_first = false;  ///< no move since it was turned on
   bool was_on = false;    ///< turned off, and no move since
   double x = 0, y = 0;    ///< end of the last move as programmed
+  double held_sweep = 0;  ///< degrees of the held arc as programmed, whole turns left out
 };
 
 /// An O word's label: a number, or a name by its place in `label_names`.
@@ -151,7 +152,8 @@ struct State {
 
   Units units = Units::Millimetre;
   Axes position{};
-  Position machine;  ///< the same point in machine coordinates; the axes that have moved
+  bool is_displaced = false;  ///< the tool may be elsewhere: the next move is one in any case
+  Position machine;           ///< the same point in machine coordinates; the axes that have moved
   Axes system_offset{};
   Axes g92{};
   Axes tool_length{};

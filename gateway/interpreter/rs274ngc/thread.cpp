@@ -17,7 +17,6 @@ bool is_turning(const Run& run) {
 void thread_to(Run& run, const Target& target, double lead_mm) {
   if (target.to == run.state.position) return;
   const Position& to = arrive(run, target);
-  run.state.compensation.was_on = false;
   run.events().on_thread({run.origin, to, Length::mm(lead_mm), {}});
 }
 

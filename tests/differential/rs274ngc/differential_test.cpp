@@ -1,0 +1,143 @@
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "tests/differential/rs274ngc/peer.hpp"
+#include "tests/differential/rs274ngc/program_maker.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+/// Rows: NGC-082, NGC-083, NGC-084, NGC-085, NGC-086
+///
+/// Our profile `linuxcnc` beside the stand-alone interpreter of linuxcnc-uspace: the same moves to
+/// a millionth of an inch, and the same programs refused. Skipped, with a word, where the peer is
+/// not installed.
+namespace dripline::differential {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTolerance = 1e-6 * 25.4;
+constexpr std::uint64_t kPrograms = 5'000;
+
+std::uint64_t number_of(const char* name, std::uint64_t fallback) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? fallback : std::strtoull(text, nullptr, 10);
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The README's list: with an arc behind it the peer makes a move that its corners have eaten up,
+/// backwards or nearly all around; we refuse it.
+bool is_listed(const Behaviour& ours, const Behaviour& peer) {
+  if (!ours.complaint.starts_with("NGC0282") || ours.moves.size() >= peer.moves.size()) return false;
+  Behaviour beginning = peer;
+  beginning.moves.resize(ours.moves.size());
+  beginning.is_accepted = false;
+  return difference(ours, beginning, kTolerance).empty();
+}
+
+struct Difference {
+  std::string name;
+  std::string what;
+  std::string program;
+};
+
+/// Compares programs on every core; each worker has a folder of its own.
+class Comparison {
+ public:
+  Comparison() { std::ofstream(folder_.path() / "tool.tbl") << tool_table(); }
+
+  std::size_t listed() const { return listed_; }
+
+  /// `next` gives the programs one after the other, an empty name at the end.
+  template <class Next>
+  std::vector<Difference> run(Next next) {
+    std::vector<std::thread> workers;
+    const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, 8U);
+    for (unsigned i = 0; i < count; ++i) {
+      workers.emplace_back([this, i, &next] {
+        const fs::path own = folder_.path() / std::to_string(i);
+        fs::create_directory(own);
+        while (const auto program = next()) compare(program->first, program->second, own);
+      });
+    }
+    for (std::thread& worker : workers) worker.join();
+    std::sort(differences_.begin(), differences_.end(),
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    return differences_;
+  }
+
+ private:
+  void compare(const std::string& name, const std::string& text, const fs::path& own) {
+    const fs::path file = own / "program.ngc";
+    std::ofstream(file, std::ios::binary) << text;
+    const Behaviour peer = run_peer(file, folder_.path() / "tool.tbl");
+    const Behaviour ours = run_ours(text, "tests/differential/rs274ngc/programs");
+    const std::string what = difference(ours, peer, kTolerance);
+    if (what.empty()) return;
+    const std::lock_guard lock(mutex_);
+    if (is_listed(ours, peer)) {
+      ++listed_;
+      return;
+    }
+    differences_.push_back({name, what, text});
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::mutex mutex_;
+  std::vector<Difference> differences_;
+  std::size_t listed_ = 0;
+};
+
+void report(const std::vector<Difference>& differences) {
+  const char* keep = std::getenv("DRIPLINE_KEEP_PROGRAMS");
+  for (const Difference& each : differences) {
+    ADD_FAILURE() << each.name << ": " << each.what;
+    if (keep != nullptr) std::ofstream(fs::path(keep) / (each.name + ".ngc")) << each.program;
+  }
+}
+
+using Program = std::optional<std::pair<std::string, std::string>>;
+
+TEST(Rs274NgcPeer, DoesTheSameWithGeneratedPrograms) {
+  if (!has_peer()) GTEST_SKIP() << "rs274 (Debian's linuxcnc-uspace) is not installed";
+  const std::uint64_t first = number_of("DRIPLINE_FIRST", 1);
+  const std::uint64_t count = number_of("DRIPLINE_PROGRAMS", kPrograms);
+  std::atomic<std::uint64_t> next{first};
+  Comparison comparison;
+  report(comparison.run([&]() -> Program {
+    const std::uint64_t number = next++;
+    if (number >= first + count) return std::nullopt;
+    return std::pair(fmt::format("{:06}", number), make_program(number));
+  }));
+  EXPECT_LE(comparison.listed(), count / 200) << "more than a rare corner differs";
+}
+
+TEST(Rs274NgcPeer, DoesTheSameWithOurPrograms) {
+  if (!has_peer()) GTEST_SKIP() << "rs274 (Debian's linuxcnc-uspace) is not installed";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator("tests/differential/rs274ngc/programs")) {
+    if (entry.path().extension() == ".ngc") files.push_back(entry.path());
+  }
+  std::atomic<std::size_t> next{0};
+  report(Comparison().run([&]() -> Program {
+    const std::size_t at = next++;
+    if (at >= files.size()) return std::nullopt;
+    return std::pair(files[at].stem().string(), read_file(files[at]));
+  }));
+}
+
+}  // namespace
+}  // namespace dripline::differential

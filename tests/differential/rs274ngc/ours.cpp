@@ -1,0 +1,92 @@
+#include <fmt/core.h>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
+#include "tests/differential/rs274ngc/peer.hpp"
+
+namespace dripline::differential {
+namespace {
+
+using namespace interpreter;
+
+constexpr std::array kAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C};
+
+class MoveSink final : public EventSink {
+ public:
+  void on_rapid(const Rapid& event) override { add(Move::Kind::Rapid, event.to); }
+  void on_line(const Line& event) override { add(Move::Kind::Feed, event.to); }
+  void on_thread(const Thread& event) override { add(Move::Kind::Feed, event.to); }
+  void on_arc(const Arc& event) override {
+    add(Move::Kind::Arc, event.to);
+    Move& move = behaviour.moves.back();
+    move.center = {event.center_first.mm(), event.center_second.mm()};
+    move.plane = static_cast<int>(event.plane);
+    const int turns = static_cast<int>(std::ceil(event.sweep.degrees() / 360 - 1e-6));
+    move.turns = event.turn == Turn::Clockwise ? -turns : turns;
+  }
+  void on_alarm(const Alarm& event) override {
+    behaviour.complaint = fmt::format("{} line {}: {}", event.diagnostic.id, event.diagnostic.line,
+                                      event.diagnostic.text);
+  }
+  void on_end(const End&) override { behaviour.is_accepted = true; }
+  Behaviour behaviour;
+
+ private:
+  void add(Move::Kind kind, const Position& to) {
+    Move move;
+    move.kind = kind;
+    for (std::size_t i = 0; i < kAxes.size(); ++i) move.to[i] = to.raw(kAxes[i]);
+    behaviour.moves.push_back(move);
+  }
+};
+
+constexpr std::string_view kSetup = R"(
+units = "in"
+[control]
+profile = "linuxcnc"
+pins = []
+[[tool]]
+number = 1
+length = 1.5
+radius = 0.125
+[[tool]]
+number = 2
+length = 2.25
+radius = 0.0625
+[[tool]]
+number = 3
+length = 0.5
+radius = 0.25
+[[tool]]
+number = 4
+length = 3.0
+radius = 0.03125
+)";
+
+}  // namespace
+
+Behaviour run_ours(const std::string& program, const std::filesystem::path& folder) {
+  const auto dialect = find_dialect("rs274ngc");
+  const auto setup = parse_setup(kSetup);
+  if (!dialect || !setup) throw std::runtime_error("the dialect or its setup is not there");
+  MemorySource source(program, [&](std::string_view name) -> std::optional<std::string> {
+    std::ifstream file(folder / (std::string(name) + ".ngc"), std::ios::binary);
+    if (!file) return std::nullopt;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  });
+  MoveSink sink;
+  const auto outcome = run_offline(**dialect, *setup, source, sink);
+  if (!outcome) sink.behaviour.complaint = outcome.error().what;
+  drop_standing_moves(sink.behaviour);
+  return sink.behaviour;
+}
+
+}  // namespace dripline::differential

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tests/differential/rs274ngc/moves.hpp"
+
+namespace dripline::differential {
+
+/// The stand-alone interpreter of Debian's linuxcnc-uspace.
+bool has_peer();
+
+/// The peer's tool table; `tools_of_setup` says the same to ours.
+std::string tool_table();
+
+/// Runs the peer on a program file, lengths with nine decimals.
+Behaviour run_peer(const std::filesystem::path& program, const std::filesystem::path& tools);
+
+/// Ours, with the profile `linuxcnc` and the same tools. `folder` holds called files.
+Behaviour run_ours(const std::string& program, const std::filesystem::path& folder);
+
+}  // namespace dripline::differential
