@@ -51,10 +51,10 @@ Answer answer_to(const Question& question, std::uint64_t blocks) {
 }  // namespace
 
 std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view text,
-                                        std::size_t spare) {
+                                        std::size_t spare, const Setup& setup) {
   PiecesSource source(text, spare);
   EventLog log;
-  auto interpreter = dialect.make(Setup{}, source, log);
+  auto interpreter = dialect.make(setup, source, log);
   if (!interpreter) __builtin_trap();
   Interpreter& run = **interpreter;
   for (std::uint64_t idle = 0; run.blocks() < kMostBlocks && log.lines().size() < kMostEvents;

@@ -12,6 +12,6 @@ namespace dripline::interpreter {
 /// for, each after one NotYet; questions get fixed answers. The events as text. Traps when the
 /// program neither goes on nor ends, and when a snapshot does not restore.
 std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view text,
-                                        std::size_t spare);
+                                        std::size_t spare, const Setup& setup = {});
 
 }  // namespace dripline::interpreter

@@ -1,0 +1,19 @@
+#include "tests/fuzz/interpreter/run_in_windows.hpp"
+
+/// Any text is executed or refused, in a bounded number of steps, and the windows it comes in can
+/// not be seen in what it does. The first byte chooses the windows, and the profile.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace dripline::interpreter;
+  if (size == 0) return 0;
+  const Dialect& dialect = **find_dialect("rs274ngc");
+  static const Setup kSetups[2] = {
+      {},
+      *parse_setup("units = \"in\"\n[control]\nprofile = \"linuxcnc\"\nmax_passes = 500\n"
+                   "[[tool]]\nnumber = 1\nlength = 1\nradius = 0.125\n")};
+  const Setup& setup = kSetups[data[0] >> 5 & 1];
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const auto whole = run_in_windows(dialect, text, ProgramSource::kMaxWindow, setup);
+  const auto pieces = run_in_windows(dialect, text, data[0] % 32, setup);
+  if (whole != pieces) __builtin_trap();
+  return 0;
+}
