@@ -44,10 +44,9 @@ bool is_wanted(SkipFor until, Oword word) {
       return word == Oword::Sub;
     case SkipFor::FanucLabel:
       return word == Oword::Alone;
-    case SkipFor::Nothing:
+    default:
       return false;
   }
-  return false;
 }
 
 /// Words of the same label that may stand between.
@@ -117,7 +116,7 @@ bool Flow::count_pass() {
 void Flow::land(const TextPlace& place) {
   const SkipFor until = std::exchange(run_.state.skip.until, SkipFor::Nothing);
   run_.next = place;
-  if (until == SkipFor::FileSub || until == SkipFor::FanucLabel) {
+  if (until == SkipFor::FileSub || until == SkipFor::FanucLabel || until == SkipFor::FanucFile) {
     run_.state.calls.back().entry = place;
   }
 }
@@ -147,15 +146,7 @@ bool Flow::pass_over() {
 bool Flow::end_of_text() {
   State& state = run_.state;
   if (state.skip.until == SkipFor::FanucLabel) {  // not in this text: a file of its own
-    const auto found = run_.reader.find(label_text(run_, state.skip.label));
-    if (found.state == ProgramLookup::State::NotYet) {
-      run_.pause = Pause::Text;
-      return false;
-    }
-    if (found.state == ProgramLookup::State::NotFound) {
-      return run_.fail(ErrorCode::CallNotFound, 0, "P" + label_text(run_, state.skip.label));
-    }
-    land(TextPlace{found.program, 0, 1});
+    state.skip.until = SkipFor::FanucFile;
     return true;
   }
   if (state.skip.until != SkipFor::Nothing) {
@@ -169,6 +160,28 @@ bool Flow::end_of_text() {
   }
   return run_.fail(
       state.demarcation == Demarcation::Percent ? ErrorCode::NoPercent : ErrorCode::NoEnd, 0);
+}
+
+bool Flow::look_up_file() {
+  State& state = run_.state;
+  const std::string name = label_text(run_, state.skip.label);
+  const auto found = run_.reader.find(name);
+  if (found.state == ProgramLookup::State::NotYet) {
+    run_.pause = Pause::Text;
+    return false;
+  }
+  if (found.state == ProgramLookup::State::NotFound) {
+    return run_.fail(ErrorCode::CallNotFound, 1,
+                     fmt::format("O{}: no subprogram before the call, and no file", name));
+  }
+  const TextPlace start{found.program, 0, 1};
+  run_.next = start;
+  if (state.skip.until == SkipFor::FanucFile) {
+    land(start);
+  } else {
+    state.skip = {SkipFor::FileSub, state.skip.label, start};
+  }
+  return true;
 }
 
 void Flow::forget() {

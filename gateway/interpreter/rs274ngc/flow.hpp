@@ -22,6 +22,9 @@ class Flow {
   bool pass_over();
   /// The text of a program is over. False: an alarm, or the source has yet to answer.
   bool end_of_text();
+  /// Whether the next thing to do is to ask the source for a called file.
+  bool wants_file() const { return run_.state.skip.until >= SkipFor::SubFile; }
+  bool look_up_file();
 
   /// Drops what was learned about another run's text and state.
   void forget();
@@ -31,7 +34,6 @@ class Flow {
   bool end_sub(const OwordHead& head);
   bool leave_sub(const OwordHead& head);
   bool call(const OwordHead& head);
-  bool call_file(const OwordHead& head);
   bool read_arguments(const char* at);
   bool begin_if(const OwordHead& head);
   bool next_branch(const OwordHead& head);

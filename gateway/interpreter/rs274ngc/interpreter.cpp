@@ -104,6 +104,11 @@ Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::run_line() {
   Block& block = run_.block;
   if (block.stage == Stage::Start) [[likely]] {
     LineState line{};
+    if (flow_.wants_file()) [[unlikely]] {
+      if (!flow_.look_up_file()) return Outcome::Paused;
+      run_.state.at = run_.next;
+      return Outcome::PassedOver;
+    }
     if (!load_line(line)) [[unlikely]]
       return meet_no_line(line);
     if (run_.state.skip.until != SkipFor::Nothing) [[unlikely]] {

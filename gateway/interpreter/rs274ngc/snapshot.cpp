@@ -170,7 +170,7 @@ bool is_plausible(const State& state) {
   return knows(state.skip.label) && knows_motion && state.phase <= RunPhase::Alarmed &&
          state.demarcation <= Demarcation::None && state.units <= Units::Millimetre &&
          state.modes.plane <= Plane::YZ && state.modes.feed <= FeedMode::PerRevolution &&
-         state.compensation.side <= Side::Right && state.skip.until <= SkipFor::FanucLabel &&
+         state.compensation.side <= Side::Right && state.skip.until <= SkipFor::FanucFile &&
          state.system >= 1 && state.system <= kSystems &&
          state.spindle.state <= SpindleState::Oriented;
 }

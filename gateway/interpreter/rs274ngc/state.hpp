@@ -135,6 +135,8 @@ enum class SkipFor : std::uint8_t {
   TestOfDo,     ///< the same; on with it
   FileSub,      ///< the sub of a called file; on behind it
   FanucLabel,   ///< the label alone, for M98; on behind it
+  SubFile,      ///< the source's answer: a file with the sub
+  FanucFile,    ///< the same, for M98
 };
 struct Skip {
   SkipFor until = SkipFor::Nothing;

@@ -11,14 +11,6 @@
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-constexpr std::int64_t kFirstName = std::int64_t{1} << 40;
-
-/// Under which a file is asked for: `o<drill> call` wants drill, `o100 call` 100.
-std::string file_name(const Run& run, Label label) {
-  if (label.value < kFirstName) return fmt::format("{}", label.value);
-  return run.state.label_names[static_cast<std::size_t>(label.value - kFirstName)];
-}
-
 void set_value(Run& run, double value, bool is_returned) {
   run.names.set(run.names.id_of("_value"), 0, value);
   run.names.set(run.names.id_of("_value_returned"), 0, is_returned ? 1 : 0);
@@ -108,7 +100,12 @@ bool Flow::read_arguments(const char* at) {
 bool Flow::call(const OwordHead& head) {
   if (!read_arguments(head.behind)) return false;
   const KnownLabel* known = find_label(Label{}, head.label);
-  if (known == nullptr || !known->is_subprogram) return call_file(head);
+  if (known == nullptr || !known->is_subprogram) {
+    if (!push_call(run_.next, head.label, false, 1)) return false;
+    std::copy(arguments_.begin(), arguments_.end(), run_.parameters.begin() + 1);
+    run_.state.skip = {SkipFor::SubFile, head.label, run_.here};
+    return true;
+  }
   const TextPlace line = known->place;
   // The line behind `sub` was met when the sub was passed over.
   if (!push_call(line, head.label, false, 1)) return false;
@@ -118,23 +115,6 @@ bool Flow::call(const OwordHead& head) {
   const auto entry = places_.find(
       TextPlace{line.program, line.offset, static_cast<std::uint64_t>(SkipFor::FileSub)});
   if (entry != places_.end()) land(entry->second);
-  return true;
-}
-
-bool Flow::call_file(const OwordHead& head) {
-  const auto found = run_.reader.find(file_name(run_, head.label));
-  if (found.state == ProgramLookup::State::NotYet) {
-    run_.pause = Pause::Text;
-    return false;
-  }
-  if (found.state == ProgramLookup::State::NotFound) {
-    return refuse(ErrorCode::CallNotFound, head, "has no sub before this call and no file");
-  }
-  const TextPlace start{found.program, 0, 1};
-  if (!push_call(start, head.label, false, 1)) return false;
-  std::copy(arguments_.begin(), arguments_.end(), run_.parameters.begin() + 1);
-  run_.next = start;
-  run_.state.skip = {SkipFor::FileSub, head.label, start};
   return true;
 }
 

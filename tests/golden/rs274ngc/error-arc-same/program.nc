@@ -1,0 +1,4 @@
+(expect NGC0211 3:10)
+G21 F10 G0 X0 Y0
+G2 X0 Y0 R2
+M2

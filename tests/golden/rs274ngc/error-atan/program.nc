@@ -1,0 +1,3 @@
+(expect NGC0125 2:13)
+G0 X[ATAN[1]]
+M2

@@ -1,0 +1,3 @@
+(expect NGC0126 2:10)
+G0 X[SIN 30]
+M2

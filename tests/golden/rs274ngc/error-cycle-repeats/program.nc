@@ -1,0 +1,4 @@
+(expect NGC0250 3:16)
+G21 F10 G0 Z5
+G81 X1 Z-5 R1  L0
+M2

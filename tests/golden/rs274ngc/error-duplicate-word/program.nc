@@ -1,0 +1,3 @@
+(expect NGC0110 2:11)
+G0 X1 Y2  X3
+M2

@@ -1,0 +1,3 @@
+(expect NGC0292 2:1)
+o2 else
+M2

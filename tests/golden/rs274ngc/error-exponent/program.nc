@@ -1,0 +1,3 @@
+(expect NGC0100 2:6)
+G0 X1E3
+M2

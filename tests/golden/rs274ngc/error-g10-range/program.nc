@@ -1,0 +1,3 @@
+(expect NGC0223 2:8)
+G10 L2 P10 X1
+M2

@@ -1,0 +1,3 @@
+(expect NGC0224 2:0)
+G91 G53 G0 X1
+M2

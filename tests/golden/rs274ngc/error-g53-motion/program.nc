@@ -1,0 +1,3 @@
+(expect NGC0225 2:0)
+G53 G2 X1 Y1 R5
+M2

@@ -1,0 +1,4 @@
+(expect NGC0204 3:0)
+G93 G1 X1 F2
+X2
+M2

@@ -1,0 +1,3 @@
+(expect NGC0165 2:7)
+G0 X1 C5
+M2

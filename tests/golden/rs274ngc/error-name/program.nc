@@ -1,0 +1,3 @@
+(expect NGC0133 2:6)
+G0 X#<nothing>
+M2

@@ -1,0 +1,3 @@
+(expect NGC0100 2:1)
+o1 sub
+M2

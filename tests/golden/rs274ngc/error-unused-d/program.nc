@@ -1,0 +1,3 @@
+(expect NGC0170 2:7)
+G0 X1 D1
+M2

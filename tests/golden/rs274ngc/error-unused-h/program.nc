@@ -1,0 +1,3 @@
+(expect NGC0172 2:7)
+G0 X1 H1
+M2

@@ -1,0 +1,3 @@
+(expect NGC0173 2:7)
+G0 X1 I1
+M2

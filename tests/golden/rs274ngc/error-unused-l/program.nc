@@ -1,0 +1,3 @@
+(expect NGC0176 2:7)
+G0 X1 L2
+M2

@@ -1,0 +1,3 @@
+(expect NGC0178 2:7)
+G0 X1 Q1
+M2

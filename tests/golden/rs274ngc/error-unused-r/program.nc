@@ -1,0 +1,3 @@
+(expect NGC0179 2:7)
+G0 X1 R1
+M2
