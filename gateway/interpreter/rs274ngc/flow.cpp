@@ -131,7 +131,11 @@ bool Flow::skip_to(SkipFor until, Label label) {
 bool Flow::pass_over() {
   State& state = run_.state;
   const OwordHead head = peek_oword(run_);
-  if (head.word == Oword::None || !(head.label == state.skip.label)) return true;
+  if (head.word == Oword::None) return true;
+  if (!(head.label == state.skip.label)) {
+    const bool is_nested = head.word == Oword::Sub && state.skip.until == SkipFor::EndOfSub;
+    return !is_nested || refuse(ErrorCode::OwordSubHere, head, "within another");
+  }
   if (!is_wanted(state.skip.until, head.word)) {
     if (is_passed(state.skip.until, head.word)) return true;
     return refuse(ErrorCode::OwordUnmatched, head, "meets another word of the same label");

@@ -18,8 +18,9 @@ Axes base_of(const Run& run) {
   Axes base = run.state.position;
   const Compensation& compensation = run.state.compensation;
   if (compensation.side != Side::Off && !compensation.is_first) {
-    base[index_of(Axis::X)] = compensation.x;
-    base[index_of(Axis::Y)] = compensation.y;
+    const PlaneAxes plane = axes_of(run.state.modes.plane);
+    base[index_of(plane.first)] = compensation.x;
+    base[index_of(plane.second)] = compensation.y;
   }
   return base;
 }
@@ -151,16 +152,19 @@ bool home_move(Run& run, int g_code) {
   Target target;
   if (!read_target(run, target)) return false;
   rapid_to(run, target);
-  Axes machine = machine_with_length(run);
   const bool moves_all = !run.is_linuxcnc() || target.named == 0;
   const auto first = static_cast<std::size_t>(g_code == 280 ? kHome : kSecondHome);
+  Axes machine{};
   for (const Axis axis : kAllAxes) {
-    if (!moves_all && (target.named & bit_of(axis)) == 0) continue;
-    if ((run.options.axes & set_of(letter(axis))) == 0) continue;
     machine[index_of(axis)] = from_memory(run, axis, run.parameters[first + index_of(axis)]);
+  }
+  const Axes home = program_of_machine_with_length(run, machine);
+  for (const Axis axis : kAllAxes) {
+    const bool is_there = (run.options.axes & set_of(letter(axis))) != 0;
+    if (!is_there || (!moves_all && (target.named & bit_of(axis)) == 0)) continue;
+    target.to[index_of(axis)] = home[index_of(axis)];
     target.named = static_cast<AxisBits>(target.named | bit_of(axis));
   }
-  target.to = program_of_machine_with_length(run, machine);
   rapid_to(run, target);
   return true;
 }

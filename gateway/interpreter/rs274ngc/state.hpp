@@ -73,7 +73,7 @@ struct Compensation {
   double radius = 0;      ///< mm, not negative
   bool is_first = false;  ///< no move since it was turned on
   bool was_on = false;    ///< turned off, and no move since
-  double x = 0, y = 0;    ///< end of the last move as programmed
+  double x = 0, y = 0;    ///< end of the last move as programmed, along the plane's axes
   double held_sweep = 0;  ///< degrees of the held arc as programmed, whole turns left out
 };
 
