@@ -85,9 +85,6 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
   state.units = options.start_units;
   state.g[kUnitsGroup] = options.start_units == Units::Inch ? 20 : 21;
   for (const std::uint8_t code : options.start_g) {
-    if (group_of(code) == kUnitsGroup) {
-      state.units = code == 20 ? Units::Inch : Units::Millimetre;
-    }
     state.g[group_of(code)] = code;
   }
   state.position = setup.start;

@@ -111,17 +111,16 @@ void read_model(Reader& read, ControlOptions& control) {
   read.count("last_kept", 531, 999, control.last_kept);
 }
 
-void read_start(Reader& read, const Setup& setup, ControlOptions& control) {
-  const Units fallback = setup.units.value_or(Units::Millimetre);
+void read_start(Reader& read, ControlOptions& control) {
   control.start_units =
-      read.choice("start_units", {"in", "mm"}, fallback == Units::Inch ? 0 : 1) == 0
-          ? Units::Inch
-          : Units::Millimetre;
+      read.choice("start_units", {"in", "mm"}, 1) == 0 ? Units::Inch : Units::Millimetre;
   std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 23};
   std::vector<std::int64_t> given;
   read.integers("start_g", given);
   codes.insert(codes.end(), given.begin(), given.end());
   for (const std::int64_t code : codes) {
+    if (code == 20 || code == 21)
+      control.start_units = code == 20 ? Units::Inch : Units::Millimetre;
     const bool is_code = code >= 0 && code < 100;
     const std::uint8_t group = is_code ? group_of(static_cast<std::uint8_t>(code)) : kNoGroup;
     // A state that needs more than its code (a centre, a number) can not be had at power on.
@@ -144,6 +143,10 @@ void read_reference(Reader& read, ControlOptions& control) {
 }
 
 void read_cycles(Reader& read, ControlOptions& control) {
+  if (control.start_units == Units::Inch) {
+    control.peck_return = Length::inch(0.004).mm();
+    control.peck_clearance = Length::inch(0.04).mm();
+  }
   read.length("g73_return", control.peck_return);
   read.length("g83_clearance", control.peck_clearance);
   if (!(control.peck_return >= 0) || !(control.peck_clearance >= 0)) {
@@ -298,14 +301,10 @@ Result<ControlOptions> read_options(const Setup& setup) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G51");
   }
   ControlOptions control;
-  if (setup.units == Units::Inch) {
-    control.peck_return = Length::inch(0.004).mm();
-    control.peck_clearance = Length::inch(0.04).mm();
-  }
   Reader read(options);
   read_model(read, control);
   read_numbers(read, control);
-  read_start(read, setup, control);
+  read_start(read, control);
   read_reference(read, control);
   read_cycles(read, control);
   read_geometry(read, control);
