@@ -169,7 +169,8 @@ void Line::lose(const Error& error) {
   tell(LineTraffic::What::Note, {}, error.what);
   const bool is_checked = parts_.settings.flow == wire::Flow::Xmodem ||
                           parts_.settings.flow == wire::Flow::HeidenhainBcc;
-  if (!is_checked) fail_transfer(error);
+  // A block or an ACK that went with the channel would be waited for without an end.
+  if (!is_checked || discipline_->state().may_wait_without_limit) fail_transfer(error);
   if (parts_.listener.on_channel) parts_.listener.on_channel(&error);
 }
 

@@ -32,8 +32,9 @@ struct LineListener {
 /// the listener. Commands from any thread are carried out on the line's thread by `post`.
 ///
 /// A lost channel takes what was with the driver along. Checked protocols (XMODEM, HEIDENHAIN with
-/// BCC) notice and repeat it when the channel is back, or give up by their own limits; of all
-/// others a transfer in progress has failed then (TransferFailed, code Io), and its owner decides.
+/// BCC) notice and repeat it when the channel is back, or give up by their own limits; where they
+/// wait without a limit (a TNC's ACK), and of all other protocols, a transfer in progress has
+/// failed then (TransferFailed, code Io), and its owner decides.
 class LineDriver {
  public:
   struct Parts {

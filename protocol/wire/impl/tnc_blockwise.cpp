@@ -141,8 +141,7 @@ void TncBlockwise::tick(LineTime now) {
 }
 
 void TncBlockwise::on_block_limit(LineTime now) {
-  const bool is_repeated = role_ == Role::Control || settings_.heidenhain.repeats_unanswered;
-  if (is_repeated && may_try_again()) return resend_block(now);
+  if (repeats_unanswered() && may_try_again()) return resend_block(now);
   give_up({Errc::Timeout,
            is_garbled_ ? "the answer to a block was spoiled on the line" : "no ACK in time"},
           now);
@@ -174,8 +173,7 @@ void TncBlockwise::out_sent(LineTime now) {
     is_counted_ = true;
     is_garbled_ = false;
     hold_seen_ = now + kHoldSeen;
-    const bool is_repeated = role_ == Role::Control || settings_.heidenhain.repeats_unanswered;
-    limit_ = is_repeated ? after_answer_limit(now) : after_hold_limit(now);
+    limit_ = repeats_unanswered() ? after_answer_limit(now) : after_hold_limit(now);
   } else if (wait_ == Wait::HeadingAnswer || wait_ == Wait::EndAnswer) {
     limit_ = after_answer_limit(now);
   }
@@ -322,6 +320,14 @@ void TncBlockwise::set_stopped(bool is_stopped) {
   emit(FlowChanged{is_stopped});
 }
 
+bool TncBlockwise::has_no_limit() const {
+  const bool is_host = role_ == Role::Host;
+  if (wait_ == Wait::Heading || owes_ack_) return true;
+  if (wait_ == Wait::Block) return !(is_host ? settings_.answer_limit : settings_.hold_limit);
+  if (wait_ != Wait::BlockAnswer) return false;
+  return !(repeats_unanswered() ? settings_.answer_limit : settings_.hold_limit);
+}
+
 LineState TncBlockwise::state() const {
   constexpr std::string_view kWords[] = {"", "heading", "ACK", "ACK", "block", "EOT", "EOT"};
   LineState state;
@@ -329,8 +335,7 @@ LineState TncBlockwise::state() const {
   state.is_stopped = is_stopped_;
   state.is_stopping = !is_ready_;
   state.waiting_for = kWords[static_cast<std::size_t>(wait_)];
-  const bool may_be_held = wait_ == Wait::BlockAnswer || wait_ == Wait::Block;
-  state.may_wait_without_limit = wait_ == Wait::Heading || (may_be_held && !limit_);
+  state.may_wait_without_limit = has_no_limit();
   state.text_sent = text_sent();
   return state;
 }

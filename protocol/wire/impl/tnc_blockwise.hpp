@@ -89,6 +89,10 @@ class TncBlockwise : public DisciplineBase {
   void send_block(std::string_view line, std::size_t bytes);
   void acknowledge(LineTime now);
   void set_stopped(bool is_stopped);
+  bool repeats_unanswered() const {
+    return role_ == Role::Control || settings_.heidenhain.repeats_unanswered;
+  }
+  bool has_no_limit() const;  ///< of the wait that is going on
 
   TncFrameReader reader_;
   std::optional<LineTime> limit_, silence_, hold_seen_;

@@ -55,6 +55,21 @@ TEST(LostLine, FailsAnUncheckedTransferAndSendsNothingOfItLater) {
   EXPECT_EQ(pty.read(3), "END");
 }
 
+TEST(LostLine, FailsACheckedTransferThatWouldWaitWithoutEnd) {
+  Pty pty;
+  LineLog log;
+  const auto settings = wire::find_template("tnc155-bcc").value()->settings;
+  const auto line = LineDriver::start({pty.path(), settings, wire::Role::Host, log.listener()});
+  ASSERT_TRUE(line);
+  ASSERT_TRUE(log.wait_open());
+  (*line)->post(
+      [](wire::Discipline& end, wire::LineTime now) { EXPECT_TRUE(end.begin_send("7", now)); });
+  ASSERT_TRUE(eventually([&] { return (*line)->state().may_wait_without_limit; }, 5s));
+  pty.unplug();
+  ASSERT_TRUE(log.wait([&] { return log.failures.size() == 1; }));
+  EXPECT_EQ(log.failures[0].code, Errc::Io);
+}
+
 TEST(LostLine, FollowsARestartedDeviceServer) {
   LineLog log;
   std::optional<TcpPeer> peer(std::in_place);
