@@ -87,6 +87,9 @@ class Compensator final : public EventSink {
   void on_message(const Message& event) override;
   void on_stop(const Stop& event) override;
   void on_block_end(const Origin& event) override;
+  /// As on_block_end, of a block that `Policy::blocks_without_motion` does not count: it says
+  /// nothing to the machine (a macro statement, a call, a return).
+  void end_uncounted_block(const Origin& event);
   /// These need the tool in its place: what waits is settled first.
   void on_thread(const Thread& event) override;
   void on_probe(const Probe& event) override;

@@ -134,11 +134,13 @@ void Compensator::on_message(const Message& event) {
   hold_or_pass({HeldText::Kind::Message, {}, event.origin, 0, 0}, event.text);
 }
 
+void Compensator::end_uncounted_block(const Origin& event) {
+  hold_or_pass(BlockEnd{event});
+}
+
 void Compensator::on_block_end(const Origin& event) {
-  if (fault_) return;
-  if (!state_.has_element) return sink_.on_block_end(event);
-  hold(BlockEnd{event}, event);
-  if (event.block == state_.waiting().origin.block) return;
+  hold_or_pass(BlockEnd{event});
+  if (!state_.has_element || event.block == state_.waiting().origin.block) return;
   if (++state_.idle_blocks > policy_.blocks_without_motion) settle();
 }
 

@@ -45,6 +45,17 @@ class HeldEvents {
     events_[count_++].template emplace<Event>(event);
     return true;
   }
+  /// While much waits, ends of blocks that did nothing in between are told by the last of them: a
+  /// long calculation between two moves needs no room.
+  bool push(const BlockEnd& end) {
+    if (count_ >= kMaxHeldEvents / 2) {
+      if (auto* last = std::get_if<BlockEnd>(&events_[count_ - 1])) {
+        *last = end;
+        return true;
+      }
+    }
+    return push<BlockEnd>(end);
+  }
   bool push(HeldText text, std::string_view content) {
     if (content.size() > kMaxHeldText - text_size_) return false;
     text.begin = static_cast<std::uint32_t>(text_size_);

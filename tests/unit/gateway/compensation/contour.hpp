@@ -122,6 +122,11 @@ class Contour {
     next();
     return end_block();
   }
+  /// A block that the look-ahead passes over.
+  Contour& statement() {
+    compensator.end_uncounted_block(next());
+    return *this;
+  }
   std::optional<FaultKind> fault() const {
     const auto& fault = compensator.fault();
     return fault ? std::optional(fault->kind) : std::nullopt;

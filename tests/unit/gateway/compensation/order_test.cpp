@@ -54,6 +54,19 @@ TEST(Order, OneBlockTooManyWithoutMotionEndsTheWait) {
   EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1", "move2", "/2", "M8", "/3", "M9", "/4"));
 }
 
+TEST(Order, StatementsAreNoBlocksWithoutMotion) {
+  Contour contour{Policy{}, {-10, 0}};
+  contour.left(2).line(0, 0).line(10, 0);
+  for (int i = 0; i < 1'000; ++i) contour.statement();
+  contour.misc(8).statement();
+  EXPECT_TRUE(contour.compensator.is_waiting());
+  contour.line(10, 10);
+  EXPECT_EQ(contour.fault(), std::nullopt);
+  EXPECT_NEAR(contour.log.moves[1].to.first, 8, 1e-9) << "the corner was seen";
+  EXPECT_LE(contour.log.words.size(), 2u + impl::kMaxHeldEvents);
+  EXPECT_THAT(contour.log.words, testing::IsSupersetOf({"/3", "/4", "/1002", "M8", "/1004"}));
+}
+
 TEST(Order, TheEndOfTheProgramEndsTheWait) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
