@@ -43,7 +43,17 @@ void turn_on(Run& run) {
     run.compensator.reset(state.position);
     state.uses_compensator = true;
   }
+  // D0 cancels: the next move goes to its programmed end
+  if (state.d_number == 0 && run.compensator.is_on()) return run.compensator.turn_off();
   run.compensator.turn_on(cutter_of(run));
+}
+
+bool reaches_machine(const Block& block) {
+  const Block::Parts& parts = block.parts;
+  if (parts.kind != BlockKind::Nc || parts.ending == Ending::Return) return false;
+  if (parts.m_count == 1 && block.m[0] == 98) return block.words.has_any(kAxisWords);
+  return (block.words.present() & ~set_of(N, O)) != 0 || parts.groups != 0 || parts.m_count != 0 ||
+         parts.one_shot != Block::kNoCode;
 }
 
 }  // namespace
@@ -92,6 +102,14 @@ void interrupt_compensation(Run& run, bool first_keeps_distance) {
 void resume_compensation(Run& run) {
   if (!run.state.uses_compensator || !run.state.is_compensating()) return;
   run.compensator.turn_on(cutter_of(run));
+}
+
+void end_compensated_block(Run& run) {
+  if (reaches_machine(run.block)) {
+    run.compensator.on_block_end(run.origin);
+  } else {
+    run.compensator.end_uncounted_block(run.origin);
+  }
 }
 
 bool check_compensation(Run& run) {

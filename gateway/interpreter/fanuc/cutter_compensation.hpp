@@ -16,6 +16,9 @@ bool apply_compensation(Run& run);
 /// the first of them keeps the distance that the tool has.
 void interrupt_compensation(Run& run, bool first_keeps_distance = false);
 void resume_compensation(Run& run);
+/// The end of the block, as the look-ahead takes it: macro statements, calls, returns and blocks
+/// without words are no blocks without motion, since nothing of them reaches the machine.
+void end_compensated_block(Run& run);
 /// False: the alarm of a contour that can not be offset.
 bool check_compensation(Run& run);
 

@@ -183,7 +183,7 @@ void FanucInterpreter::settle_name() {
 bool FanucInterpreter::finish_block() {
   if (run_.state.uses_compensator) [[unlikely]] {
     if (!check_compensation(run_) || !leave_block(run_)) return false;
-    run_.compensator.on_block_end(run_.origin);
+    end_compensated_block(run_);
     if (!check_compensation(run_)) return false;
   } else {
     if (!leave_block(run_)) return false;

@@ -1,0 +1,5 @@
+O0443 (LAST SIDE)
+
+(DOWN)
+Y5.
+M99
