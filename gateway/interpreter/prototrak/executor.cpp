@@ -176,8 +176,9 @@ bool Executor::check_arc(const ProgramEvent& event) {
 bool Executor::join(const Element& first, const Element& second, const ProgramEvent& event,
                     std::optional<Element>& corner) {
   constexpr double kStraight = 1e-9;
+  if (event.conrad <= 0) return true;
   const double turn = turn_at(first, second);
-  if (event.conrad <= 0 || std::fabs(turn) < kStraight) return true;
+  if (std::fabs(turn) < kStraight) return true;
   const bool is_inside =
       (turn > 0 && event.side == ToolSide::Left) || (turn < 0 && event.side == ToolSide::Right);
   if (is_inside && event.conrad < event.diameter / 2) return true;
