@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include "gateway/app/options.hpp"
+
+namespace dripline::gateway {
+namespace {
+
+GatewayOptions base() {
+  GatewayOptions options;
+  options.machine = "lathe-1";
+  options.control = "centurion";
+  options.state = "/tmp/state";
+  return options;
+}
+
+TEST(LineOptions, TakeTheControlsOwnTemplateAndChangeIt) {
+  GatewayOptions options = base();
+  ASSERT_TRUE(
+      apply_config("line = '/dev/ttyS3'\n"
+                   "line-setting = ['baud=4800', 'end_char=%']\n"
+                   "line-buffer = 4096\n",
+                   options));
+  ASSERT_TRUE(complete(options));
+  EXPECT_EQ(options.line->template_name, "centurion");
+  EXPECT_EQ(options.line->settings.baud, 4800U);
+  EXPECT_EQ(options.line->settings.data_bits, 7U) << "the template's";
+  EXPECT_EQ(options.line->settings.end_character, '%');
+  EXPECT_EQ(options.line->buffer_bytes, 4096U);
+}
+
+TEST(LineOptions, ASettingOfTheCommandLineMayBeGivenMoreThanOnce) {
+  GatewayOptions options = base();
+  for (const OptionRow& row : option_rows()) {
+    if (row.key == "line") {
+      ASSERT_TRUE(row.set(options, "tcp://moxa:4001"));
+    }
+    if (row.key != "line-setting") continue;
+    EXPECT_TRUE(row.may_repeat);
+    ASSERT_TRUE(row.set(options, "flow=rtscts\nbaud=19200"));
+  }
+  ASSERT_TRUE(complete(options));
+  EXPECT_EQ(options.line->settings.flow, wire::Flow::RtsCts);
+  EXPECT_EQ(options.line->settings.baud, 19200U);
+}
+
+TEST(LineOptions, ATncAlwaysAsks) {
+  GatewayOptions options = base();
+  ASSERT_TRUE(apply_config("line = '/dev/ttyS3'\nline-template = 'tnc155-bcc'\n", options));
+  ASSERT_TRUE(complete(options));
+  EXPECT_EQ(options.line->request, "next");
+}
+
+struct Refused {
+  const char* name;
+  const char* toml;
+  const char* named;
+};
+class LineOptionsRefuse : public testing::TestWithParam<Refused> {};
+
+TEST_P(LineOptionsRefuse, AndNameWhatIsWrong) {
+  GatewayOptions options = base();
+  auto done = apply_config(GetParam().toml, options);
+  if (done) done = complete(options);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().what.find(GetParam().named), std::string::npos) << done.error().what;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , LineOptionsRefuse,
+    testing::Values(
+        Refused{"no_address", "line-template = 'centurion'\n", "--line ADDRESS"},
+        Refused{"unknown_template", "line = '/dev/ttyS3'\nline-template = 'heidi'\n", "heidi"},
+        Refused{"unknown_setting", "line = '/dev/ttyS3'\nline-setting = ['bauds=3']\n", "bauds"},
+        Refused{"bad_value", "line = '/dev/ttyS3'\nline-setting = ['parity=some']\n", "some"},
+        Refused{"no_value", "line = '/dev/ttyS3'\nline-setting = 'baud'\n", "key=value"},
+        Refused{"small_buffer", "line = '/dev/ttyS3'\nline-buffer = 10\n", "256"},
+        Refused{"list_where_none_is", "line = ['/dev/ttyS3']\n", "not a list"},
+        Refused{"neither_server_nor_line", "server = 'none'\n", "--server none"}),
+    [](const auto& i) { return std::string(i.param.name); });
+
+}  // namespace
+}  // namespace dripline::gateway
