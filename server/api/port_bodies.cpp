@@ -36,8 +36,8 @@ Result<storage::Port> decode_port(const std::string& name, std::string_view body
   if (auto good = check_port_name(port.name); !good) return fail(good.error());
   if (auto good = check_machine_name(port.machine); !good) return fail(good.error());
   if (auto good = check_size(port); !good) return fail(good.error());
-  std::ranges::stable_partition(port.settings,
-                                [](const auto& setting) { return setting.first == "line"; });
+  std::stable_partition(port.settings.begin(), port.settings.end(),
+                        [](const auto& setting) { return setting.first == "line"; });
   return port;
 }
 

@@ -88,8 +88,8 @@ Result<storage::Port> read_port(const toml::table& table, const std::string& fol
   }
   if (port.name.empty()) port.name = port.machine;
   // A table has no order: baud and its like change what the short form says.
-  std::ranges::stable_partition(port.settings,
-                                [](const auto& setting) { return setting.first == "line"; });
+  std::stable_partition(port.settings.begin(), port.settings.end(),
+                        [](const auto& setting) { return setting.first == "line"; });
   return port;
 }
 
