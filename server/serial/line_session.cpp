@@ -248,7 +248,20 @@ void LineSession::end_receiving(Incoming incoming) {
   host_.on_incoming(std::move(incoming));
 }
 
+/// Said once, not for every piece.
+void LineSession::lose_text() {
+  if (std::exchange(is_losing_, true)) return;
+  const Error error{Errc::LimitExceeded,
+                    fmt::format("what came is lost: {} bytes wait to be stored, and the control is "
+                                "not held by XOFF or RTS",
+                                backlog_)};
+  host_.on_trouble(error);
+  host_.on_incoming({.what = Incoming::What::Damaged, .text = error.what});
+}
+
 void LineSession::take_text(std::string text, wire::Discipline& line, wire::LineTime now) {
+  if (backlog_ + text.size() > kMostBacklog) return lose_text();
+  is_losing_ = false;
   backlog_ += text.size();
   host_.on_incoming({.what = Incoming::What::Text, .text = std::move(text)});
   if (backlog_ <= kMaxBacklog || is_held_off_) return;

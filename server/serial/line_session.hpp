@@ -74,6 +74,8 @@ class LineSession {
  public:
   static constexpr std::size_t kPrefetch = 64 * 1024;
   static constexpr std::size_t kMaxBacklog = 1024;
+  /// A control that does not let itself be held loses what comes beyond this.
+  static constexpr std::size_t kMostBacklog = 1024 * 1024;
   /// A run that waits for a lost line to come back is given up after this.
   static constexpr std::chrono::minutes kLineLimit{5};
 
@@ -126,6 +128,7 @@ class LineSession {
   void finish(SendOutcome outcome, std::string reason);
   void on_failed(const Error& error, wire::Discipline& line);
   void end_receiving(Incoming incoming);
+  void lose_text();
   void take_text(std::string text, wire::Discipline& line, wire::LineTime now);
 
   SessionHost& host_;
@@ -135,6 +138,7 @@ class LineSession {
   bool is_receiving_ = false;
   std::size_t backlog_ = 0;
   bool is_held_off_ = false;  ///< the other end, by us
+  bool is_losing_ = false;    ///< text, since it is not held
 };
 
 }  // namespace dripline::ports

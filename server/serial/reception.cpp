@@ -10,6 +10,19 @@ namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
 
+/// The line as it was printed; other control characters than TAB become escapes.
+std::string printed_text(const std::string& line) {
+  std::string text;
+  for (const char c : line) {
+    if (c == '\t') {
+      text += c;
+    } else {
+      text += one_line({&c, 1});
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 Reception::Reception(Parts parts)
@@ -79,7 +92,7 @@ void Reception::handle_line(const std::string& line, std::vector<LineRecords::En
   entry.record.kind =
       std::string(to_string(hit.is_probe ? dds::RecordKind::Probe : dds::RecordKind::Output));
   entry.record.device = parts_.port;
-  entry.record.text = one_line(line);
+  entry.record.text = printed_text(line);
   entries.push_back(std::move(entry));
 }
 

@@ -24,7 +24,7 @@ bool has_numbered_programs(wire::Flow flow) {
 dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
   if (!progress) return dds::Execution::Ready;
   if (progress->is_held) return dds::Execution::FeedHold;
-  if (progress->is_waiting_for_line || port.waiting_since || port.line.is_stopped) {
+  if (!port.is_open || port.waiting_since || port.line.is_stopped) {
     return dds::Execution::Waiting;
   }
   return dds::Execution::Active;

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <condition_variable>
 #include <deque>
@@ -67,7 +68,7 @@ struct TestLine::Cable {
   std::mutex mutex;
   std::condition_variable changed;
   bool is_pulled = false;
-  int socket = -1;  ///< the control's end
+  std::atomic<int> socket = -1;  ///< the control's end
   std::shared_ptr<Faults> faults = std::make_shared<Faults>();
 };
 

@@ -46,6 +46,22 @@ TEST_F(SerialProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
   EXPECT_EQ(stored->counters.executed, 0u);
 }
 
+TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
+  add_control("xmodem");
+  const std::string text = blocks(300);
+  push("O1", text, "tnc155");
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->received.size() > 1000; }));
+  line().pull();
+  ASSERT_TRUE(wait([&] { return !ports_->feed().machine("mill")->is_connected; }));
+  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
+  line().put_back();
+  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state == RunState::Completed; }));
+  EXPECT_TRUE(control_->received == text) << control_->received.size();
+}
+
 TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
   add_control("heidenhain_bcc");
   const std::string text = tnc_program(15, 50);

@@ -37,12 +37,12 @@ TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   ASSERT_TRUE(run);
   line().read_until("N30 G1 X3.5 Y-3.25\n");
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
-  line().write("X1.5 Y2.25\r\nPROBE Z-1.");
+  line().write("X1.5\tY2.25\r\nPROBE Z-1.");
   line().write("125\r\n");
   ASSERT_TRUE(wait([&] { return records_of(run->id, "probe").size() == 1; }));
   const auto outputs = records_of(run->id, "output");
   ASSERT_EQ(outputs.size(), 1u);
-  EXPECT_EQ(outputs[0].text, "X1.5 Y2.25");
+  EXPECT_EQ(outputs[0].text, "X1.5\tY2.25");
   EXPECT_EQ(outputs[0].device, "com1");
   EXPECT_EQ(records_of(run->id, "probe")[0].text, "PROBE Z-1.125");
   EXPECT_EQ(store_->run(run->id)->outputs, 1u);
