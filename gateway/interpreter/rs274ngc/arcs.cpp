@@ -55,6 +55,10 @@ bool check_radii(Run& run, double at_start, double at_end) {
                   fmt::format("{} at the start, {} at the end", at_start / unit, at_end / unit));
 }
 
+double length(double first, double second) {
+  return std::sqrt(first * first + second * second);
+}
+
 double word_in_mm(const Run& run, char word) {
   return run.mm(run.block.words.value_or(word, 0));
 }
@@ -71,22 +75,22 @@ bool center_of_offsets(Run& run, const OffsetWords& offsets, PlanePoint start, P
   }
   const Compensation& compensation = run.state.compensation;
   if (compensation.side != Side::Off && compensation.is_first && !run.is_linuxcnc()) return true;
-  return check_radii(run, std::hypot(start.first - center.first, start.second - center.second),
-                     std::hypot(end.first - center.first, end.second - center.second));
+  return check_radii(run, length(start.first - center.first, start.second - center.second),
+                     length(end.first - center.first, end.second - center.second));
 }
 
 bool center_of_radius(Run& run, PlanePoint start, PlanePoint end, Turn turn, PlanePoint& center) {
   const double radius = word_in_mm(run, 'R');
   const double chord_first = end.first - start.first;
   const double chord_second = end.second - start.second;
-  const double half = std::hypot(chord_first, chord_second) / 2;
+  const double half = length(chord_first, chord_second) / 2;
   if (half == 0) return run.fail_word(ErrorCode::ArcSamePoint, 'R');
-  const double length = std::fabs(radius);
-  if (half > length * (1 + 1e-12) + tolerance(run).chord) {
+  const double size = std::fabs(radius);
+  if (half > size * (1 + 1e-12) + tolerance(run).chord) {
     return run.fail_word(ErrorCode::ArcRadiusTooSmall, 'R',
                          fmt::format("half the chord is {}", half / run.state.mm_per_unit()));
   }
-  const double height = half < length ? std::sqrt(length * length - half * half) : 0;
+  const double height = half < size ? std::sqrt(size * size - half * half) : 0;
   // The centre lies left of the chord for short arcs ccw and long ones cw.
   const bool is_left = (turn == Turn::CounterClockwise) == (radius > 0);
   const double along = (is_left ? height : -height) / (2 * half);
@@ -122,9 +126,11 @@ bool read_turns(Run& run, double& turns) {
 double sweep_of(PlanePoint center, PlanePoint start, PlanePoint end, Turn turn) {
   constexpr double kFull = 2 * Angle::kPi;
   constexpr double kSame = 1e-6;  // radians; an angle this small is a full turn
-  const double a = std::atan2(start.second - center.second, start.first - center.first);
-  const double b = std::atan2(end.second - center.second, end.first - center.first);
-  double sweep = turn == Turn::CounterClockwise ? b - a : a - b;
+  const PlanePoint from{start.first - center.first, start.second - center.second};
+  const PlanePoint to{end.first - center.first, end.second - center.second};
+  const double cross = from.first * to.second - from.second * to.first;
+  const double dot = from.first * to.first + from.second * to.second;
+  double sweep = std::atan2(turn == Turn::CounterClockwise ? cross : -cross, dot);
   if (sweep < 0) sweep += kFull;
   if (sweep <= kSame || sweep >= kFull) sweep = kFull;
   return sweep * (180 / Angle::kPi);

@@ -76,7 +76,7 @@ bool add_word(Run& run, char letter, const char* start, const char*& at) {
 bool add_g(Run& run, const char* start, const char*& at) {
   double value = 0;
   if (!read_value(run, at, value)) return false;
-  const double tenths = std::round(value * 10);
+  const double tenths = std::floor(value * 10 + 0.5);
   if (!(std::fabs(value * 10 - tenths) <= 0.001) || !(tenths <= 999)) [[unlikely]] {
     return run.fail(ErrorCode::GRange, run.column(start), fmt::format("G{}", value));
   }
@@ -95,7 +95,7 @@ bool add_g(Run& run, const char* start, const char*& at) {
   const auto group = static_cast<unsigned>(row->group);
   block.g_groups = static_cast<std::uint16_t>(block.g_groups | 1u << group);
   block.g_codes[group] = code;
-  block.words_taken |= row->words;
+  block.words_taken |= words_of(*row, run.options.profile);
   if (row->takes_axes) block.axis_user = row;
   return true;
 }

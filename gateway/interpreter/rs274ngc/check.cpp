@@ -18,26 +18,6 @@ constexpr std::array kWordsWithUsers{
     UnusedWord{'Q', ErrorCode::UnusedQ}, UnusedWord{'R', ErrorCode::UnusedR}};
 constexpr AddressSet kNeedUser = set_of("DEHIJKLPQR");
 
-/// What the NIST program knows of the words that its successor takes in more places.
-constexpr AddressSet kNotInNist[2] = {set_of("P"), set_of("D")};
-
-AddressSet words_of(const Run& run, const GRow& row) {
-  if (run.is_linuxcnc()) return row.words;
-  switch (row.code) {
-    case 20:
-    case 30:
-    case 640:
-    case 840:
-      return row.words & ~(kNotInNist[0] | set_of("Q"));
-    case 100:
-      return set_of("LP");
-    case 830:
-      return row.words & ~kNotInNist[1];
-    default:
-      return row.words;
-  }
-}
-
 bool check_unused(Run& run, AddressSet taken) {
   const Words& words = run.block.words;
   for (const UnusedWord& each : kWordsWithUsers) {
@@ -47,21 +27,6 @@ bool check_unused(Run& run, AddressSet taken) {
     }
   }
   return true;
-}
-
-AddressSet words_taken(const Run& run) {
-  const Block& block = run.block;
-  AddressSet taken = 0;
-  for (std::size_t i = 0; i < kGGroups; ++i) {
-    if ((block.g_groups >> i & 1u) == 0) continue;
-    taken |= words_of(run, *g_row(block.g_codes[i], run.options.profile));
-  }
-  for (std::size_t i = 0; i < kMGroups; ++i) {
-    if ((block.m_groups >> i & 1u) == 0) continue;
-    taken |= m_row(block.m_codes[i], run.options.profile)->words;
-  }
-  if (block.motion >= 0) taken |= words_of(run, *g_row(block.motion, run.options.profile));
-  return taken;
 }
 
 /// A motion code of the line itself.
@@ -137,8 +102,12 @@ bool check_g10(Run& run) {
 bool check_line(Run& run) {
   if (!decide_motion(run)) return false;
   const Block& block = run.block;
-  if (block.words.has_any(kNeedUser)) {
-    if (!check_unused(run, words_taken(run))) return false;
+  if (block.words.has_any(kNeedUser & ~block.words_taken)) {
+    AddressSet taken = block.words_taken;
+    if (block.motion >= 0) {
+      taken |= words_of(*g_row(block.motion, run.options.profile), run.options.profile);
+    }
+    if (!check_unused(run, taken)) return false;
   }
   if (!block.has(GGroup::OneShot)) [[likely]]
     return true;

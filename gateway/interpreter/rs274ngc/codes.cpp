@@ -164,6 +164,24 @@ const GRow* g_row(int tenths, Profile profile) {
   return &kG[index];
 }
 
+AddressSet words_of(const GRow& row, Profile profile) {
+  if (profile == Profile::LinuxCnc) return row.words;
+  switch (row.code) {
+    case 20:
+    case 30:
+    case 840:
+      return row.words & ~set_of("P");
+    case 100:
+      return set_of("LP");
+    case 640:
+      return 0;
+    case 830:
+      return row.words & ~set_of("D");
+    default:
+      return row.words;
+  }
+}
+
 const MRow* m_row(int code, Profile profile) {
   if (code < 0 || code > kLastUser) return nullptr;
   if (code >= kFirstUser) return profile == Profile::LinuxCnc ? &kUser : nullptr;

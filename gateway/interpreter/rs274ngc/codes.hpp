@@ -59,6 +59,9 @@ struct MRow {
 const GRow* g_row(int tenths, Profile profile);
 const MRow* m_row(int code, Profile profile);
 
+/// The words a code takes beside axis words; the NIST program knows fewer for some.
+AddressSet words_of(const GRow& row, Profile profile);
+
 constexpr bool is_cycle(int tenths) {
   return tenths == 730 || tenths == 740 || (tenths >= 810 && tenths <= 890);
 }

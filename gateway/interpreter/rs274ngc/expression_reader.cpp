@@ -45,6 +45,20 @@ bool read_long_number(Run& run, const char*& at, double& value) {
   return run.fail(ErrorCode::BadNumber, run.column(at), "a number this long");
 }
 
+/// One to four digits and nothing that goes on with them: most indexes, labels and constants.
+bool take_small_number(const char*& at, double& value) {
+  const char* s = at;
+  int number = 0;
+  for (int digits = 0; is_digit(*s); ++s) {
+    if (++digits > 4) return false;
+    number = number * 10 + (*s - '0');
+  }
+  if (s == at || *s == '.' || is_blank(*s)) return false;
+  at = s;
+  value = number;
+  return true;
+}
+
 bool read_number_at(Run& run, const char*& at, double& value) {
   NumberText number;
   const char* start = at;
@@ -175,7 +189,9 @@ Operator Terms::operator_here(const char* at) {
       Spelling{"EQ", Operator::Equal},        Spelling{"NE", Operator::NotEqual},
       Spelling{"GT", Operator::Greater},      Spelling{"GE", Operator::GreaterOrEqual},
       Spelling{"LT", Operator::Less},         Spelling{"LE", Operator::LessOrEqual}};
+  const char first = upper(*at);
   for (const Spelling& spelling : kWords) {
+    if (spelling.word[0] != first) continue;
     behind_ = at;
     if (!take_word(behind_, spelling.word)) continue;
     if (language::is_comparison(spelling.op) && !is_comparison_allowed()) break;
@@ -206,8 +222,9 @@ bool Terms::bracketed(double& value) {
 bool Terms::operand(double& value) {
   at_ = skip_blanks(at_);
   const char c = *at_;
-  if (is_digit(c) || c == '.') [[likely]]
-    return read_number_at(run_, at_, value);
+  if (is_digit(c) || c == '.') [[likely]] {
+    return take_small_number(at_, value) || read_number_at(run_, at_, value);
+  }
   if (depth_ >= kMaxDepth) return run_.fail(ErrorCode::NestedTooDeep, run_.column(at_));
   ++depth_;
   bool ok = false;
@@ -243,6 +260,9 @@ bool Terms::parameter(double& value) {
     return read_named(run_, run_.scratch, run_.column(start), value);
   }
   double index = 0;
+  if (take_small_number(at_, index)) {
+    return read_parameter(run_, index, run_.column(start), value);
+  }
   if (!operand(index)) return false;
   const double whole = std::round(index);
   if (!(std::fabs(index - whole) <= kWholeWithin)) {
@@ -426,6 +446,10 @@ bool read_integer(Run& run, const char*& at, int& value) {
   at = skip_blanks(at);
   const char* start = at;
   double real = 0;
+  if (take_small_number(at, real)) [[likely]] {
+    value = static_cast<int>(real);
+    return true;
+  }
   if (!read_value(run, at, real)) return false;
   const double whole = std::round(real);
   if (!(std::fabs(real - whole) <= kWholeWithin) || !(std::fabs(whole) <= kMost)) {

@@ -209,15 +209,23 @@ bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& f
   if (state.rotation != 0 && state.modes.plane != Plane::XY) {
     return run.fail(ErrorCode::NotSupported, 0, "an arc in this plane of a turned system");
   }
-  Axes center = target.to;
-  center[index_of(axes.first)] = shape.center_first;
-  center[index_of(axes.second)] = shape.center_second;
-  const Position center_at = to_machine(run, center);
   Arc arc;
   arc.origin = run.origin;
+  if (state.rotation == 0) [[likely]] {
+    const auto shifted = [&](Axis axis, double value) {
+      return Length::mm(value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)]);
+    };
+    arc.center_first = shifted(axes.first, shape.center_first);
+    arc.center_second = shifted(axes.second, shape.center_second);
+  } else {
+    Axes center = target.to;
+    center[index_of(axes.first)] = shape.center_first;
+    center[index_of(axes.second)] = shape.center_second;
+    const Position center_at = to_machine(run, center);
+    arc.center_first = center_at.linear(axes.first);
+    arc.center_second = center_at.linear(axes.second);
+  }
   arc.to = arrive(run, target);
-  arc.center_first = center_at.linear(axes.first);
-  arc.center_second = center_at.linear(axes.second);
   arc.plane = state.modes.plane;
   arc.turn = shape.turn;
   arc.sweep = Angle::degrees(shape.sweep);
