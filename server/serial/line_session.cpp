@@ -35,8 +35,9 @@ LineSession::LineSession(const wire::LineSettings& settings, SessionHost& host)
 
 Result<void> LineSession::begin(SendJob job, wire::Discipline& line, wire::LineTime now) {
   if (sending_) return fail(Errc::Busy, "the line is sending {}", sending_->job.id);
-  sending_.emplace();
-  sending_->job = std::move(job);
+  Sending sending;
+  sending.job = std::move(job);
+  sending_ = std::move(sending);
   auto begun = start_over(line, now);
   if (!begun) sending_.reset();
   return begun;

@@ -119,14 +119,14 @@ Result<Rule> read_rule(const toml::table& table, const SetHead& set, std::size_t
   rule.name = fmt::format("rule {}", number);
   rule.program = set.program;
   for (const auto& [key, node] : table) {
-    const auto* row = std::find_if(kKeys.begin(), kKeys.end(),
-                                   [&](const KeyRow& r) { return r.key == key.str(); });
+    const std::string_view word = key.str();
+    const auto* row =
+        std::find_if(kKeys.begin(), kKeys.end(), [&](const KeyRow& r) { return r.key == word; });
     if (row == kKeys.end()) {
-      return fail(Errc::Syntax, "line {}: key '{}' of a rule is not known", line_of(node),
-                  key.str());
+      return fail(Errc::Syntax, "line {}: key '{}' of a rule is not known", line_of(node), word);
     }
-    if (key.str() != "probe") {
-      if (auto text = read_text(key.str(), node, kMaxPattern); !text) return fail(text.error());
+    if (word != "probe") {
+      if (auto text = read_text(word, node, kMaxPattern); !text) return fail(text.error());
     }
     if (auto read = row->read(rule, node); !read) return fail(read.error());
   }
