@@ -47,7 +47,8 @@ struct Content {
 struct RunRequest {
   std::string machine, program;
   std::optional<std::uint64_t> revision;  ///< nullopt: the latest
-  std::string from;  ///< N120, L7 (line), B4096 (byte); empty: the beginning. Serial lines only
+  std::string from =
+      {};  ///< N120, L7 (line), B4096 (byte); empty: the beginning. Serial lines only
 };
 
 /// Texts empty: all.
