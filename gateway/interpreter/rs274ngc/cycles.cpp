@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/geometry/plane_axes.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
+#include "gateway/interpreter/rs274ngc/cycle_table.hpp"
 #include "gateway/interpreter/rs274ngc/machine_functions.hpp"
 #include "gateway/interpreter/rs274ngc/motion.hpp"
 
@@ -13,87 +14,6 @@ namespace {
 
 /// Holes of one line, or pecks in all of them: keeps the events of a line bounded.
 constexpr double kMostStrokes = 10'000;
-
-/// What a cycle does at a hole, one after the other.
-enum class Step : std::uint8_t {
-  End,
-  FeedToBottom,
-  FeedToClear,
-  FeedToR,
-  RapidToClear,
-  Dwell,
-  SpindleStop,
-  SpindleReverse,
-  SpindleRestore,
-  OperatorStop,
-  Peck,  ///< to the bottom in pecks, out of the hole between them
-  Chip,  ///< the same, but only a little back
-  BackBore,
-};
-using Steps = std::array<Step, 8>;
-
-struct CycleRow {
-  std::int16_t code;
-  Steps steps;
-  bool needs_p, needs_q, needs_ijk, needs_spindle;
-};
-
-using enum Step;
-constexpr std::array kNist{
-    CycleRow{810, {FeedToBottom, RapidToClear}, false, false, false, false},
-    CycleRow{820, {FeedToBottom, Dwell, RapidToClear}, true, false, false, false},
-    CycleRow{830, {Peck, RapidToClear}, false, true, false, false},
-    CycleRow{840,
-             {FeedToBottom, SpindleStop, SpindleReverse, FeedToClear, SpindleStop, SpindleRestore},
-             false,
-             false,
-             false,
-             true},
-    CycleRow{850, {FeedToBottom, FeedToClear}, false, false, false, false},
-    CycleRow{860,
-             {FeedToBottom, Dwell, SpindleStop, RapidToClear, SpindleRestore},
-             true,
-             false,
-             false,
-             true},
-    CycleRow{870, {BackBore}, false, false, true, true},
-    CycleRow{880,
-             {FeedToBottom, Dwell, SpindleStop, OperatorStop, SpindleRestore},
-             true,
-             false,
-             false,
-             true},
-    CycleRow{890, {FeedToBottom, Dwell, FeedToClear}, true, false, false, false},
-};
-/// Where the later program differs.
-constexpr std::array kLater{
-    CycleRow{730, {Chip, RapidToClear}, false, true, false, false},
-    CycleRow{740,
-             {FeedToBottom, SpindleReverse, Dwell, FeedToClear, SpindleRestore},
-             false,
-             false,
-             false,
-             true},
-    CycleRow{840,
-             {FeedToBottom, SpindleReverse, Dwell, FeedToClear, SpindleRestore},
-             false,
-             false,
-             false,
-             true},
-    CycleRow{850, {FeedToBottom, FeedToR, RapidToClear}, false, false, false, false},
-};
-
-const CycleRow& row_of(int code, bool is_later) {
-  if (is_later) {
-    for (const CycleRow& row : kLater) {
-      if (row.code == code) return row;
-    }
-  }
-  for (const CycleRow& row : kNist) {
-    if (row.code == code) return row;
-  }
-  return kNist[0];
-}
 
 /// The letters of the plane (10.1).
 struct CycleAxes {
@@ -401,7 +321,7 @@ void CycleRun::back_bore() {
 }  // namespace
 
 bool execute_cycle(Run& run, int g_code) {
-  CycleRun cycle(run, row_of(g_code, run.is_linuxcnc()));
+  CycleRun cycle(run, cycle_row(g_code, run.is_linuxcnc()));
   return cycle.check_line() && cycle.read_words() && cycle.make();
 }
 

@@ -5,8 +5,9 @@
 #include <cstdlib>
 
 #include "gateway/interpreter/language/expression.hpp"
-#include "gateway/interpreter/language/number.hpp"
 #include "gateway/interpreter/rs274ngc/characters.hpp"
+#include "gateway/interpreter/rs274ngc/functions.hpp"
+#include "gateway/interpreter/rs274ngc/number_reader.hpp"
 #include "gateway/interpreter/rs274ngc/parameter_access.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -16,7 +17,6 @@ using language::Computed;
 using language::MathFault;
 using language::Operator;
 
-constexpr NumberRules kNumberRules{.skip_blanks = true};
 constexpr int kMaxDepth = 64;
 /// A value this near to a whole number is one (1.2).
 constexpr double kWholeWithin = 0.0001;
@@ -25,54 +25,6 @@ constexpr double kSameWithin = 1e-6;
 
 bool is_number_start(char c) {
   return is_digit(c) || c == '.' || c == '-' || c == '+';
-}
-
-/// More digits than the fast reader takes: nothing is wrong with them here.
-bool read_long_number(Run& run, const char*& at, double& value) {
-  std::string digits;
-  bool has_point = false;
-  for (;; ++at) {
-    if (is_blank(*at)) continue;
-    const bool is_sign = (*at == '-' || *at == '+') && digits.empty();
-    const bool is_point = *at == '.' && !has_point;
-    if (!is_digit(*at) && !is_sign && !is_point) break;
-    has_point |= is_point;
-    digits += *at;
-  }
-  const char* begin = digits.c_str() + (digits.front() == '+' ? 1 : 0);
-  const auto read = std::from_chars(begin, digits.c_str() + digits.size(), value);
-  if (read.ec == std::errc{}) return true;
-  return run.fail(ErrorCode::BadNumber, run.column(at), "a number this long");
-}
-
-/// One to four digits and nothing that goes on with them: most indexes, labels and constants.
-bool take_small_number(const char*& at, double& value) {
-  const char* s = at;
-  int number = 0;
-  for (int digits = 0; is_digit(*s); ++s) {
-    if (++digits > 4) return false;
-    number = number * 10 + (*s - '0');
-  }
-  if (s == at || *s == '.' || is_blank(*s)) return false;
-  at = s;
-  value = number;
-  return true;
-}
-
-bool read_number_at(Run& run, const char*& at, double& value) {
-  NumberText number;
-  const char* start = at;
-  const char* behind = read_number<kNumberRules>(at, run.line_end, number);
-  if (number.fault == NumberFault::None) [[likely]] {
-    value = number.value;
-    at = behind;
-    return true;
-  }
-  if (number.fault == NumberFault::TooManyDigits) return read_long_number(run, at, value);
-  if (number.fault == NumberFault::SecondPoint) {
-    return run.fail(ErrorCode::BadNumber, run.column(start), "a second point");
-  }
-  return run.fail(ErrorCode::NoDigits, run.column(start));
 }
 
 /// The walk over one expression and all that is inside it.
@@ -308,97 +260,6 @@ bool Terms::exists(double& value) {
   ++at_;
   value = is_defined(run_, run_.scratch) ? 1 : 0;
   return true;
-}
-
-enum class Function : std::uint8_t {
-  Abs,
-  Acos,
-  Asin,
-  Atan,
-  Cos,
-  Exp,
-  Exists,
-  Fix,
-  Fup,
-  Ln,
-  Round,
-  Sin,
-  Sqrt,
-  Tan,
-  None,
-};
-struct FunctionName {
-  const char* word;
-  Function function;
-};
-constexpr std::array kFunctions{
-    FunctionName{"ABS", Function::Abs},       FunctionName{"ACOS", Function::Acos},
-    FunctionName{"ASIN", Function::Asin},     FunctionName{"ATAN", Function::Atan},
-    FunctionName{"COS", Function::Cos},       FunctionName{"EXP", Function::Exp},
-    FunctionName{"EXISTS", Function::Exists}, FunctionName{"FIX", Function::Fix},
-    FunctionName{"FUP", Function::Fup},       FunctionName{"LN", Function::Ln},
-    FunctionName{"ROUND", Function::Round},   FunctionName{"SIN", Function::Sin},
-    FunctionName{"SQRT", Function::Sqrt},     FunctionName{"TAN", Function::Tan}};
-
-Function take_function(const char*& at) {
-  const char first = upper(*at);
-  for (const FunctionName& each : kFunctions) {
-    if (each.word[0] == first && take_word(at, each.word)) return each.function;
-  }
-  return Function::None;
-}
-
-double radians(double degrees) {
-  return degrees * (Angle::kPi / 180);
-}
-double degrees(double radians) {
-  return radians * (180 / Angle::kPi);
-}
-
-/// What the function of one argument gives, or the error it has.
-bool compute(Run& run, Function function, std::uint32_t column, double& value) {
-  switch (function) {
-    case Function::Abs:
-      value = std::fabs(value);
-      return true;
-    case Function::Acos:
-      if (!(std::fabs(value) <= 1)) return run.fail(ErrorCode::AcosRange, column);
-      value = degrees(std::acos(value));
-      return true;
-    case Function::Asin:
-      if (!(std::fabs(value) <= 1)) return run.fail(ErrorCode::AsinRange, column);
-      value = degrees(std::asin(value));
-      return true;
-    case Function::Cos:
-      value = std::cos(radians(value));
-      return true;
-    case Function::Exp:
-      value = std::exp(value);
-      return std::isfinite(value) || run.fail(ErrorCode::NotFinite, column);
-    case Function::Fix:
-      value = std::floor(value);
-      return true;
-    case Function::Fup:
-      value = std::ceil(value);
-      return true;
-    case Function::Ln:
-      if (!(value > 0)) return run.fail(ErrorCode::LnZero, column);
-      value = std::log(value);
-      return true;
-    case Function::Round:
-      value = std::round(value);
-      return true;
-    case Function::Sin:
-      value = std::sin(radians(value));
-      return true;
-    case Function::Sqrt:
-      if (!(value >= 0)) return run.fail(ErrorCode::NegativeSqrt, column);
-      value = std::sqrt(value);
-      return true;
-    default:
-      value = std::tan(radians(value));
-      return true;
-  }
 }
 
 bool Terms::function(double& value) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "gateway/interpreter/rs274ngc/characters.hpp"
+#include "gateway/interpreter/rs274ngc/run.hpp"
+
+/// Numbers without parameters and expressions (3.1).
+namespace dripline::interpreter::rs274ngc {
+
+/// One to four digits and nothing that goes on with them: most indexes, labels and constants.
+inline bool take_small_number(const char*& at, double& value) {
+  const char* s = at;
+  int number = 0;
+  for (int digits = 0; is_digit(*s); ++s) {
+    if (++digits > 4) return false;
+    number = number * 10 + (*s - '0');
+  }
+  if (s == at || *s == '.' || is_blank(*s)) return false;
+  at = s;
+  value = number;
+  return true;
+}
+
+/// Any number at `at`, which then moves behind it.
+bool read_number_at(Run& run, const char*& at, double& value);
+
+}  // namespace dripline::interpreter::rs274ngc
