@@ -87,7 +87,16 @@ int Terms::rank(Operator op) const {
 
 Computed Terms::apply(Operator op, double left, double right) const {
   const auto claim = [](bool holds) { return Computed{holds ? 1.0 : 0.0, MathFault::None}; };
+  const auto finite = [](double value) {
+    return Computed{value, std::isfinite(value) ? MathFault::None : MathFault::Overflow};
+  };
   switch (op) {
+    case Operator::Add:
+      return finite(left + right);
+    case Operator::Subtract:
+      return finite(left - right);
+    case Operator::Multiply:
+      return finite(left * right);
     case Operator::Power: {
       if (left < 0 && right != std::floor(right)) return {0, MathFault::PowerBase};
       const double power = std::pow(left, right);

@@ -6,15 +6,17 @@
 /// Numbers without parameters and expressions (3.1).
 namespace dripline::interpreter::rs274ngc {
 
-/// One to four digits and nothing that goes on with them: most indexes, labels and constants.
+/// One to nine digits and nothing that goes on with them: most indexes, labels and constants.
 inline bool take_small_number(const char*& at, double& value) {
   const char* s = at;
   int number = 0;
-  for (int digits = 0; is_digit(*s); ++s) {
-    if (++digits > 4) return false;
+  for (; is_digit(*s); ++s) {
+    if (s - at == 9) return false;
     number = number * 10 + (*s - '0');
   }
-  if (s == at || *s == '.' || is_blank(*s)) return false;
+  if (s == at) return false;
+  if (is_blank(*s)) s = skip_blanks(s);
+  if (*s == '.' || is_digit(*s)) return false;
   at = s;
   value = number;
   return true;

@@ -1,7 +1,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
-#include <chrono>
+#include <sys/resource.h>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -15,7 +16,6 @@ namespace dripline::interpreter {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kPeer = "/usr/bin/rs274";
 
@@ -36,8 +36,19 @@ class MoveCounter final : public EventSink {
   }
 };
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+/// Processor time, so that what else the machine does is not in the ratios.
+double own_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+double children_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 struct Workload {
@@ -83,10 +94,10 @@ double seconds_of_ours(const std::string& text, std::uint64_t& blocks) {
   MemorySource source(text);
   MoveCounter counter;
   auto interpreter = (*find_dialect("rs274ngc"))->make(kSetup, source, counter);
-  const auto start = Clock::now();
+  const double start = own_seconds();
   while ((*interpreter)->step(65'536) == StepState::Ran) {
   }
-  const double seconds = seconds_since(start);
+  const double seconds = own_seconds() - start;
   if (!counter.alarm.empty()) fmt::print(stderr, "alarm: {}\n", counter.alarm);
   benchmark::DoNotOptimize(counter.travel);
   blocks = (*interpreter)->blocks();
@@ -99,22 +110,22 @@ double seconds_of_peer(const std::string& text) {
   const fs::path file = fs::temp_directory_path() / fmt::format("bench-{}.ngc", text.size());
   std::ofstream(file, std::ios::binary) << text;
   const std::string command = fmt::format("'{}' -g '{}' >/dev/null 2>&1", kPeer, file.string());
-  const auto start = Clock::now();
+  const double start = children_seconds();
   const int status = std::system(command.c_str());
-  const double seconds = seconds_since(start);
+  const double seconds = children_seconds() - start;
   fs::remove(file);
   if (status != 0) fmt::print(stderr, "the peer ends with {}\n", status);
   return seconds;
 }
 
 double seconds_of_scan(const Workload& workload) {
-  const auto start = Clock::now();
+  const double start = own_seconds();
   std::uint64_t lines = 0;
   for (std::uint64_t pass = 0; pass < workload.passes; ++pass) {
     for (const char c : workload.text) lines += c == '\n';
     benchmark::DoNotOptimize(lines);
   }
-  return seconds_since(start);
+  return own_seconds() - start;
 }
 
 void measure(benchmark::State& state, const Workload& workload) {
