@@ -10,21 +10,21 @@ void ToyDiscipline::receive(std::span<const std::byte> bytes, LineTime) {
     const char character = static_cast<char>(byte);
     if (character == kXoff || character == kXon) {
       is_stopped_ = character == kXoff;
-      events_.push_back(FlowChanged{is_stopped_});
+      events_.emplace_back(FlowChanged{is_stopped_});
     } else {
       text += character;
     }
   }
-  if (!text.empty()) events_.push_back(TextReceived{std::move(text)});
+  if (!text.empty()) events_.emplace_back(TextReceived{std::move(text)});
 }
 
 void ToyDiscipline::fault(LineFault fault, LineTime) {
-  events_.push_back(
+  events_.emplace_back(
       LineTrouble{Error{Errc::Corrupt, fmt::format("fault {}", static_cast<int>(fault))}});
 }
 
 void ToyDiscipline::lines(InputLines lines, LineTime) {
-  if (cts_ != lines.cts) events_.push_back(FlowChanged{!lines.cts});
+  if (cts_ != lines.cts) events_.emplace_back(FlowChanged{!lines.cts});
   cts_ = lines.cts;
 }
 
@@ -37,7 +37,7 @@ std::size_t ToyDiscipline::transmit(std::span<std::byte> room, LineTime) {
   }
   if (text_.empty() && has_last_) {
     phase_ = Phase::Idle;
-    events_.push_back(TransferEnded{false});
+    events_.emplace_back(TransferEnded{false});
   }
   return count;
 }
