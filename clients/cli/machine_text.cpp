@@ -31,7 +31,7 @@ std::string next_step(const client::Run& run, const client::MachineStatus& statu
 }
 
 void add_motion(Details& details, const client::MachineStatus& status) {
-  details.add("position", position_text(status) + " mm");
+  if (!status.position.empty()) details.add("position", position_text(status) + " mm");
   details.add("feed", fmt::format("{:.1f} mm/min", status.feed_mm_per_min));
   details.add("spindle", fmt::format("{:.0f} 1/min", status.spindle_rpm));
   details.add("overrides",

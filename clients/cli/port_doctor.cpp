@@ -61,9 +61,13 @@ std::string advice(const wire::LineDiagnosis& diagnosis) {
   return line + "\n";
 }
 
-Result<wire::LineObservation> examine(const DoctorCommand& command) {
+Result<wire::LineObservation> examine(const DoctorCommand& command, bool is_for_people) {
   auto channel = serial::open_channel(command.address, wire::LineSettings{}, kOpenLimit);
   if (!channel) return fail(channel.error());
+  if (is_for_people) {
+    fmt::print(stderr, "Let the control punch out a program now; listening for {} s.\n",
+               command.listen);
+  }
   const auto begun = std::chrono::steady_clock::now();
   LiveArea area = LiveArea::on_stderr();
   LineExamination parts{
@@ -81,11 +85,7 @@ Result<wire::LineObservation> examine(const DoctorCommand& command) {
 
 int run_doctor(Context& context, const DoctorCommand& command) {
   catch_interrupts();
-  if (!context.wants_json) {
-    fmt::print(stderr, "Let the control punch out a program now; listening for {} s.\n",
-               command.listen);
-  }
-  const auto seen = examine(command);
+  const auto seen = examine(command, !context.wants_json);
   if (!seen) return complain(seen.error());
   const auto diagnosis = wire::diagnose(*seen);
   if (context.wants_json) {

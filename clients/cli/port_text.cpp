@@ -8,6 +8,11 @@
 namespace dripline::cli {
 namespace {
 
+/// A line that is not there: tried for the first time, or in vain.
+std::string closed_text(const client::Port& port) {
+  return port.trouble.empty() ? "opening" : "closed";
+}
+
 std::string value_of(const client::Settings& settings, const std::string& key) {
   const auto found = settings.find(key);
   return found == settings.end() ? "?" : found->second;
@@ -36,7 +41,7 @@ std::string line_text(const client::Settings& effective) {
 
 std::string state_text(const client::Port& port) {
   if (!port.enabled) return "disabled";
-  if (!port.open) return "closed";
+  if (!port.open) return closed_text(port);
   std::string text = port.line.phase == "idle" ? "open" : port.line.phase;
   if (port.line.stopped) text += ", stopped by the control";
   if (port.line.stopping) text += ", holding the control";
@@ -48,7 +53,7 @@ std::string state_text(const client::Port& port) {
 
 std::string short_state(const client::Port& port) {
   if (!port.enabled) return "disabled";
-  if (!port.open) return "closed";
+  if (!port.open) return closed_text(port);
   std::string text = port.line.phase == "idle" ? "open" : port.line.phase;
   if (port.line.stopped) text += ", stopped";
   if (port.line.stopping) text += ", holding";
@@ -66,7 +71,7 @@ std::string wait_text(const client::Port& port, std::string_view now) {
 
 Style style_of_state(const client::Port& port) {
   if (!port.enabled) return Style::Faint;
-  if (!port.open) return Style::Bad;
+  if (!port.open) return port.trouble.empty() ? Style::Busy : Style::Bad;
   const bool is_held = port.line.stopped || !port.line.waiting_for.empty();
   return is_held ? Style::Busy : Style::Good;
 }

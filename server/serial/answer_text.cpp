@@ -50,8 +50,9 @@ std::vector<std::string> listing(std::span<const storage::ProgramSummary> progra
       ++more;
       continue;
     }
-    lines.push_back(fmt::format("{} {} {}", program.latest.program, program.latest.size,
-                                program.latest.comment.substr(0, 30)));
+    const auto& latest = program.latest;
+    lines.push_back(fmt::format("{} {}{}{}", latest.program, latest.size,
+                                latest.comment.empty() ? "" : " ", latest.comment.substr(0, 30)));
   }
   if (more > 0) lines.push_back(fmt::format("AND {} MORE", more));
   return lines;

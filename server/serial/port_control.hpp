@@ -70,7 +70,8 @@ class PortControl {
                                          const std::string& text) const = 0;
   /// What the flight recorder still has, oldest first. Errors: NotFound.
   virtual Result<std::vector<PortTraffic>> recording(const std::string& name) const = 0;
-  /// Called for everything on every line from now on, on the lines' threads; must return soon.
+  /// Called for everything on every line from now on: a few times a second on the machines'
+  /// strands, at last by who closes a line; never on a line's own thread, one call at a time.
   /// One listener; an empty function ends it.
   virtual void on_traffic(std::function<void(const PortTraffic&)> listener) = 0;
 };

@@ -4,6 +4,7 @@
 #include <future>
 
 #include "protocol/base/names.hpp"
+#include "protocol/serial/address.hpp"
 #include "server/serial/port_settings.hpp"
 #include "server/serial/port_test.hpp"
 #include "server/serial/reception.hpp"
@@ -103,6 +104,9 @@ Result<PortService::Entry> PortService::prepare(const storage::Port& port) const
   if (auto checked = check_machine_name(port.machine); !checked) return fail(checked.error());
   Entry entry;
   entry.port = port;
+  if (auto address = serial::parse_address(port.address); !address) {
+    return fail(address.error().code, "port '{}': {}", port.name, address.error().what);
+  }
   auto settings = effective_settings(port);
   if (!settings) return fail(settings.error());
   entry.settings = *std::move(settings);

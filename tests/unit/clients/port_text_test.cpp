@@ -29,6 +29,9 @@ TEST(PortText, SaysWhatTheLineDoes) {
   EXPECT_EQ(state_text(port), "sending, stopped by the control");
   EXPECT_EQ(style_of_state(port), Style::Busy);
   port.open = false;
+  EXPECT_EQ(state_text(port), "opening");
+  EXPECT_EQ(style_of_state(port), Style::Busy);
+  port.trouble = "there is no such device";
   EXPECT_EQ(state_text(port), "closed");
   EXPECT_EQ(style_of_state(port), Style::Bad);
   port.enabled = false;
@@ -54,6 +57,8 @@ TEST(PortText, SaysInAListingHowLongALineWaits) {
   port.waiting_since.clear();
   EXPECT_EQ(wait_text(port, "2026-11-21T07:52:40Z"), "DC1");
   port.open = false;
+  EXPECT_EQ(short_state(port), "opening");
+  port.trouble = "hung up";
   EXPECT_EQ(short_state(port), "closed");
 }
 

@@ -44,6 +44,7 @@ TEST_F(SerialTest, RefusesBadPortsAndChangesNothing) {
     const auto saved = ports_->save(port);
     return saved ? std::optional<Errc>{} : saved.error().code;
   };
+  EXPECT_EQ(code([](auto& port) { port.address = "pigeon://roof"; }), Errc::Syntax);
   EXPECT_EQ(code([](auto& port) { port.line_template = "abacus"; }), Errc::NotFound);
   EXPECT_EQ(code([](auto& port) { port.settings.emplace_back("colour", "red"); }), Errc::NotFound);
   EXPECT_EQ(code([](auto& port) { port.settings = {{"baud", "1"}}; }), Errc::LimitExceeded);

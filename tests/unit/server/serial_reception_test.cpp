@@ -140,7 +140,7 @@ TEST_F(SerialTest, ListsProgramsForTheControl) {
   push("O7", "G0\n");
   push("part.h", "0 BEGIN PGM 1 MM\n", "tnc155");
   line().write("%\nO9999\n(DIR)\nM30\n%\n");
-  EXPECT_EQ(line().read_until("M30\n%\n"), "%\nO9998\n(O7 3 )\nM30\n%\n");
+  EXPECT_EQ(line().read_until("M30\n%\n"), "%\nO9998\n(O7 3)\nM30\n%\n");
 }
 
 /// Commits, and then says that it did not know.
