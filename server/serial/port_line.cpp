@@ -271,6 +271,7 @@ void PortLine::on_sent(const SendEnd& end) {
 }
 
 void PortLine::on_incoming(Incoming incoming) {
+  refresh();  // who acts on what has ended must not find the line receiving
   // Destroyed lines keep nothing up: the text is kept all the same.
   parts_.strand.post([weak = weak_from_this(), on_incoming = parts_.listener.on_incoming,
                       incoming = std::move(incoming)] {

@@ -1,6 +1,8 @@
 #include "tests/integration/system.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 #include <cstring>
 #include <fstream>
@@ -24,9 +26,33 @@ std::string read_file(const std::filesystem::path& path) {
   return text.str();
 }
 
+bool is_port_free(int port) {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  const bool is_free =
+      ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  ::close(socket);
+  return is_free;
+}
+
+constexpr int kDomains = 90;  // above, their ports would meet ephemeral ones
+
 /// Domains share a port range of the machine, so tests that run side by side take different ones.
-int free_domain() {
-  return 1 + static_cast<int>(::getpid() % 90);  // above, their ports would meet ephemeral ones
+int take_domain(std::optional<FileLock>& lock) {
+  constexpr int kFirstPort = 7410, kPortsOfADomain = 250;
+  for (int i = 0; i < kDomains; ++i) {
+    const int domain = 1 + static_cast<int>((::getpid() + i) % kDomains);
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("dripline-test-domain-" + std::to_string(domain) + ".lock");
+    auto taken = FileLock::acquire(file, "DDS domain " + std::to_string(domain));
+    if (!taken || !is_port_free(kFirstPort + kPortsOfADomain * domain)) continue;
+    lock = std::move(*taken);
+    return domain;
+  }
+  ADD_FAILURE() << "no DDS domain is free";
+  return kDomains;
 }
 
 bool has_ended(const nlohmann::json& run) {
@@ -41,9 +67,9 @@ std::string program_path(const std::string& name) {
 }
 
 System::System(Options options)
-    : options_(std::move(options)),
-      domain_(free_domain()),
-      tag_("test-" + std::to_string(::getpid())) {}
+    : options_(std::move(options)), tag_("test-" + std::to_string(::getpid())) {
+  domain_ = take_domain(domain_lock_);
+}
 
 void System::append_network(std::vector<std::string>& command) const {
   for (const std::string& argument :

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/base/file_lock.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/rest_client.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -64,7 +65,8 @@ class System {
 
   test_support::TemporaryFolder folder_;
   Options options_;
-  int domain_;
+  int domain_ = 0;
+  std::optional<FileLock> domain_lock_;  ///< nobody else takes the domain while servers restart
   std::string tag_;
   std::optional<test_support::ChildProcess> server_, gateway_;
 };
