@@ -52,7 +52,7 @@ TEST(LineDriver, SendsWhatIsOfferedInOrder) {
   send(*line, text);
   EXPECT_EQ(pty.read(text.size()), text);
   EXPECT_TRUE(log.wait([&] { return log.ended == 1; }));
-  EXPECT_EQ(line->state().phase, wire::Phase::Idle);
+  EXPECT_TRUE(eventually([&] { return line->state().phase == wire::Phase::Idle; }, 2s));
 }
 
 TEST(LineDriver, DeliversWhatComes) {
