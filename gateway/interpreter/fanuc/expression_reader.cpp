@@ -251,10 +251,9 @@ class Terms {
   /// ATAN[y]/[x], or ATAN[y] alone.
   bool arc_tangent(double y, double& value) {
     skip_gaps();
-    const char* behind = skip_blanks(at_ + 1);
-    if (*at_ != '/' || *behind != '[') {
-      return finish(degrees_of(std::atan(y), true), value);
-    }
+    // Behind the end of the block there is nothing to look at.
+    const char* behind = *at_ == '/' ? skip_blanks(at_ + 1) : at_;
+    if (*behind != '[') return finish(degrees_of(std::atan(y), true), value);
     at_ = behind;
     double x = 0;
     if (!bracketed(x)) return false;
