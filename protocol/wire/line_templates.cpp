@@ -101,15 +101,15 @@ const auto& templates() {
                    centurion()},
       LineTemplate{"centurion-tape", "Milltronics Centurion, secondary port as its tape reader",
                    "centurion", centurion_tape()},
-      LineTemplate{"prototrak", "ProtoTRAK Plus, 4800 7E1, paced", "prototrak", prototrak()},
+      LineTemplate{"prototrak", "ProtoTRAK Plus, 4800 7E1, paced", "prototrak-plus", prototrak()},
       LineTemplate{"tnc155", "HEIDENHAIN TNC 151/155, 2400 7E1, standard interface", "tnc155",
                    tnc155(Flow::Heidenhain)},
       LineTemplate{"tnc155-bcc", "HEIDENHAIN TNC 151/155, 2400 7E1, blockwise with BCC", "tnc155",
                    tnc155(Flow::HeidenhainBcc)},
       LineTemplate{"tektronix1704", "Tektronix 1704 as its tape reader, EIA, 300 characters/s",
-                   "tektronix1704", tektronix1704(CharacterCode::Eia)},
+                   "tektronix-1704", tektronix1704(CharacterCode::Eia)},
       LineTemplate{"tektronix1704-iso", "Tektronix 1704 as its tape reader, ISO, 300 characters/s",
-                   "tektronix1704", tektronix1704(CharacterCode::Iso)},
+                   "tektronix-1704", tektronix1704(CharacterCode::Iso)},
   };
   return rows;
 }

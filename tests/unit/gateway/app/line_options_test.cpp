@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "gateway/app/options.hpp"
+#include "gateway/interpreter/registry.hpp"
+#include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -11,6 +13,15 @@ GatewayOptions base() {
   options.control = "centurion";
   options.state = "/tmp/state";
   return options;
+}
+
+/// A port's machine speaks what its template names: a program for that control must be taken.
+TEST(LineTemplates, NameControlsByTheNamesTheyAreRegisteredUnder) {
+  for (const wire::LineTemplate& usual : wire::line_templates()) {
+    const bool is_known = interpreter::find_dialect(usual.control).has_value();
+    const bool is_to_come = usual.control == "tnc155";
+    EXPECT_TRUE(usual.control.empty() || is_known || is_to_come) << usual.name;
+  }
 }
 
 TEST(LineOptions, TakeTheControlsOwnTemplateAndChangeIt) {
