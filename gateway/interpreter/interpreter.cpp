@@ -17,6 +17,17 @@ void add_number(Sha256& hash, Number number) {
 
 }  // namespace
 
+bool fits(const Question& question, const Answer& answer) {
+  if (std::holds_alternative<ProbeQuestion>(question)) {
+    return std::holds_alternative<ProbeResult>(answer);
+  }
+  if (std::holds_alternative<PromptQuestion>(question)) {
+    return std::holds_alternative<PromptAnswer>(answer);
+  }
+  if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
+  return std::holds_alternative<LocalTime>(answer);
+}
+
 Digest Snapshot::digest() const {
   Sha256 hash;
   // The length keeps the name apart from what follows it.

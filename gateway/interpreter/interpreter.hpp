@@ -35,6 +35,8 @@ struct LocalTime {
   int year = 0, month = 1, day = 1, hour = 0, minute = 0, second = 0;
 };
 using Answer = std::variant<ProbeResult, PromptAnswer, bool, LocalTime>;
+/// Whether `answer` is of the kind that `question` asks for.
+bool fits(const Question& question, const Answer& answer);
 
 enum class StepState {
   Ran,          ///< the budget is used up; more blocks follow

@@ -9,21 +9,6 @@
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::centurion {
-namespace {
-
-bool fits(const Question& question, const Answer& answer) {
-  if (std::holds_alternative<ProbeQuestion>(question)) {
-    return std::holds_alternative<ProbeResult>(answer);
-  }
-  if (std::holds_alternative<PromptQuestion>(question)) {
-    return std::holds_alternative<PromptAnswer>(answer);
-  }
-  if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
-  return std::holds_alternative<LocalTime>(answer);
-}
-
-}  // namespace
-
 CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState state,
                                            Parameters parameters, ProgramSource& source,
                                            EventSink& sink)

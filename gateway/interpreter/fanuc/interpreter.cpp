@@ -10,18 +10,6 @@
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::fanuc {
-namespace {
-
-bool fits(const Question& question, const Answer& answer) {
-  if (std::holds_alternative<ProbeQuestion>(question)) {
-    return std::holds_alternative<ProbeResult>(answer);
-  }
-  if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
-  return std::holds_alternative<LocalTime>(answer);
-}
-
-}  // namespace
-
 FanucInterpreter::FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
                                    ProgramSource& source, EventSink& sink)
     : run_(std::move(options), source, sink), search_(run_) {

@@ -17,13 +17,6 @@ namespace {
 /// Lines passed over in one step at most.
 constexpr std::uint64_t kMostPassedOver = 65'536;
 
-bool fits(const Question& question, const Answer& answer) {
-  if (std::holds_alternative<ProbeQuestion>(question)) {
-    return std::holds_alternative<ProbeResult>(answer);
-  }
-  return std::holds_alternative<bool>(answer);
-}
-
 bool is_blank_line(const char* at) {
   return is_end_of_line(*skip_blanks(at));
 }
