@@ -136,11 +136,24 @@ struct Coolant {
   bool flood = false;
   bool mist = false;
 };
+/// What a control knows of a tool, where its programs or its memory say it.
+struct ToolShape {
+  Length length;  ///< as the control compensates it
+  Length radius;
+  friend bool operator==(const ToolShape&, const ToolShape&) = default;
+};
 struct ToolChange {
   Origin origin;
   int number = 0;
   bool is_preselection = false;
   std::optional<int> offset;
+  std::optional<ToolShape> shape = {};  ///< for graphics; not part of a trace
+};
+/// The block of material that a program says it cuts, its sides along the axes.
+struct Blank {
+  Origin origin;
+  Axis spindle_axis = Axis::Z;
+  Position min, max;  ///< X, Y and Z of two corners
 };
 struct Miscellaneous {
   Origin origin;
@@ -225,6 +238,7 @@ class EventSink {
   virtual void on_spindle(const Spindle&) {}
   virtual void on_coolant(const Coolant&) {}
   virtual void on_tool(const ToolChange&) {}
+  virtual void on_blank(const Blank&) {}
   virtual void on_miscellaneous(const Miscellaneous&) {}
   virtual void on_pin(const PinChange&) {}
   virtual void on_probe(const Probe&) {}

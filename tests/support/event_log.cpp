@@ -68,7 +68,13 @@ void EventLog::on_coolant(const Coolant& event) {
 }
 void EventLog::on_tool(const ToolChange& event) {
   add("tool", event.origin,
-      fmt::format(" {} {}", event.number, event.is_preselection) + or_none(event.offset));
+      fmt::format(" {} {}", event.number, event.is_preselection) + or_none(event.offset) +
+          (event.shape ? fmt::format(" L{} R{}", event.shape->length.mm(), event.shape->radius.mm())
+                       : ""));
+}
+void EventLog::on_blank(const Blank& event) {
+  add("blank", event.origin,
+      fmt::format(" {}", letter(event.spindle_axis)) + text_of(event.min) + text_of(event.max));
 }
 void EventLog::on_miscellaneous(const Miscellaneous& event) {
   add("misc", event.origin, fmt::format(" {}", event.code));

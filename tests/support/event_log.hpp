@@ -23,6 +23,7 @@ class EventLog final : public EventSink {
   void on_spindle(const Spindle& event) override;
   void on_coolant(const Coolant& event) override;
   void on_tool(const ToolChange& event) override;
+  void on_blank(const Blank& event) override;
   void on_miscellaneous(const Miscellaneous& event) override;
   void on_pin(const PinChange& event) override;
   void on_probe(const Probe& event) override;

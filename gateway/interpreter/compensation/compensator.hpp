@@ -97,6 +97,7 @@ class Compensator final : public EventSink {
   void on_alarm(const Alarm& event) override;
   void on_end(const End& event) override;
   /// About the text, not the motion: delivered at once.
+  void on_blank(const Blank& event) override;
   void on_warning(const Warning& event) override;
 
  private:

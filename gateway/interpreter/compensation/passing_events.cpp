@@ -173,6 +173,10 @@ void Compensator::on_end(const End& event) {
   if (!fault_) sink_.on_end(event);
 }
 
+void Compensator::on_blank(const Blank& event) {
+  if (!fault_) sink_.on_blank(event);
+}
+
 void Compensator::on_warning(const Warning& event) {
   if (!fault_) sink_.on_warning(event);
 }

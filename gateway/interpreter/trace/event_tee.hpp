@@ -19,6 +19,7 @@ class EventTee final : public EventSink {
   void on_spindle(const Spindle& event) override { both(&EventSink::on_spindle, event); }
   void on_coolant(const Coolant& event) override { both(&EventSink::on_coolant, event); }
   void on_tool(const ToolChange& event) override { both(&EventSink::on_tool, event); }
+  void on_blank(const Blank& event) override { both(&EventSink::on_blank, event); }
   void on_miscellaneous(const Miscellaneous& event) override {
     both(&EventSink::on_miscellaneous, event);
   }

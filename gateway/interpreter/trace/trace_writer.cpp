@@ -231,6 +231,26 @@ void TraceWriter::on_tool(const ToolChange& tool) {
   end();
 }
 
+void TraceWriter::corner(std::string_view name, const Position& corner) {
+  member(name);
+  char separator = '{';
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    buffer_ += separator;
+    separator = ',';
+    coordinate(axis, corner.raw(axis));
+  }
+  buffer_ += '}';
+}
+
+void TraceWriter::on_blank(const Blank& blank) {
+  begin("blank", blank.origin);
+  const char axis = letter(blank.spindle_axis);
+  member("axis", std::string_view(&axis, 1));
+  corner("min", blank.min);
+  corner("max", blank.max);
+  end();
+}
+
 void TraceWriter::on_miscellaneous(const Miscellaneous& function) {
   begin("misc", function.origin);
   member("code", function.code);

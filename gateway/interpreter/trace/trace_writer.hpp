@@ -37,6 +37,7 @@ class TraceWriter final : public EventSink {
   void on_spindle(const Spindle&) override;
   void on_coolant(const Coolant&) override;
   void on_tool(const ToolChange&) override;
+  void on_blank(const Blank&) override;
   void on_miscellaneous(const Miscellaneous&) override;
   void on_pin(const PinChange&) override;
   void on_probe(const Probe&) override;
@@ -59,6 +60,7 @@ class TraceWriter final : public EventSink {
   void member(std::string_view name, bool value);
   void member(std::string_view name, std::string_view value);
   void position(std::string_view name, const Position& position);
+  void corner(std::string_view name, const Position& corner);
   void coordinate(Axis axis, double raw);
   void feed(const Feed& feed);
   void arc_center(const Arc& arc);

@@ -76,6 +76,11 @@ template <class Archive>
 void visit(Archive& archive, OutsideCorner& corner) {
   up_to(archive, corner, OutsideCorner::IntersectCurves);
 }
+template <class Archive>
+void visit(Archive& archive, ToolShape& shape) {
+  visit(archive, shape.length);
+  visit(archive, shape.radius);
+}
 template <class Archive, class Value>
 void visit_optional(Archive& archive, std::optional<Value>& optional) {
   bool has = optional.has_value();
@@ -157,6 +162,7 @@ void visit(Archive& archive, ToolChange& event) {
   int offset = event.offset.value_or(0);
   visit_all(archive, event.number, event.is_preselection, has_offset, offset);
   event.offset = has_offset ? std::optional(offset) : std::nullopt;
+  visit_optional(archive, event.shape);
 }
 template <class Archive>
 void visit(Archive& archive, Miscellaneous& event) {

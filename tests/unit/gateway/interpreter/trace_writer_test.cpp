@@ -163,6 +163,11 @@ TEST_F(TraceWriterTest, OtherEventsHaveTheirMembers) {
   expect(R"("tool","line":1,"block":null,"number":5,"offset":7)");
   writer.on_tool({at(1), 6, true, std::nullopt});
   expect(R"("tool","line":1,"block":null,"next":6)");
+  writer.on_tool({at(1), 6, false, std::nullopt, ToolShape{Length::mm(1), Length::mm(2)}});
+  expect(R"("tool","line":1,"block":null,"number":6)");
+  writer.on_blank({at(1), Axis::Y, to(0, -2), to(3, 0)});
+  expect(R"("blank","line":1,"block":null,"axis":"Y","min":{"X":0,"Y":0,"Z":-2},)"
+         R"("max":{"X":3,"Y":0,"Z":0})");
   writer.on_miscellaneous({at(1), 62});
   expect(R"("misc","line":1,"block":null,"code":62)");
   writer.on_pin({at(1), Axis::Z, 3, true, 250.0});
