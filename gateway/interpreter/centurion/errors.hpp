@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 /// What this control calls an error, with its own numbers (spec 25), and below 1100 what it never
@@ -63,7 +64,9 @@ enum class ErrorCode : std::uint16_t {
   BadCharacter = 1003,
   TextFailed = 1004,  ///< the source can not give the program's text
   StatusParameter = 1005,
-  ForcedError = 1006,  ///< G997 with a number that has no text
+  ForcedError = 1006,   ///< G997 with a number that has no text
+  CycleTooLong = 1007,  ///< more moves than one block may cause
+  NotInDnc = 1008,      ///< with the option `dnc_refusals`
 };
 
 struct ErrorRow {
@@ -76,5 +79,7 @@ struct ErrorRow {
 const ErrorRow& error_row(ErrorCode code);
 /// For G997, which forces any number: its row, or that of ForcedError.
 const ErrorRow& error_row_of_number(int number);
+/// All of them, by number. A code here that has no row ends the process when it is used.
+std::span<const ErrorRow> error_rows();
 
 }  // namespace dripline::interpreter::centurion

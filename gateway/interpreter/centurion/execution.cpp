@@ -8,6 +8,17 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
+/// What the axis words of the block are for (step 5 of spec 12.3).
+bool act(Run& run) {
+  switch (run.action()) {
+    case GAction::FloatingZero:
+    case GAction::LocalZero:
+      return true;  // apply_one_shots did it
+    default:
+      return move(run);
+  }
+}
+
 /// Up to and including the move.
 bool execute_move(Run& run) {
   if (const Answer* answer = run.next_answer()) {
@@ -18,7 +29,7 @@ bool execute_move(Run& run) {
   if (!check_words(run) || !apply_modes(run)) return false;
   if (!apply_machine_functions(run, MTiming::BeforeMove)) return false;
   if (!apply_one_shots(run)) return false;
-  return sets_coordinates(run) || move(run);
+  return act(run);
 }
 
 }  // namespace

@@ -13,11 +13,6 @@ namespace {
 
 constexpr AddressSet kWordsOfAnyBlock = set_of(Address::F, Address::S);
 
-GAction action_of(const Run& run) {
-  const std::uint8_t row = run.block.parts.action;
-  return row == kNoRow ? GAction::None : g_row(row).action;
-}
-
 /// Everything the control keeps as a length of the machine follows the units; the program's own
 /// parameters do not (spec 7.5).
 void change_units(Run& run, Units units) {
@@ -170,7 +165,7 @@ bool apply_speed(Run& run) {
                     fmt::format("S{} is not in 1 to 9999", speed));
   }
   SpindleModes& spindle = run.state.spindle;
-  if (action_of(run) == GAction::FloatingZero) {
+  if (run.action() == GAction::FloatingZero) {
     spindle.limit = speed;
   } else if (run.state.modes.is_surface_speed) {
     spindle.surface = speed;
@@ -210,11 +205,6 @@ bool is_data_block(const Run& run) {
 }
 
 }  // namespace
-
-bool sets_coordinates(const Run& run) {
-  const GAction action = action_of(run);
-  return action == GAction::FloatingZero || action == GAction::LocalZero;
-}
 
 bool check_words(Run& run) {
   const Block& block = run.block;
@@ -267,8 +257,8 @@ bool apply_one_shots(Run& run) {
     run.state.floating_zero = {};
     run.update_origin();
   }
-  if (action_of(run) == GAction::FloatingZero) set_floating_zero(run);
-  if (action_of(run) == GAction::LocalZero) set_local_zero(run);
+  if (run.action() == GAction::FloatingZero) set_floating_zero(run);
+  if (run.action() == GAction::LocalZero) set_local_zero(run);
   return true;
 }
 

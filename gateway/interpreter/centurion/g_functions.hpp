@@ -9,8 +9,6 @@ namespace dripline::interpreter::centurion {
 bool apply_modes(Run& run);
 /// Dwell and coordinate settings; leaves moves to motion.hpp.
 bool apply_one_shots(Run& run);
-/// Whether the axis words of the block are a setting, not a way.
-bool sets_coordinates(const Run& run);
 
 /// Words that nothing in the block takes are error 501.
 bool check_words(Run& run);

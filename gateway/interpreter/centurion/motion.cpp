@@ -43,13 +43,6 @@ bool refuse_two_of_one_axis(Run& run, Address incremental) {
                   fmt::format("{} and its axis in one block", to_string(incremental)));
 }
 
-void line_to(Run& run, const Target& target) {
-  if (target.to == run.state.position) return;
-  const Position to = event_position(run, target.to, target.named);
-  run.events().on_line({run.origin, to, run.active_feed()});
-  arrive(run, target.to);
-}
-
 bool start_probe(Run& run, const Target& target) {
   if (run.state.modes.motion == MotionMode::Rapid) {
     return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
@@ -70,7 +63,7 @@ bool start_probe(Run& run, const Target& target) {
 bool read_target(Run& run, Target& target) {
   const Words& words = run.block.words;
   const ModalState& state = run.state;
-  const bool is_machine = run.block.parts.action != kNoRow;
+  const bool is_machine = run.action() == GAction::MachineCoordinates;
   const Point zero = is_machine ? Point{} : state.origin;
   const bool is_incremental = state.modes.is_incremental && !is_machine;
   target.to = state.position;
@@ -124,7 +117,7 @@ bool move(Run& run) {
     return true;
   }
   if (!check_feed(run)) return false;
-  line_to(run, target);
+  feed_to(run, target.to, target.named, run.active_feed());
   return true;
 }
 
@@ -143,6 +136,13 @@ void rapid_to(Run& run, const Point& to, AxesNamed named) {
   if (to == run.state.position) return;
   const Position at = event_position(run, to, named);
   run.events().on_rapid({run.origin, at});
+  arrive(run, to);
+}
+
+void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
+  if (to == run.state.position) return;
+  const Position at = event_position(run, to, named);
+  run.events().on_line({run.origin, at, feed});
   arrive(run, to);
 }
 

@@ -25,6 +25,8 @@ bool read_target(Run& run, Target& target);
 
 /// G0 to `to`; nothing when already there.
 void rapid_to(Run& run, const Point& to, AxesNamed named);
+/// A straight feed to `to`; nothing when already there.
+void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
 
 /// G2, G3; in arc_words.cpp.
 bool move_on_arc(Run& run);

@@ -60,6 +60,11 @@ struct Run {
 
   /// After a change of anything the active coordinates are made of.
   void update_origin();
+  /// What the axis words of the block are for; None: a move.
+  GAction action() const {
+    const std::uint8_t row = block.parts.action;
+    return row == kNoRow ? GAction::None : g_row(row).action;
+  }
   Length length(double program_units) const {
     return Length::mm(program_units * state.mm_per_unit());
   }
