@@ -200,6 +200,7 @@ constexpr std::array kTexts{
     ErrorText{1006, "error forced by the program"},
     ErrorText{1007, "the cycle needs too many moves"},
     ErrorText{1008, "not allowed in DNC on this control"},
+    ErrorText{1009, "the spindle must turn before the cycle"},
 };
 
 constexpr std::size_t kIdLength = 7;  // CEN0549

@@ -67,6 +67,7 @@ enum class ErrorCode : std::uint16_t {
   ForcedError = 1006,   ///< G997 with a number that has no text
   CycleTooLong = 1007,  ///< more moves than one block may cause
   NotInDnc = 1008,      ///< with the option `dnc_refusals`
+  SpindleNeeded = 1009,
 };
 
 struct ErrorRow {

@@ -1,7 +1,9 @@
 #include "gateway/interpreter/centurion/execution.hpp"
 
+#include "gateway/interpreter/centurion/drilling_cycles.hpp"
 #include "gateway/interpreter/centurion/flow.hpp"
 #include "gateway/interpreter/centurion/g_functions.hpp"
+#include "gateway/interpreter/centurion/groove_cycles.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
 
@@ -14,6 +16,11 @@ bool act(Run& run) {
     case GAction::FloatingZero:
     case GAction::LocalZero:
       return true;  // apply_one_shots did it
+    case GAction::DrillingCycle:
+      return run_drilling_cycle(run);
+    case GAction::FaceGroove:
+    case GAction::DiameterGroove:
+      return run_groove_cycle(run);
     default:
       return move(run);
   }

@@ -8,6 +8,8 @@ using Group = ModalGroup;
 using Act = GAction;
 
 constexpr AddressSet kNone = 0;
+constexpr AddressSet kHoleWords = set_of(R, Z);
+constexpr AddressSet kGrooveWords = set_of(R, Z, X, V, Q, E, U, D, A, C);
 
 constexpr std::array kRows{
     GRow{0, Group::Motion, Act::Motion, kLineWords, "positioning"},
@@ -59,17 +61,17 @@ constexpr std::array kRows{
     GRow{71, Group::OneShot, Act::Later, kNone, "rough turning"},
     GRow{72, Group::OneShot, Act::Later, kNone, "rough facing"},
     GRow{73, Group::OneShot, Act::Later, kNone, "pattern repeat"},
-    GRow{74, Group::OneShot, Act::Later, kNone, "face grooving"},
-    GRow{75, Group::OneShot, Act::Later, kNone, "diameter grooving"},
+    GRow{74, Group::OneShot, Act::FaceGroove, kGrooveWords | set_of(I), "face grooving"},
+    GRow{75, Group::OneShot, Act::DiameterGroove, kGrooveWords | set_of(K), "diameter grooving"},
     GRow{76, Group::OneShot, Act::Later, kNone, "multiple thread cycle"},
     GRow{80, Group::Cycle, Act::None, kNone, "cancel canned cycle"},
-    GRow{81, Group::OneShot, Act::Later, kNone, "drill"},
-    GRow{82, Group::OneShot, Act::Later, kNone, "drill with dwell"},
-    GRow{83, Group::OneShot, Act::Later, kNone, "peck drill"},
-    GRow{84, Group::OneShot, Act::Later, kNone, "tap"},
-    GRow{85, Group::OneShot, Act::Later, kNone, "bore"},
-    GRow{86, Group::OneShot, Act::Later, kNone, "bore with spindle stop"},
-    GRow{89, Group::OneShot, Act::Later, kNone, "bore with dwell"},
+    GRow{81, Group::OneShot, Act::DrillingCycle, kHoleWords, "drill"},
+    GRow{82, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "drill with dwell"},
+    GRow{83, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(V, Q, E), "peck drill"},
+    GRow{84, Group::OneShot, Act::DrillingCycle, kHoleWords, "tap"},
+    GRow{85, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore"},
+    GRow{86, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore with spindle stop"},
+    GRow{89, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "bore with dwell"},
     GRow{90, Group::OneShot, Act::Later, kNone, "turning cycle"},
     GRow{91, Group::Distance, Act::Incremental, kNone, "incremental"},
     GRow{92, Group::OneShot, Act::Later, kNone, "thread cycle"},

@@ -168,6 +168,22 @@ Result<void> load_power_on(const Options& options, ModalState& state, Parameters
   return {};
 }
 
+Result<void> read_cycles(const Options& options, ControlOptions& control) {
+  const auto check = options.choice("cycle_spindle", {"ignore", "warn", "alarm"}, 1);
+  if (!check) return fail(check.error());
+  control.spindle_check = static_cast<SpindleCheck>(*check);
+  const auto relief = options.choice("groove_relief", {"back", "on"}, 0);
+  if (!relief) return fail(relief.error());
+  control.groove_relief_goes_on = *relief == 1;
+  const auto ramp = options.number("tap_ramp", 0);
+  if (!ramp) return fail(ramp.error());
+  if (!(*ramp >= 0 && *ramp <= 60)) {
+    return fail(Errc::LimitExceeded, "[control] tap_ramp: {} is not 0 to 60 seconds", *ramp);
+  }
+  control.tap_ramp_seconds = *ramp;
+  return {};
+}
+
 }  // namespace
 
 Result<ControlOptions> read_options(const Setup& setup) {
@@ -175,7 +191,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   auto known = options.check_known({"stored_x", "reference", "tool_change", "power_on_feed",
                                     "power_on_feed_mode", "special_flags", "leading", "trailing",
                                     "report_file", "custom_g", "custom_m", "resolve_dnc",
-                                    "dnc_refusals", "pins", "disable_417", "pulse_ms"});
+                                    "dnc_refusals", "pins", "disable_417", "pulse_ms",
+                                    "cycle_spindle", "tap_ramp", "groove_relief"});
   if (!known) return fail(known.error());
   if (auto unused = refuse_unused(options); !unused) return fail(unused.error());
   if (!setup.switches.mirror.empty()) {
@@ -184,9 +201,10 @@ Result<ControlOptions> read_options(const Setup& setup) {
   ControlOptions control;
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;
-  for (auto done : {read_digits(options, "leading", control.leading_digits),
-                    read_digits(options, "trailing", control.trailing_digits),
-                    read_dnc(options, control), read_tool_change(options, control)}) {
+  for (auto done :
+       {read_digits(options, "leading", control.leading_digits),
+        read_digits(options, "trailing", control.trailing_digits), read_dnc(options, control),
+        read_tool_change(options, control), read_cycles(options, control)}) {
     if (!done) return fail(done.error());
   }
   const auto report = options.text("report_file", "REPORT.DAT");

@@ -10,6 +10,9 @@
 
 namespace dripline::interpreter::centurion {
 
+/// A drilling or grooving cycle while the spindle stands still.
+enum class SpindleCheck : std::uint8_t { Ignore, Warn, Alarm };
+
 /// What a machine's builder and operator have set: the `[control]` options of spec 1.1 that touch
 /// what this version does, and the panel's switches.
 struct ControlOptions {
@@ -19,6 +22,10 @@ struct ControlOptions {
   bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
   double tool_change_x_mm = 0;           ///< machine position of M6, radius
   double pulse_ms = 150;
+  SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`
+  double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill
+  /// `groove_relief`: G74 and G75 back off in the direction of their steps, not against it.
+  bool groove_relief_goes_on = false;
   std::array<int, 2> trailing_digits{4, 3};  ///< of #n without format: inch, metric
   std::array<int, 2> leading_digits{0, 0};
   std::string report_file;
