@@ -101,6 +101,8 @@ class Compensator final : public EventSink {
   void on_warning(const Warning& event) override;
 
  private:
+  using HeldEvent = look_ahead::HeldEvents<>::Event;
+
   template <class Move>
   void take_straight(const Move& move, Feed feed);
   template <class Move>
@@ -115,11 +117,11 @@ class Compensator final : public EventSink {
 
   template <class Event>
   void hold_or_pass(const Event& event);
-  void hold_or_pass(impl::HeldText text, std::string_view content);
+  void hold_or_pass(look_ahead::HeldText text, std::string_view content);
   template <class Event>
   void hold(const Event& event, const Origin& origin);
   void release_held();
-  void deliver(const impl::HeldEvent& event);
+  void deliver(const HeldEvent& event);
   template <class Move>
   void deliver_aside(Move move);
 

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/compensation/impl/held_events.hpp"
+#include "gateway/interpreter/look_ahead/held_events.hpp"
 
 namespace dripline::interpreter::compensation {
 
@@ -31,7 +31,7 @@ std::string describe(const Fault& fault) {
       return "arc in another plane than the compensated one";
     case FaultKind::TooMuchBetween:
       return fmt::format("more than {} events or {} characters between two compensated moves",
-                         impl::kMaxHeldEvents, impl::kMaxHeldText);
+                         look_ahead::kMaxHeldEvents, look_ahead::kMaxHeldText);
   }
   return {};
 }

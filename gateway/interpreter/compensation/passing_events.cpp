@@ -6,42 +6,10 @@
 namespace dripline::interpreter::compensation {
 
 using namespace impl;
-
-namespace {
-
-struct Giver {
-  EventSink& sink;
-  const HeldEvents& held;
-
-  void operator()(const BlockEnd& event) const { sink.on_block_end(event.origin); }
-  void operator()(const Rapid& event) const { sink.on_rapid(event); }
-  void operator()(const Line& event) const { sink.on_line(event); }
-  void operator()(const Dwell& event) const { sink.on_dwell(event); }
-  void operator()(const Spindle& event) const { sink.on_spindle(event); }
-  void operator()(const Coolant& event) const { sink.on_coolant(event); }
-  void operator()(const ToolChange& event) const { sink.on_tool(event); }
-  void operator()(const Miscellaneous& event) const { sink.on_miscellaneous(event); }
-  void operator()(const PinChange& event) const { sink.on_pin(event); }
-  void operator()(const Stop& event) const { sink.on_stop(event); }
-  void operator()(const UnitsChange& event) const { sink.on_units(event); }
-  void operator()(const Close& event) const { sink.on_close(event); }
-  void operator()(const HeldText& event) const { give(event, held.text(event)); }
-
-  void give(const HeldText& event, std::string_view text) const {
-    switch (event.kind) {
-      case HeldText::Kind::Output:
-        return sink.on_output({event.origin, event.device, text});
-      case HeldText::Kind::Open:
-        return sink.on_open({event.origin, event.device, {}});
-      case HeldText::Kind::OpenNamed:
-        return sink.on_open({event.origin, event.device, text});
-      case HeldText::Kind::Message:
-        return sink.on_message({event.origin, text});
-    }
-  }
-};
-
-}  // namespace
+using look_ahead::BlockEnd;
+using look_ahead::Giver;
+using look_ahead::held;
+using look_ahead::HeldText;
 
 template <class Event>
 void Compensator::hold(const Event& event, const Origin& origin) {
@@ -58,13 +26,13 @@ void Compensator::hold_or_pass(const Event& event) {
   if (state_.has_element) {
     hold(event, event.origin);
   } else {
-    Giver{sink_, state_.held}(event);
+    Giver{sink_}(event);
   }
 }
 
 void Compensator::hold_or_pass(HeldText text, std::string_view content) {
   if (fault_) return;
-  if (!state_.has_element) return Giver{sink_, state_.held}.give(text, content);
+  if (!state_.has_element) return Giver{sink_}.give(text, content);
   if (!state_.held.push(text, content))
     refuse({FaultKind::TooMuchBetween, state_.waiting().origin, text.origin, {}, {}});
 }
@@ -75,10 +43,19 @@ void Compensator::release_held() {
 }
 
 void Compensator::deliver(const HeldEvent& event) {
-  if (const auto* end = std::get_if<BlockEnd>(&event)) return sink_.on_block_end(end->origin);
-  if (const auto* rapid = std::get_if<Rapid>(&event)) return deliver_aside(*rapid);
-  if (const auto* line = std::get_if<Line>(&event)) return deliver_aside(*line);
-  std::visit(Giver{sink_, state_.held}, event);
+  const Giver giver{sink_};
+  std::visit(
+      [&](const auto& one) {
+        using Event = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<Event, HeldText>) {
+          giver.give(one, state_.held.text(one));
+        } else if constexpr (std::is_same_v<Event, Rapid> || std::is_same_v<Event, Line>) {
+          deliver_aside(one);
+        } else {
+          giver(one);
+        }
+      },
+      event);
 }
 
 /// Moves aside of the plane keep the tool's place in it.
@@ -87,7 +64,7 @@ void Compensator::deliver_aside(Move move) {
   const PlaneAxes axes = axes_of(state_.plane);
   set_in_plane(move.to, axes, in_plane(state_.tool, axes));
   state_.tool = move.to;
-  Giver{sink_, state_.held}(move);
+  Giver{sink_}(move);
 }
 template void Compensator::deliver_aside(Rapid move);
 template void Compensator::deliver_aside(Line move);
@@ -124,14 +101,13 @@ void Compensator::on_close(const Close& event) {
 }
 
 void Compensator::on_output(const Output& event) {
-  hold_or_pass({HeldText::Kind::Output, event.device, event.origin, 0, 0}, event.text);
+  hold_or_pass(held(event), event.text);
 }
 void Compensator::on_open(const Open& event) {
-  const auto kind = event.name ? HeldText::Kind::OpenNamed : HeldText::Kind::Open;
-  hold_or_pass({kind, event.device, event.origin, 0, 0}, event.name.value_or(""));
+  hold_or_pass(held(event), event.name.value_or(""));
 }
 void Compensator::on_message(const Message& event) {
-  hold_or_pass({HeldText::Kind::Message, {}, event.origin, 0, 0}, event.text);
+  hold_or_pass(held(event), event.text);
 }
 
 void Compensator::end_uncounted_block(const Origin& event) {

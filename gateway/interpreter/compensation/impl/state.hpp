@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "gateway/interpreter/compensation/impl/element.hpp"
-#include "gateway/interpreter/compensation/impl/held_events.hpp"
+#include "gateway/interpreter/look_ahead/held_events.hpp"
 
 namespace dripline::interpreter::compensation::impl {
 
@@ -31,7 +31,7 @@ struct State {
   int idle_blocks = 0;  ///< without motion in the plane, since the element that waits
   Position programmed;  ///< where the program thinks the machine is
   Position tool;        ///< where it has been sent
-  HeldEvents held;
+  look_ahead::HeldEvents<> held;
   std::array<Element, 2> elements;
   std::uint8_t waiting_slot = 0;
 

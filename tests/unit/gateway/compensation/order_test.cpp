@@ -63,7 +63,7 @@ TEST(Order, StatementsAreNoBlocksWithoutMotion) {
   contour.line(10, 10);
   EXPECT_EQ(contour.fault(), std::nullopt);
   EXPECT_NEAR(contour.log.moves[1].to.first, 8, 1e-9) << "the corner was seen";
-  EXPECT_LE(contour.log.words.size(), 2u + impl::kMaxHeldEvents);
+  EXPECT_LE(contour.log.words.size(), 2u + look_ahead::kMaxHeldEvents);
   EXPECT_THAT(contour.log.words, testing::IsSupersetOf({"/3", "/4", "/1002", "M8", "/1004"}));
 }
 

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "gateway/interpreter/compensation/policy.hpp"
+#include "gateway/interpreter/joining/impl/element.hpp"
+#include "gateway/interpreter/look_ahead/held_events.hpp"
+
+namespace dripline::interpreter::joining::impl {
+
+/// What the compensation stage behind is told, in its place among the events.
+struct CompensationCall {
+  enum class Kind : std::uint8_t { TurnOn, TurnOnAs, TurnOff };
+  Kind kind = Kind::TurnOff;
+  compensation::Cutter cutter;
+  compensation::StartUp start_up = compensation::StartUp::NextNormal;  ///< of TurnOnAs
+};
+struct UncountedEnd {
+  Origin origin;
+};
+/// Where the piece of a corner belongs that a block of its own told.
+struct CornerPlace {
+  Origin origin;
+};
+
+using Held = look_ahead::HeldEvents<CompensationCall, UncountedEnd, CornerPlace>;
+
+/// Everything that decides what comes next; `visit_state` (state_bytes.cpp) lists every member:
+/// add new ones there too.
+struct State {
+  bool has_element = false;
+  Plane plane = Plane::XY;
+  Position programmed;  ///< where the program thinks the machine is
+  Position given;       ///< where it has been sent
+  Announced next;
+  Held held;
+  std::array<Element, 2> elements;
+  std::uint8_t waiting_slot = 0;
+
+  /// The element that waits, when there is one; the other place is the next one's.
+  Element& waiting() { return elements[waiting_slot]; }
+  const Element& waiting() const { return elements[waiting_slot]; }
+  Element& spare() { return elements[1 - waiting_slot]; }
+  void swap_elements() { waiting_slot = static_cast<std::uint8_t>(1 - waiting_slot); }
+};
+
+}  // namespace dripline::interpreter::joining::impl

@@ -1,0 +1,182 @@
+#include <type_traits>
+
+#include "gateway/interpreter/joining/impl/path_writer.hpp"
+#include "gateway/interpreter/joining/joiner.hpp"
+
+/// The events that only pass through: at once, or behind the move that waits.
+namespace dripline::interpreter::joining {
+
+using namespace impl;
+using look_ahead::BlockEnd;
+using look_ahead::Giver;
+using look_ahead::held;
+using look_ahead::HeldText;
+
+/// A corner needs all that stands at it; a plain move goes out instead.
+bool Joiner::make_room(const Origin& origin) {
+  if (state_.waiting().announced.corner) {
+    refuse(FaultKind::TooMuchBetween, state_.waiting().origin, origin);
+    return false;
+  }
+  settle();
+  return !fault_;
+}
+
+template <class Event>
+void Joiner::hold_or_pass(const Event& event, const Origin& origin) {
+  if (fault_) return;
+  if (state_.has_element && state_.held.push(event)) return;
+  if (state_.has_element && !make_room(origin)) return;
+  give(event);
+}
+template void Joiner::hold_or_pass(const Rapid& event, const Origin& origin);
+template void Joiner::hold_or_pass(const Line& event, const Origin& origin);
+template void Joiner::hold_or_pass(const CornerPlace& event, const Origin& origin);
+
+void Joiner::hold_or_pass(HeldText text, std::string_view content) {
+  if (fault_) return;
+  if (state_.has_element && state_.held.push(text, content)) return;
+  if (state_.has_element && !make_room(text.origin)) return;
+  Giver{sink_}.give(text, content);
+}
+
+template <class Event>
+void Joiner::give(const Event& event) {
+  if constexpr (std::is_same_v<Event, CompensationCall>) {
+    if (!compensator_) return;
+    using Kind = CompensationCall::Kind;
+    if (event.kind == Kind::TurnOff) return compensator_->turn_off();
+    if (event.kind == Kind::TurnOn) return compensator_->turn_on(event.cutter);
+    compensator_->turn_on(event.cutter, event.start_up);
+  } else if constexpr (std::is_same_v<Event, UncountedEnd>) {
+    if (compensator_) return compensator_->end_uncounted_block(event.origin);
+    sink_.on_block_end(event.origin);
+  } else if constexpr (std::is_same_v<Event, Rapid> || std::is_same_v<Event, Line>) {
+    deliver_aside(event);
+  } else if constexpr (!std::is_same_v<Event, CornerPlace>) {
+    Giver{sink_}(event);
+  }
+}
+
+/// Moves aside of the plane keep the path's place in it.
+template <class Move>
+void Joiner::deliver_aside(Move move) {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const PlaneVector at = in_plane(state_.given, axes);
+  if (in_plane(move.to, axes) != at) set_in_plane(move.to, axes, at);
+  state_.given = move.to;
+  Giver{sink_}(move);
+}
+
+template <class Event>
+void Joiner::deliver(const Event& event, const Corner* corner) {
+  if constexpr (std::is_same_v<Event, HeldText>) {
+    Giver{sink_}.give(event, state_.held.text(event));
+  } else if constexpr (std::is_same_v<Event, CornerPlace>) {
+    if (corner) PathWriter(sink_, state_).put_out(*corner, state_.waiting(), event.origin);
+  } else {
+    give(event);
+  }
+}
+
+void Joiner::release_held(const Corner* corner) {
+  for (std::size_t i = 0; i < state_.held.size(); ++i) {
+    std::visit([&](const auto& one) { deliver(one, corner); }, state_.held[i]);
+  }
+  state_.held.clear();
+}
+
+void Joiner::turn_on(const compensation::Cutter& cutter) {
+  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOn, cutter, {}}, Origin{});
+}
+void Joiner::turn_on(const compensation::Cutter& cutter, compensation::StartUp start_up) {
+  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOnAs, cutter, start_up}, Origin{});
+}
+void Joiner::turn_off() {
+  hold_or_pass(CompensationCall{}, Origin{});
+}
+
+void Joiner::on_program(const ProgramHeader& event) {
+  if (!fault_) sink_.on_program(event);
+}
+void Joiner::on_units(const UnitsChange& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_dwell(const Dwell& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_spindle(const Spindle& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_coolant(const Coolant& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_tool(const ToolChange& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_miscellaneous(const Miscellaneous& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_pin(const PinChange& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_stop(const Stop& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_close(const Close& event) {
+  hold_or_pass(event);
+}
+void Joiner::on_output(const Output& event) {
+  hold_or_pass(held(event), event.text);
+}
+void Joiner::on_open(const Open& event) {
+  hold_or_pass(held(event), event.name.value_or(""));
+}
+void Joiner::on_message(const Message& event) {
+  hold_or_pass(held(event), event.text);
+}
+void Joiner::on_block_end(const Origin& event) {
+  hold_or_pass(BlockEnd{event}, event);
+}
+void Joiner::end_uncounted_block(const Origin& event) {
+  hold_or_pass(UncountedEnd{event}, event);
+}
+
+void Joiner::on_thread(const Thread& event) {
+  settle();
+  if (fault_) return;
+  follow(event.to);
+  sink_.on_thread(event);
+}
+
+void Joiner::on_probe(const Probe& event) {
+  settle();
+  if (fault_) return;
+  if (event.result) follow(event.result->at);
+  sink_.on_probe(event);
+}
+
+void Joiner::on_prompt(const Prompt& event) {
+  settle();
+  if (!fault_) sink_.on_prompt(event);
+}
+
+void Joiner::on_alarm(const Alarm& event) {
+  settle();
+  sink_.on_alarm(event);
+}
+
+void Joiner::on_end(const End& event) {
+  settle();
+  if (!fault_) sink_.on_end(event);
+}
+
+void Joiner::on_blank(const Blank& event) {
+  if (!fault_) sink_.on_blank(event);
+}
+
+void Joiner::on_warning(const Warning& event) {
+  if (!fault_) sink_.on_warning(event);
+}
+
+}  // namespace dripline::interpreter::joining
