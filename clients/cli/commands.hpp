@@ -19,6 +19,7 @@ void add_check_command(CLI::App& app, Context& context);
 void add_trace_command(CLI::App& app, Context& context);
 void add_approximate_command(CLI::App& app, Context& context);
 void add_forecast_command(CLI::App& app, Context& context);
+void add_graphics_command(CLI::App& app, Context& context);
 void add_convert_command(CLI::App& app, Context& context);
 
 }  // namespace dripline::cli

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/clients/dnc_process.hpp"
+
+namespace dripline {
+namespace {
+
+using nlohmann::json;
+using test_support::Dnc;
+
+constexpr const char* kSlot =
+    "%\nO1\nT1 M6\nG90 G21\nG0 X20. Y40.\nG1 Z-4. F100\nX80.\nG0 Z5.\nM30\n%\n";
+
+class DncGraphics : public testing::Test {
+ protected:
+  DncGraphics() { dnc.write("slot.nc", kSlot); }
+  template <class... More>
+  auto graphics(More... more) {
+    return dnc({"graphics", "--control", "fanuc", "slot.nc", "--tool-radius", "5", more...});
+  }
+  Dnc dnc{DNC_PATH};
+};
+
+TEST_F(DncGraphics, CutsAndDraws) {
+  const auto result = graphics("--blank", "X0:100,Y0:80,Z-20:0", "-o", "slot.png", "--heights",
+                               "slot.json", "--hardcopy", "slot.prn", "--json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto report = json::parse(result.out);
+  EXPECT_EQ(report.at("blank").at("X"), json::parse("[0.0, 100.0]"));
+  EXPECT_NEAR(report.at("removed_mm3").get<double>(), (600 + 78.54) * 4, 20);
+  EXPECT_EQ(dnc.read("slot.png").substr(1, 3), "PNG");
+  EXPECT_EQ(dnc.read("slot.prn").substr(0, 2), "\x1b\x43");
+  const auto heights = json::parse(dnc.read("slot.json"));
+  EXPECT_EQ(heights.at("heights").size(),
+            heights.at("columns").get<std::size_t>() * heights.at("rows").get<std::size_t>());
+}
+
+TEST_F(DncGraphics, MagnifiesAPart) {
+  const auto result = graphics("--blank", "X0:100,Y0:80,Z-20:0", "--magnify", "X40:60", "--json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NEAR(json::parse(result.out).at("removed_mm3").get<double>(), 20 * 10 * 4, 10);
+}
+
+TEST_F(DncGraphics, SaysWhatIsMissingOrWrong) {
+  const auto no_blank = graphics("-o", "a.png");
+  EXPECT_EQ(no_blank.status, 2);
+  EXPECT_NE(no_blank.err.find("--blank"), std::string::npos) << no_blank.err;
+  EXPECT_EQ(graphics("--blank", "X0:100,Y0:80").status, 2);
+  EXPECT_EQ(graphics("--blank", "X100:0,Y0:80,Z-20:0").status, 2);
+  const auto no_tool =
+      dnc({"graphics", "--control", "fanuc", "slot.nc", "--blank", "X0:100,Y0:80,Z-20:0"});
+  EXPECT_EQ(no_tool.status, 0);
+  EXPECT_NE(no_tool.err.find("line 6"), std::string::npos) << no_tool.err;
+}
+
+TEST_F(DncGraphics, DrawsWhatWasCutBeforeAnAlarm) {
+  dnc.write("bad.nc", "T1 M6\nG90 G21\nG0 X20. Y40.\nG1 Z-4. F100\nG999\n");
+  const auto result = dnc({"graphics", "--control", "fanuc", "bad.nc", "--tool-radius", "5",
+                           "--blank", "X0:100,Y0:80,Z-20:0", "--json"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NEAR(json::parse(result.out).at("removed_mm3").get<double>(), 78.54 * 4, 5);
+}
+
+}  // namespace
+}  // namespace dripline
