@@ -16,12 +16,17 @@ enum class ErrorCode : std::uint16_t {
   FloatingOverflow = 205,
   InvalidFloating = 207,
   InvalidProgramNumber = 301,
+  TravelOfX = 401,
+  TravelOfZ = 403,
+  SafeZone = 413,
   OutOfPosition = 416,
   IllegalAddress = 501,
   UndefinedCycle = 502,
   ReturnWithoutGosub = 503,
   CoincidentPoints = 504,
   RadiusTooSmall = 505,
+  CompensatedLineArcApart = 507,
+  ArcsApart = 509,
   ParameterOutOfRange = 517,
   IllegalStatement = 518,
   FeedOutOfRange = 519,
@@ -34,6 +39,7 @@ enum class ErrorCode : std::uint16_t {
   LoopCounter = 538,
   DwellOutOfRange = 539,
   IllegalDwell = 540,
+  IllegalReference = 542,
   IllegalG10 = 543,
   TooManyDigits = 544,
   NestedTooDeep = 546,
@@ -50,7 +56,11 @@ enum class ErrorCode : std::uint16_t {
   IllegalRelation = 560,
   UnresolvedCall = 567,
   UnresolvedLabel = 568,
+  ArcTooSmall = 569,
+  FirstArcTooSmall = 570,
+  SecondArcTooSmall = 571,
   InputAfterMove = 577,
+  CompensatedArcsApart = 579,
   LogArgument = 580,
   PowerBase = 581,
   MissingWhile = 601,
@@ -68,6 +78,10 @@ enum class ErrorCode : std::uint16_t {
   CycleTooLong = 1007,  ///< more moves than one block may cause
   NotInDnc = 1008,      ///< with the option `dnc_refusals`
   SpindleNeeded = 1009,
+
+  CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends
+  TooMuchBetween = 1021,           ///< between two compensated moves
+  ContourTooNarrow = 1022,         ///< the compensated move would run backwards
 };
 
 struct ErrorRow {

@@ -42,6 +42,7 @@ enum class GAction : std::uint8_t {
   Metric,
   InitialLevel,
   ClearanceLevel,
+  Compensation,
   CancelToolLength,
   FloatingZero,
   LocalZero,

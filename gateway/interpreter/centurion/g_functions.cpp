@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/parameter_files.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
 
@@ -35,7 +36,7 @@ void change_units(Run& run, Units units) {
   run.parameters.convert_tables(factor);
   state.units = units;
   run.update_origin();
-  if (state.has_header) run.sink.on_units({run.origin, units});
+  if (state.has_header) run.events().on_units({run.origin, units});
 }
 
 bool set_data_mode(Run& run, bool on) {
@@ -98,6 +99,9 @@ bool apply_g(Run& run, const GRow& row) {
       return true;
     case GAction::CancelToolLength:
       run.state.tool.offset = 0;
+      return true;
+    case GAction::Compensation:
+      modes.compensation = static_cast<std::uint8_t>(row.code - 40);
       return true;
     case GAction::WorkSystem:
       modes.work_system = static_cast<std::uint8_t>(row.code - 54);
@@ -242,6 +246,8 @@ bool apply_modes(Run& run) {
   if (block.words.has(Address::F) && !apply_feed(run)) return false;
   if (block.words.has(Address::S) && !apply_speed(run)) return false;
   if (block.parts.tool) apply_tool(run);
+  if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0) [[unlikely]]
+    update_compensation(run);
   show_speed_change(run, before, was_surface_speed);
   return true;
 }

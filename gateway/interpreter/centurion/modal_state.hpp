@@ -44,6 +44,7 @@ struct Modes {
   bool returns_to_clearance = false;  ///< G39
   bool takes_data = false;            ///< between G10 and G11
   std::uint8_t work_system = 0;       ///< 0 is G54
+  std::uint8_t compensation = 0;      ///< 1 G41, 2 G42
 };
 
 struct SpindleModes {
@@ -58,6 +59,14 @@ struct ToolModes {
   int pending_offset = -1;  ///< -1: the T word named none
   int active = 0;
   int offset = 0;
+};
+
+/// What the compensation stage was last told.
+struct NoseUse {
+  std::uint8_t code = 0;  ///< 1 left, 2 right, 0 off
+  double radius_mm = 0;
+  double tip = 0;  ///< the tool type
+  friend bool operator==(const NoseUse&, const NoseUse&) = default;
 };
 
 /// M98, CALL.
@@ -124,6 +133,8 @@ struct ModalState {
   SpindleModes spindle;
   Coolant coolant;
   ToolModes tool;
+  NoseUse nose;
+  bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
   std::optional<OutputDevice> open_device;
   std::uint64_t random = 0x853c49e6748fea9bu;
 

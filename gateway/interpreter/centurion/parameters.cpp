@@ -71,6 +71,8 @@ std::optional<double> mode_status(const ModalState& state, int number) {
       return flag(state.modes.takes_data);
     case 306:
       return static_cast<double>(state.modes.motion);
+    case 309:
+      return state.modes.compensation;
     case 310:
       return 0;  // cycles are over when their block is
     case 311:

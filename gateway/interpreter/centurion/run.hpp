@@ -7,6 +7,7 @@
 #include "gateway/interpreter/centurion/block.hpp"
 #include "gateway/interpreter/centurion/errors.hpp"
 #include "gateway/interpreter/centurion/modal_state.hpp"
+#include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/options.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
 #include "gateway/interpreter/centurion/text_cursor.hpp"
@@ -25,14 +26,21 @@ struct Run {
       : options(std::move(control_options)),
         source(program_source),
         sink(event_sink),
+        compensator(compensation_policy(), event_sink),
         text(program_source) {}
 
-  /// The sink, after the header has been delivered.
+  /// Where events go, after the header has been delivered: through the stages in use, to the sink.
   EventSink& events() {
-    if (!state.has_header) [[unlikely]]
-      deliver_header();
-    return sink;
+    if (front == nullptr) [[unlikely]]
+      choose_stages();
+    return *front;
   }
+  /// After a change of what is in use, or of the state as a whole: the stages between the program's
+  /// events and the sink are put together anew.
+  void choose_stages();
+  /// To the compensation stage, in order with the events.
+  void command(const PathCommand& command);
+  void end_block();
 
   /// Offset of `at` in the block, and its 1-based column.
   std::uint32_t offset(const char* at) const {
@@ -58,6 +66,8 @@ struct Run {
     answers_used = 0;
   }
 
+  /// Where the machine is, as an event shows it.
+  Position present_position() const;
   /// After a change of anything the active coordinates are made of.
   void update_origin();
   /// What the axis words of the block are for; None: a move.
@@ -76,6 +86,7 @@ struct Run {
   const ControlOptions options;
   ProgramSource& source;
   EventSink& sink;
+  compensation::Compensator compensator;
   TextCursor text;
   ModalState state;
   Parameters parameters;
@@ -91,6 +102,8 @@ struct Run {
   Diagnostic alarm;
   Pause pause = Pause::None;
   std::string scratch;  ///< output text being made
+
+  EventSink* front = nullptr;  ///< the first stage; none before the header
 
  private:
   [[gnu::cold]] void deliver_header();

@@ -76,7 +76,9 @@ template <class Archive>
 void visit_modes(Archive& archive, ModalState& state) {
   Modes& modes = state.modes;
   all(archive, modes.motion, modes.is_incremental, modes.is_feed_per_revolution,
-      modes.is_surface_speed, modes.returns_to_clearance, modes.takes_data, modes.work_system);
+      modes.is_surface_speed, modes.returns_to_clearance, modes.takes_data, modes.work_system,
+      modes.compensation, state.nose.code, state.nose.radius_mm, state.nose.tip,
+      state.uses_compensator);
   RetainedWords& retained = state.retained;
   all(archive, retained.radius, retained.start_angle, retained.end_angle, retained.center_x,
       retained.center_z, retained.has_radius);
@@ -148,10 +150,23 @@ void visit_name(Archive& archive, std::string& name, bool& is_settled) {
   archive(is_settled);
 }
 
+template <class Archive>
+void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
+  std::size_t count = bytes.size();
+  if (!archive.size(count, compensation::kMaxStateBytes)) return;
+  bytes.resize(count);
+  for (std::byte& byte : bytes) {
+    auto value = std::to_integer<std::uint8_t>(byte);
+    archive(value);
+    byte = std::byte{value};
+  }
+}
+
 /// Values that index tables must be in range, whatever the bytes say.
 bool is_plausible(const ModalState& state) {
   return state.phase <= RunPhase::Alarmed && state.units <= Units::Millimetre &&
          state.modes.motion <= MotionMode::CounterClockwise && state.modes.work_system < 6 &&
+         state.modes.compensation <= 2 && state.nose.code <= 2 &&
          state.spindle.state <= SpindleState::Oriented && state.tool.offset >= 0 &&
          state.tool.offset <= kOffsetCount && state.jump.kind <= JumpKind::While &&
          state.open_device.value_or(OutputDevice::File) <= OutputDevice::Printer;
@@ -162,6 +177,8 @@ bool is_plausible(const ModalState& state) {
 Snapshot take_snapshot(const Run& run) {
   Writer writer;
   ModalState state = run.state;
+  std::vector<std::byte> path;
+  if (state.uses_compensator) path = run.compensator.state();
   Parameters parameters = run.parameters;
   Origin origin = run.origin;
   std::string name = run.name;
@@ -170,6 +187,7 @@ Snapshot take_snapshot(const Run& run) {
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
+  visit_bytes(writer, path);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
@@ -188,14 +206,23 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit_parameters(reader, parameters);
   visit(reader, origin);
   visit_name(reader, name, is_settled);
+  std::vector<std::byte> path;
+  visit_bytes(reader, path);
   if (!reader.is_complete() || !is_plausible(state)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
+  }
+  if (!state.uses_compensator) {
+    run.compensator.reset({});
+  } else if (auto restored = run.compensator.restore(path); !restored) {
+    return restored;
   }
   run.state = std::move(state);
   run.parameters = parameters;
   run.origin = origin;
   run.name = std::move(name);
   run.name_is_settled = is_settled;
+  run.front = nullptr;
+  if (run.state.has_header) run.choose_stages();
   return {};
 }
 

@@ -34,6 +34,7 @@ Compensator::Compensator(const Policy& policy, EventSink& sink, const Position& 
 void Compensator::reset(const Position& start) {
   state_.phase = Phase::Off;
   state_.has_element = false;
+  state_.stands_still = false;
   state_.next_corner.reset();
   state_.held.clear();
   state_.idle_blocks = 0;
@@ -115,25 +116,40 @@ bool Compensator::refuse(const Fault& fault) {
   return false;
 }
 
+/// The program goes on, the tool stays.
+void Compensator::pass_over(const Position& to) {
+  state_.programmed = to;
+  state_.is_displaced = true;
+}
+
+/// Off, with the tool on another point of the plane than the program.
+bool Compensator::stands_aside() const {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const PlaneVector apart = in_plane(state_.tool, axes) - in_plane(state_.programmed, axes);
+  return state_.is_displaced && length(apart) > kNoLength;
+}
+
 /// Of the nose centre; the tool's position is that of its tip.
 PlaneVector Compensator::nose() const {
   return in_plane(state_.tool, axes_of(state_.plane)) - state_.tip;
 }
 
 template <class Move>
-void Compensator::take_straight(const Move& move, Feed feed) {
+void Compensator::take_straight(const Move& move, Feed feed, bool rests) {
   if (fault_) return;
   const PlaneAxes axes = axes_of(state_.plane);
   const PlaneVector from = in_plane(state_.programmed, axes);
   const PlaneVector end = in_plane(move.to, axes);
   const bool is_in_plane = length(end - from) > kNoLength;
   if (state_.phase == Phase::Off && (is_in_plane || !state_.is_displaced)) {
+    if (state_.stands_still) return pass_over(move.to);
     follow(move.to);
     return give(sink_, move);
   }
   if (!is_in_plane) return take_aside(move);
   Element& element = state_.spare();
   element.is_arc = false;
+  element.rests = rests;
   element.is_rapid = std::is_same_v<Move, Rapid>;
   element.origin = move.origin;
   element.to = move.to;
@@ -159,16 +175,21 @@ void Compensator::take_aside(const Move& move) {
 }
 
 void Compensator::on_rapid(const Rapid& event) {
-  take_straight(event, Feed{});
+  take_straight(event, Feed{}, false);
 }
 
 void Compensator::on_line(const Line& event) {
-  take_straight(event, event.feed);
+  take_straight(event, event.feed, event.rests);
 }
 
 void Compensator::on_arc(const Arc& event) {
   if (fault_) return;
   if (state_.phase == Phase::Off) {
+    if (state_.stands_still) return pass_over(event.to);
+    if (stands_aside()) {
+      refuse({FaultKind::CancelNotStraight, event.origin, event.origin, {}, {}});
+      return;
+    }
     follow(event.to);
     return sink_.on_arc(event);
   }
@@ -178,6 +199,7 @@ void Compensator::on_arc(const Arc& event) {
   }
   Element& element = state_.spare();
   element.is_rapid = false;
+  element.rests = event.rests;
   element.origin = event.origin;
   element.to = event.to;
   element.feed = event.feed;
@@ -206,6 +228,7 @@ Role Compensator::next_role() const {
 /// A move in the plane, with its programmed geometry complete.
 void Compensator::take(Element& element) {
   element.offset = state_.offset;
+  element.is_silent = state_.stands_still;
   element.outside = state_.next_corner.value_or(policy_.outside);
   state_.next_corner.reset();
   element.role = next_role();
@@ -236,7 +259,8 @@ bool Compensator::accepts_arc(const Element& arc) {
   const double radius = std::min(arc.arch.radius_in, arc.arch.radius_out);
   if (std::min(arc.offset_radius_in(), arc.offset_radius_out()) < -kFits)
     return refuse({FaultKind::ArcTooSmall, origin, origin, Length::mm(radius),
-                   Length::mm(std::fabs(arc.offset))});
+                   Length::mm(std::fabs(arc.offset)), state_.has_element && state_.waiting().is_arc,
+                   true});
   return true;
 }
 
@@ -246,12 +270,21 @@ void Compensator::join(Element& next) {
   const Corner corner = round_corner(policy_, first, next, nose());
   if (corner.fault) {
     refuse({*corner.fault, first.origin, next.origin, Length::mm(length(first.end - nose())),
-            Length::mm(std::fabs(first.offset))});
+            Length::mm(std::fabs(first.offset)), first.is_arc, next.is_arc});
     return;
   }
   next.begin = corner.begin;
   next.lead_in = corner.between;
+  const bool was_silent = first.is_silent;
   finish(corner.end);
+  if (was_silent) reach_begin(next);
+}
+
+/// The tool was not led there: a line goes straight to its end, an arc has to begin on its circle.
+void Compensator::reach_begin(Element& next) {
+  next.lead_in.count = 0;
+  if (next.is_arc && length(next.begin - nose()) > kNoLength)
+    next.lead_in.add({.is_arc = false, .to = next.begin, .center = {}});
 }
 
 /// Nothing waits: the tool stands on an end that was decided without this element.
@@ -267,7 +300,7 @@ void Compensator::begin_alone(Element& element) {
 void Compensator::finish(PlaneVector end) {
   PathWriter writer(sink_, state_);
   const Element& element = state_.waiting();
-  if (!writer.put_out(element, end)) {
+  if (!element.is_silent && !writer.put_out(element, end)) {
     refuse({FaultKind::Reversed, element.origin, element.origin, {}, {}});
     return;
   }
@@ -278,6 +311,11 @@ void Compensator::finish(PlaneVector end) {
 /// A move that ends compensation: where it ends is known.
 void Compensator::go_off(const Element& element) {
   const PlaneAxes axes = axes_of(state_.plane);
+  if (element.is_silent) {
+    state_.is_displaced = true;
+    state_.phase = Phase::Off;
+    return;
+  }
   Position to = element.to;
   if (element.role == Role::Parallel)
     set_in_plane(to, axes, element.end + in_plane(state_.tool, axes) - element.from);

@@ -48,6 +48,9 @@ class Compensator final : public EventSink {
   void leave_in_parallel();
   /// Round the outside of the corner at the end of the next move in the plane in this manner.
   void shape_next_corner(OutsideCorner shape);
+  /// From here on (`still`), or no longer: moves lead the program on and decide corners, but the
+  /// tool does not carry them out. The next real move goes from where the tool stands.
+  void stand_still(bool still) { state_.stands_still = still; }
   /// Ends what waits on its own normal. Compensation stays on.
   void settle();
   /// Off, nothing waiting, no fault, the machine at `start`: nothing is given out.
@@ -104,7 +107,7 @@ class Compensator final : public EventSink {
   using HeldEvent = look_ahead::HeldEvents<>::Event;
 
   template <class Move>
-  void take_straight(const Move& move, Feed feed);
+  void take_straight(const Move& move, Feed feed, bool rests);
   template <class Move>
   void take_aside(const Move& move);
   void take(impl::Element& element);
@@ -113,6 +116,7 @@ class Compensator final : public EventSink {
   void join(impl::Element& next);
   void begin_alone(impl::Element& element);
   void finish(PlaneVector end);
+  void reach_begin(impl::Element& next);
   void go_off(const impl::Element& element);
 
   template <class Event>
@@ -127,6 +131,8 @@ class Compensator final : public EventSink {
 
   PlaneVector nose() const;
   void follow(const Position& to);
+  void pass_over(const Position& to);
+  bool stands_aside() const;
   /// Always false.
   bool refuse(const Fault& fault);
 

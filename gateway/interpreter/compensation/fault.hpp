@@ -25,6 +25,9 @@ struct Fault {
   Origin origin;        ///< the element that can not be carried out
   Origin next;          ///< the element that showed it; the same one where no other took part
   Length value, limit;  ///< ArcTooSmall: radii of arc and cutter; StartUpTooClose: distance, radius
+  bool follows_arc = false;   ///< the element before the corner is an arc; of ArcTooSmall and
+                              ///< NoIntersection
+  bool leads_to_arc = false;  ///< the one behind it
 };
 
 /// For a diagnostic: what is wrong, with value and limit.

@@ -42,6 +42,8 @@ struct Arch {
 struct Element {
   bool is_rapid = false;
   bool is_arc = false;
+  bool rests = false;      ///< the axes come to rest at its end
+  bool is_silent = false;  ///< decides its corners, but is not carried out
   Role role = Role::Contour;
   StartUp start_up = StartUp::NextNormal;                 ///< of the role StartUp
   OutsideCorner outside = OutsideCorner::ExtendTangents;  ///< of the corner at its end

@@ -48,24 +48,25 @@ void PathWriter::lead_in(const Element& element, Feed feed) {
         feed.per() == Feed::Per::Move ? Feed::inverse_time(feed.moves_per_minute() / size) : feed;
     const Position to = tool_at(piece.to, state_.tool);
     if (piece.is_arc) {
-      arc(element, to, piece, own);
+      arc(element, to, piece, own, false);
     } else {
-      straight(element, to, own);
+      straight(element, to, own, false);
     }
   }
 }
 
-void PathWriter::straight(const Element& element, const Position& to, Feed feed) {
+void PathWriter::straight(const Element& element, const Position& to, Feed feed, bool rests) {
   if (to.same_point(state_.tool)) return;
   state_.tool = to;
   if (element.is_rapid) {
     sink_.on_rapid({element.origin, to});
   } else {
-    sink_.on_line({element.origin, to, feed});
+    sink_.on_line({element.origin, to, feed, rests});
   }
 }
 
-void PathWriter::arc(const Element& element, const Position& to, const Piece& piece, Feed feed) {
+void PathWriter::arc(const Element& element, const Position& to, const Piece& piece, Feed feed,
+                     bool rests) {
   const PlaneVector center = piece.center + state_.tip;
   state_.tool = to;
   sink_.on_arc({.origin = element.origin,
@@ -75,7 +76,8 @@ void PathWriter::arc(const Element& element, const Position& to, const Piece& pi
                 .plane = state_.plane,
                 .turn = piece.sweep > 0 ? Turn::CounterClockwise : Turn::Clockwise,
                 .sweep = Angle::radians(std::fabs(piece.sweep)),
-                .feed = feed});
+                .feed = feed,
+                .rests = rests});
 }
 
 void PathWriter::put_out_straight(const Element& element, const Position& to) {
@@ -88,7 +90,7 @@ void PathWriter::put_out_straight(const Element& element, const Position& to) {
     if (feed.per() == Feed::Per::Move && own > 0)
       feed = Feed::inverse_time(feed.moves_per_minute() / own);
   }
-  straight(element, to, feed);
+  straight(element, to, feed, element.rests);
 }
 
 void PathWriter::put_out_arc(const Element& element, PlaneVector end, double sweep) {
@@ -100,7 +102,7 @@ void PathWriter::put_out_arc(const Element& element, PlaneVector end, double swe
     if (feed.per() == Feed::Per::Move) feed = Feed::inverse_time(feed.moves_per_minute() / own);
   }
   const Piece piece{.is_arc = true, .to = end, .center = arch.center, .sweep = arch.side * sweep};
-  arc(element, tool_at(end, element.to), piece, feed);
+  arc(element, tool_at(end, element.to), piece, feed, element.rests);
 }
 
 bool PathWriter::put_out(const Element& element, PlaneVector end) {

@@ -18,8 +18,8 @@ class PathWriter {
  private:
   void put_out_arc(const Element& element, PlaneVector end, double sweep);
   void lead_in(const Element& element, Feed feed);
-  void straight(const Element& element, const Position& to, Feed feed);
-  void arc(const Element& element, const Position& to, const Piece& piece, Feed feed);
+  void straight(const Element& element, const Position& to, Feed feed, bool rests);
+  void arc(const Element& element, const Position& to, const Piece& piece, Feed feed, bool rests);
   Position tool_at(PlaneVector nose, const Position& others) const;
   PlaneVector nose() const;
   Feed paced(const Element& element, double own_length) const;

@@ -23,6 +23,7 @@ struct State {
   /// The tool is not on the programmed point of the plane, and stays where it is until the next
   /// move in the plane.
   bool is_displaced = false;
+  bool stands_still = false;  ///< moves are silent elements
   Plane plane = Plane::XY;
   double offset = 0;  ///< to the left
   PlaneVector tip;    ///< from the nose centre to the positioned point

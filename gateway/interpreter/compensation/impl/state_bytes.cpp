@@ -38,7 +38,7 @@ void visit(Archive& archive, LeadIn& lead_in) {
 }
 template <class Archive>
 void visit(Archive& archive, Element& element) {
-  visit_all(archive, element.is_rapid, element.is_arc);
+  visit_all(archive, element.is_rapid, element.is_arc, element.rests, element.is_silent);
   visit(archive, element.offset);
   up_to(archive, element.role, Role::Parallel);
   up_to(archive, element.start_up, StartUp::Tangent);
@@ -58,7 +58,7 @@ void visit(Archive& archive, Element& element) {
 template <class Archive>
 void visit_state(Archive& archive, State& state) {
   up_to(archive, state.phase, Phase::Parallel);
-  visit_all(archive, state.has_element, state.is_displaced, state.idle_blocks);
+  visit_all(archive, state.has_element, state.is_displaced, state.stands_still, state.idle_blocks);
   visit(archive, state.offset);
   up_to(archive, state.plane, Plane::YZ);
   visit(archive, state.tip);

@@ -1,0 +1,138 @@
+#include "gateway/interpreter/centurion/nose_compensation.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "gateway/interpreter/centurion/run.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+using compensation::Fault;
+using compensation::FaultKind;
+using compensation::Side;
+
+/// From the centre of the nose to the point that is programmed, in nose radii (spec 9.5).
+struct TipDirection {
+  int z, x;
+};
+constexpr std::array<TipDirection, 10> kTips{
+    {{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0, 0}}};
+
+constexpr std::uint8_t kCompensationOff = 4;  ///< of the special flags
+
+NoseUse wanted_use(const Run& run) {
+  NoseUse use;
+  const bool is_disabled = (run.parameters.byte(kSpecialFlags) & kCompensationOff) != 0;
+  use.code = is_disabled ? std::uint8_t{0} : run.state.modes.compensation;
+  if (use.code == 0) return use;
+  use.radius_mm = run.length(run.parameters.tool(run.state.tool.offset, ToolField::Radius)).mm();
+  use.tip = run.parameters.tool(run.state.tool.offset, ToolField::Type);
+  return use;
+}
+
+ErrorCode code_of(const Fault& fault) {
+  switch (fault.kind) {
+    case FaultKind::NoIntersection:
+      return fault.follows_arc && fault.leads_to_arc ? ErrorCode::CompensatedArcsApart
+                                                     : ErrorCode::CompensatedLineArcApart;
+    case FaultKind::ArcTooSmall:
+      return fault.follows_arc ? ErrorCode::SecondArcTooSmall : ErrorCode::ArcTooSmall;
+    case FaultKind::TooMuchBetween:
+      return ErrorCode::TooMuchBetween;
+    case FaultKind::Reversed:
+      return ErrorCode::ContourTooNarrow;
+    default:
+      return ErrorCode::CompensationNotStraight;
+  }
+}
+
+/// From the first G41, G42 or G65 on, all events pass the stage.
+void begin_use(Run& run) {
+  if (run.state.uses_compensator) return;
+  run.events();  // the header first
+  run.compensator.reset(run.present_position());
+  // the stage learns its plane from a cutter
+  compensation::Cutter none;
+  none.plane = Plane::ZX;
+  run.compensator.turn_on(none);
+  run.compensator.turn_off();
+  run.state.uses_compensator = true;
+  run.choose_stages();
+}
+
+}  // namespace
+
+void carry_out(compensation::Compensator& compensator, const PathCommand& command) {
+  switch (command.kind) {
+    case PathCommand::Kind::TurnOn:
+      return compensator.turn_on(command.cutter);
+    case PathCommand::Kind::TurnOff:
+      return compensator.turn_off();
+    case PathCommand::Kind::Leave:
+      return compensator.leave();
+    case PathCommand::Kind::StandStill:
+      return compensator.stand_still(true);
+    case PathCommand::Kind::Go:
+      return compensator.stand_still(false);
+  }
+}
+
+compensation::Policy compensation_policy() {
+  compensation::Policy policy;
+  policy.outside = compensation::OutsideCorner::IntersectCurves;
+  policy.blocks_without_motion = std::numeric_limits<int>::max();
+  return policy;
+}
+
+compensation::Cutter nose_of(const Run& run, bool is_left) {
+  const int offset = run.state.tool.offset;
+  const Length radius = run.length(run.parameters.tool(offset, ToolField::Radius));
+  const double type = run.parameters.tool(offset, ToolField::Type);
+  const TipDirection tip = kTips[type >= 0 && type <= 9 ? static_cast<std::size_t>(type) : 0];
+  const double size = std::fabs(radius.mm());
+  compensation::Cutter cutter;
+  cutter.plane = Plane::ZX;
+  cutter.side = is_left ? Side::Left : Side::Right;
+  cutter.radius = radius;
+  cutter.tip_first = Length::mm(tip.z * size);
+  cutter.tip_second = Length::mm(tip.x * size);
+  return cutter;
+}
+
+void update_compensation(Run& run) {
+  const NoseUse use = wanted_use(run);
+  NoseUse& now = run.state.nose;
+  if (now == use) return;
+  now = use;
+  if (use.code != 0) {
+    begin_use(run);
+    run.command({PathCommand::Kind::TurnOn, nose_of(run, use.code == 1)});
+  } else if (run.state.uses_compensator) {
+    run.command({PathCommand::Kind::TurnOff, {}});
+  }
+}
+
+void leave_compensation(Run& run) {
+  if (run.state.nose.code == 0) return;
+  run.command({PathCommand::Kind::Leave, {}});
+}
+
+void resume_compensation(Run& run) {
+  if (run.state.nose.code == 0) return;
+  run.command({PathCommand::Kind::TurnOn, nose_of(run, run.state.nose.code == 1)});
+}
+
+void stand_still(Run& run, bool still) {
+  begin_use(run);
+  run.command({still ? PathCommand::Kind::StandStill : PathCommand::Kind::Go, {}});
+}
+
+bool check_path(Run& run) {
+  const auto& fault = run.compensator.fault();
+  if (!fault) return true;
+  run.origin.line = fault->origin.line;
+  return run.fail(code_of(*fault), 0, compensation::describe(*fault));
+}
+
+}  // namespace dripline::interpreter::centurion

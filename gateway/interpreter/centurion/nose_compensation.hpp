@@ -1,0 +1,30 @@
+#pragma once
+
+#include "gateway/interpreter/centurion/path_command.hpp"
+
+/// Tool nose radius compensation (spec 9.4-9.6): how G40, G41, G42, the tool's data and G65 drive
+/// the shared stage that offsets the path.
+namespace dripline::interpreter::centurion {
+
+struct ControlOptions;
+struct Run;
+
+/// The control's rules: pure intersections, no inserted pieces.
+compensation::Policy compensation_policy();
+/// The active tool's nose, for the side of G41 (true) or G42, as a stage would be given it. A
+/// mirrored path swaps the sides.
+compensation::Cutter nose_of(const Run& run, bool is_left);
+
+/// Before the block's move: tells the stage what G40-G42, the tool or the special flags changed.
+void update_compensation(Run& run);
+/// Moves of the machine's own (G28, G53, M6) are made without compensation: `leave` before them,
+/// `resume` after.
+void leave_compensation(Run& run);
+void resume_compensation(Run& run);
+/// Around the move of a G65 without P.
+void stand_still(Run& run, bool still);
+
+/// After every block: false, with the control's alarm, when the path can not be offset.
+bool check_path(Run& run);
+
+}  // namespace dripline::interpreter::centurion

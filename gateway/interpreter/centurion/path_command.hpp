@@ -1,0 +1,23 @@
+#pragma once
+
+#include "gateway/interpreter/compensation/compensator.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// What a program says to the compensation stage besides its moves. A stage in front of it that
+/// holds moves back must hold these in their place among them.
+struct PathCommand {
+  enum class Kind : std::uint8_t {
+    TurnOn,      ///< from the next move on, with `cutter`
+    TurnOff,     ///< the next move is the cancel move
+    Leave,       ///< off at once; the next move goes straight to its programmed end
+    StandStill,  ///< moves only say where the program is (G65)
+    Go,          ///< moves are carried out again
+  };
+  Kind kind = Kind::TurnOn;
+  compensation::Cutter cutter;
+};
+
+void carry_out(compensation::Compensator& compensator, const PathCommand& command);
+
+}  // namespace dripline::interpreter::centurion
