@@ -1,5 +1,8 @@
 #include "gateway/interpreter/event.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dripline::interpreter {
 
 char letter(Axis axis) {
@@ -11,6 +14,21 @@ std::optional<Axis> axis_of(char letter) {
   const auto at = kLetters.find(letter);
   if (at == std::string_view::npos) return std::nullopt;
   return static_cast<Axis>(at);
+}
+
+Arc arc_of(const Thread& thread) {
+  const ThreadArc& arc = *thread.arc;
+  return {thread.origin, thread.to, arc.center_first, arc.center_second,
+          arc.plane,     arc.turn,  arc.sweep,        Feed::per_revolution(thread.lead),
+          false};
+}
+
+Length mean_lead(const Thread& thread, Length path) {
+  if (thread.lead_change == Length{}) return thread.lead;
+  // After n turns path = lead n + change n^2 / 2, and the lead is the root below.
+  const double lead = std::fabs(thread.lead.mm());
+  const double square = lead * lead + 2 * thread.lead_change.mm() * path.mm();
+  return Length::mm((lead + std::sqrt(std::max(0.0, square))) / 2);
 }
 
 }  // namespace dripline::interpreter

@@ -110,12 +110,27 @@ struct Arc {
   bool rests = false;  ///< as of a line
 };
 
+/// The arc that a circular thread is cut on; members as in Arc.
+struct ThreadArc {
+  Length center_first;
+  Length center_second;
+  Plane plane = Plane::XY;
+  Turn turn = Turn::Clockwise;
+  Angle sweep;
+};
+/// Feed synchronised to the spindle: the path advances by the lead with each turn.
 struct Thread {
   Origin origin;
   Position to;
-  Length lead;
+  Length lead;  ///< at the start of the move
   std::optional<Angle> start_angle;
+  std::optional<ThreadArc> arc{};  ///< absent: a straight or tapered thread
+  Length lead_change{};            ///< added to the lead with each turn
 };
+/// The way of a circular thread, fed its lead with each turn; only with `arc`.
+Arc arc_of(const Thread& thread);
+/// The constant lead that takes as many turns over `path`.
+Length mean_lead(const Thread& thread, Length path);
 
 struct Dwell {
   Origin origin;

@@ -52,7 +52,13 @@ void EventLog::on_arc(const Arc& event) {
                       event.sweep.degrees()));
 }
 void EventLog::on_thread(const Thread& event) {
-  add("thread", event.origin, text_of(event.to) + fmt::format(" {}", event.lead.mm()));
+  add("thread", event.origin,
+      text_of(event.to) + fmt::format(" {}", event.lead.mm()) +
+          (event.start_angle ? fmt::format(" at {}", event.start_angle->degrees()) : "") +
+          (event.arc ? fmt::format(" {} {} {}", event.arc->center_first.mm(),
+                                   event.arc->center_second.mm(), event.arc->sweep.degrees())
+                     : "") +
+          (event.lead_change != Length{} ? fmt::format(" {}", event.lead_change.mm()) : ""));
 }
 void EventLog::on_dwell(const Dwell& event) {
   add("dwell", event.origin, fmt::format(" {}", event.seconds) + or_none(event.revolutions));

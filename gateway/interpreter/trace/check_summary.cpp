@@ -117,18 +117,24 @@ void CheckSummary::extend_arc(const Arc& arc) {
   }
 }
 
-void CheckSummary::on_arc(const Arc& arc) {
+Length CheckSummary::length_of(const Arc& arc) const {
   const PlaneAxes axes = axes_of(arc.plane);
   const Length radius = hypot(last_.linear(axes.first) - arc.center_first,
                               last_.linear(axes.second) - arc.center_second);
   const Length rise = arc.to.linear(axes.normal) - last_.linear(axes.normal);
+  return hypot(radius * arc.sweep.radians(), rise);
+}
+
+void CheckSummary::on_arc(const Arc& arc) {
   extend_arc(arc);
-  cut(hypot(radius * arc.sweep.radians(), rise), arc.feed);
+  cut(length_of(arc), arc.feed);
   move_to(arc.to);
 }
 
 void CheckSummary::on_thread(const Thread& thread) {
-  cut(distance(last_, thread.to), Feed::per_revolution(thread.lead));
+  if (thread.arc) extend_arc(arc_of(thread));
+  const Length path = thread.arc ? length_of(arc_of(thread)) : distance(last_, thread.to);
+  cut(path, Feed::per_revolution(mean_lead(thread, path)));
   move_to(thread.to);
 }
 

@@ -69,6 +69,7 @@ class CheckSummary final : public EventSink {
   void cut(Length length, const Feed& feed);
   void extend(Axis axis, double value);
   void extend_arc(const Arc& arc);
+  Length length_of(const Arc& arc) const;
   double spindle_speed() const;
 
   Summary summary_;

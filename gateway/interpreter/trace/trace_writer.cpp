@@ -160,7 +160,7 @@ void TraceWriter::on_line(const Line& line) {
   end();
 }
 
-void TraceWriter::arc_center(const Arc& arc) {
+void TraceWriter::arc_path(const Arc& arc) {
   const PlaneAxes axes = axes_of(arc.plane);
   const double first = arc.center_first.mm();
   const double second = arc.center_second.mm();
@@ -171,24 +171,26 @@ void TraceWriter::arc_center(const Arc& arc) {
   coordinate(x_is_second ? axes.first : axes.second, x_is_second ? first : second);
   buffer_ += '}';
   member("plane", word_of(arc.plane));
+  member("direction", word_of(arc.turn));
+  member("sweep", arc.sweep.degrees());
 }
 
 void TraceWriter::on_arc(const Arc& arc) {
   if (!moves_to(arc.to) && arc.sweep.degrees() == 0) return;
   begin("arc", arc.origin);
   position("to", arc.to);
-  arc_center(arc);
-  member("direction", word_of(arc.turn));
-  member("sweep", arc.sweep.degrees());
+  arc_path(arc);
   feed(arc.feed);
   end();
 }
 
 void TraceWriter::on_thread(const Thread& thread) {
-  if (!moves_to(thread.to)) return;
+  if (!moves_to(thread.to) && !thread.arc) return;
   begin("thread", thread.origin);
   position("to", thread.to);
+  if (thread.arc) arc_path(arc_of(thread));
   member("lead", in_units(thread.lead));
+  if (thread.lead_change != Length{}) member("lead_change", in_units(thread.lead_change));
   if (thread.start_angle) member("start_angle", thread.start_angle->degrees());
   end();
 }

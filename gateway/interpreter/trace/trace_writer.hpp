@@ -63,7 +63,7 @@ class TraceWriter final : public EventSink {
   void corner(std::string_view name, const Position& corner);
   void coordinate(Axis axis, double raw);
   void feed(const Feed& feed);
-  void arc_center(const Arc& arc);
+  void arc_path(const Arc& arc);
   void diagnostic(const Diagnostic& diagnostic);
   /// Length in the units in force.
   double in_units(Length length) const;

@@ -78,8 +78,19 @@ void Intake::on_line(const interpreter::Line& event) {
 }
 
 void Intake::on_thread(const interpreter::Thread& event) {
-  add_straight(event.origin, event.to,
-               {.path = {}, .pace = Pace::Thread, .feed = {}, .lead = abs(event.lead)});
+  MoveTask task{.path = {}, .pace = Pace::Thread, .feed = {}, .lead = {}};
+  if (event.arc) {
+    task.path = arc_path(end_, interpreter::arc_of(event));
+    if (!task.path.is_arc() || !(task.path.length > 0))
+      return alarm(event.origin, "MCH0006", "the arc has no radius or no length");
+  } else {
+    Coordinates target = end_;
+    take_over(target, event.to);
+    task.path = straight_path(end_, target);
+    if (!(task.path.length > 0)) return;
+  }
+  task.lead = abs(interpreter::mean_lead(event, Length::mm(task.path.length)));
+  add_move(event.origin, task);
 }
 
 void Intake::on_arc(const interpreter::Arc& event) {
