@@ -3,6 +3,7 @@
 
 #include "gateway/interpreter/centurion/arcs.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -83,7 +84,8 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   if (arc.radius <= 0) {
     return run.fail(ErrorCode::RadiusTooSmall, motion_column(run), "the arc has no radius");
   }
-  if (!check_feed(run)) return false;
+  const bool is_thread = run.block.parts.thread_code != 0;
+  if (!is_thread && !check_feed(run)) return false;
   ModalState& state = run.state;
   const bool is_clockwise = state.modes.motion == MotionMode::Clockwise;
   Arc event;
@@ -93,6 +95,11 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   event.center_first = run.length(arc.center.z);
   event.center_second = run.length(arc.center.x);
   event.sweep = Angle::degrees(sweep_of({state.position, target.to, arc.center, is_clockwise}));
+  if (is_thread) {
+    return thread_to(
+        run, target,
+        ThreadArc{event.center_first, event.center_second, event.plane, event.turn, event.sweep});
+  }
   event.feed = run.active_feed();
   event.to = event_position(run, target.to, kBothAxes);
   state.moved_axes = 3;

@@ -37,12 +37,13 @@ struct Block {
     std::uint8_t m_count = 0;
     std::uint8_t action = kNoRow;  ///< the G row that decides what the axis words mean
     std::optional<ProbeUntil> probe;
-    std::uint32_t resume = 0;     ///< offset of the item to go on with
-    AddressSet taken = 0;         ///< words that the G codes of the block take
-    std::optional<int> tool;      ///< of a T word
-    int tool_offset = -1;         ///< its offset digits; -1 when it had none
-    std::optional<double> dwell;  ///< seconds
-    TextRange comment;            ///< the first one
+    std::uint8_t thread_code = 0;  ///< G32, G34, G35 or G36; 0 = none
+    std::uint32_t resume = 0;      ///< offset of the item to go on with
+    AddressSet taken = 0;          ///< words that the G codes of the block take
+    std::optional<int> tool;       ///< of a T word
+    int tool_offset = -1;          ///< its offset digits; -1 when it had none
+    std::optional<double> dwell;   ///< seconds
+    TextRange comment;             ///< the first one
     JumpKind jump = JumpKind::None;
     bool jump_is_call_word = false;
     bool while_condition = false;

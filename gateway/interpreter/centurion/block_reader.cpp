@@ -91,6 +91,8 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
       }
       block.parts.action = index;
     }
+    if (row.action == GAction::ThreadLine)
+      block.parts.thread_code = static_cast<std::uint8_t>(row.code);
     if (row.action == GAction::Dwell && !read_dwell(run, at)) return false;
     block.parts.taken |= row.words;
   }

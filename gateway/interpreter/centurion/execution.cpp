@@ -1,11 +1,13 @@
 #include "gateway/interpreter/centurion/execution.hpp"
 
+#include "gateway/interpreter/centurion/box_cycles.hpp"
 #include "gateway/interpreter/centurion/drilling_cycles.hpp"
 #include "gateway/interpreter/centurion/flow.hpp"
 #include "gateway/interpreter/centurion/g_functions.hpp"
 #include "gateway/interpreter/centurion/groove_cycles.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -21,6 +23,14 @@ bool act(Run& run) {
     case GAction::FaceGroove:
     case GAction::DiameterGroove:
       return run_groove_cycle(run);
+    case GAction::TurningBox:
+      return cut_turning_box(run);
+    case GAction::FacingBox:
+      return cut_facing_box(run);
+    case GAction::SingleThread:
+      return cut_single_thread(run);
+    case GAction::MultipleThread:
+      return cut_multiple_thread(run);
     default:
       return move(run);
   }

@@ -10,6 +10,7 @@ using Act = GAction;
 constexpr AddressSet kNone = 0;
 constexpr AddressSet kHoleWords = set_of(R, Z);
 constexpr AddressSet kGrooveWords = set_of(R, Z, X, V, Q, E, U, D, A, C);
+constexpr AddressSet kMultipleThreadWords = set_of(X, Z, U, W, I, Q, D, A, P, K);
 
 constexpr std::array kRows{
     GRow{0, Group::Motion, Act::Motion, kLineWords, "positioning"},
@@ -29,10 +30,10 @@ constexpr std::array kRows{
     GRow{28, Group::OneShot, Act::Later, kNone, "reference return"},
     GRow{29, Group::OneShot, Act::Later, kNone, "return from reference"},
     GRow{30, Group::OneShot, Act::Later, kNone, "return to 2nd-4th reference"},
-    GRow{32, Group::OneShot, Act::Later, kNone, "threading"},
-    GRow{34, Group::OneShot, Act::Later, kNone, "threading"},
-    GRow{35, Group::OneShot, Act::Later, kNone, "threading"},
-    GRow{36, Group::OneShot, Act::Later, kNone, "threading"},
+    GRow{32, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
+    GRow{34, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line of variable lead"},
+    GRow{35, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
+    GRow{36, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
     GRow{38, Group::ReturnLevel, Act::InitialLevel, kNone, "return to initial level"},
     GRow{39, Group::ReturnLevel, Act::ClearanceLevel, kNone, "return to R level"},
     GRow{40, Group::Compensation, Act::Compensation, kNone, "nose compensation off"},
@@ -63,7 +64,7 @@ constexpr std::array kRows{
     GRow{73, Group::OneShot, Act::Later, kNone, "pattern repeat"},
     GRow{74, Group::OneShot, Act::FaceGroove, kGrooveWords | set_of(I), "face grooving"},
     GRow{75, Group::OneShot, Act::DiameterGroove, kGrooveWords | set_of(K), "diameter grooving"},
-    GRow{76, Group::OneShot, Act::Later, kNone, "multiple thread cycle"},
+    GRow{76, Group::OneShot, Act::MultipleThread, kMultipleThreadWords, "multiple thread cycle"},
     GRow{80, Group::Cycle, Act::None, kNone, "cancel canned cycle"},
     GRow{81, Group::OneShot, Act::DrillingCycle, kHoleWords, "drill"},
     GRow{82, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "drill with dwell"},
@@ -72,11 +73,11 @@ constexpr std::array kRows{
     GRow{85, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore"},
     GRow{86, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore with spindle stop"},
     GRow{89, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "bore with dwell"},
-    GRow{90, Group::OneShot, Act::Later, kNone, "turning cycle"},
+    GRow{90, Group::OneShot, Act::TurningBox, set_of(X, Z, U, W, I), "turning cycle"},
     GRow{91, Group::Distance, Act::Incremental, kNone, "incremental"},
-    GRow{92, Group::OneShot, Act::Later, kNone, "thread cycle"},
+    GRow{92, Group::OneShot, Act::SingleThread, set_of(X, Z, U, W, I, Q), "thread cycle"},
     GRow{93, Group::Distance, Act::Absolute, kNone, "absolute"},
-    GRow{94, Group::OneShot, Act::Later, kNone, "facing cycle"},
+    GRow{94, Group::OneShot, Act::FacingBox, set_of(X, Z, U, W, K), "facing cycle"},
     GRow{96, Group::SpindleUnit, Act::SurfaceSpeed, kNone, "constant surface speed"},
     GRow{97, Group::SpindleUnit, Act::Revolutions, kNone, "revolutions per minute"},
     GRow{98, Group::FeedUnit, Act::FeedPerMinute, kNone, "feed per minute"},

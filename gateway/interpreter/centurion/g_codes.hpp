@@ -48,6 +48,11 @@ enum class GAction : std::uint8_t {
   LocalZero,
   MachineCoordinates,
   WorkSystem,
+  ThreadLine,  ///< the block's line or arc is a thread
+  TurningBox,
+  FacingBox,
+  SingleThread,
+  MultipleThread,
   Incremental,
   Absolute,
   SurfaceSpeed,

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/parameter_files.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
+#include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -243,7 +244,7 @@ bool apply_modes(Run& run) {
   for (std::uint8_t i = 0; i < block.parts.g_count; ++i) {
     if (!apply_g(run, g_row(block.g[i]))) return false;
   }
-  if (block.words.has(Address::F) && !apply_feed(run)) return false;
+  if (block.words.has(Address::F) && !takes_lead(run) && !apply_feed(run)) return false;
   if (block.words.has(Address::S) && !apply_speed(run)) return false;
   if (block.parts.tool) apply_tool(run);
   if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0) [[unlikely]]

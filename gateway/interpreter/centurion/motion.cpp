@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/arcs.hpp"
+#include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -95,6 +96,8 @@ bool move(Run& run) {
   const Words& words = run.block.words;
   // AA means nothing to a line (spec 5.2); alone it moves nothing.
   if (!words.has_any(kEndWords | kPolarWords)) return true;
+  if (run.block.parts.thread_code != 0) [[unlikely]]
+    take_lead_change(run);
   const MotionMode mode = run.state.modes.motion;
   if (mode >= MotionMode::Clockwise) return move_on_arc(run);
   Target target;
@@ -112,6 +115,8 @@ bool move(Run& run) {
   if (run.block.parts.probe) [[unlikely]] {
     return check_feed(run) && start_probe(run, target);
   }
+  if (run.block.parts.thread_code != 0) [[unlikely]]
+    return thread_to(run, target, std::nullopt);
   if (mode == MotionMode::Rapid) {
     rapid_to(run, target.to, target.named);
     return true;

@@ -59,6 +59,7 @@ class Words {
   double operator[](Address address) const { return value_[static_cast<std::size_t>(address)]; }
   /// 1-based byte of the block where the word begins.
   std::uint32_t column(Address address) const { return column_[static_cast<std::size_t>(address)]; }
+  void drop(Address address) { present_ &= ~set_of(address); }
   void set(Address address, double value, std::uint32_t column) {
     present_ |= set_of(address);
     value_[static_cast<std::size_t>(address)] = value;
