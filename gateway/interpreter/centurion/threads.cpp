@@ -20,7 +20,7 @@ constexpr int kDiameter = 124;
 constexpr int kTaper = 125;
 constexpr int kMinimumCut = 130;
 constexpr int kFinishPasses = 131;
-constexpr int kMostPasses = 1000;
+constexpr int kMostPasses = 400;  // five moves each: one block may cause 2000
 constexpr std::uint8_t kVariableLead = 34;
 
 /// What G76 is to cut; lengths in program units, all as radii.
@@ -78,7 +78,7 @@ bool read_depths(Run& run, MultipleThread& thread) {
   }
   const double passes = run.parameters[kFinishPasses];
   if (!(passes >= 0 && passes <= kMostPasses) || passes != std::trunc(passes)) {
-    return refuse_parameter(run, "finish passes P131 =", passes, "a whole number from 0 to 1000");
+    return refuse_parameter(run, "finish passes P131 =", passes, "a whole number from 0 to 400");
   }
   thread.finish_passes = passes > 1 ? static_cast<int>(passes) : 1;
   return true;

@@ -18,7 +18,7 @@ bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& a
 
 /// G92.
 bool cut_single_thread(Run& run);
-/// G76; all passes in this one block, at most 1000.
+/// G76; all passes in this one block, at most 400.
 bool cut_multiple_thread(Run& run);
 
 }  // namespace dripline::interpreter::centurion
