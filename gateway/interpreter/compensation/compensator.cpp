@@ -140,7 +140,7 @@ void Compensator::take_straight(const Move& move, Feed feed, bool rests) {
   const PlaneAxes axes = axes_of(state_.plane);
   const PlaneVector from = in_plane(state_.programmed, axes);
   const PlaneVector end = in_plane(move.to, axes);
-  const bool is_in_plane = length(end - from) > kNoLength;
+  const bool is_in_plane = dot(end - from, end - from) > kNoLength * kNoLength;
   if (state_.phase == Phase::Off && (is_in_plane || !state_.is_displaced)) {
     if (state_.stands_still) return pass_over(move.to);
     follow(move.to);
@@ -267,14 +267,12 @@ bool Compensator::accepts_arc(const Element& arc) {
 /// The corner between what waits and `next` is known now.
 void Compensator::join(Element& next) {
   const Element& first = state_.waiting();
-  const Corner corner = round_corner(policy_, first, next, nose());
+  const CornerEnd corner = round_corner(policy_, first, next, nose());
   if (corner.fault) {
     refuse({*corner.fault, first.origin, next.origin, Length::mm(length(first.end - nose())),
             Length::mm(std::fabs(first.offset)), first.is_arc, next.is_arc});
     return;
   }
-  next.begin = corner.begin;
-  next.lead_in = corner.between;
   const bool was_silent = first.is_silent;
   finish(corner.end);
   if (was_silent) reach_begin(next);
@@ -310,16 +308,15 @@ void Compensator::finish(PlaneVector end) {
 
 /// A move that ends compensation: where it ends is known.
 void Compensator::go_off(const Element& element) {
-  const PlaneAxes axes = axes_of(state_.plane);
   if (element.is_silent) {
     state_.is_displaced = true;
     state_.phase = Phase::Off;
     return;
   }
-  Position to = element.to;
+  PlaneVector tip = element.end;
   if (element.role == Role::Parallel)
-    set_in_plane(to, axes, element.end + in_plane(state_.tool, axes) - element.from);
-  PathWriter(sink_, state_).put_out_straight(element, to);
+    tip = tip + in_plane(state_.tool, axes_of(state_.plane)) - element.from;
+  PathWriter(sink_, state_).put_out_straight(element, tip);
   state_.is_displaced = element.role == Role::Parallel;
   state_.phase = Phase::Off;
 }

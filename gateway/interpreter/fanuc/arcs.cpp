@@ -4,7 +4,7 @@
 #include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/path.hpp"
 #include "gateway/interpreter/fanuc/tool_offsets.hpp"
-#include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/geometry/plane_vector.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -12,28 +12,20 @@ namespace {
 constexpr double kSamePoint = 1e-6;
 
 /// A point of the plane in the order of its axes.
-struct Flat {
-  double first = 0;
-  double second = 0;
-};
+using Flat = PlaneVector;
 
 std::size_t place(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 double distance(const Flat& a, const Flat& b) {
-  return std::hypot(a.first - b.first, a.second - b.second);
-}
-double direction(const Flat& from, const Flat& to) {
-  return std::atan2(to.second - from.second, to.first - from.first) * (180.0 / Angle::kPi);
+  return length(a - b);
 }
 
 double sweep_of(const Flat& start, const Flat& end, const Flat& centre, Turn turn) {
   if (distance(start, end) <= kSamePoint) return 360;
-  double sweep = direction(centre, end) - direction(centre, start);
+  double sweep = turn_between(start - centre, end - centre) * (180.0 / Angle::kPi);
   if (turn == Turn::Clockwise) sweep = -sweep;
-  while (sweep <= 0) sweep += 360;
-  while (sweep > 360) sweep -= 360;
-  return sweep;
+  return sweep <= 0 ? sweep + 360 : sweep;
 }
 
 /// The words of one arc in program coordinates.
@@ -105,15 +97,11 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   Point3 centre = words.start;
   centre[place(words.axes.first)] = words.centre.first;
   centre[place(words.axes.second)] = words.centre.second;
-  Arc arc;
-  arc.plane = state.plane();
-  arc.turn = words.turn;
-  arc.feed = run.active_feed();
-  arc.to = end;
+  Turn turn = words.turn;
   if (state.is_transformed) {
     centre = transform(state, centre);
-    if (is_plane_mirrored(state, arc.plane)) {
-      arc.turn = arc.turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
+    if (is_plane_mirrored(state, state.plane())) {
+      turn = turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
     }
   }
   const auto in_machine = [&](Axis axis) {
@@ -122,16 +110,19 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   const Flat middle{in_machine(words.axes.first), in_machine(words.axes.second)};
   const Flat start{state.position.raw(words.axes.first), state.position.raw(words.axes.second)};
   const Flat stop{end.raw(words.axes.first), end.raw(words.axes.second)};
-  arc.center_first = Length::mm(middle.first);
-  arc.center_second = Length::mm(middle.second);
-  arc.sweep = Angle::degrees(sweep_of(start, stop, middle, arc.turn));
+  Arc arc{.origin = run.origin,
+          .to = end,
+          .center_first = Length::mm(middle.first),
+          .center_second = Length::mm(middle.second),
+          .plane = state.plane(),
+          .turn = turn,
+          .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
+          .feed = run.active_feed()};
+  if (!state.is_transformed) return arc_to(run, arc);
   const double radius = distance(middle, start);
   const double reach = distance(middle, stop);
   const double error = std::fabs(radius - reach);
-  if (!state.is_transformed || error <= std::fmax(run.options.arc_error, kSamePoint) ||
-      reach == 0) {
-    return arc_to(run, arc);
-  }
+  if (error <= std::fmax(run.options.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
   arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
   arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
   return arc_to(run, arc) && line_to(run, end, arc.feed);

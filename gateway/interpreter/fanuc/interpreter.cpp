@@ -80,13 +80,19 @@ FanucInterpreter::BlockOutcome FanucInterpreter::run_block() {
   return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }
 
-/// Nothing but axis words and F, and no mode that makes more of them than a straight move.
+/// Nothing but G00 to G03, the words of a move and F, and no mode that makes more of them.
 bool FanucInterpreter::is_plain() const {
-  constexpr AddressSet kPlainWords = kAxisWords | set_of(F);
+  constexpr AddressSet kLineWords = kAxisWords | set_of(F, N);
+  constexpr AddressSet kArcWords = kLineWords | kCentreWords | set_of(R);
   const Block& block = run_.block;
-  return block.parts.kind == BlockKind::Nc && block.parts.groups == 0 &&
-         block.parts.one_shot == Block::kNoCode && block.parts.m_count == 0 &&
-         (block.words.present() & ~kPlainWords) == 0 && !run_.state.is_special;
+  if (block.parts.kind != BlockKind::Nc || run_.state.is_special ||
+      (block.parts.groups & ~(1u << kMotionGroup)) != 0 || block.parts.one_shot != Block::kNoCode ||
+      block.parts.m_count != 0) {
+    return false;
+  }
+  const std::uint8_t motion =
+      block.names(kMotionGroup) ? block.g[kMotionGroup] : run_.state.g[kMotionGroup];
+  return motion <= 3 && (block.words.present() & ~(motion <= 1 ? kLineWords : kArcWords)) == 0;
 }
 
 FanucInterpreter::BlockOutcome FanucInterpreter::read() {

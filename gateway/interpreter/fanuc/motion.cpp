@@ -159,18 +159,21 @@ bool check_feed(Run& run) {
 
 bool execute_plain(Run& run) {
   const Words& words = run.block.words;
+  if (run.block.names(kMotionGroup)) run.state.g[kMotionGroup] = run.block.g[kMotionGroup];
   if (words.has(F) && !apply_feed(run)) return false;
+  if (run.state.g[kMotionGroup] > 1) return move_on_arc(run);
   if (!words.has_any(kAxisWords)) return true;
-  Position to;
-  if (!read_target(run, to)) return false;
-  if (run.state.position.same_point(to)) return true;
+  Line line{run.origin, {}, {}};
+  if (!read_target(run, line.to)) return false;
+  if (run.state.position.same_point(line.to)) return true;
   if (run.state.g[kMotionGroup] == 0) {
-    run.events().on_rapid({run.origin, to});
+    run.events().on_rapid({run.origin, line.to});
   } else {
     if (!check_feed(run)) return false;
-    run.events().on_line({run.origin, to, run.active_feed()});
+    line.feed = run.active_feed();
+    run.events().on_line(line);
   }
-  arrive(run, to);
+  arrive(run, line.to);
   return true;
 }
 

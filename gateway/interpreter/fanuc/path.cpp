@@ -155,8 +155,7 @@ bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> s
   return true;
 }
 
-bool arc_to(Run& run, Arc arc) {
-  arc.origin = run.origin;
+bool arc_to(Run& run, const Arc& arc) {
   if (is_limited(run) && !check_arc(run, arc)) return false;
   if (run.state.imaginary != 0) {
     pieces_of_arc(run, arc);

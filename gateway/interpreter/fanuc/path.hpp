@@ -10,8 +10,7 @@ namespace dripline::interpreter::fanuc {
 bool rapid_to(Run& run, const Position& to);
 bool line_to(Run& run, const Position& to, const Feed& feed);
 bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);
-/// `arc.origin` is set here.
-bool arc_to(Run& run, Arc arc);
+bool arc_to(Run& run, const Arc& arc);
 
 /// Whether the straight way there keeps out of what is forbidden; else alarm OT500.
 bool check_stroke(Run& run, const Position& to);

@@ -163,7 +163,7 @@ struct ModalState {
   std::array<std::uint8_t, kGroupCount> g{};
   bool is_transformed = false;    ///< scaling or rotation
   bool uses_compensator = false;  ///< from the first G41 or G42 on
-  bool is_special = false;        ///< a block of axis words needs more than a straight move
+  bool is_special = false;        ///< a block of axis words is more than a straight move or an arc
   Units units = Units::Millimetre;
   std::array<double, 2> feed{};  ///< per minute, per revolution
 

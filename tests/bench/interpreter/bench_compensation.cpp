@@ -99,8 +99,16 @@ std::string pocket_program(std::string_view start_up) {
   return text + "G40Y30.\nM30\n";
 }
 
-void measure_program(benchmark::State& state, std::string_view start_up) {
-  const std::string text = pocket_program(start_up);
+/// A round pocket, a quarter a block.
+std::string circle_program(std::string_view start_up) {
+  std::string text = fmt::format("O0001\nG21G90G17\nG1{}X50.Y0F500.\n", start_up);
+  for (int i = 0; i < kLaps; ++i) {
+    text += "G3X0Y50.I-50.\nX-50.Y0J-50.\nX0Y-50.I50.\nX50.Y0J50.\n";
+  }
+  return text + "G40G1Y30.\nM30\n";
+}
+
+void measure_program(benchmark::State& state, const std::string& text) {
   const Dialect& control = **find_dialect("fanuc");
   auto setup = parse_setup("[[tool]]\nnumber = 1\nradius = 4.0\n", control.units);
   CountingSink sink;
@@ -115,14 +123,24 @@ void measure_program(benchmark::State& state, std::string_view start_up) {
 }
 
 void FanucContour(benchmark::State& state) {
-  measure_program(state, "");
+  measure_program(state, pocket_program(""));
 }
 BENCHMARK(FanucContour)->Unit(benchmark::kMillisecond);
 
 void FanucContourCompensated(benchmark::State& state) {
-  measure_program(state, "G41D1");
+  measure_program(state, pocket_program("G41D1"));
 }
 BENCHMARK(FanucContourCompensated)->Unit(benchmark::kMillisecond);
+
+void FanucArcs(benchmark::State& state) {
+  measure_program(state, circle_program(""));
+}
+BENCHMARK(FanucArcs)->Unit(benchmark::kMillisecond);
+
+void FanucArcsCompensated(benchmark::State& state) {
+  measure_program(state, circle_program("G41D1"));
+}
+BENCHMARK(FanucArcsCompensated)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter::compensation

@@ -36,33 +36,52 @@ Shape shape_of(const Turning& turn, double offset, double tolerance) {
   return (turn.sine < 0) == (offset > 0) ? Shape::Outside : Shape::Inside;
 }
 
-Corner at_point(PlaneVector point) {
-  return {.end = point, .begin = point, .between = {}, .fault = {}};
+CornerEnd at_point(Element& second, PlaneVector point) {
+  second.begin = point;
+  return {point, {}};
 }
-Corner refusal(FaultKind kind) {
-  return {.end = {}, .begin = {}, .between = {}, .fault = kind};
+CornerEnd refusal(FaultKind kind) {
+  return {{}, kind};
 }
-void go_straight(Corner& corner, PlaneVector to) {
-  const PlaneVector from =
-      corner.between.count ? corner.between.pieces[corner.between.count - 1].to : corner.end;
-  if (length(to - from) > kNoLength) corner.between.add({.is_arc = false, .to = to, .center = {}});
-}
+
+/// The pieces between two elements, one after the other.
+class Way {
+ public:
+  Way(PlaneVector from, Element& second) : at_(from), second_(second) {}
+  void go_straight(PlaneVector to) {
+    if (length(to - at_) > kNoLength)
+      second_.lead_in.add({.is_arc = false, .to = to, .center = {}});
+    at_ = to;
+  }
+  void go_round(PlaneVector center, PlaneVector to, double sweep) {
+    second_.lead_in.add({.is_arc = true, .to = to, .center = center, .sweep = sweep});
+    at_ = to;
+  }
+  void arrive(PlaneVector begin) {
+    second_.begin = begin;
+    go_straight(begin);
+  }
+  PlaneVector at() const { return at_; }
+
+ private:
+  PlaneVector at_;
+  Element& second_;
+};
 
 /// Each on its own normal, with a straight piece between.
-Corner normals_joined(const Element& first, const Element& second) {
-  Corner corner = at_point(first.own_end());
-  corner.begin = second.own_begin();
-  go_straight(corner, corner.begin);
-  return corner;
+CornerEnd normals_joined(const Element& first, Element& second) {
+  const PlaneVector end = first.own_end();
+  Way(end, second).arrive(second.own_begin());
+  return {end, {}};
 }
 
-Corner intersection(const Element& first, const Element& second) {
+CornerEnd intersection(const Element& first, Element& second) {
   const auto point = meet(first, second);
-  return point ? at_point(*point) : refusal(FaultKind::NoIntersection);
+  return point ? at_point(second, *point) : refusal(FaultKind::NoIntersection);
 }
 
-Corner extended(const Policy& policy, const Element& first, const Element& second) {
-  const Turning turn(first, second);
+CornerEnd extended(const Policy& policy, const Turning& turn, const Element& first,
+                   Element& second) {
   const bool is_sharp = turn.cosine < std::cos(policy.sharpest.radians()) - kSharpness;
   const bool is_parallel = std::fabs(turn.sine) < kSharpness;
   PlaneVector leaving, arriving;
@@ -72,35 +91,36 @@ Corner extended(const Policy& policy, const Element& first, const Element& secon
   } else {
     leaving = arriving = tangents_meet(first, second);
   }
-  Corner corner = at_point(first.is_arc ? first.own_end() : leaving);
-  go_straight(corner, leaving);
-  go_straight(corner, arriving);
-  corner.begin = second.is_arc ? second.own_begin() : arriving;
-  go_straight(corner, corner.begin);
-  return corner;
+  const PlaneVector end = first.is_arc ? first.own_end() : leaving;
+  Way way(end, second);
+  way.go_straight(leaving);
+  way.go_straight(arriving);
+  way.arrive(second.is_arc ? second.own_begin() : arriving);
+  return {end, {}};
 }
 
-/// Round `first.end` from the point `from` on the cutter's circle to the second's own normal.
-void go_round(Corner& corner, PlaneVector from, const Element& first, const Element& second) {
-  const PlaneVector at = first.end;
-  PlaneVector arrival = at + std::copysign(length(from - at), second.offset) * second.normal_in();
-  double sweep = turn_between(from - at, arrival - at);
-  if (std::fabs(sweep * second.offset) <= kNoLength) return go_straight(corner, arrival);
+/// Round `first.end` from the cutter's circle to the second's own normal.
+void go_round(Way& way, const Element& first, const Element& second) {
+  const PlaneVector out = way.at() - first.end;
+  const PlaneVector back = std::copysign(length(out), second.offset) * second.normal_in();
+  double sweep = turn_between(out, back);
+  if (std::fabs(sweep * second.offset) <= kNoLength) return way.go_straight(first.end + back);
   // away from the compensated side, whatever rounding makes of a half circle
   if ((sweep > 0) == (second.offset > 0)) sweep = -sweep;
-  corner.between.add({.is_arc = true, .to = arrival, .center = at, .sweep = sweep});
+  way.go_round(first.end, first.end + back, sweep);
 }
 
-Corner rounded(const Element& first, const Element& second) {
-  Corner corner = at_point(first.own_end());
-  go_round(corner, corner.end, first, second);
-  corner.begin = second.own_begin();
-  go_straight(corner, corner.begin);
-  return corner;
+CornerEnd rounded(const Element& first, Element& second) {
+  const PlaneVector end = first.own_end();
+  Way way(end, second);
+  go_round(way, first, second);
+  way.arrive(second.own_begin());
+  return {end, {}};
 }
 
-Corner outside_corner(const Policy& policy, const Element& first, const Element& second) {
-  if (first.offset == 0) return at_point(first.end);
+CornerEnd outside_corner(const Policy& policy, const Turning& turn, const Element& first,
+                         Element& second) {
+  if (first.offset == 0) return at_point(second, first.end);
   switch (first.outside) {
     case OutsideCorner::IntersectCurves:
       return intersection(first, second);
@@ -110,80 +130,73 @@ Corner outside_corner(const Policy& policy, const Element& first, const Element&
     case OutsideCorner::ExtendTangents:
       break;
   }
-  return extended(policy, first, second);
+  return extended(policy, turn, first, second);
 }
 
-/// The start-up line from `tool` touches the cutter's circle about its end, which the tool then
-/// follows to the next element's normal.
-Corner touched(const Element& first, const Element& second, PlaneVector tool) {
-  const PlaneVector back = tool - first.end;
-  const double distance = length(back);
+/// Where the start-up line from `tool` touches the cutter's circle about its end, `distance` away.
+PlaneVector touching_point(const Element& first, PlaneVector tool, double distance) {
+  const PlaneVector out = (1 / distance) * (tool - first.end);
   const double radius = std::fabs(first.offset);
-  if (distance <= radius) return refusal(FaultKind::StartUpTooClose);
-  const PlaneVector out = (1 / distance) * back;
   const double cosine = radius / distance;
   const double sine = std::sqrt(1 - cosine * cosine) * (first.offset > 0 ? -1 : 1);
-  Corner corner = at_point(first.end + radius * (cosine * out + sine * left_of(out)));
-  go_round(corner, corner.end, first, second);
-  corner.begin = second.own_begin();
-  return corner;
+  return first.end + radius * (cosine * out + sine * left_of(out));
 }
 
-/// Of the line that `touched` takes, not of the programmed one.
-Element touching_line(const Element& first, PlaneVector tool, PlaneVector end) {
+/// The line to `touch`, not the programmed one.
+Element touching_line(const Element& first, PlaneVector tool, PlaneVector touch) {
   Element line = first;
-  const PlaneVector along = end - tool;
+  const PlaneVector along = touch - tool;
   line.direction_out = (1 / length(along)) * along;
   return line;
 }
 
-Corner tangential_start(const Policy& policy, const Element& first, const Element& second,
-                        PlaneVector tool) {
-  if (first.offset == 0 || second.is_rapid) return at_point(second.own_begin());
-  Corner corner = touched(first, second, tool);
-  if (corner.fault) return corner;
-  const Element line = touching_line(first, tool, corner.end);
-  const double tolerance = policy.tangent_tolerance.radians();
-  switch (shape_of(Turning(line, second), second.offset, tolerance)) {
-    case Shape::Outside:
-      return corner;
-    case Shape::Straight:
-      return at_point(second.own_begin());
-    case Shape::Inside:
-      break;
-  }
-  return policy.inside == InsideCorner::Refuse ? refusal(FaultKind::ConcaveCorner)
-                                               : at_point(second.own_begin());
+/// The tool follows the circle to the next element's normal.
+CornerEnd tangential_start(const Policy& policy, const Element& first, Element& second,
+                           PlaneVector tool) {
+  if (first.offset == 0 || second.is_rapid) return at_point(second, second.own_begin());
+  const double distance = length(tool - first.end);
+  if (distance <= std::fabs(first.offset)) return refusal(FaultKind::StartUpTooClose);
+  const PlaneVector touch = touching_point(first, tool, distance);
+  const Turning turn(touching_line(first, tool, touch), second);
+  const Shape shape = shape_of(turn, second.offset, policy.tangent_tolerance.radians());
+  if (shape == Shape::Inside && policy.inside == InsideCorner::Refuse)
+    return refusal(FaultKind::ConcaveCorner);
+  if (shape != Shape::Outside) return at_point(second, second.own_begin());
+  Way way(touch, second);
+  go_round(way, first, second);
+  second.begin = second.own_begin();
+  return {touch, {}};
 }
 
-Corner start_up_corner(const Policy& policy, const Element& first, const Element& second,
-                       PlaneVector tool) {
-  if (second.role == Role::Cancel) return at_point(first.own_end());
+CornerEnd start_up_corner(const Policy& policy, const Element& first, Element& second,
+                          PlaneVector tool) {
+  if (second.role == Role::Cancel) return at_point(second, first.own_end());
   if (first.start_up == StartUp::Tangent) return tangential_start(policy, first, second, tool);
-  const Shape shape =
-      shape_of(Turning(first, second), second.offset, policy.tangent_tolerance.radians());
+  const Turning turn(first, second);
+  const Shape shape = shape_of(turn, second.offset, policy.tangent_tolerance.radians());
   if (first.start_up == StartUp::Corner && shape == Shape::Outside)
-    return outside_corner(policy, first, second);
-  return at_point(second.own_begin());
+    return outside_corner(policy, turn, first, second);
+  return at_point(second, second.own_begin());
 }
 
 /// The cancel move counts as offset like the element before it, but ends where programmed.
-Corner cancel_corner(const Policy& policy, const Element& first, const Element& second) {
-  const Shape shape =
-      shape_of(Turning(first, second), second.offset, policy.tangent_tolerance.radians());
+CornerEnd cancel_corner(const Policy& policy, const Element& first, Element& second) {
+  const Turning turn(first, second);
+  const Shape shape = shape_of(turn, second.offset, policy.tangent_tolerance.radians());
   if (policy.cancel == Cancel::Corner && shape == Shape::Outside && first.role != Role::StartUp)
-    return outside_corner(policy, first, second);
-  return at_point(first.own_end());
+    return outside_corner(policy, turn, first, second);
+  return at_point(second, first.own_end());
 }
 
-Corner contour_corner(const Policy& policy, const Element& first, const Element& second) {
+CornerEnd contour_corner(const Policy& policy, const Element& first, Element& second) {
   if (first.offset * second.offset <= 0) return normals_joined(first, second);
-  switch (shape_of(Turning(first, second), second.offset, policy.tangent_tolerance.radians())) {
+  const Turning turn(first, second);
+  switch (shape_of(turn, second.offset, policy.tangent_tolerance.radians())) {
     case Shape::Straight:
-      return first.offset == second.offset ? at_point(first.own_end())
+      return first.offset == second.offset ? at_point(second, first.own_end())
                                            : normals_joined(first, second);
     case Shape::Outside:
-      return outside_corner(policy, first, second);
+      return outside_corner(policy, turn, first, second);
     case Shape::Inside:
       break;
   }
@@ -193,8 +206,8 @@ Corner contour_corner(const Policy& policy, const Element& first, const Element&
 
 }  // namespace
 
-Corner round_corner(const Policy& policy, const Element& first, const Element& second,
-                    PlaneVector tool) {
+CornerEnd round_corner(const Policy& policy, const Element& first, Element& second,
+                       PlaneVector tool) {
   if (first.role == Role::StartUp) return start_up_corner(policy, first, second, tool);
   if (second.role == Role::Cancel) return cancel_corner(policy, first, second);
   return contour_corner(policy, first, second);

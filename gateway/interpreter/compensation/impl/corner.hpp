@@ -5,16 +5,15 @@
 
 namespace dripline::interpreter::compensation::impl {
 
-/// What is decided where one element goes over into the next.
-struct Corner {
-  PlaneVector end;    ///< of the compensated first element
-  PlaneVector begin;  ///< of the compensated second element
-  LeadIn between;     ///< how the tool gets from `end` to `begin`
+/// How an element ends where it goes over into the next.
+struct CornerEnd {
+  PlaneVector end;  ///< of the compensated element
   std::optional<FaultKind> fault;
 };
 
-/// `first` ends where `second` begins. `tool` is where the tool stands before a start-up move.
-Corner round_corner(const Policy& policy, const Element& first, const Element& second,
-                    PlaneVector tool);
+/// `first` ends where `second` begins. `tool` is where the tool stands before a start-up move. Sets
+/// `second.begin`, and `second.lead_in` (empty before) to the way there from the end of the first.
+CornerEnd round_corner(const Policy& policy, const Element& first, Element& second,
+                       PlaneVector tool);
 
 }  // namespace dripline::interpreter::compensation::impl

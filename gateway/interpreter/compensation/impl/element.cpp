@@ -3,19 +3,41 @@
 namespace dripline::interpreter::compensation::impl {
 namespace {
 
-PlaneVector direction(PlaneVector along) {
-  return (1 / length(along)) * along;
+/// Along a circle, at a point `out` from its centre, `radius` away.
+PlaneVector tangent(PlaneVector out, double radius, double side) {
+  return radius > 0 ? (side / radius) * left_of(out) : PlaneVector{1, 0};
 }
-/// Along a circle, at a point `out` from its centre.
-PlaneVector tangent(PlaneVector out, double side) {
-  return length(out) > 0 ? side * left_of(direction(out)) : PlaneVector{1, 0};
+
+/// The turn from `from` to `to` about `center`, both scaled by the same factor.
+struct Shift {
+  Shift(PlaneVector from, PlaneVector to, PlaneVector center)
+      : sine(cross(from - center, to - center)), cosine(dot(from - center, to - center)) {}
+  double sine, cosine;
+};
+
+/// Angles so small are their own tangents to the last digit.
+constexpr double kSmallSlope = 1e-6;
+
+double angle_of(double sine, double cosine) {
+  if (cosine > 0 && std::fabs(sine) < kSmallSlope * cosine) return sine / cosine;
+  return std::atan2(sine, cosine);
+}
+
+/// In radians. Two angles that are acute have a difference of less than half a turn.
+double difference(const Shift& a, const Shift& b) {
+  if (a.cosine > 0 && b.cosine > 0) {
+    return angle_of(a.sine * b.cosine - a.cosine * b.sine, a.cosine * b.cosine + a.sine * b.sine);
+  }
+  return angle_of(a.sine, a.cosine) - angle_of(b.sine, b.cosine);
 }
 
 }  // namespace
 
 void complete_line(Element& element) {
-  element.direction_in = direction(element.end - element.from);
-  element.direction_out = element.direction_in;
+  const PlaneVector along = element.end - element.from;
+  const double scale = 1 / length(along);
+  element.direction_in = scale * along;
+  element.direction_out = scale * along;
 }
 
 void complete_arc(Element& element, const Arc& arc) {
@@ -27,16 +49,16 @@ void complete_arc(Element& element, const Arc& arc) {
   const PlaneVector out = element.end - arch.center;
   arch.radius_in = length(in);
   arch.radius_out = length(out);
-  element.direction_in = tangent(in, arch.side);
-  element.direction_out = tangent(out, arch.side);
+  element.direction_in = tangent(in, arch.radius_in, arch.side);
+  element.direction_out = tangent(out, arch.radius_out, arch.side);
   element.is_arc = true;
 }
 
 double offset_sweep(const Element& element, PlaneVector end) {
   const Arch& arch = element.arch;
-  const double late = turn_between(element.from - arch.center, element.begin - arch.center);
-  const double beyond = turn_between(element.end - arch.center, end - arch.center);
-  return arch.sweep + arch.side * (beyond - late);
+  const Shift late(element.from, element.begin, arch.center);
+  const Shift beyond(element.end, end, arch.center);
+  return arch.sweep + arch.side * difference(beyond, late);
 }
 
 }  // namespace dripline::interpreter::compensation::impl

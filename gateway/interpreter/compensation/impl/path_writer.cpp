@@ -17,19 +17,20 @@ double length_of(const Piece& piece, PlaneVector from) {
 }  // namespace
 
 PlaneVector PathWriter::nose() const {
-  return in_plane(state_.tool, axes_of(state_.plane)) - state_.tip;
+  return in_plane(state_.tool, axes_) - state_.tip;
 }
 
-Position PathWriter::tool_at(PlaneVector nose, const Position& others) const {
-  Position to = others;
-  set_in_plane(to, axes_of(state_.plane), nose + state_.tip);
-  return to;
+/// Positions are made anew from settled ones wherever they are needed: a copy of one whose numbers
+/// have just been written has to wait for them.
+void PathWriter::move_tool(PlaneVector tip, const Position& others) {
+  if (&others != &state_.tool) state_.tool = others;
+  set_in_plane(state_.tool, axes_, tip);
 }
 
 /// With inverse time, the pieces that lead to an element and the element share its time.
 Feed PathWriter::paced(const Element& element, double own_length) const {
   const LeadIn& lead_in = element.lead_in;
-  if (lead_in.count == 0 || element.feed.per() != Feed::Per::Move) return element.feed;
+  if (element.feed.per() != Feed::Per::Move) return element.feed;
   double total = own_length;
   PlaneVector from = nose();
   for (std::uint8_t i = 0; i < lead_in.count; ++i) {
@@ -46,63 +47,67 @@ void PathWriter::lead_in(const Element& element, Feed feed) {
     const double size = length_of(piece, nose());
     const Feed own =
         feed.per() == Feed::Per::Move ? Feed::inverse_time(feed.moves_per_minute() / size) : feed;
-    const Position to = tool_at(piece.to, state_.tool);
+    const Company with{state_.tool, own};
     if (piece.is_arc) {
-      arc(element, to, piece, own, false);
+      arc(element, piece, with);
     } else {
-      straight(element, to, own, false);
+      straight(element, piece.to + state_.tip, with);
     }
   }
 }
 
-void PathWriter::straight(const Element& element, const Position& to, Feed feed, bool rests) {
-  if (to.same_point(state_.tool)) return;
-  state_.tool = to;
+void PathWriter::straight(const Element& element, PlaneVector tip, const Company& with) {
+  Line move{element.origin, with.others, with.feed, with.rests};
+  set_in_plane(move.to, axes_, tip);
+  if (move.to.same_point(state_.tool)) return;
+  move_tool(tip, with.others);
   if (element.is_rapid) {
-    sink_.on_rapid({element.origin, to});
+    sink_.on_rapid({element.origin, move.to});
   } else {
-    sink_.on_line({element.origin, to, feed, rests});
+    sink_.on_line(move);
   }
 }
 
-void PathWriter::arc(const Element& element, const Position& to, const Piece& piece, Feed feed,
-                     bool rests) {
+void PathWriter::arc(const Element& element, const Piece& piece, const Company& with) {
   const PlaneVector center = piece.center + state_.tip;
-  state_.tool = to;
-  sink_.on_arc({.origin = element.origin,
-                .to = to,
-                .center_first = Length::mm(center.first),
-                .center_second = Length::mm(center.second),
-                .plane = state_.plane,
-                .turn = piece.sweep > 0 ? Turn::CounterClockwise : Turn::Clockwise,
-                .sweep = Angle::radians(std::fabs(piece.sweep)),
-                .feed = feed,
-                .rests = rests});
+  const PlaneVector tip = piece.to + state_.tip;
+  Arc move{.origin = element.origin,
+           .to = with.others,
+           .center_first = Length::mm(center.first),
+           .center_second = Length::mm(center.second),
+           .plane = state_.plane,
+           .turn = piece.sweep > 0 ? Turn::CounterClockwise : Turn::Clockwise,
+           .sweep = Angle::radians(std::fabs(piece.sweep)),
+           .feed = with.feed,
+           .rests = with.rests};
+  set_in_plane(move.to, axes_, tip);
+  move_tool(tip, with.others);
+  sink_.on_arc(move);
 }
 
-void PathWriter::put_out_straight(const Element& element, const Position& to) {
-  const PlaneAxes axes = axes_of(state_.plane);
-  const PlaneVector start = element.lead_in.count ? element.begin : nose();
-  const double own = length(in_plane(to, axes) - state_.tip - start);
-  Feed feed = paced(element, own);
+void PathWriter::put_out_straight(const Element& element, PlaneVector tip) {
+  Feed feed = element.feed;
   if (element.lead_in.count) {
+    const double own = length(tip - state_.tip - element.begin);
+    feed = paced(element, own);
     lead_in(element, feed);
     if (feed.per() == Feed::Per::Move && own > 0)
       feed = Feed::inverse_time(feed.moves_per_minute() / own);
   }
-  straight(element, to, feed, element.rests);
+  straight(element, tip, {element.to, feed, element.rests});
 }
 
 void PathWriter::put_out_arc(const Element& element, PlaneVector end, double sweep) {
   const Arch& arch = element.arch;
-  const double own = sweep * 0.5 * (element.offset_radius_in() + element.offset_radius_out());
-  Feed feed = paced(element, own);
+  Feed feed = element.feed;
   if (element.lead_in.count) {
+    const double own = sweep * 0.5 * (element.offset_radius_in() + element.offset_radius_out());
+    feed = paced(element, own);
     lead_in(element, feed);
     if (feed.per() == Feed::Per::Move) feed = Feed::inverse_time(feed.moves_per_minute() / own);
   }
   const Piece piece{.is_arc = true, .to = end, .center = arch.center, .sweep = arch.side * sweep};
-  arc(element, tool_at(end, element.to), piece, feed, element.rests);
+  arc(element, piece, {element.to, feed, element.rests});
 }
 
 bool PathWriter::put_out(const Element& element, PlaneVector end) {
@@ -119,7 +124,7 @@ bool PathWriter::put_out(const Element& element, PlaneVector end) {
              dot(end - element.begin, element.direction_in) < -kBackwards) {
     return false;
   }
-  put_out_straight(element, tool_at(end, element.to));
+  put_out_straight(element, end + state_.tip);
   return true;
 }
 

@@ -7,25 +7,34 @@ namespace dripline::interpreter::compensation::impl {
 /// Gives decided moves to the sink and keeps `State::tool` where they lead. Lives for one call.
 class PathWriter {
  public:
-  PathWriter(EventSink& sink, State& state) : sink_(sink), state_(state) {}
+  PathWriter(EventSink& sink, State& state)
+      : sink_(sink), state_(state), axes_(axes_of(state.plane)) {}
 
   /// The way to the element and the element itself, to `end`. False, and nothing given out, when
   /// it would run against its programmed direction.
   bool put_out(const Element& element, PlaneVector end);
-  /// The way to the element, then straight to `to`, a position of the tool.
-  void put_out_straight(const Element& element, const Position& to);
+  /// The way to the element, then straight on until the tip is at `tip`.
+  void put_out_straight(const Element& element, PlaneVector tip);
 
  private:
+  /// Of a move, besides its way in the plane.
+  struct Company {
+    const Position& others;  ///< where the axes outside the plane go
+    Feed feed;
+    bool rests = false;
+  };
+
   void put_out_arc(const Element& element, PlaneVector end, double sweep);
   void lead_in(const Element& element, Feed feed);
-  void straight(const Element& element, const Position& to, Feed feed, bool rests);
-  void arc(const Element& element, const Position& to, const Piece& piece, Feed feed, bool rests);
-  Position tool_at(PlaneVector nose, const Position& others) const;
+  void straight(const Element& element, PlaneVector tip, const Company& with);
+  void arc(const Element& element, const Piece& piece, const Company& with);
+  void move_tool(PlaneVector tip, const Position& others);
   PlaneVector nose() const;
   Feed paced(const Element& element, double own_length) const;
 
   EventSink& sink_;
   State& state_;
+  PlaneAxes axes_;
 };
 
 }  // namespace dripline::interpreter::compensation::impl
