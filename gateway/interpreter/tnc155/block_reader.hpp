@@ -8,30 +8,13 @@
 #include "gateway/interpreter/language/line_window.hpp"
 #include "gateway/interpreter/tnc155/block.hpp"
 #include "gateway/interpreter/tnc155/errors.hpp"
-#include "gateway/interpreter/tnc155/iso_modes.hpp"
+#include "gateway/interpreter/tnc155/iso_block.hpp"
+#include "gateway/interpreter/tnc155/reading_state.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
-enum class Form : std::uint8_t { Unknown, Plain, Iso };
-
 /// Which form a program's first bytes are in; Unknown when they fit neither.
 Form detect_form(std::string_view head);
-
-/// What the reader must know of the text it is in: per program, so a call keeps the caller's.
-struct ProgramForm {
-  Form form = Form::Unknown;        ///< found out from the first block that is read
-  Units units = Units::Millimetre;  ///< set by BEGIN PGM and %
-  friend bool operator==(const ProgramForm&, const ProgramForm&) = default;
-};
-
-/// All that reading depends on: part of the run's state.
-struct ReadingState {
-  ProgramForm program;
-  IsoModes iso;
-  /// The path function a `*` block of plain language repeats.
-  std::optional<BlockKind> last_path;
-  friend bool operator==(const ReadingState&, const ReadingState&) = default;
-};
 
 struct ReaderOptions {
   bool iso_continuation = true;  ///< an ISO line without number goes on with the block before it
@@ -51,11 +34,12 @@ enum class ReadState : std::uint8_t {
 /// must outlive the reader; other uses of the source need a `forget_window()` before the next call.
 class BlockReader {
  public:
-  static constexpr std::size_t kLongestBlock = 2048;
+  static constexpr std::size_t kLongestBlock = 4096;
 
   explicit BlockReader(ProgramSource& source, ReaderOptions options = {});
 
-  /// The next block. `state` changes only when it is Ready.
+  /// The next block. `state` changes only when it is Ready, but for the form, which the program's
+  /// first line decides.
   ReadState next(ReadingState& state, BlockParts& parts);
 
   /// Where the next block begins.
@@ -70,11 +54,19 @@ class BlockReader {
   void forget_window() { window_.forget(); }
 
   const Fault& fault() const { return fault_; }
+  /// The line of the text the fault is in; its column counts from there.
+  std::uint64_t fault_line() const { return fault_line_; }
+  /// The words of the block read last, where it was an ISO block.
+  const IsoBlock& iso_block() const { return iso_; }
   const std::string& reason() const { return window_.failure(); }
 
  private:
-  ReadState load(Form form);
+  ReadState load(ReadingState& state);
+  ReadState find_form(ReadingState& state);
+  ReadState show(Form form);
   bool read(ReadingState& state, BlockParts& parts);
+  ReadState complain();
+  void move_on();
 
   ProgramSource* source_;
   ReaderOptions options_;
@@ -83,9 +75,9 @@ class BlockReader {
   TextPlace block_place_;
   const char* text_ = nullptr;
   const char* text_end_ = nullptr;
-  std::uint64_t consumed_ = 0;  ///< bytes from place_ to behind the block
-  std::uint64_t lines_ = 0;     ///< line ends among them
   Fault fault_;
+  std::uint64_t fault_line_ = 0;
+  IsoBlock iso_;
 };
 
 }  // namespace dripline::interpreter::tnc155

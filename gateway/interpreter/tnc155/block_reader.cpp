@@ -1,0 +1,139 @@
+#include "gateway/interpreter/tnc155/block_reader.hpp"
+
+#include <fmt/format.h>
+
+#include "gateway/interpreter/tnc155/block_end.hpp"
+#include "gateway/interpreter/tnc155/plain_reader.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+using WindowState = language::LineWindow::State;
+
+/// LF, and CR without LF behind it.
+std::uint64_t line_ends_in(const char* at, const char* end) {
+  std::uint64_t lines = 0;
+  for (; at != end; ++at) {
+    lines += *at == '\n' || (*at == '\r' && (at + 1 == end || at[1] != '\n')) ? 1 : 0;
+  }
+  return lines;
+}
+
+/// The end of the first line that is not blank.
+struct FirstLineEnd {
+  const char* operator()(const char* at, const char* limit) const {
+    const char* begin = skip_blanks(at, limit);
+    while (begin != limit && *begin != '\n' && *begin != '\r') ++begin;
+    return begin;
+  }
+};
+
+}  // namespace
+
+BlockReader::BlockReader(ProgramSource& source, ReaderOptions options)
+    : source_(&source), options_(options), window_(source, kLongestBlock) {}
+
+ReadState BlockReader::next(ReadingState& state, BlockParts& parts) {
+  if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
+  if (!read(state, parts)) return complain();
+  move_on();
+  return ReadState::Ready;
+}
+
+ReadState BlockReader::load(ReadingState& state) {
+  WindowState loaded = WindowState::Ready;
+  switch (state.program.form) {
+    case Form::Plain:
+      loaded = window_.load(place_.program, place_.offset, PlainEnd{});
+      break;
+    case Form::Iso:
+      loaded = window_.load(place_.program, place_.offset, IsoEnd{options_.iso_continuation});
+      break;
+    case Form::Unknown:
+      return find_form(state);
+  }
+  switch (loaded) {
+    case WindowState::Ready:
+      return show(state.program.form);
+    case WindowState::NotYet:
+      return ReadState::NotYet;
+    case WindowState::EndOfText:
+      return ReadState::End;
+    case WindowState::TooLong:
+      fault_ = {ErrorCode::BlockTooLong, 0, fmt::format("over {} characters", kLongestBlock)};
+      fault_line_ = place_.line;
+      return ReadState::Wrong;
+    case WindowState::Failed:
+      break;
+  }
+  return ReadState::Failed;
+}
+
+ReadState BlockReader::find_form(ReadingState& state) {
+  ReadingState tried = state;
+  tried.program.form = Form::Plain;
+  const WindowState loaded = window_.load(place_.program, place_.offset, FirstLineEnd{});
+  if (loaded != WindowState::Ready) return load(tried);  // says it in the reader's words
+  if (skip_blanks(window_.begin(), window_.end()) == window_.end()) return ReadState::End;
+  tried.program.form = detect_form({window_.begin(), window_.end()});
+  if (tried.program.form == Form::Unknown) {
+    fault_ = {ErrorCode::BlockFormatIncorrect, 1, "neither plain language nor ISO"};
+    fault_line_ = place_.line;
+    return ReadState::Wrong;
+  }
+  state.program.form = tried.program.form;
+  return load(state);
+}
+
+/// The block without the blanks around it. A star in front belongs to plain language.
+ReadState BlockReader::show(Form form) {
+  text_end_ = window_.end();
+  text_ = form == Form::Iso ? IsoEnd::skip(window_.begin(), text_end_)
+                            : skip_blanks(window_.begin(), text_end_);
+  return text_ == text_end_ ? ReadState::End : ReadState::Ready;
+}
+
+bool BlockReader::read(ReadingState& state, BlockParts& parts) {
+  block_place_ = place_;
+  if (text_ != window_.begin()) {
+    block_place_.offset += static_cast<std::uint64_t>(text_ - window_.begin());
+    block_place_.line += line_ends_in(window_.begin(), text_);
+  }
+  if (state.program.form == Form::Iso) {
+    return read_iso_block(text_, text_end_, state.program, iso_, fault_) &&
+           resolve(iso_, place_.offset == 0, state, parts, fault_);
+  }
+  Block& block = parts.blocks[0];
+  if (!read_plain_block(text_, text_end_, state, block, fault_)) return false;
+  parts.count = 1;
+  note_plain_block(block, state);
+  return true;
+}
+
+/// The fault's place: its line, and the column within that.
+ReadState BlockReader::complain() {
+  fault_line_ = block_place_.line;
+  const std::uint32_t column = fault_.column;
+  for (std::uint32_t i = 0; i + 1 < column; ++i) {
+    if (text_[i] != '\n' && (text_[i] != '\r' || text_[i + 1] == '\n')) continue;
+    ++fault_line_;
+    fault_.column = column - i - 1;
+  }
+  return ReadState::Wrong;
+}
+
+void BlockReader::move_on() {
+  const char* behind = text_end_;
+  if (window_.is_terminated()) ++behind;
+  place_ = block_place_;
+  place_.offset += static_cast<std::uint64_t>(behind - text_);
+  place_.line += line_ends_in(text_, behind);
+}
+
+ProgramLookup BlockReader::find(std::string_view name) {
+  const std::string kept(name);  // it may lie in the window
+  window_.forget();
+  return source_->find(kept);
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "gateway/interpreter/tnc155/text_cursor.hpp"
+
+/// What the control accepts as values. Lengths of inch programs have the same travel.
+namespace dripline::interpreter::tnc155 {
+
+inline constexpr std::int64_t kUnit = Value::kStepsPerUnit;
+
+inline constexpr Range kMetricCoordinate{-30'000 * kUnit, 30'000 * kUnit};
+inline constexpr Range kInchCoordinate{-11'811'024, 11'811'024};
+inline constexpr Range kMetricRadius{0, 20'000 * kUnit - 10};
+inline constexpr Range kInchRadius{0, 7'874'015};
+inline constexpr Range kAbsoluteAngle{-360 * kUnit, 360 * kUnit};
+inline constexpr Range kIncrementalAngle{-5'400 * kUnit, 5'400 * kUnit};
+inline constexpr Range kMetricFeed{0, 15'999 * kUnit, true};
+inline constexpr Range kInchFeed{0, 6'299 * kUnit, true};
+inline constexpr Range kSpindleSpeed{0, 30'000 * kUnit, false, false};
+inline constexpr Range kSeconds{0, 20'000 * kUnit - 10};
+inline constexpr Range kOperand{-100'000 * kUnit + 1, 100'000 * kUnit - 1};
+inline constexpr std::int32_t kMostScale = 99'999'999;  ///< millionths
+inline constexpr std::int32_t kMostProgram = 99'999'999;
+inline constexpr std::int32_t kMostTool = 254;
+inline constexpr std::int32_t kMostLabel = 254;
+inline constexpr std::int32_t kMostRepeats = 65'535;
+inline constexpr std::int32_t kMostBlockNumber = 65'534;
+
+inline const Range& coordinate_range(const ProgramForm& form) {
+  return form.units == Units::Inch ? kInchCoordinate : kMetricCoordinate;
+}
+inline const Range& radius_range(const ProgramForm& form) {
+  return form.units == Units::Inch ? kInchRadius : kMetricRadius;
+}
+inline const Range& feed_range(const ProgramForm& form) {
+  return form.units == Units::Inch ? kInchFeed : kMetricFeed;
+}
+inline const Range& angle_range(bool is_incremental) {
+  return is_incremental ? kIncrementalAngle : kAbsoluteAngle;
+}
+
+/// The axis of a letter, without a table of words behind it. Nothing for other letters.
+inline bool is_axis_letter(char c) {
+  return (c >= 'X' && c <= 'Z') || (c >= 'A' && c <= 'C') || (c >= 'U' && c <= 'W');
+}
+inline Axis axis_of_letter(char c) {
+  if (c >= 'X') return static_cast<Axis>(c - 'X');
+  if (c >= 'U') return static_cast<Axis>(static_cast<int>(Axis::U) + (c - 'U'));
+  return static_cast<Axis>(static_cast<int>(Axis::A) + (c - 'A'));
+}
+
+}  // namespace dripline::interpreter::tnc155

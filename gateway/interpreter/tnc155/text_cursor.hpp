@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/tnc155/errors.hpp"
+#include "gateway/interpreter/tnc155/reading_state.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What a number may be, in steps of a Value.
+struct Range {
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  bool is_whole = false;  ///< no decimals
+  bool may_be_q = true;
+};
+
+/// Reads the words of one block from left to right; blanks and line ends between two characters
+/// mean nothing. `*end` can be read and is no character of a word. A function that gives false has
+/// put the reason into the fault.
+class TextCursor {
+ public:
+  TextCursor(const char* begin, const char* end, const ProgramForm& form, Fault& fault)
+      : begin_(begin), at_(begin), end_(end), form_(&form), fault_(&fault) {}
+
+  /// The next character that means something; where the block ends, that is `*end`.
+  char peek() {
+    while (*at_ == ' ') ++at_;
+    if (static_cast<unsigned char>(*at_) < ' ' && at_ != end_) skip_controls();
+    return *at_;
+  }
+  bool is_at_end() { return peek(), at_ == end_; }
+  void advance() { ++at_; }
+  const char* at() const { return at_; }
+  void back_to(const char* at) { at_ = at; }
+
+  bool take(char c) {
+    if (peek() != c || at_ == end_) return false;
+    ++at_;
+    return true;
+  }
+  /// Words of capitals and points; blanks mean nothing, here and in the text. Where it is not,
+  /// nothing is taken.
+  bool take(std::string_view word) {
+    const char* start = at_;
+    for (const char c : word) {
+      if (c != ' ' && !take(c)) {
+        at_ = start;
+        return false;
+      }
+    }
+    return true;
+  }
+  bool is_digit_next() { return is_digit(peek()); }
+  /// A sign, a digit, a decimal sign or a Q comes next.
+  bool is_value_next() {
+    const char c = peek();
+    return is_digit(c) || c == '+' || c == '-' || c == ',' || c == '.' || c == 'Q';
+  }
+
+  /// Digits without sign. `name` is what the fault calls it.
+  bool read_integer(std::int32_t& value, std::int32_t low, std::int32_t high,
+                    std::string_view name) {
+    peek();
+    const char* start = at_;
+    std::int64_t number = 0;
+    while (is_digit(*at_) && number < 1'000'000'000) number = number * 10 + (*at_++ - '0');
+    if (at_ == start) return missing(name);
+    if (number < low || number > high) return out_of_range(start, name, low, high);
+    value = static_cast<std::int32_t>(number);
+    return true;
+  }
+
+  /// A number with its sign, or a Q parameter with its sign.
+  bool read_value(Value& value, const Range& range, std::string_view name) {
+    const char first = peek();
+    const char* start = at_;
+    const bool is_negative = first == '-';
+    if (is_negative || first == '+') {
+      ++at_;
+      peek();
+    }
+    if (*at_ == 'Q') return read_q(value, is_negative, range, name, start);
+    std::int64_t steps = 0;
+    if (!read_steps(steps, name)) return false;
+    if (is_negative) steps = -steps;
+    if (steps < range.low || steps > range.high || (range.is_whole && steps % kSteps != 0)) {
+      return outside(start, name, range);
+    }
+    value = Value::steps(static_cast<std::int32_t>(steps));
+    return true;
+  }
+  /// A run of up to 5 digits with no decimal sign behind it; else nothing is taken.
+  bool read_short_integer(std::int32_t& value) {
+    peek();
+    const char* start = at_;
+    std::int32_t number = 0;
+    while (is_digit(*at_) && at_ - start < 5) number = number * 10 + (*at_++ - '0');
+    value = number;
+    if (at_ != start && !is_digit(*at_) && *at_ != ',' && *at_ != '.') return true;
+    at_ = start;
+    return false;
+  }
+  /// Moves behind what looks like a value.
+  void skip_value() {
+    while (is_value_next()) ++at_;
+  }
+  /// A number without sign in millionths.
+  bool read_millionths(std::int32_t& value, std::int32_t high, std::string_view name);
+
+  [[gnu::cold]] bool wrong(ErrorCode code, const char* at, std::string detail);
+  [[gnu::cold]] bool wrong(std::string detail) {
+    return wrong(ErrorCode::BlockFormatIncorrect, at_, std::move(detail));
+  }
+  [[gnu::cold]] bool missing(std::string_view name);
+  /// Something stands where the block should end.
+  [[gnu::cold]] bool unexpected();
+
+  const ProgramForm& form() const { return *form_; }
+  bool is_inch() const { return form_->units == Units::Inch; }
+
+  static constexpr std::int64_t kSteps = Value::kStepsPerUnit;
+  static bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+
+ private:
+  void skip_controls();
+  bool read_q(Value& value, bool is_negated, const Range& range, std::string_view name,
+              const char* start);
+
+  /// Digits with up to as many decimals as the program's units have.
+  bool read_steps(std::int64_t& steps, std::string_view name) {
+    const char* start = at_;
+    std::int64_t number = 0;
+    while (is_digit(*at_) && number < 1'000'000'000) number = number * 10 + (*at_++ - '0');
+    std::size_t digits = static_cast<std::size_t>(at_ - start);
+    std::int64_t fraction = 0;
+    if (*at_ == ',' || *at_ == '.') {
+      ++at_;
+      std::int64_t step = kSteps;
+      for (; is_digit(*at_); ++at_, ++digits) {
+        step /= 10;
+        fraction += step * (*at_ - '0');
+        if (step == 0 && *at_ != '0') return too_fine(start, name);
+      }
+      if (fraction % 10 != 0 && !is_inch()) return too_fine(start, name);
+    }
+    if (digits == 0) return at_ = start, missing(name);
+    steps = number * kSteps + fraction;
+    return true;
+  }
+  [[gnu::cold]] bool too_fine(const char* start, std::string_view name);
+  [[gnu::cold]] bool out_of_range(const char* start, std::string_view name, std::int64_t low,
+                                  std::int64_t high);
+  [[gnu::cold]] bool outside(const char* start, std::string_view name, const Range& range);
+  std::string word_at(const char* start) const;
+
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  const ProgramForm* form_;
+  Fault* fault_;
+};
+
+}  // namespace dripline::interpreter::tnc155
