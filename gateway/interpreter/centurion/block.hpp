@@ -36,6 +36,7 @@ struct Block {
     std::uint8_t g_count = 0;
     std::uint8_t m_count = 0;
     std::uint8_t action = kNoRow;  ///< the G row that decides what the axis words mean
+    bool rests = false;            ///< G9
     std::optional<ProbeUntil> probe;
     std::uint8_t thread_code = 0;  ///< G32, G34, G35 or G36; 0 = none
     std::uint32_t resume = 0;      ///< offset of the item to go on with

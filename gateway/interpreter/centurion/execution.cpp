@@ -7,16 +7,28 @@
 #include "gateway/interpreter/centurion/groove_cycles.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/centurion/reference_points.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
+
+/// G65 without P: the program and compensation go on, the machine stays.
+bool move_in_thought(Run& run) {
+  stand_still(run, true);
+  const bool is_done = move(run);
+  stand_still(run, false);
+  return is_done;
+}
 
 /// What the axis words of the block are for (step 5 of spec 12.3).
 bool act(Run& run) {
   switch (run.action()) {
     case GAction::FloatingZero:
     case GAction::LocalZero:
+    case GAction::Mirror:
+    case GAction::Scaling:
+    case GAction::Rotation:
       return true;  // apply_one_shots did it
     case GAction::DrillingCycle:
       return run_drilling_cycle(run);
@@ -31,6 +43,15 @@ bool act(Run& run) {
       return cut_single_thread(run);
     case GAction::MultipleThread:
       return cut_multiple_thread(run);
+    case GAction::MachineCoordinates:
+      return move_in_machine(run);
+    case GAction::FirstReference:
+    case GAction::OtherReference:
+      return go_to_reference(run);
+    case GAction::ReturnFromReference:
+      return return_from_reference(run);
+    case GAction::NonMovement:
+      return move_in_thought(run);
     default:
       return move(run);
   }

@@ -316,7 +316,7 @@ bool run_off_end(Run& run) {
   }
   if (state.blocks == 0) return run.fail(ErrorCode::EmptyProgram, 0);
   end_program(run, state.blocks);
-  return !state.uses_compensator || check_path(run);
+  return !run.has_stages() || check_path(run);
 }
 
 }  // namespace dripline::interpreter::centurion

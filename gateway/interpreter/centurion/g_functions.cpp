@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/centurion/coordinates.hpp"
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/parameter_files.hpp"
+#include "gateway/interpreter/centurion/reference_points.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
 
@@ -22,8 +24,10 @@ void change_units(Run& run, Units units) {
   if (state.units == units) return;
   const double factor =
       units == Units::Millimetre ? Length::kMillimetresPerInch : 1 / Length::kMillimetresPerInch;
-  for (Point* point : {&state.position, &state.previous, &state.floating_zero, &state.local_zero,
-                       &state.last_arc_center}) {
+  Transformation& how = state.transformation;
+  for (Point* point : {&state.position, &state.previous, &state.origin, &state.floating_zero,
+                       &state.local_zero, &state.last_arc_center, &state.reference_via.at,
+                       &how.mirror, &how.scale_center, &how.rotation_center}) {
     point->x *= factor;
     point->z *= factor;
   }
@@ -45,6 +49,7 @@ bool set_data_mode(Run& run, bool on) {
   if (on) return true;
   run.update_origin();  // what G10 brought counts from G11 on
   refresh_tool(run);
+  run.stages_changed();
   return true;
 }
 
@@ -99,7 +104,28 @@ bool apply_g(Run& run, const GRow& row) {
       modes.returns_to_clearance = true;
       return true;
     case GAction::CancelToolLength:
-      run.state.tool.offset = 0;
+      run.state.tool.has_no_length = true;
+      return true;
+    case GAction::ExactStop:
+      run.block.parts.rests = true;
+      return true;
+    case GAction::PathMode:
+      modes.path = row.code == 61   ? PathMode::ExactStop
+                   : row.code == 63 ? PathMode::Tapping
+                                    : PathMode::Cutting;
+      return true;
+    case GAction::SafeZone:
+      modes.checks_zone = row.code == 22;
+      run.stages_changed();
+      return true;
+    case GAction::MirrorOff:
+      end_mirror(run);
+      return true;
+    case GAction::ScalingOff:
+      end_scaling(run);
+      return true;
+    case GAction::RotationOff:
+      end_rotation(run);
       return true;
     case GAction::Compensation:
       modes.compensation = static_cast<std::uint8_t>(row.code - 40);
@@ -169,6 +195,11 @@ bool apply_speed(Run& run) {
     return run.fail(ErrorCode::SpindleOutOfRange, run.block.words.column(Address::S),
                     fmt::format("S{} is not in 1 to 9999", speed));
   }
+  const bool is_fixed = run.action() != GAction::FloatingZero && !run.state.modes.is_surface_speed;
+  if (const double most = most_revolutions(run); is_fixed && speed > most) {
+    return run.fail(ErrorCode::SpindleOutOfRange, run.block.words.column(Address::S),
+                    fmt::format("S{} is above {} of this spindle range", speed, most));
+  }
   SpindleModes& spindle = run.state.spindle;
   if (run.action() == GAction::FloatingZero) {
     spindle.limit = speed;
@@ -178,28 +209,6 @@ bool apply_speed(Run& run) {
     spindle.revolutions = speed;
   }
   return true;
-}
-
-/// The present position gets the given coordinates; every G50 ends G52 (spec 8.3, 8.4).
-void set_floating_zero(Run& run) {
-  const Words& words = run.block.words;
-  ModalState& state = run.state;
-  state.local_zero = {};
-  run.update_origin();
-  if (words.has(Address::X)) {
-    state.floating_zero.x += state.position.x - state.origin.x - words[Address::X] / 2;
-  }
-  if (words.has(Address::Z)) {
-    state.floating_zero.z += state.position.z - state.origin.z - words[Address::Z];
-  }
-  run.update_origin();
-}
-
-void set_local_zero(Run& run) {
-  const Words& words = run.block.words;
-  if (words.has(Address::X)) run.state.local_zero.x = words[Address::X] / 2;
-  if (words.has(Address::Z)) run.state.local_zero.z = words[Address::Z];
-  run.update_origin();
 }
 
 bool is_data_block(const Run& run) {
@@ -247,8 +256,10 @@ bool apply_modes(Run& run) {
   if (block.words.has(Address::F) && !takes_lead(run) && !apply_feed(run)) return false;
   if (block.words.has(Address::S) && !apply_speed(run)) return false;
   if (block.parts.tool) apply_tool(run);
-  if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0) [[unlikely]]
-    update_compensation(run);
+  if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0)
+      [[unlikely]] {
+    if (!update_compensation(run)) return false;
+  }
   show_speed_change(run, before, was_surface_speed);
   return true;
 }
@@ -260,13 +271,11 @@ bool apply_one_shots(Run& run) {
     run.events().on_dwell({run.origin, *parts.dwell, {}});
   }
   for (std::uint8_t i = 0; i < parts.g_count; ++i) {
-    if (g_row(run.block.g[i]).action != GAction::ClearFloatingZero) continue;
-    run.state.floating_zero = {};
-    run.update_origin();
+    const GRow& row = g_row(run.block.g[i]);
+    if (row.action == GAction::ClearFloatingZero) clear_floating_zero(run);
+    if (row.action == GAction::Retract) retract(run, row.code);
   }
-  if (run.action() == GAction::FloatingZero) set_floating_zero(run);
-  if (run.action() == GAction::LocalZero) set_local_zero(run);
-  return true;
+  return set_coordinates(run);
 }
 
 }  // namespace dripline::interpreter::centurion

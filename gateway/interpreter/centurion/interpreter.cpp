@@ -151,7 +151,7 @@ void CenturionInterpreter::settle_name() {
 bool CenturionInterpreter::finish_block() {
   if (!leave_block(run_)) return false;
   run_.end_block();
-  if (run_.state.uses_compensator && !check_path(run_)) [[unlikely]]
+  if (run_.has_stages() && !check_path(run_)) [[unlikely]]
     return false;
   ++run_.state.blocks;
   run_.block.parts.stage = Stage::Start;

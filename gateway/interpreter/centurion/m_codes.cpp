@@ -21,6 +21,9 @@ constexpr std::array kNamed{
     MRow{8, Act::FloodOn, BeforeMove, "flood coolant on"},
     MRow{9, Act::CoolantOff, AfterMove, "coolants off"},
     MRow{30, Act::EndAllOff, Flow, "end of program, spindle and coolant off"},
+    MRow{41, Act::SpindleRange, BeforeMove, "spindle range low"},
+    MRow{42, Act::SpindleRange, BeforeMove, "spindle range medium"},
+    MRow{43, Act::SpindleRange, BeforeMove, "spindle range high"},
     MRow{98, Act::Call, Flow, "program call"},
     MRow{99, Act::End, Flow, "end of program"},
 };

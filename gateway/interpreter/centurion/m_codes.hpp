@@ -12,7 +12,8 @@ enum class MAction : std::uint8_t {
   ProgramStop,
   OptionalStop,
   End,
-  EndAllOff,  ///< M30: spindle and coolant off too
+  EndAllOff,     ///< M30: spindle and coolant off too
+  SpindleRange,  ///< M41 to M43
   SpindleClockwise,
   SpindleCounterClockwise,
   SpindleOff,

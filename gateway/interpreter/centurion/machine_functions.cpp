@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/centurion/reference_points.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
+
+constexpr double kNoLimit = 9999;
 
 void emit_spindle(Run& run) {
   const SpindleModes& modes = run.state.spindle;
@@ -16,7 +18,10 @@ void emit_spindle(Run& run) {
   if (run.state.modes.is_surface_speed && modes.state != SpindleState::Off) {
     event.surface_speed = run.state.units == Units::Inch ? Length::inch(12 * modes.surface)
                                                          : Length::mm(1000 * modes.surface);
-    if (modes.limit > 0) event.max_revolutions = modes.limit;
+    const double most = most_revolutions(run);
+    if (modes.limit > 0 || most < kNoLimit) {
+      event.max_revolutions = modes.limit > 0 ? std::min(modes.limit, most) : most;
+    }
   }
   run.events().on_spindle(event);
 }
@@ -34,6 +39,7 @@ bool has_m(const Run& run, MAction action) {
 
 void use_offset(Run& run, int offset) {
   run.state.tool.offset = offset;
+  run.state.tool.has_no_length = false;
   refresh_tool(run);
 }
 
@@ -44,8 +50,7 @@ std::optional<int> offset_or_none(int offset) {
 /// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
 void change_tool(Run& run) {
   ModalState& state = run.state;
-  const double x = run.options.tool_change_x_mm / state.mm_per_unit();
-  rapid_to(run, {x, state.position.z}, {true, false});
+  go_to_tool_change(run);
   state.tool.active = state.tool.pending;
   if (state.tool.pending_offset >= 0) use_offset(run, state.tool.pending_offset);
   run.events().on_tool(
@@ -57,6 +62,10 @@ void change_tool(Run& run) {
 void apply_m(Run& run, const MRow& row) {
   switch (row.action) {
     case MAction::Strobe:
+      run.events().on_miscellaneous({run.origin, row.code});
+      return;
+    case MAction::SpindleRange:
+      run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
       run.events().on_miscellaneous({run.origin, row.code});
       return;
     case MAction::SpindleClockwise:
@@ -132,6 +141,12 @@ void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_sp
   if (!changed) return;
   if (has_m(run, MAction::SpindleClockwise) || has_m(run, MAction::SpindleCounterClockwise)) return;
   emit_spindle(run);
+}
+
+double most_revolutions(const Run& run) {
+  const auto& ranges = run.options.spindle_ranges;
+  const std::size_t range = run.parameters.byte(kSpindleRange);
+  return range >= 1 && range <= ranges.size() ? ranges[range - 1] : kNoLimit;
 }
 
 void spindle_to(Run& run, SpindleState state) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gateway/interpreter/centurion/text_cursor.hpp"
+#include "gateway/interpreter/centurion/transformation.hpp"
 #include "gateway/interpreter/event.hpp"
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says
@@ -14,13 +15,9 @@
 /// said otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there too.
 namespace dripline::interpreter::centurion {
 
-struct Point {
-  double x = 0;
-  double z = 0;
-  friend bool operator==(const Point&, const Point&) = default;
-};
-
 enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, CounterClockwise };
+/// How cutting moves end; tapping mode also holds off overrides and feed hold (spec 7.4).
+enum class PathMode : std::uint8_t { Cutting, ExactStop, Tapping };
 enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 inline constexpr std::size_t kMaxNesting = 50;  ///< calls, subroutines and loops, each
@@ -45,6 +42,8 @@ struct Modes {
   bool takes_data = false;            ///< between G10 and G11
   std::uint8_t work_system = 0;       ///< 0 is G54
   std::uint8_t compensation = 0;      ///< 1 G41, 2 G42
+  PathMode path = PathMode::Cutting;
+  bool checks_zone = false;  ///< G22
 };
 
 struct SpindleModes {
@@ -59,6 +58,7 @@ struct ToolModes {
   int pending_offset = -1;  ///< -1: the T word named none
   int active = 0;
   int offset = 0;
+  bool has_no_length = false;  ///< G49, until a T word brings an offset
 };
 
 /// What the compensation stage was last told.
@@ -66,7 +66,15 @@ struct NoseUse {
   std::uint8_t code = 0;  ///< 1 left, 2 right, 0 off
   double radius_mm = 0;
   double tip = 0;  ///< the tool type
+  bool is_mirrored = false;
   friend bool operator==(const NoseUse&, const NoseUse&) = default;
+};
+
+/// Where the last G28 or G30 went first, in machine coordinates, and the axes it named.
+struct ReferenceVia {
+  Point at;
+  bool x = false;
+  bool z = false;
 };
 
 /// M98, CALL.
@@ -124,6 +132,8 @@ struct ModalState {
   Point origin;         ///< of the active coordinates: work system + floating zero + local zero
   Point floating_zero;  ///< G50
   Point local_zero;     ///< G52
+  Transformation transformation;
+  ReferenceVia reference_via;
   Point last_arc_center;
   double last_arc_radius = 0;
   double dwell_seconds = 0;

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/arcs.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
+#include "gateway/interpreter/centurion/transform_stage.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -44,6 +45,21 @@ bool refuse_two_of_one_axis(Run& run, Address incremental) {
                   fmt::format("{} and its axis in one block", to_string(incremental)));
 }
 
+/// G60, and G0 with an overrun: beyond the target and back to it, always from the same side, which
+/// is one of the machine (spec 7.3).
+void position_to(Run& run, const Target& target) {
+  const bool is_single = run.action() == GAction::SingleDirection;
+  const Point overrun = run.parameters.point(is_single ? kSingleOverrun : kRapidOverrun);
+  const Point from = machine_of(run, run.state.position);
+  const Point to = machine_of(run, target.to);
+  Point beyond = to;
+  if (to.x != from.x) beyond.x += overrun.x;
+  if (to.z != from.z) beyond.z += overrun.z;
+  if (beyond == to) return rapid_to(run, target.to, target.named);
+  machine_rapid_to(run, beyond, target.named);
+  rapid_to(run, target.to, target.named);
+}
+
 bool start_probe(Run& run, const Target& target) {
   if (run.state.modes.motion == MotionMode::Rapid) {
     return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
@@ -51,8 +67,10 @@ bool start_probe(Run& run, const Target& target) {
   if (target.to == run.state.position) return true;
   ProbeQuestion question;
   question.probe.origin = run.origin;
-  question.probe.from = event_position(run, run.state.position, target.named);
-  question.probe.to = event_position(run, target.to, target.named);
+  const Point from = machine_of(run, run.state.position);
+  const Point to = machine_of(run, target.to);
+  question.probe.from = marked_position(run, from, from, target.named);
+  question.probe.to = marked_position(run, from, to, target.named);
   question.probe.until = *run.block.parts.probe;
   question.probe.feed = run.active_feed();
   run.events();  // the header comes before anything the question brings about
@@ -62,20 +80,21 @@ bool start_probe(Run& run, const Target& target) {
 }  // namespace
 
 bool read_target(Run& run, Target& target) {
-  const Words& words = run.block.words;
   const ModalState& state = run.state;
-  const bool is_machine = run.action() == GAction::MachineCoordinates;
-  const Point zero = is_machine ? Point{} : state.origin;
-  const bool is_incremental = state.modes.is_incremental && !is_machine;
-  target.to = state.position;
+  return read_end_words(run, {state.position, state.origin, state.modes.is_incremental}, target);
+}
+
+bool read_end_words(Run& run, const EndFrame& frame, Target& target) {
+  const Words& words = run.block.words;
+  target.to = frame.from;
   if (words.has(Address::X)) {
     const double x = words[Address::X] * 0.5;
-    target.to.x = is_incremental ? target.to.x + x : zero.x + x;
+    target.to.x = frame.is_incremental ? target.to.x + x : frame.zero.x + x;
     target.named.x = true;
   }
   if (words.has(Address::Z)) {
     const double z = words[Address::Z];
-    target.to.z = is_incremental ? target.to.z + z : zero.z + z;
+    target.to.z = frame.is_incremental ? target.to.z + z : frame.zero.z + z;
     target.named.z = true;
   }
   if (!words.has_any(set_of(Address::U, Address::W))) return check_target(run, target.to);
@@ -98,7 +117,8 @@ bool move(Run& run) {
   if (!words.has_any(kEndWords | kPolarWords)) return true;
   if (run.block.parts.thread_code != 0) [[unlikely]]
     take_lead_change(run);
-  const MotionMode mode = run.state.modes.motion;
+  const MotionMode mode =
+      run.action() == GAction::SingleDirection ? MotionMode::Rapid : run.state.modes.motion;
   if (mode >= MotionMode::Clockwise) return move_on_arc(run);
   Target target;
   if (words.has_any(kPolarWords)) [[unlikely]] {
@@ -118,7 +138,7 @@ bool move(Run& run) {
   if (run.block.parts.thread_code != 0) [[unlikely]]
     return thread_to(run, target, std::nullopt);
   if (mode == MotionMode::Rapid) {
-    rapid_to(run, target.to, target.named);
+    position_to(run, target);
     return true;
   }
   if (!check_feed(run)) return false;
@@ -132,9 +152,10 @@ void finish_probe(Run& run, const ProbeResult& result) {
   probe.result = result;
   const double mm = run.state.mm_per_unit();
   const Point at{result.at.linear(Axis::X).mm() / mm, result.at.linear(Axis::Z).mm() / mm};
-  probe.result->at = event_position(run, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
-  run.events().on_probe(probe);
-  arrive(run, at);
+  const Point from = machine_of(run, run.state.position);
+  probe.result->at = marked_position(run, from, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
+  run.machine_events().on_probe(probe);
+  arrive(run, programmed_of(run, at));
 }
 
 void rapid_to(Run& run, const Point& to, AxesNamed named) {
@@ -147,8 +168,24 @@ void rapid_to(Run& run, const Point& to, AxesNamed named) {
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
   if (to == run.state.position) return;
   const Position at = event_position(run, to, named);
-  run.events().on_line({run.origin, at, feed});
+  run.events().on_line({run.origin, at, feed, run.rests()});
   arrive(run, to);
+}
+
+void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
+  const Point from = machine_of(run, run.state.position);
+  if (machine == from) return;
+  const Position at = marked_position(run, from, machine, named);
+  run.machine_events().on_rapid({run.origin, at});
+  arrive(run, programmed_of(run, machine));
+}
+
+void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
+  const Point from = machine_of(run, run.state.position);
+  if (machine == from) return;
+  const Position at = marked_position(run, from, machine, named);
+  run.machine_events().on_line({run.origin, at, run.active_feed(), run.rests()});
+  arrive(run, programmed_of(run, machine));
 }
 
 bool check_target(Run& run, const Point& to) {
@@ -168,9 +205,13 @@ bool check_feed(Run& run) {
 }
 
 Position event_position(Run& run, const Point& point, AxesNamed named) {
+  return marked_position(run, run.state.position, point, named);
+}
+
+Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named) {
   ModalState& state = run.state;
-  if (point.x != state.position.x) state.moved_axes |= 1;
-  if (point.z != state.position.z) state.moved_axes |= 2;
+  if (point.x != from.x) state.moved_axes |= 1;
+  if (point.z != from.z) state.moved_axes |= 2;
   Position position;
   position.set(Axis::X, run.length(point.x));
   position.set(Axis::Z, run.length(point.z));

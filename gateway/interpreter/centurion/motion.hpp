@@ -22,10 +22,20 @@ struct Target {
   AxesNamed named;
 };
 bool read_target(Run& run, Target& target);
+/// What X, Z, U and W count from.
+struct EndFrame {
+  Point from;
+  Point zero;
+  bool is_incremental = false;
+};
+bool read_end_words(Run& run, const EndFrame& frame, Target& target);
 
 /// G0 to `to`; nothing when already there.
 void rapid_to(Run& run, const Point& to, AxesNamed named);
 /// A straight feed to `to`; nothing when already there.
+/// To a place in machine coordinates: nothing is transformed.
+void machine_rapid_to(Run& run, const Point& machine, AxesNamed named);
+void machine_feed_to(Run& run, const Point& machine, AxesNamed named);
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
 
 /// G2, G3; in arc_words.cpp.
@@ -37,6 +47,8 @@ bool check_target(Run& run, const Point& to);
 bool check_feed(Run& run);
 /// `point` as an event shows it; which axes count as moved is brought up to date.
 Position event_position(Run& run, const Point& point, AxesNamed named);
+/// The same with another point to have come from.
+Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named);
 void arrive(Run& run, const Point& at);
 std::uint32_t motion_column(const Run& run);
 

@@ -26,6 +26,8 @@ NoseUse wanted_use(const Run& run) {
   const bool is_disabled = (run.parameters.byte(kSpecialFlags) & kCompensationOff) != 0;
   use.code = is_disabled ? std::uint8_t{0} : run.state.modes.compensation;
   if (use.code == 0) return use;
+  const Transformation& how = run.state.transformation;
+  use.is_mirrored = how.mirrors_x != how.mirrors_z;
   use.radius_mm = run.length(run.parameters.tool(run.state.tool.offset, ToolField::Radius)).mm();
   use.tip = run.parameters.tool(run.state.tool.offset, ToolField::Type);
   return use;
@@ -93,17 +95,23 @@ compensation::Cutter nose_of(const Run& run, bool is_left) {
   const double size = std::fabs(radius.mm());
   compensation::Cutter cutter;
   cutter.plane = Plane::ZX;
-  cutter.side = is_left ? Side::Left : Side::Right;
+  // a mirrored path has the tool on its other side
+  cutter.side = is_left != run.state.nose.is_mirrored ? Side::Left : Side::Right;
   cutter.radius = radius;
   cutter.tip_first = Length::mm(tip.z * size);
   cutter.tip_second = Length::mm(tip.x * size);
   return cutter;
 }
 
-void update_compensation(Run& run) {
+bool update_compensation(Run& run) {
   const NoseUse use = wanted_use(run);
+  const Transformation& how = run.state.transformation;
+  if (use.code != 0 && how.scales && (how.factor.x < 0 || how.factor.z < 0)) {
+    return run.fail(ErrorCode::IllegalStatement, 0,
+                    "nose compensation with a scale factor below 0");
+  }
   NoseUse& now = run.state.nose;
-  if (now == use) return;
+  if (now == use) return true;
   now = use;
   if (use.code != 0) {
     begin_use(run);
@@ -111,6 +119,7 @@ void update_compensation(Run& run) {
   } else if (run.state.uses_compensator) {
     run.command({PathCommand::Kind::TurnOff, {}});
   }
+  return true;
 }
 
 void leave_compensation(Run& run) {
@@ -129,6 +138,14 @@ void stand_still(Run& run, bool still) {
 }
 
 bool check_path(Run& run) {
+  if (const auto& misfit = run.transform.misfit()) {
+    run.origin.line = misfit->line;
+    return run.fail(ErrorCode::RadiusTooSmall, 0, "the scaled radius does not span the points");
+  }
+  if (const auto& stopped = run.guard.fault()) {
+    run.origin.line = stopped->origin.line;
+    return run.fail(stopped->code, 0, stopped->detail);
+  }
   const auto& fault = run.compensator.fault();
   if (!fault) return true;
   run.origin.line = fault->origin.line;

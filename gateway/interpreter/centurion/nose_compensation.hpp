@@ -16,7 +16,8 @@ compensation::Policy compensation_policy();
 compensation::Cutter nose_of(const Run& run, bool is_left);
 
 /// Before the block's move: tells the stage what G40-G42, the tool or the special flags changed.
-void update_compensation(Run& run);
+/// False: nose compensation does not go with a scale factor below 0 (spec 9.4).
+bool update_compensation(Run& run);
 /// Moves of the machine's own (G28, G53, M6) are made without compensation: `leave` before them,
 /// `resume` after.
 void leave_compensation(Run& run);

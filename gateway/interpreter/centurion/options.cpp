@@ -61,23 +61,87 @@ Result<bool> stored_x_is_diameter(const Options& options) {
   return *choice == 1;
 }
 
-Result<void> read_tool_change(const Options& options, ControlOptions& control) {
-  const OptionValue* option = options.find("tool_change");
-  if (option == nullptr) return {};
-  if (const auto* zero = std::get_if<std::int64_t>(&option->value); zero && *zero == 0) return {};
-  const auto position = options.position("tool_change");
-  if (!position) return fail(position.error());
-  const auto is_diameter = stored_x_is_diameter(options);
-  if (!is_diameter) return fail(is_diameter.error());
-  control.tool_change_x_mm = position->linear(Axis::X).mm() / (*is_diameter ? 2 : 1);
-  return {};
-}
-
 Result<void> load_axes(const Position& position, std::string_view what) {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const auto axis = static_cast<Axis>(i);
     if (!position.has(axis) || axis == Axis::X || axis == Axis::Z) continue;
     return fail(Errc::Unsupported, "{}: this lathe has no axis {}", what, letter(axis));
+  }
+  return {};
+}
+
+/// A place of the machine into P`first` (Z) and the one behind it (X).
+Result<void> load_place(const Position& place, std::string_view what, int first, const Setup& setup,
+                        Parameters& parameters) {
+  if (auto checked = load_axes(place, what); !checked) return checked;
+  const auto is_diameter = stored_x_is_diameter(setup.control);
+  if (!is_diameter) return fail(is_diameter.error());
+  const Units units = units_of(setup);
+  parameters[first] = in_units(place.linear(Axis::Z), units);
+  parameters[first + 1] = in_units(place.linear(Axis::X), units) / (*is_diameter ? 2 : 1);
+  return {};
+}
+
+struct PlaceOption {
+  std::string_view name;
+  int parameter;
+};
+constexpr PlaceOption kPlaceOptions[] = {
+    {"home", kHomePosition},
+    {"tool_change", kToolChangePoint},
+    {"positive_zone", kPositiveZone},
+    {"negative_zone", kNegativeZone},
+    {"positive_limit", kPositiveLimit},
+    {"negative_limit", kNegativeLimit},
+    {"g60_overrun", kSingleOverrun},
+    {"g0_overrun", kRapidOverrun},
+};
+
+bool is_zero(const OptionValue& option) {
+  const auto* number = std::get_if<std::int64_t>(&option.value);
+  return number != nullptr && *number == 0;
+}
+
+/// The axis parameters and reference points (spec 23.1, 23.4). A plain 0 leaves all axes at 0.
+Result<void> load_places(const Setup& setup, Parameters& parameters) {
+  constexpr std::size_t kMostReferences = 4;
+  const Options& options = setup.control;
+  for (const PlaceOption& option : kPlaceOptions) {
+    const OptionValue* value = options.find(option.name);
+    if (value == nullptr || is_zero(*value)) continue;
+    const auto place = options.position(option.name);
+    if (!place) return fail(place.error());
+    auto loaded = load_place(*place, option.name, option.parameter, setup, parameters);
+    if (!loaded) return loaded;
+  }
+  const OptionValue* value = options.find("reference");
+  if (value == nullptr || is_zero(*value)) return {};
+  const auto points = options.positions("reference");
+  if (!points) return fail(points.error());
+  if (points->size() > kMostReferences) {
+    return fail(Errc::LimitExceeded, "[control] reference: {} points, this control has {}",
+                points->size(), kMostReferences);
+  }
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    const int first = kReferencePoints + 2 * static_cast<int>(i);
+    auto loaded = load_place((*points)[i], "reference", first, setup, parameters);
+    if (!loaded) return loaded;
+  }
+  return {};
+}
+
+/// `spindle_ranges`: the most revolutions of low, medium and high; `spindle_range` at the start.
+Result<void> read_spindle(const Options& options, ControlOptions& control) {
+  const auto most = options.integers("spindle_ranges");
+  if (!most) return fail(most.error());
+  if (!most->empty() && most->size() != control.spindle_ranges.size()) {
+    return fail(Errc::Syntax, "[control] spindle_ranges: expected low, medium and high");
+  }
+  for (std::size_t i = 0; i < most->size(); ++i) {
+    if ((*most)[i] < 1 || (*most)[i] > 9999) {
+      return fail(Errc::LimitExceeded, "[control] spindle_ranges: {} is not 1 to 9999", (*most)[i]);
+    }
+    control.spindle_ranges[i] = static_cast<double>((*most)[i]);
   }
   return {};
 }
@@ -165,6 +229,10 @@ Result<void> load_power_on(const Options& options, ModalState& state, Parameters
     return fail(Errc::LimitExceeded, "[control] special_flags: {} is not 0 to 255", *flags);
   }
   parameters.byte(kSpecialFlags) = static_cast<std::uint8_t>(*flags);
+  const auto range = options.choice("spindle_range", {"low", "medium", "high"}, 0);
+  if (!range) return fail(range.error());
+  parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(*range + 1);
+  parameters[188] = parameters[189] = 1;  // scale factors
   return {};
 }
 
@@ -188,11 +256,13 @@ Result<void> read_cycles(const Options& options, ControlOptions& control) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known({"stored_x", "reference", "tool_change", "power_on_feed",
-                                    "power_on_feed_mode", "special_flags", "leading", "trailing",
-                                    "report_file", "custom_g", "custom_m", "resolve_dnc",
-                                    "dnc_refusals", "pins", "disable_417", "pulse_ms",
-                                    "cycle_spindle", "tap_ramp", "groove_relief"});
+  auto known = options.check_known(
+      {"stored_x",       "reference",   "tool_change",   "power_on_feed",  "power_on_feed_mode",
+       "special_flags",  "leading",     "trailing",      "report_file",    "custom_g",
+       "custom_m",       "resolve_dnc", "dnc_refusals",  "pins",           "disable_417",
+       "pulse_ms",       "home",        "positive_zone", "negative_zone",  "positive_limit",
+       "negative_limit", "g60_overrun", "g0_overrun",    "spindle_ranges", "spindle_range",
+       "cycle_spindle",  "tap_ramp",    "groove_relief"});
   if (!known) return fail(known.error());
   if (auto unused = refuse_unused(options); !unused) return fail(unused.error());
   if (!setup.switches.mirror.empty()) {
@@ -204,7 +274,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   for (auto done :
        {read_digits(options, "leading", control.leading_digits),
         read_digits(options, "trailing", control.trailing_digits), read_dnc(options, control),
-        read_tool_change(options, control), read_cycles(options, control)}) {
+        read_spindle(options, control), read_cycles(options, control)}) {
     if (!done) return fail(done.error());
   }
   const auto report = options.text("report_file", "REPORT.DAT");
@@ -229,6 +299,7 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   if (auto done = load_power_on(setup.control, state, parameters); !done) return done;
   const auto is_diameter = stored_x_is_diameter(setup.control);
   if (!is_diameter) return fail(is_diameter.error());
+  if (auto done = load_places(setup, parameters); !done) return done;
   for (const OffsetRecord& offset : setup.offsets) {
     if (auto done = load_offset(offset, *is_diameter, state, parameters); !done) return done;
   }

@@ -20,7 +20,7 @@ struct ControlOptions {
   bool optional_stop = false;
   bool refuses_loops_and_calls = false;  ///< `dnc_refusals`
   bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
-  double tool_change_x_mm = 0;           ///< machine position of M6, radius
+  std::array<double, 3> spindle_ranges{9999, 9999, 9999};  ///< most revolutions: low, medium, high
   double pulse_ms = 150;
   SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`
   double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill

@@ -3,8 +3,7 @@
 namespace dripline::interpreter::centurion {
 
 Point Parameters::work_offset(int system) const {
-  const int first = kWorkOffsets + 2 * system;
-  return {(*this)[first + 1], (*this)[first]};
+  return point(kWorkOffsets + 2 * system);
 }
 
 int Parameters::tool_parameter(int offset, ToolField field) {
@@ -27,7 +26,9 @@ double Parameters::tool(int offset, ToolField field) const {
 }
 
 void Parameters::convert_tables(double factor) {
-  for (int number = kWorkOffsets; number < kWorkOffsets + 12; ++number) (*this)[number] *= factor;
+  // zeroes, axis parameters; then centers of mirror, scaling and rotation, and clearances
+  for (int number = kWorkOffsets; number <= kLastAxisParameter; ++number) (*this)[number] *= factor;
+  for (const int number : {139, 140, 172, 173, 180, 181, 196, 197}) (*this)[number] *= factor;
   for (int offset = 1; offset <= kOffsetCount; ++offset) {
     for (const ToolField field : {ToolField::LengthZ, ToolField::LengthX, ToolField::Radius,
                                   ToolField::WearZ, ToolField::WearX, ToolField::WearRadius}) {
@@ -45,7 +46,9 @@ std::optional<double> axis_status(const ModalState& state, const Parameters& par
   if ((number & 7) > 1 || number > 255) return std::nullopt;
   const auto of = [is_x](const Point& point) { return is_x ? point.x : point.z; };
   const double length =
-      parameters.tool(state.tool.offset, is_x ? ToolField::LengthX : ToolField::LengthZ);
+      state.tool.has_no_length
+          ? 0
+          : parameters.tool(state.tool.offset, is_x ? ToolField::LengthX : ToolField::LengthZ);
   switch (number & ~7) {
     case 200:
       return of(state.previous) - of(state.origin);
@@ -83,10 +86,18 @@ std::optional<double> mode_status(const ModalState& state, int number) {
       return flag(state.modes.is_surface_speed);
     case 315:
       return flag(state.units == Units::Millimetre);
+    case 316:
+      return flag(state.transformation.scales);
+    case 317:
+      return flag(state.transformation.rotates);
+    case 318:
+      return flag(state.transformation.mirrors());
     case 319:
       return state.modes.work_system + 1;
     case 323:
       return flag(state.modes.returns_to_clearance);
+    case 324:
+      return flag(state.modes.path == PathMode::Tapping);
     case 365:
       return state.feed[0];
     case 366:
@@ -126,6 +137,8 @@ std::optional<double> status_parameter(const ModalState& state, const Parameters
       return state.position.x - state.origin.x;
     case 260:
       return state.tool.active;
+    case 266:
+      return state.modes.checks_zone ? 1 : 0;
     case 268:
       return state.tool.pending;
     case 298:

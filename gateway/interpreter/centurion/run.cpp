@@ -4,8 +4,30 @@ namespace dripline::interpreter::centurion {
 
 void Run::choose_stages() {
   if (!state.has_header) deliver_header();
-  front = &sink;
-  if (state.uses_compensator) front = &compensator;
+  EventSink& last = guards_travel() ? static_cast<EventSink&>(guard) : sink;
+  machine_front = state.uses_compensator ? &compensator : &last;
+  transform.lead_to(*machine_front);
+  front = state.transformation.is_on() ? &transform : machine_front;
+}
+
+/// Brings the guard up to date. True when it has anything to look after.
+bool Run::guards_travel() {
+  const auto area = [this](int positive, int negative) {
+    const Point a = parameters.point(positive);
+    const Point b = parameters.point(negative);
+    return TravelArea{length(b.x).mm(), length(a.x).mm(), length(b.z).mm(), length(a.z).mm()};
+  };
+  const TravelArea limits = area(kPositiveLimit, kNegativeLimit);
+  std::optional<TravelArea> zone;
+  if (state.modes.checks_zone) {
+    zone = area(kPositiveZone, kNegativeZone);
+    if (zone->least_x > zone->most_x) std::swap(zone->least_x, zone->most_x);
+    if (zone->least_z > zone->most_z) std::swap(zone->least_z, zone->most_z);
+  }
+  guard.set_limits(limits);
+  guard.set_zone(zone);
+  guard.place(state.uses_compensator ? compensator.tool() : present_position());
+  return zone || limits.least_x < limits.most_x || limits.least_z < limits.most_z;
 }
 
 void Run::command(const PathCommand& command) {
@@ -20,8 +42,9 @@ void Run::end_block() {
 
 Position Run::present_position() const {
   Position at;
-  at.set(Axis::X, length(state.position.x));
-  at.set(Axis::Z, length(state.position.z));
+  const Point machine = machine_of(*this, state.position);
+  at.set(Axis::X, length(machine.x));
+  at.set(Axis::Z, length(machine.z));
   if (!(state.moved_axes & 1)) at.unmark(Axis::X);
   if (!(state.moved_axes & 2)) at.unmark(Axis::Z);
   return at;
@@ -72,8 +95,12 @@ const Answer* Run::next_answer() {
 
 void Run::update_origin() {
   const Point work = parameters.work_offset(state.modes.work_system);
-  state.origin = {work.x + state.floating_zero.x + state.local_zero.x,
-                  work.z + state.floating_zero.z + state.local_zero.z};
+  const Point home = parameters.point(kHomePosition);
+  const Point machine = machine_of(*this, state.position);
+  state.origin = {home.x + work.x + state.floating_zero.x + state.local_zero.x,
+                  home.z + work.z + state.floating_zero.z + state.local_zero.z};
+  if (state.transformation.is_on()) [[unlikely]]
+    state.position = programmed_of(*this, machine);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -11,6 +11,8 @@
 #include "gateway/interpreter/centurion/options.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
 #include "gateway/interpreter/centurion/text_cursor.hpp"
+#include "gateway/interpreter/centurion/transform_stage.hpp"
+#include "gateway/interpreter/centurion/travel_guard.hpp"
 #include "gateway/interpreter/interpreter.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -26,7 +28,9 @@ struct Run {
       : options(std::move(control_options)),
         source(program_source),
         sink(event_sink),
-        compensator(compensation_policy(), event_sink),
+        guard(event_sink),
+        compensator(compensation_policy(), guard),
+        transform(*this, event_sink),
         text(program_source) {}
 
   /// Where events go, after the header has been delivered: through the stages in use, to the sink.
@@ -38,9 +42,23 @@ struct Run {
   /// After a change of what is in use, or of the state as a whole: the stages between the program's
   /// events and the sink are put together anew.
   void choose_stages();
+  /// The same, when there has been an event; else the first one does it.
+  void stages_changed() {
+    if (front != nullptr) choose_stages();
+  }
+  /// Events do not go straight to the sink.
+  bool has_stages() const { return front != &sink; }
+  /// For moves of the machine's own, which nothing transforms.
+  EventSink& machine_events() {
+    if (front == nullptr) [[unlikely]]
+      choose_stages();
+    return *machine_front;
+  }
   /// To the compensation stage, in order with the events.
   void command(const PathCommand& command);
   void end_block();
+  /// Whether the move of the block ends at rest (G9, G61).
+  bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
 
   /// Offset of `at` in the block, and its 1-based column.
   std::uint32_t offset(const char* at) const {
@@ -86,7 +104,9 @@ struct Run {
   const ControlOptions options;
   ProgramSource& source;
   EventSink& sink;
+  TravelGuard guard;
   compensation::Compensator compensator;
+  TransformStage transform;
   TextCursor text;
   ModalState state;
   Parameters parameters;
@@ -104,8 +124,10 @@ struct Run {
   std::string scratch;  ///< output text being made
 
   EventSink* front = nullptr;  ///< the first stage; none before the header
+  EventSink* machine_front = nullptr;
 
  private:
+  bool guards_travel();
   [[gnu::cold]] void deliver_header();
 };
 
