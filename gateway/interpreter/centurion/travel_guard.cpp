@@ -112,7 +112,8 @@ bool TravelGuard::allows_line(const Origin& origin, const Position& to) {
   if (!is_within_limits(origin, end)) return false;
   // what stands inside may get out
   if (zone_ && !is_in_zone(at_) && crosses_zone(end)) {
-    return refuse(ErrorCode::SafeZone, origin, fmt::format("X {} Z {} mm", end.x, end.z));
+    return refuse(ErrorCode::SafeZone, origin,
+                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
   }
   at_ = end;
   return true;
@@ -133,7 +134,8 @@ bool TravelGuard::allows_arc(const Arc& arc) {
   const Spot end = spot_of(arc.to);
   if (!is_within_limits(arc.origin, end)) return false;
   if (zone_ && !is_in_zone(at_) && arc_crosses_zone(arc)) {
-    return refuse(ErrorCode::SafeZone, arc.origin, fmt::format("X {} Z {} mm", end.x, end.z));
+    return refuse(ErrorCode::SafeZone, arc.origin,
+                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
   }
   at_ = end;
   return true;
