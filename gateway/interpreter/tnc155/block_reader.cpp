@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gateway/interpreter/tnc155/block_end.hpp"
 #include "gateway/interpreter/tnc155/plain_reader.hpp"
 
@@ -113,7 +115,8 @@ bool BlockReader::read(ReadingState& state, BlockParts& parts) {
 /// The fault's place: its line, and the column within that.
 ReadState BlockReader::complain() {
   fault_line_ = block_place_.line;
-  const std::uint32_t column = fault_.column;
+  // What the words of an ISO block say together is wrong with the whole block.
+  const std::uint32_t column = fault_.column = std::max(fault_.column, 1u);
   for (std::uint32_t i = 0; i + 1 < column; ++i) {
     if (text_[i] != '\n' && (text_[i] != '\r' || text_[i + 1] == '\n')) continue;
     ++fault_line_;

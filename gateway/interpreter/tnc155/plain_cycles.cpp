@@ -148,7 +148,7 @@ bool read_jump(TextCursor& cursor, Block& block) {
   if (!cursor.take(name)) return cursor.wrong(fmt::format("{} is missing", name));
   if (!read_operand(cursor, block.second)) return false;
   if (!cursor.take("GOTO LBL")) return cursor.wrong("GOTO LBL is missing");
-  const char* start = cursor.at();
+  const char* start = (cursor.peek(), cursor.at());
   if (!cursor.read_integer(block.target, 0, kMostLabel, "GOTO LBL")) return false;
   if (block.target == 0) return cursor.wrong(ErrorCode::JumpToLabelZero, start, "GOTO LBL 0");
   return ends(cursor);
@@ -158,7 +158,7 @@ bool read_jump(TextCursor& cursor, Block& block) {
 
 bool read_cycle(TextCursor& cursor, Block& block) {
   block.kind = BlockKind::CycleDefinition;
-  const char* start = cursor.at();
+  const char* start = (cursor.peek(), cursor.at());
   std::int32_t cycle = 0;
   std::int32_t part = 0;
   if (!cursor.read_integer(cycle, 0, 99, "CYCL DEF")) return false;

@@ -63,7 +63,7 @@ bool read_label(TextCursor& cursor, Block& block) {
 
 bool read_label_call(TextCursor& cursor, Block& block) {
   block.kind = BlockKind::LabelCall;
-  const char* start = cursor.at();
+  const char* start = (cursor.peek(), cursor.at());
   if (!cursor.read_integer(block.target, 0, kMostLabel, "CALL LBL")) return false;
   if (block.target == 0) return cursor.wrong(ErrorCode::JumpToLabelZero, start, "CALL LBL 0");
   if (!cursor.take("REP") || !cursor.is_digit_next()) return ends(cursor);
@@ -145,7 +145,7 @@ bool read_plain_block(const char* begin, const char* end, const ReadingState& st
     return false;
   }
   const char first = cursor.peek();
-  const char* start = cursor.at();
+  const char* start = (cursor.peek(), cursor.at());
   if (first == 'L') return cursor.advance(), read_l(cursor, block);
   if (first == 'C') return cursor.advance(), read_c(cursor, block, start);
   if (first == '*' && !cursor.is_at_end()) {

@@ -66,7 +66,7 @@ const IsoCase kWords[] = {
     {"UnknownCode", "N20 G35 R1", "3:5 ILLEGAL G-CODE: G35"},
     {"UnknownLongCode", "N20 G101", "3:5 ILLEGAL G-CODE: G101"},
     {"NineCodes", "N20 G17 G01 G41 G25 R1 G79 G29 G51 T1 G98 L1 G38 X1",
-     "3:54 BLOCK FORMAT INCORRECT: more than 8 G functions"},
+     "3:52 BLOCK FORMAT INCORRECT: more than 8 G functions"},
     {"FourCoordinates", "N20 X1 Y1 Z1 A1", "3:16 BLOCK FORMAT INCORRECT: more than 3 coordinates"},
     {"CoordinateTwice", "N20 X1 X2", "3:8 BLOCK FORMAT INCORRECT: X stands twice"},
     {"TwoAuxiliaryFunctions", "N20 X1 M3 M8", "3:11 BLOCK FORMAT INCORRECT: M stands twice"},

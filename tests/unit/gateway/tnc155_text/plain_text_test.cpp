@@ -21,12 +21,12 @@ TEST_P(Tnc155PlainBlock, IsWrittenAsTheControlWritesIt) {
 const PlainCase kBlocks[] = {
     {"ContinuationLines", "41 L X+12,5\n   Y-3\n   R F M\n42 CC",
      "41 L X+12,500 Y-3,000 R F M\n42 CC\n"},
-    {"BlanksWithinWords", "7 L X + 12,5 I Y - 3 R 0 F 2 5 0 M 3\n",
+    {"BlanksWithinWords", "7 L X + 12,5 I Y - 3 R 0 F 250 M 3\n",
      "7 L X+12,500 IY-3,000 R0 F250 M03\n"},
     {"NoBlanks", "7LX1Y2RLF250M08\n", "7 L X+1,000 Y+2,000 RL F250 M08\n"},
     {"Point", "7 L X1.25 Y-,5 F40\n", "7 L X+1,250 Y-0,500 R F40 M\n"},
     {"InchHasFourDecimals", "0 BEGIN PGM 4 INCH\n1 L X1.23456\n",
-     "0 BEGIN PGM 4 INCH\n2:8 ENTRY VALUE INCORRECT: X 1.23456 has more than 4 decimals"},
+     "0 BEGIN PGM 4 INCH\n2:6 ENTRY VALUE INCORRECT: X 1.23456 has more than 4 decimals"},
     {"InchNumbers", "0 BEGIN PGM 4 INCH\n1 L X1.2345 A90\n",
      "0 BEGIN PGM 4 INCH\n1 L X+1,2345 A+90,000 R F M\n"},
     {"MetricHasThreeDecimals", "1 L X1,2345",
@@ -70,7 +70,7 @@ const PlainCase kBlocks[] = {
     {"Subprogram", "2 CALL LBL 61 REP", "2 CALL LBL 61 REP\n"},
     {"Repeat", "2 CALL LBL 61 REP 5/3", "2 CALL LBL 61 REP 5/3\n"},
     {"RepeatWithoutCountdown", "2 CALL LBL 61 REP 5", "2 CALL LBL 61 REP 5/5\n"},
-    {"CallOfLabelZero", "2 CALL LBL 0 REP", "1:11 JUMP TO LABEL 0 NOT PERMITTED: CALL LBL 0"},
+    {"CallOfLabelZero", "2 CALL LBL 0 REP", "1:12 JUMP TO LABEL 0 NOT PERMITTED: CALL LBL 0"},
     {"ProgramCall", "2 CALL PGM 87654321", "2 CALL PGM 87654321\n"},
     {"ProgramNumberTooLong", "2 CALL PGM 123456789",
      "1:12 ENTRY VALUE INCORRECT: CALL PGM 123456789 is not within 0 to 99999999"},
@@ -176,7 +176,8 @@ INSTANTIATE_TEST_SUITE_P(Blocks, Tnc155PlainBlock, testing::ValuesIn(kBlocks),
 
 TEST(Tnc155PlainText, ComesOutTheSameForAllWindows) {
   const std::string text =
-      "\0\0\r\n0 BEGIN PGM 5 MM\r\n1 L X+1,5\r\n    Y+2 R0 F100 M\r\n2 CC\r\r\n3 LBL 7\n\n4 CALL "
+      std::string(50, '\0') +
+      "\r\n0 BEGIN PGM 5 MM\r\n1 L X+1,5\r\n    Y+2 R0 F100 M\r\n2 CC\r\r\n3 LBL 7\n\n4 CALL "
       "LBL 7 REP 2/2\r"
       "5 END PGM 5 MM\r\n\x03";
   const std::string whole = rewritten(text);
