@@ -60,10 +60,10 @@ struct Ran {
   double seconds = 0;
 };
 
-Ran run(const Dialect& dialect, const std::string& text) {
+Ran run(const Dialect& dialect, const std::string& text, const Setup& setup) {
   MemorySource source(text);
   CountingSink sink;
-  auto interpreter = dialect.make(Setup{}, source, sink);
+  auto interpreter = dialect.make(setup, source, sink);
   const auto start = std::chrono::steady_clock::now();
   while ((*interpreter)->step(kStride) == StepState::Ran) {
   }
@@ -73,12 +73,12 @@ Ran run(const Dialect& dialect, const std::string& text) {
 }
 
 void measure(benchmark::State& state, std::string_view control, const std::string& text,
-             const std::string& executed) {
+             const std::string& executed, const Setup& setup = {}) {
   const Dialect& dialect = **find_dialect(control);
   Ran total;
   double scanned = 0;
   for (auto _ : state) {
-    const Ran ran = run(dialect, text);
+    const Ran ran = run(dialect, text, setup);
     total.blocks += ran.blocks;
     total.seconds += ran.seconds;
     state.SetIterationTime(ran.seconds);
@@ -111,6 +111,36 @@ void FanucStraightBlocks(benchmark::State& state) {
   measure(state, "fanuc", kText, kText);
 }
 BENCHMARK(FanucStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+/// A shaft with shoulders, cones and fillets, over and over, cut by a tool with a nose.
+std::string contour_text() {
+  constexpr int kParts = 60'000;
+  std::string text = "G98F30\nT0101M6\nG42G1X1.0Z0.1\n";
+  for (int i = 0; i < kParts; ++i) {
+    text +=
+        "Z-1.0\nX1.5Z-1.5\nZ-2.0\nG2X2.0Z-2.25R.25\nG1X2.5\nG3X3.0Z-2.5R.25\nG1Z-3.0\n"
+        "X3.5Z-3.25\nX4.0\nZ-3.5\nX5.0\nZ.1\nX1.0\n";
+  }
+  return text + "G40X6.0Z1.0\n";
+}
+
+/// The same number of blocks as straight moves: what the compensated ones are compared with.
+void CenturionContour(benchmark::State& state, bool is_compensated) {
+  std::string text = contour_text();
+  Setup setup;
+  ToolRecord& tool = setup.tools.emplace_back();
+  tool.number = 1;
+  tool.radius = Length::inch(0.03125);
+  tool.tip = 3;
+  if (!is_compensated) text.erase(text.find("G42"), 3);
+  measure(state, "centurion", text, text, setup);
+}
+BENCHMARK_CAPTURE(CenturionContour, programmed, false)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CenturionContour, compensated, true)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// As the Centurion's, in custom macro B.
 std::string custom_macro_text() {
