@@ -6,6 +6,7 @@
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/record_repository.hpp"
 #include "storage/impl/run_repository.hpp"
+#include "storage/impl/setup_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
 
 namespace dripline::storage {
@@ -21,6 +22,7 @@ struct SqliteStore::Repositories {
         runs(*connections, clock),
         records(*connections, clock),
         ports(*connections),
+        setups(*connections, clock),
         audit(*connections) {}
 
   const Clock& clock;
@@ -31,6 +33,7 @@ struct SqliteStore::Repositories {
   RunRepository runs;
   RecordRepository records;
   PortRepository ports;
+  SetupRepository setups;
   AuditRepository audit;
 };
 
@@ -154,6 +157,17 @@ Result<std::vector<Port>> SqliteStore::ports() {
 }
 Result<void> SqliteStore::remove_port(const std::string& name) {
   return repositories_->ports.remove(name);
+}
+
+Result<SetupRevision> SqliteStore::save_setup(const SetupRevision& setup) {
+  return repositories_->setups.save(setup);
+}
+Result<std::vector<SetupRevision>> SqliteStore::setups(const std::string& machine, Page page) {
+  return repositories_->setups.all(machine, page);
+}
+Result<SetupRevision> SqliteStore::setup(const std::string& machine,
+                                         std::optional<std::uint64_t> number) {
+  return repositories_->setups.find(machine, number);
 }
 
 Result<void> SqliteStore::audit(const AuditEntry& entry) {

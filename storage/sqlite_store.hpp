@@ -77,6 +77,11 @@ class SqliteStore final : public Store {
   Result<std::vector<Port>> ports() override;
   Result<void> remove_port(const std::string& name) override;
 
+  Result<SetupRevision> save_setup(const SetupRevision& setup) override;
+  Result<std::vector<SetupRevision>> setups(const std::string& machine, Page page) override;
+  Result<SetupRevision> setup(const std::string& machine,
+                              std::optional<std::uint64_t> number) override;
+
   Result<void> audit(const AuditEntry& entry) override;
   Result<std::vector<AuditEntry>> audit_entries(Page page) override;
 

@@ -99,7 +99,8 @@ struct Run {
   std::string author;
   UtcTime created;
   std::optional<UtcTime> started, ended;
-  std::uint64_t outputs = 0;  ///< stored report lines
+  std::uint64_t outputs = 0;           ///< stored report lines
+  std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
 };
 
 /// One thing a machine reported, identified for ever by (machine, epoch, number). `kind` is the
@@ -153,6 +154,18 @@ struct Port {
 };
 inline constexpr std::size_t kMaxPortSettings = 64;
 inline constexpr std::size_t kMaxPortRules = 32 * 1024;
+
+/// What a machine's control knows before a program starts: tools, offsets, variables, parameters.
+struct SetupRevision {
+  std::string machine;
+  std::uint64_t number = 0;  ///< 1, 2, 3 ... per machine
+  std::string text;          ///< TOML
+  Digest sha256;             ///< of the text
+  std::uint64_t size = 0;    ///< of the text, bytes
+  std::string comment, author;
+  UtcTime created;
+};
+inline constexpr std::size_t kMaxSetup = 64 * 1024;
 
 struct AuditEntry {
   UtcTime time;
@@ -267,6 +280,17 @@ class Store {
   virtual Result<std::vector<Port>> ports() = 0;
   /// Errors: NotFound.
   virtual Result<void> remove_port(const std::string& name) = 0;
+
+  // Setups of machines
+  /// Makes `text` the machine's newest setup, or returns the newest when it has that text already.
+  /// `number`, `sha256`, `size` and `created` are the store's own. Errors: Syntax and LimitExceeded
+  /// (the machine's name, kMaxSetup).
+  virtual Result<SetupRevision> save_setup(const SetupRevision& setup) = 0;
+  /// Newest first, their texts left out.
+  virtual Result<std::vector<SetupRevision>> setups(const std::string& machine, Page page) = 0;
+  /// The newest, or the one with that number. Errors: NotFound.
+  virtual Result<SetupRevision> setup(const std::string& machine,
+                                      std::optional<std::uint64_t> number) = 0;
 
   // Audit
   virtual Result<void> audit(const AuditEntry& entry) = 0;

@@ -90,6 +90,7 @@ Details run_details(const client::Run& run) {
   details.add("reason", run.reason);
   details.add("machine", run.machine);
   details.add("program", fmt::format("{} revision {}", run.program, run.revision));
+  details.add("setup", run.setup ? fmt::format("{} of the server", *run.setup) : "the gateway's");
   details.add("control", run.control);
   details.add("content", run.sha256);
   details.add("verified", run.content_verified ? (*run.content_verified ? "yes" : "NO") : "");

@@ -85,6 +85,16 @@ struct Run {
   std::optional<bool> content_verified;
   std::string author, created, started, ended;
   std::uint64_t outputs = 0;
+  std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
+};
+
+/// What a machine's control knows before a program starts.
+struct Setup {
+  std::string machine;
+  std::uint64_t revision = 0, size = 0;
+  std::string sha256, comment, author, created;
+  std::string text;        ///< TOML; only of one that was asked for
+  bool unchanged = false;  ///< the newest had this text already
 };
 
 struct Record {

@@ -143,6 +143,8 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   return list;
 }
 
+template Reply<Setup> Client::fetch(const HttpRequest&);
+template Reply<std::vector<Setup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(const HttpRequest&);
 template Reply<PortTest> Client::fetch(const HttpRequest&);
 template Reply<RuleVerdict> Client::fetch(const HttpRequest&);

@@ -69,6 +69,11 @@ struct OrderRequest {
 };
 
 /// What a port is set to; saving replaces all of it.
+struct SetupRequest {
+  std::string machine, text, comment;
+  std::string control;  ///< of a machine that was never seen; else empty
+};
+
 struct PortRequest {
   std::string name, machine, address;
   std::string line_template, rules;  ///< may be empty
@@ -105,6 +110,12 @@ class Client {
 
   Reply<std::vector<Machine>> machines();
   Reply<Machine> machine(std::string_view name);
+
+  /// Newest first, without their texts.
+  Reply<std::vector<Setup>> setups(std::string_view machine, Page page);
+  /// The newest unless a revision is named.
+  Reply<Setup> setup(std::string_view machine, std::optional<std::uint64_t> revision);
+  Reply<Setup> save_setup(const SetupRequest& request);
 
   Reply<Run> start_run(const RunRequest& request);
   Reply<std::vector<Run>> runs(const RunQuery& query);

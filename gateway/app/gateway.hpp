@@ -70,9 +70,13 @@ class Gateway {
   void on_order(const dds::Order& order);
   Reply carry_out(const dds::Order& order);
   Reply start(const dds::Order& order);
-  /// `order_id`: what is answered by it; empty: nobody.
+  struct StartedBy {
+    std::string order;  ///< what is answered; empty: nobody
+    std::string setup;  ///< what the server knows of tools, offsets and variables, TOML
+  };
   Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
-                         const std::string& order_id);
+                         const StartedBy& started_by);
+  Result<interpreter::Setup> setup_with(const std::string& control_data) const;
   std::optional<Reply> refusal_of_start(const dds::Order& order);
   Reply operate(const dds::Order& order);
   Reply set_switch(const dds::Order& order);

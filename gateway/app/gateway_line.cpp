@@ -117,7 +117,7 @@ bool Gateway::begin_line_run() {
                               .control = parts_.options.control};
   auto feed = std::make_unique<feed::LineFeed>();
   auto* raw = feed.get();
-  if (const auto done = begin_run(run, std::move(feed), ""); !done) {
+  if (const auto done = begin_run(run, std::move(feed), {}); !done) {
     spdlog::error("program {} from line {} not begun: {} {}", run.program, parts_.line->address(),
                   done.error().what, label());
     last_message_ = valid_text(done.error().what, kMaxReason);

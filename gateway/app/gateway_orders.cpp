@@ -117,14 +117,26 @@ Gateway::Reply Gateway::start(const dds::Order& order) {
         return parts_.endpoint.write(request).has_value();
       });
   const auto done = begin_run({order.run, order.program, order.revision, order.control, order.size},
-                              std::move(feed), order.id);
+                              std::move(feed), {order.id, order.setup});
   return done ? Reply{} : refuse(done.error().what);
+}
+
+/// Our own setup with what the server knows of tools, offsets and variables in their place.
+Result<interpreter::Setup> Gateway::setup_with(const std::string& control_data) const {
+  interpreter::Setup setup = parts_.setup;
+  if (control_data.empty()) return setup;
+  auto data = interpreter::parse_control_data(control_data, parts_.dialect.units);
+  if (!data) return fail(data.error());
+  interpreter::use_control_data(*std::move(data), setup);
+  return setup;
 }
 
 Result<void> Gateway::begin_run(const report::ActiveRun& run,
                                 std::unique_ptr<feed::ProgramFeed> feed,
-                                const std::string& order_id) {
-  interpreter::Setup setup = parts_.setup;
+                                const StartedBy& started_by) {
+  auto known = setup_with(started_by.setup);
+  if (!known) return fail(known.error().code, "the server's setup: {}", known.error().what);
+  interpreter::Setup setup = *std::move(known);
   setup.switches.block_skip = machine_.panel().block_skip;
   auto session = RunSession::make({.run = run,
                                    .feed = std::move(feed),
@@ -139,7 +151,7 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
     return ExecutionRecorder::Supply{raw->feed().sent(), raw->accepted()};
   });
   outbox_.add_order_result(start_key(run.run), true, "");
-  if (!order_id.empty()) outbox_.add_order_result(order_id, true, "");
+  if (!started_by.order.empty()) outbox_.add_order_result(started_by.order, true, "");
   if (const auto done = outbox_.commit(); !done) {
     outbox_.discard();
     return fail(done.error().code, "the start can not be kept: {}", done.error().what);

@@ -94,6 +94,8 @@ void read_tool(Table& table, std::vector<ToolRecord>& tools) {
   }
   table.length("radius", tool.radius);
   table.integer("tip", 0, 9, tool.tip);
+  if (table.has("pocket")) table.integer("pocket", 0, 9999, tool.pocket.emplace());
+  table.flag("special", tool.is_special);
   table.table("wear", {"X", "Z", "radius"}, [&](Table& wear) {
     wear.axes({Axis::X, Axis::Z}, tool.wear);
     wear.length("radius", tool.radius_wear);
@@ -236,7 +238,7 @@ void read_file(Table& file, Setup& setup) {
              [&](Table& switches) { read_switches(switches, setup.switches); });
   read_date_time(file, setup);
   file.texts("answers", setup.answers);
-  file.tables("tool", {"number", "length", "X", "Z", "radius", "tip", "wear"},
+  file.tables("tool", {"number", "length", "X", "Z", "radius", "tip", "wear", "pocket", "special"},
               [&](Table& tool) { read_tool(tool, setup.tools); });
   file.tables("offset", {"name", "X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
               [&](Table& offset) { read_offset(offset, setup.offsets); });
@@ -252,9 +254,9 @@ void read_file(Table& file, Setup& setup) {
   });
 }
 
-}  // namespace
-
-Result<Setup> parse_setup(std::string_view text, Units units) {
+/// `keys`: those the file may have at its top.
+Result<Setup> parse(std::string_view text, Units units,
+                    std::initializer_list<std::string_view> keys) {
   if (text.size() > kMaxSetupBytes) {
     return fail(Errc::LimitExceeded, "a setup file of {} bytes; at most {} are read", text.size(),
                 kMaxSetupBytes);
@@ -267,12 +269,30 @@ Result<Setup> parse_setup(std::string_view text, Units units) {
   }
   Reading reading{units, std::nullopt};
   Setup setup;
-  Table file(reading, parsed, "",
-             {"start", "units", "switches", "date_time", "answers", "tool", "offset", "variable",
-              "probe", "control", "library"});
+  Table file(reading, parsed, "", keys);
   read_file(file, setup);
   if (reading.error) return fail(*reading.error);
   return setup;
+}
+
+}  // namespace
+
+Result<Setup> parse_setup(std::string_view text, Units units) {
+  return parse(text, units,
+               {"start", "units", "switches", "date_time", "answers", "tool", "offset", "variable",
+                "probe", "control", "library"});
+}
+
+Result<Setup> parse_control_data(std::string_view text, Units units) {
+  return parse(text, units, {"units", "tool", "offset", "variable", "control"});
+}
+
+void use_control_data(Setup data, Setup& setup) {
+  if (data.units) setup.units = data.units;
+  if (!data.control.empty()) setup.control = std::move(data.control);
+  setup.tools = std::move(data.tools);
+  setup.offsets = std::move(data.offsets);
+  setup.variables = std::move(data.variables);
 }
 
 }  // namespace dripline::interpreter

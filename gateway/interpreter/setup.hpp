@@ -27,7 +27,9 @@ struct ToolRecord {
   Position wear;
   Length radius;
   Length radius_wear;
-  int tip = 0;  ///< lathe tool type
+  int tip = 0;                ///< lathe tool type
+  std::optional<int> pocket;  ///< of the tool changer's magazine
+  bool is_special = false;    ///< takes its neighbours' pockets too, and keeps its own
 };
 
 struct OffsetRecord {
@@ -59,5 +61,13 @@ struct Setup {
 /// (a dialect's own, see `Dialect::units`). Errors: Syntax, with the key and its line; an unknown
 /// key is an error.
 Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimetre);
+
+/// What a control keeps in its memory, as the server stores it: `units`, `tool`, `offset`,
+/// `variable` and `control` of a setup file, and nothing else. What describes the machine (start,
+/// probe, answers ...) stays with its gateway. Errors: as parse_setup.
+Result<Setup> parse_control_data(std::string_view toml, Units units = Units::Millimetre);
+/// `data` in the place of what `setup` has of it. Its options replace all of the options, when
+/// there are any.
+void use_control_data(Setup data, Setup& setup);
 
 }  // namespace dripline::interpreter

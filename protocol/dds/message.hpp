@@ -108,6 +108,8 @@ struct RecordAck {
   friend bool operator==(const RecordAck&, const RecordAck&) = default;
 };
 
+inline constexpr std::size_t kMaxOrderSetup = 64 * 1024;
+
 struct Order {
   std::string machine, id;
   UtcTime expires;
@@ -117,6 +119,7 @@ struct Order {
   std::string control, argument;
   double value = 0;
   std::uint64_t session = 0;  ///< 0: whichever gateway hears it
+  std::string setup;          ///< start: TOML, at most kMaxOrderSetup; empty: the gateway's own
   friend bool operator==(const Order&, const Order&) = default;
 };
 

@@ -10,6 +10,7 @@
 #include "server/feeds/feed_control.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/setups.hpp"
 #include "server/serial/port_control.hpp"
 #include "storage/store.hpp"
 
@@ -25,6 +26,7 @@ struct ServerFacts {
 /// What the handlers work with; all must outlive the Api.
 struct Services {
   library::Programs& programs;
+  library::Setups& setups;
   feeds::FeedControl& feeds;
   storage::Store& store;
   library::AuditTrail& audit;

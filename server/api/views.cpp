@@ -117,7 +117,18 @@ json run_json(const storage::Run& run) {
           {"created", to_iso8601(run.created)},
           {"started", optional_time(run.started)},
           {"ended", optional_time(run.ended)},
-          {"outputs", run.outputs}};
+          {"outputs", run.outputs},
+          {"setup", run.setup ? json(*run.setup) : json(nullptr)}};
+}
+
+json setup_json(const storage::SetupRevision& setup) {
+  return {{"machine", setup.machine},
+          {"revision", setup.number},
+          {"size", setup.size},
+          {"sha256", setup.sha256.hex()},
+          {"comment", optional_text(setup.comment)},
+          {"author", optional_text(setup.author)},
+          {"created", to_iso8601(setup.created)}};
 }
 
 json record_json(const storage::Record& record) {

@@ -13,6 +13,8 @@ nlohmann::json revision_json(const storage::Revision& revision);
 nlohmann::json program_json(const storage::ProgramSummary& program);
 nlohmann::json machine_json(const feeds::MachineView& view);
 nlohmann::json run_json(const storage::Run& run);
+/// Without the text.
+nlohmann::json setup_json(const storage::SetupRevision& setup);
 nlohmann::json record_json(const storage::Record& record);
 nlohmann::json report_json(const storage::Run& run);
 nlohmann::json audit_json(const storage::AuditEntry& entry);

@@ -66,11 +66,13 @@ struct Server::Parts {
         store(std::move(opened)),
         audit(*store, clock),
         programs(*store, clock, catalog, audit),
+        setups(*store, catalog, audit),
         feeds(*store, clock, {}, api::publish_to(events)),
         ports(*store, programs, clock, {.recordings = folder.recordings()},
               api::publish_to(events)),
         machines(*store, feeds, ports.feed()),
         api({.programs = programs,
+             .setups = setups,
              .feeds = machines,
              .store = *store,
              .audit = audit,
@@ -91,6 +93,7 @@ struct Server::Parts {
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::Programs programs;
+  library::Setups setups;
   api::EventHub events;
   feeds::FeedService feeds;
   ports::PortService ports;

@@ -162,6 +162,14 @@ Result<storage::Run> FeedService::make_run(const StartRequest& request, const Ma
   return run;
 }
 
+/// The machine's newest setup; none when the server keeps none for it.
+Result<std::optional<storage::SetupRevision>> FeedService::setup_of(const storage::Run& run) {
+  auto setup = store_.setup(run.machine, std::nullopt);
+  if (setup) return std::optional(*std::move(setup));
+  if (setup.error().code == Errc::NotFound) return std::optional<storage::SetupRevision>{};
+  return fail(setup.error());
+}
+
 Result<storage::Run> FeedService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
@@ -175,8 +183,11 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
     return fail(Errc::Busy, "two gateways say that they are machine '{}'; stop one of them",
                 request.machine);
   }
-  const auto run = make_run(request, *view);
+  auto run = make_run(request, *view);
   if (!run) return run;
+  const auto setup = setup_of(*run);
+  if (!setup) return fail(setup.error());
+  if (*setup) run->setup = (*setup)->number;
   // It may have announced itself this very moment, and a run needs its machine in the store.
   if (auto saved = store_.save_machine(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.create_run(*run); !created) return fail(created.error());
@@ -191,6 +202,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   order.size = run->size;
   order.control = run->control;
   order.session = view->session;
+  if (*setup) order.setup = (*setup)->text;
   return conclude_start(*run, parts->orders.carry_out(std::move(order)));
 }
 

@@ -17,6 +17,9 @@ class ControlCatalog {
   /// leaves no doubt.
   virtual std::vector<std::string> detect(std::string_view head,
                                           std::string_view program) const = 0;
+  /// Would the control take this as its tools, offsets and parameters? Errors: Syntax, Unsupported,
+  /// LimitExceeded: which key, which line.
+  virtual Result<void> check_setup(std::string_view control, std::string_view toml) const = 0;
 };
 
 /// Errors: Unsupported, naming the known controls.

@@ -1,5 +1,6 @@
 #include "server/library/dialect_catalog.hpp"
 
+#include "gateway/interpreter/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::library {
@@ -17,6 +18,18 @@ std::vector<std::string> DialectCatalog::detect(std::string_view head,
     names.emplace_back(dialect->name);
   }
   return names;
+}
+
+Result<void> DialectCatalog::check_setup(std::string_view control, std::string_view toml) const {
+  const auto dialect = interpreter::find_dialect(control);
+  if (!dialect) return fail(dialect.error());
+  const auto data = interpreter::parse_control_data(toml, (*dialect)->units);
+  if (!data) return fail(data.error());
+  interpreter::MemorySource no_text("");
+  interpreter::EventSink nobody;
+  const auto made = (*dialect)->make(*data, no_text, nobody);
+  if (!made) return fail(made.error());
+  return {};
 }
 
 }  // namespace dripline::library

@@ -10,7 +10,7 @@ const std::string kSelect =
     "SELECT run.id, machine.name, program.name, run.revision, content.sha256, content.size, "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
-    "run.started_us, run.ended_us, run.outputs FROM run "
+    "run.started_us, run.ended_us, run.outputs, run.setup FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
     "JOIN content ON content.id = revision.content ";
@@ -37,6 +37,9 @@ Run read_run(const sqlite::Statement& row) {
   run.started = row.optional_time(18);
   run.ended = row.optional_time(19);
   run.outputs = row.number(20);
+  if (const auto setup = row.optional_integer(21)) {
+    run.setup = static_cast<std::uint64_t>(*setup);
+  }
   return run;
 }
 
@@ -113,12 +116,12 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, "
-      "?17, ?18)",
+      "ended_us, setup) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, "
+      "?16, ?17, ?18, ?19)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
-      run.ended);
+      run.ended, run.setup);
 }
 
 }  // namespace

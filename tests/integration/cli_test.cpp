@@ -49,6 +49,31 @@ std::string report_program(std::uint64_t lines) {
   return text;
 }
 
+TEST_F(Cli, TheNewestSetupOfAMachineGoesWithTheStart) {
+  start_all();
+  const auto setup_of = [&](int value) {
+    return write("setup.toml",
+                 "[[variable]]\nname = \"P10\"\nvalue = " + std::to_string(value) + "\n");
+  };
+  EXPECT_EQ(dnc_json({"setup", "push", "lathe-1", setup_of(7)}).at("revision"), 1);
+  const auto second = dnc({"setup", "push", "lathe-1", setup_of(8), "-m", "new"});
+  EXPECT_EQ(second.status, 0) << second.output;
+  const auto refused = dnc({"setup", "push", "lathe-1", write("bad.toml", "colour = 1\n")});
+  EXPECT_NE(refused.status, 0) << refused.output;
+  EXPECT_NE(refused.output.find("colour"), std::string::npos) << refused.output;
+  const std::string text = "POPEN P0\nDPRNT [#10[10]]\nPCLOS\nM30\n";
+  dnc({"program", "push", write("p.nc", text), "--name", "O1", "--control", "centurion"});
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--follow"}).status, 0);
+  EXPECT_EQ(dnc({"report", "export", "latest"}).output, "8\n");
+  EXPECT_EQ(dnc({"setup", "restore", "lathe-1", "1"}).status, 0);
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--follow"}).status, 0);
+  EXPECT_EQ(dnc({"report", "export", "latest"}).output, "7\n");
+  EXPECT_EQ(dnc_json({"run", "show", "latest"}).at("setup"), 3);
+  EXPECT_EQ(dnc({"setup", "pull", "lathe-1", "-r", "1"}).output,
+            read("setup.toml").replace(34, 1, "7"));
+  EXPECT_EQ(dnc_json({"setup", "list", "lathe-1"}).at("setups").size(), 3u);
+}
+
 TEST_F(Cli, AProgramGoesInRunsAndItsReportComesOut) {
   start_all();
   const std::string text = report_program(25);

@@ -86,6 +86,17 @@ class StoreDecorator : public storage::Store {
   Result<void> save_port(const storage::Port& port) override { return inner_.save_port(port); }
   Result<std::vector<storage::Port>> ports() override { return inner_.ports(); }
   Result<void> remove_port(const std::string& name) override { return inner_.remove_port(name); }
+  Result<storage::SetupRevision> save_setup(const storage::SetupRevision& setup) override {
+    return inner_.save_setup(setup);
+  }
+  Result<std::vector<storage::SetupRevision>> setups(const std::string& machine,
+                                                     storage::Page page) override {
+    return inner_.setups(machine, page);
+  }
+  Result<storage::SetupRevision> setup(const std::string& machine,
+                                       std::optional<std::uint64_t> number) override {
+    return inner_.setup(machine, number);
+  }
   Result<void> audit(const storage::AuditEntry& entry) override { return inner_.audit(entry); }
   Result<std::vector<storage::AuditEntry>> audit_entries(storage::Page page) override {
     return inner_.audit_entries(page);

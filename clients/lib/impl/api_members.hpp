@@ -132,6 +132,20 @@ void members(V& v, Is<Run> auto& x) {
   v("started", x.started);
   v("ended", x.ended);
   v("outputs", x.outputs);
+  v("setup", x.setup);
+}
+
+template <class V>
+void members(V& v, Is<Setup> auto& x) {
+  v("machine", x.machine);
+  v("revision", x.revision);
+  v("size", x.size);
+  v("sha256", x.sha256);
+  v("comment", x.comment);
+  v("author", x.author);
+  v("created", x.created);
+  v("text", x.text);
+  v.flag("unchanged", x.unchanged);
 }
 
 template <class V>

@@ -5,6 +5,7 @@
 
 #include "protocol/base/digest.hpp"
 #include "protocol/base/names.hpp"
+#include "protocol/dds/impl/utf8.hpp"
 
 namespace dripline::dds {
 namespace {
@@ -97,7 +98,9 @@ Result<void> check(const Order& m) {
       .program(m.program)
       .word("control", m.control)
       .number("value", m.value)
-      .that(m.revision.empty() || parse_digest(m.revision), "revision", "is not a SHA-256");
+      .that(m.revision.empty() || parse_digest(m.revision), "revision", "is not a SHA-256")
+      .that(m.setup.size() <= kMaxOrderSetup, "setup", "is too long")
+      .that(is_sendable_text(m.setup), "setup", "is not UTF-8 text");
   if (m.action == OrderAction::Start) {
     verdict.id("run", m.run)
         .that(!m.program.empty(), "program", "is empty")

@@ -136,6 +136,11 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.argument = members.text(s.argument, "argument");
   m.value = s.value;
   m.session = s.session;
+  if (const auto setup = as_bytes(s.setup); setup.size() <= kMaxOrderSetup) {
+    m.setup.assign(reinterpret_cast<const char*>(setup.data()), setup.size());
+  } else {
+    members.blame("setup", "is too long");
+  }
   return members.finish(std::move(m));
 }
 

@@ -140,6 +140,9 @@ Result<void> encode(const Order& m, dripline_idl_Order& s) {
   s.size = m.size;
   s.value = m.value;
   s.session = m.session;
+  s.setup._maximum = s.setup._length = static_cast<std::uint32_t>(m.setup.size());
+  // Borrowed, read only.
+  s.setup._buffer = reinterpret_cast<std::uint8_t*>(const_cast<char*>(m.setup.data()));
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.id, m.id, "id")

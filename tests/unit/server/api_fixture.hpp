@@ -26,6 +26,7 @@ class ApiTest : public ServerTest {
 
   void make_api(ports::PortControl* ports) {
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
+                                                    .setups = *setups_,
                                                     .feeds = feeds_,
                                                     .store = *store_,
                                                     .audit = *audit_,

@@ -58,6 +58,17 @@ class OpenApi : public ApiTest {
                                              Json::parse(line)),
               "");
   }
+  void expect_setups_described() {
+    const std::string path = "/api/v1/machines/lathe-1/setup";
+    const Call text{.body = "[[tool]]\nnumber = 1\n", .headers = {}};
+    for (const int status : {201, 200}) {
+      const auto put = call("PUT", path + "?comment=first", text);
+      EXPECT_EQ(put.status, status) << put.body;
+      expect_described("PUT", "/api/v1/machines/{name}/setup", put);
+    }
+    expect_described("GET", "/api/v1/machines/{name}/setup", get(path));
+    expect_described("GET", "/api/v1/machines/{name}/setups", get(path + "s"));
+  }
   void expect_judgement_described() {
     for (const std::string number : {"1", "2"}) {
       const auto upload = programs_->begin(
@@ -131,6 +142,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/reports/{run}", get("/api/v1/reports/" + run + "?format=json"));
   expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
   expect_described("GET", "/api/v1/events", get("/api/v1/events"));
+  expect_setups_described();
   expect_ports_described();
   expect_judgement_described();
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));

@@ -8,6 +8,7 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/setups.hpp"
 #include "storage/sqlite_store.hpp"
 #include "tests/support/manual_clock.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,6 +24,10 @@ class FakeCatalog final : public library::ControlCatalog {
     if (head.starts_with("%2")) return names();
     return {};
   }
+  Result<void> check_setup(std::string_view control, std::string_view toml) const override {
+    if (toml.find("wrong") == std::string_view::npos) return {};
+    return fail(Errc::Syntax, "line 1: wrong is nothing a {} knows", control);
+  }
 };
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {
@@ -37,6 +42,7 @@ class ServerTest : public testing::Test {
   ServerTest() { reopen(); }
 
   void reopen() {
+    setups_.reset();
     programs_.reset();
     audit_.reset();
     store_.reset();
@@ -45,6 +51,7 @@ class ServerTest : public testing::Test {
     store_ = *std::move(opened);
     audit_ = std::make_unique<library::AuditTrail>(*store_, clock_);
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
+    setups_ = std::make_unique<library::Setups>(*store_, catalog_, *audit_);
   }
 
   std::string begin(const std::string& program, const std::string& control = "centurion") {
@@ -79,6 +86,7 @@ class ServerTest : public testing::Test {
   std::unique_ptr<storage::Store> store_;
   std::unique_ptr<library::AuditTrail> audit_;
   std::unique_ptr<library::Programs> programs_;
+  std::unique_ptr<library::Setups> setups_;
 };
 
 }  // namespace dripline::server_test

@@ -230,6 +230,29 @@ TEST(Gateway, AsksTheSetupFirstAndThenTheOperator) {
   EXPECT_EQ(shop.lines(), (std::vector<std::string>{"5.0", "7"}));
 }
 
+TEST(Gateway, KnowsWhatTheServerSentWithTheStart) {
+  Shop shop;
+  shop.push("O1", "TOOLS\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  (void)shop.ended();
+  auto order = shop.start_order("O1");
+  order.setup = "[[tool]]\nnumber = 4\n[[tool]]\nnumber = 5\n";
+  ASSERT_TRUE(shop.send(order).accepted);
+  (void)shop.ended();
+  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"0", "2"}));
+}
+
+TEST(Gateway, RefusesAStartWithASetupItCanNotRead) {
+  Shop shop;
+  shop.push("O1", "END\n");
+  auto order = shop.start_order("O1");
+  order.setup = "[[tool]]\nnumber = 4\ncolour = 1\n";
+  const auto result = shop.send(order);
+  EXPECT_FALSE(result.accepted);
+  EXPECT_NE(result.reason.find("colour"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("server's setup"), std::string::npos) << result.reason;
+}
+
 TEST(Gateway, ProbesTheSetupsWorkpiece) {
   Shop shop;
   shop.setup.workpiece.add(interpreter::ProbePlane{interpreter::Axis::X, Length::mm(-3)});

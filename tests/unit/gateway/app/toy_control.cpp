@@ -9,7 +9,8 @@ using namespace interpreter;
 
 class ToyInterpreter final : public Interpreter {
  public:
-  ToyInterpreter(ProgramSource& source, EventSink& sink) : source_(source), sink_(sink) {}
+  ToyInterpreter(const Setup& setup, ProgramSource& source, EventSink& sink)
+      : setup_(setup), source_(source), sink_(sink) {}
 
   StepState step(std::uint64_t max_blocks) override {
     for (std::uint64_t i = 0; i < max_blocks; ++i) {
@@ -57,6 +58,10 @@ class ToyInterpreter final : public Interpreter {
       return ask(ProbeQuestion{probe});
     }
     answer_.reset();
+    if (line == "TOOLS") {
+      const std::string count = std::to_string(setup_.tools.size());
+      sink_.on_output({origin_, OutputDevice::File, count});
+    }
     if (line == "BAD") return alarm("bad word");
     if (line.starts_with("OUT ")) sink_.on_output({origin_, OutputDevice::File, line.substr(4)});
     if (line.starts_with("X")) move(line);
@@ -88,6 +93,7 @@ class ToyInterpreter final : public Interpreter {
     return StepState::Alarmed;
   }
 
+  Setup setup_;
   ProgramSource& source_;
   EventSink& sink_;
   std::uint64_t offset_ = 0, line_ = 0, blocks_ = 0;
@@ -104,9 +110,9 @@ const Dialect& toy_control() {
       .name = "toy",
       .title = "Toy",
       .likelihood = [](std::string_view, std::string_view) { return 0; },
-      .make = [](const Setup&, ProgramSource& source,
+      .make = [](const Setup& setup, ProgramSource& source,
                  EventSink& sink) -> Result<std::unique_ptr<Interpreter>> {
-        return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(source, sink));
+        return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(setup, source, sink));
       },
       .feed_dial = {.step = 0.05, .most = 2, .fastest = std::nullopt}};
   return toy;

@@ -9,6 +9,7 @@ namespace dripline::gateway {
 ///   STOP   program stop                  ASK <text>   prompt; the answer is written as an output
 ///   PROBE  probe move to X-10            BAD          alarm TOY0001
 ///   JUMP   to the first line, twice      CALL <name>  reads the first line of a called program
+///   TOOLS  how many tools it knows, as an output
 ///   END    end of the program            anything else does nothing
 const interpreter::Dialect& toy_control();
 

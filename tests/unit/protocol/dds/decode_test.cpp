@@ -129,6 +129,20 @@ TEST(Decode, RefusesAStartWithoutAProgram) {
   EXPECT_FALSE(decode(sample));
 }
 
+TEST(Decode, KeepsTheSetupOfAStart) {
+  Order order;
+  order.machine = "lathe-1";
+  order.id = "1";
+  order.setup = "# Drehl\xC3\xA4nge\n[[tool]]\nnumber = 1\n";
+  const auto sample = sample_of(order);
+  EXPECT_EQ(decode(sample)->setup, order.setup);
+  order.setup = "\xC3(";
+  SampleOf<Order> refused;
+  EXPECT_FALSE(encode(order, refused));
+  order.setup.assign(kMaxOrderSetup + 1, ' ');
+  EXPECT_FALSE(encode(order, refused));
+}
+
 TEST(Encode, RefusesWhatDoesNotFitInsteadOfCuttingIt) {
   Record long_text = record("lathe-1", 1);
   long_text.text.assign(kMaxRecordText + 1, 'x');

@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/json_text.hpp"
+#include "clients/cli/port_file.hpp"
+#include "clients/cli/setup_text.hpp"
+#include "clients/cli/standard_output.hpp"
+#include "clients/cli/value_text.hpp"
+#include "clients/lib/output_file.hpp"
+
+namespace dripline::cli {
+namespace {
+
+constexpr std::size_t kMaxSetupFile = 64 * 1024;
+
+struct SetupCommand {
+  std::string machine, file, comment, control;
+  std::optional<std::uint64_t> revision;
+  std::uint64_t limit = 20;
+};
+
+int list(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setups = fetch_all(command.limit,
+                          [&](client::Page page) { return client->setups(command.machine, page); });
+  if (!setups) return complain(setups.error());
+  if (context.wants_json) {
+    context.print(json_list_text("setups", *setups));
+    return kExitOk;
+  }
+  if (setups->empty()) {
+    context.print(fmt::format("The server keeps no setup of {}; its gateway has its own.\n",
+                              command.machine));
+    return kExitOk;
+  }
+  Table table({{"REV", Align::Right}, {"SIZE", Align::Right}, {"SAVED"}, {"BY"}, {"COMMENT"}});
+  for (const auto& setup : *setups) {
+    table.add({std::to_string(setup.revision), bytes_text(setup.size), time_text(setup.created),
+               setup.author, setup.comment});
+  }
+  context.print(table);
+  return kExitOk;
+}
+
+int show(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  if (context.wants_json) {
+    context.print(json_text(*setup));
+    return kExitOk;
+  }
+  const auto text = setup_tables(*setup, context.has_colour());
+  if (!text) return complain(text.error());
+  context.print(*text);
+  return kExitOk;
+}
+
+int report_saved(Context& context, const client::Setup& setup) {
+  if (context.wants_json) {
+    context.print(json_text(setup));
+  } else if (setup.unchanged) {
+    context.print(
+        fmt::format("Setup {} of {} is the same already\n", setup.revision, setup.machine));
+  } else {
+    context.print(fmt::format("Saved setup {} of {}, {}; it goes with the next start\n",
+                              setup.revision, setup.machine, bytes_text(setup.size)));
+  }
+  return kExitOk;
+}
+
+int push(Context& context, const SetupCommand& command) {
+  auto text = read_small_file(command.file, kMaxSetupFile);
+  if (!text) return complain(text.error());
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto saved = client->save_setup({command.machine, *text, command.comment, command.control});
+  return saved ? report_saved(context, *saved) : complain(saved.error());
+}
+
+int pull(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  if (command.file.empty() || command.file == "-") {
+    StandardOutput output;
+    (void)output.write(setup->text).has_value();
+    return output.error() ? output.complain() : kExitOk;
+  }
+  auto file = client::OutputFile::create(command.file);
+  if (!file) return complain(file.error());
+  if (auto written = file->write(setup->text); !written) return complain(written.error());
+  if (auto kept = file->commit(); !kept) return complain(kept.error());
+  fmt::print(stderr, "Wrote setup {} of {} to {}\n", setup->revision, setup->machine, command.file);
+  return kExitOk;
+}
+
+/// The old text becomes the newest revision: nothing is ever lost.
+int restore(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto old = client->setup(command.machine, command.revision);
+  if (!old) return complain(old.error());
+  const std::string comment =
+      command.comment.empty() ? fmt::format("setup {} again", old->revision) : command.comment;
+  auto saved = client->save_setup({command.machine, old->text, comment, command.control});
+  return saved ? report_saved(context, *saved) : complain(saved.error());
+}
+
+using SetupAction = int (*)(Context&, const SetupCommand&);
+
+struct Verb {
+  CLI::App* command;
+  std::shared_ptr<SetupCommand> options;
+};
+Verb add_verb(CLI::App& group, Context& context, const char* name, const char* help,
+              SetupAction action) {
+  Verb verb{group.add_subcommand(name, help), std::make_shared<SetupCommand>()};
+  verb.command->add_option("MACHINE", verb.options->machine, "The machine")->required();
+  verb.command->callback(
+      [&context, options = verb.options, action] { context.status = action(context, *options); });
+  return verb;
+}
+
+void add_saving_options(Verb& verb, Context& context) {
+  verb.command->add_option("-m,--comment", verb.options->comment, "Why, for the list");
+  verb.command->add_option("--control", verb.options->control,
+                           "Of a machine that was never connected, e.g. tnc155");
+  add_json_flag(*verb.command, context);
+}
+
+}  // namespace
+
+void add_setup_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand(
+      "setup", "What a machine's control knows: tool table, offsets, parameters");
+  group->require_subcommand(1);
+  group->footer(
+      "A setup is a TOML file with [[tool]], [[offset]], [[variable]] and [control]. The server "
+      "checks it\nfor the machine's control, keeps every version, and sends the newest with each "
+      "start of a program.");
+
+  auto listing = add_verb(*group, context, "list", "Versions of a setup, newest first", list);
+  listing.command->add_option("--limit", listing.options->limit,
+                              "At most this many, 0 for all [20]");
+  add_json_flag(*listing.command, context);
+
+  auto showing = add_verb(*group, context, "show", "The tables of a setup", show);
+  showing.command->add_option("-r,--revision", showing.options->revision, "This one [newest]");
+  add_json_flag(*showing.command, context);
+
+  auto pushing = add_verb(*group, context, "push", "Make a file the machine's setup", push);
+  pushing.command->add_option("FILE", pushing.options->file, "TOML")->required();
+  add_saving_options(pushing, context);
+  pushing.command->footer(
+      "Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
+
+  auto pulling = add_verb(*group, context, "pull", "Fetch a setup's text", pull);
+  pulling.command->add_option("-r,--revision", pulling.options->revision, "This one [newest]");
+  pulling.command->add_option("-o,--output", pulling.options->file,
+                              "File to write, - for standard output [-]");
+
+  auto restoring = add_verb(*group, context, "restore", "Make an old version the newest", restore);
+  restoring.command->add_option("REVISION", restoring.options->revision, "Which")->required();
+  add_saving_options(restoring, context);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,34 @@
+#include "server/library/setups.hpp"
+
+namespace dripline::library {
+
+Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
+  if (text.comment.size() > kMaxComment) {
+    return fail(Errc::LimitExceeded, "a comment of {} bytes, at most {}", text.comment.size(),
+                kMaxComment);
+  }
+  if (text.text.size() > storage::kMaxSetup) {
+    return fail(Errc::LimitExceeded, "a setup of {} bytes, at most {}", text.text.size(),
+                storage::kMaxSetup);
+  }
+  if (auto good = catalog_.check_setup(text.control, text.text); !good) return fail(good.error());
+  const auto before = store_.setup(text.machine, std::nullopt);
+  storage::SetupRevision setup;
+  setup.machine = text.machine;
+  setup.text = text.text;
+  setup.comment = text.comment;
+  setup.author = who;
+  auto saved = store_.save_setup(setup);
+  if (!saved) return fail(saved.error());
+  const bool is_unchanged = before && before->number == saved->number;
+  if (!is_unchanged) {
+    audit_.write({.who = who,
+                  .action = "setup.save",
+                  .subject = text.machine,
+                  .detail = fmt::format("setup {}: {} bytes, sha256 {}", saved->number, saved->size,
+                                        saved->sha256.hex())});
+  }
+  return SavedSetup{*std::move(saved), is_unchanged};
+}
+
+}  // namespace dripline::library

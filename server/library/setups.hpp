@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/library/audit_trail.hpp"
+#include "server/library/control_catalog.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+struct SetupText {
+  std::string machine;
+  std::string control;  ///< of the machine; its dialect reads the text before it is kept
+  std::string text;     ///< TOML
+  std::string comment;
+};
+struct SavedSetup {
+  storage::SetupRevision setup;
+  bool is_unchanged = false;  ///< the newest had this text already
+};
+
+/// What the controls of machines know before a program starts: tool tables, offsets, parameters.
+/// Kept in versions; the newest goes with every start. Any thread.
+class Setups {
+ public:
+  Setups(storage::Store& store, const ControlCatalog& catalog, AuditTrail& audit)
+      : store_(store), catalog_(catalog), audit_(audit) {}
+
+  /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
+  /// line; the comment; the size).
+  Result<SavedSetup> save(const SetupText& text, const std::string& who);
+  /// Newest first, without their texts.
+  Result<std::vector<storage::SetupRevision>> list(const std::string& machine,
+                                                   storage::Page page) const {
+    return store_.setups(machine, page);
+  }
+  /// The newest, or the one with that number. Errors: NotFound.
+  Result<storage::SetupRevision> find(const std::string& machine,
+                                      std::optional<std::uint64_t> number) const {
+    return store_.setup(machine, number);
+  }
+
+  static constexpr std::size_t kMaxComment = 1024;
+
+ private:
+  storage::Store& store_;
+  const ControlCatalog& catalog_;
+  AuditTrail& audit_;
+};
+
+}  // namespace dripline::library

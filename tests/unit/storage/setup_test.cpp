@@ -1,0 +1,68 @@
+#include "tests/unit/storage/store_fixture.hpp"
+
+namespace dripline::storage {
+namespace {
+
+class SetupTest : public StoreTest {
+ protected:
+  Result<SetupRevision> save(const std::string& text, const std::string& machine = "mill-3") {
+    SetupRevision setup;
+    setup.machine = machine;
+    setup.text = text;
+    setup.comment = "why";
+    setup.author = "admin";
+    return store_->save_setup(setup);
+  }
+};
+
+TEST_F(SetupTest, IsKeptInVersions) {
+  EXPECT_EQ(save("[[tool]]\nnumber = 1\n")->number, 1u);
+  EXPECT_EQ(save("[[tool]]\nnumber = 2\n")->number, 2u);
+  EXPECT_EQ(save("other", "mill-4")->number, 1u) << "each machine counts for itself";
+  reopen();
+  const auto newest = store_->setup("mill-3", std::nullopt);
+  ASSERT_TRUE(newest) << newest.error().what;
+  EXPECT_EQ(newest->number, 2u);
+  EXPECT_EQ(newest->text, "[[tool]]\nnumber = 2\n");
+  EXPECT_EQ(newest->sha256, sha256(newest->text));
+  EXPECT_EQ(newest->size, newest->text.size());
+  EXPECT_EQ(newest->comment, "why");
+  EXPECT_EQ(newest->author, "admin");
+  EXPECT_EQ(store_->setup("mill-3", 1)->text, "[[tool]]\nnumber = 1\n");
+  const auto all = store_->setups("mill-3", {});
+  ASSERT_EQ(all->size(), 2u);
+  EXPECT_EQ(all->at(0).number, 2u);
+  EXPECT_TRUE(all->at(0).text.empty()) << "listings are short";
+  EXPECT_EQ(store_->setups("mill-3", {.limit = 1, .offset = 1})->at(0).number, 1u);
+}
+
+TEST_F(SetupTest, TheSameTextAgainIsTheSameRevision) {
+  ASSERT_TRUE(save("a = 1"));
+  EXPECT_EQ(save("a = 1")->number, 1u);
+  ASSERT_EQ(save("a = 2")->number, 2u);
+  EXPECT_EQ(save("a = 1")->number, 3u) << "going back is a new revision";
+}
+
+TEST_F(SetupTest, SizesCountBytes) {
+  EXPECT_EQ(save("# Fräser")->size, 9u);
+  EXPECT_EQ(store_->setups("mill-3", {})->at(0).size, 9u);
+}
+
+TEST_F(SetupTest, RefusesWhatIsTooLongAndUnknownMachines) {
+  EXPECT_TRUE(save(std::string(kMaxSetup, ' ')));
+  EXPECT_EQ(save(std::string(kMaxSetup + 1, ' ')).error().code, Errc::LimitExceeded);
+  EXPECT_EQ(save("a = 1", "no/machine").error().code, Errc::Syntax);
+  EXPECT_EQ(store_->setup("mill-9", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->setup("mill-3", 7).error().code, Errc::NotFound);
+}
+
+TEST_F(SetupTest, ARunRemembersItsSetup) {
+  ASSERT_TRUE(save("a = 1"));
+  Run run = make_run("r1");
+  run.setup = 1;
+  ASSERT_TRUE(store_->create_run(run)) << "the fixture's machine and program";
+  EXPECT_EQ(store_->run("r1")->setup, 1u);
+}
+
+}  // namespace
+}  // namespace dripline::storage
