@@ -13,6 +13,7 @@ protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage: protocol/base storage
 gateway/interpreter: protocol/base gateway/interpreter
+gateway/graphics: protocol/base gateway/interpreter gateway/graphics
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
@@ -22,7 +23,7 @@ server/feeds: protocol storage gateway/interpreter server/library server/feeds
 server/serial: protocol storage gateway/interpreter server/library server/feeds server/serial
 server/api: protocol storage gateway/interpreter server/library server/feeds server/serial server/api
 server/app: protocol storage server
-clients: protocol/base protocol/wire protocol/serial gateway/interpreter clients
+clients: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/graphics clients
 '
 folder_of() {  # the longest row that $1 lies under
   local best=""
