@@ -36,6 +36,8 @@ void Compensator::reset(const Position& start) {
   state_.has_element = false;
   state_.stands_still = false;
   state_.next_corner.reset();
+  state_.next_arc.reset();
+  state_.begins_contour = false;
   state_.held.clear();
   state_.idle_blocks = 0;
   fault_.reset();
@@ -68,6 +70,11 @@ void Compensator::turn_on(const Cutter& cutter, StartUp start_up) {
   if (state_.has_element) state_.phase = Phase::On;
   if (state_.phase != Phase::On) state_.phase = Phase::Starting;
   state_.start_up = start_up;
+  use(cutter);
+}
+
+void Compensator::use(const Cutter& cutter) {
+  state_.begins_contour = false;
   state_.plane = cutter.plane;
   state_.offset = (cutter.side == Side::Left ? 1 : -1) * cutter.radius.mm();
   state_.tip = {cutter.tip_first.mm(), cutter.tip_second.mm()};
@@ -82,6 +89,46 @@ void Compensator::turn_off() {
   }
 }
 
+bool Compensator::approach_by_arc(const Origin& origin, Length radius) {
+  if (!state_.has_element || state_.waiting().role != Role::StartUp) return false;
+  state_.waiting().by_arc = ByArc{radius.mm(), origin};
+  return true;
+}
+
+void Compensator::turn_off_by_arc(const Origin& origin, Length radius) {
+  if (state_.phase != Phase::On) return turn_off();
+  state_.phase = Phase::Ending;
+  state_.next_arc = ByArc{radius.mm(), origin};
+}
+
+void Compensator::begin_contour(const Cutter& cutter) {
+  settle();
+  use(cutter);
+  state_.phase = Phase::On;
+  state_.is_displaced = true;
+}
+
+void Compensator::begin_contour(const Cutter& cutter, PlaneVector programmed) {
+  begin_contour(cutter);
+  set_in_plane(state_.programmed, axes_of(state_.plane), programmed);
+}
+
+void Compensator::turn_on_in_parallel(const Cutter& cutter) {
+  leave_in_parallel();
+  use(cutter);
+  state_.begins_contour = true;
+}
+
+void Compensator::start_again() {
+  if (!state_.has_element || state_.waiting().role != Role::StartUp || fault_) return;
+  finish(state_.waiting().end);
+  state_.phase = Phase::Starting;
+}
+
+void Compensator::shape_corner(OutsideCorner shape) {
+  if (state_.has_element) state_.waiting().outside = shape;
+}
+
 void Compensator::leave() {
   settle();
   state_.phase = Phase::Off;
@@ -90,6 +137,7 @@ void Compensator::leave() {
 void Compensator::leave_in_parallel() {
   settle();
   state_.phase = Phase::Parallel;
+  state_.begins_contour = false;
 }
 
 void Compensator::shape_next_corner(OutsideCorner shape) {
@@ -233,6 +281,8 @@ void Compensator::take(Element& element) {
   state_.next_corner.reset();
   element.role = next_role();
   element.start_up = state_.start_up;
+  element.by_arc = element.role == Role::Cancel ? state_.next_arc : std::nullopt;
+  state_.next_arc.reset();
   element.lead_in.count = 0;
   if (element.is_arc && !accepts_arc(element)) return;
   if (state_.has_element) {
@@ -318,7 +368,8 @@ void Compensator::go_off(const Element& element) {
     tip = tip + in_plane(state_.tool, axes_of(state_.plane)) - element.from;
   PathWriter(sink_, state_).put_out_straight(element, tip);
   state_.is_displaced = element.role == Role::Parallel;
-  state_.phase = Phase::Off;
+  state_.phase = state_.begins_contour ? Phase::On : Phase::Off;
+  state_.begins_contour = false;
 }
 
 }  // namespace dripline::interpreter::compensation

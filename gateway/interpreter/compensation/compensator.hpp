@@ -46,6 +46,23 @@ class Compensator final : public EventSink {
   /// As `leave`, but the next move in the plane, a straight one, keeps the distance the tool has
   /// from the programmed point now, at its end as well.
   void leave_in_parallel();
+  /// The start-up move that waits meets the contour by an arc of this radius, which comes from a
+  /// block of its own: tangent to the contour's begin, straight to where it is tangent to the way
+  /// from the tool, on the tool's side. False when no start-up move waits.
+  bool approach_by_arc(const Origin& origin, Length radius);
+  /// As `turn_off`; the cancel move leaves the contour by such an arc.
+  void turn_off_by_arc(const Origin& origin, Length radius);
+  /// On, without a start-up move: the next move in the plane begins on its own normal, and the tool
+  /// goes straight there from where it is. `programmed`: where that move comes from.
+  void begin_contour(const Cutter& cutter);
+  void begin_contour(const Cutter& cutter, PlaneVector programmed);
+  /// As `leave_in_parallel`, and where that move ends a contour begins.
+  void turn_on_in_parallel(const Cutter& cutter);
+  /// The start-up move that waits goes to its programmed end, and the next move in the plane is the
+  /// start-up move.
+  void start_again();
+  /// Goes round the outside of the corner at the end of the move that waits in this manner.
+  void shape_corner(OutsideCorner shape);
   /// Round the outside of the corner at the end of the next move in the plane in this manner.
   void shape_next_corner(OutsideCorner shape);
   /// From here on (`still`), or no longer: moves lead the program on and decide corners, but the
@@ -60,6 +77,12 @@ class Compensator final : public EventSink {
 
   /// On or starting; false once `turn_off` has been called.
   bool is_on() const;
+  /// The next move in the plane is the start-up move.
+  bool is_starting() const { return state_.phase == impl::Phase::Starting; }
+  /// The move that waits is the start-up move.
+  bool is_start_waiting() const {
+    return state_.has_element && state_.waiting().role == impl::Role::StartUp;
+  }
   /// A move waits for the next one.
   bool is_waiting() const { return state_.has_element; }
   /// Set by the event that broke a rule.
@@ -112,6 +135,7 @@ class Compensator final : public EventSink {
   void take_aside(const Move& move);
   void take(impl::Element& element);
   impl::Role next_role() const;
+  void use(const Cutter& cutter);
   bool accepts_arc(const impl::Element& arc);
   void join(impl::Element& next);
   void begin_alone(impl::Element& element);

@@ -29,6 +29,8 @@ std::string describe(const Fault& fault) {
                          limit);
     case FaultKind::OtherPlane:
       return "arc in another plane than the compensated one";
+    case FaultKind::ArcTooLarge:
+      return "the other end of the move lies within the circle of its arc";
     case FaultKind::TooMuchBetween:
       return fmt::format("more than {} events or {} characters between two compensated moves",
                          look_ahead::kMaxHeldEvents, look_ahead::kMaxHeldText);

@@ -17,7 +17,8 @@ enum class FaultKind : std::uint8_t {
   CancelNotStraight,   ///< the move that leaves compensation is an arc
   StartUpTooClose,     ///< the tool is within one radius of the end of a tangential start-up move
   OtherPlane,          ///< an arc in another plane than the compensated one
-  TooMuchBetween,      ///< more events between two elements than kMaxHeldEvents or kMaxHeldText
+  ArcTooLarge,     ///< a start-up or cancel arc: the other end of its move lies within the circle
+  TooMuchBetween,  ///< more events between two elements than kMaxHeldEvents or kMaxHeldText
 };
 
 struct Fault {

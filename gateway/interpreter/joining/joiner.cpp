@@ -92,6 +92,10 @@ void Joiner::chamfer_corner(const Origin& origin, Length size, Chamfer measure,
   shape_waiting(kind_of(measure), origin, size, feed);
 }
 
+void Joiner::drop_corner() {
+  if (state_.has_element) state_.waiting().announced.corner.reset();
+}
+
 void Joiner::estimate_next(Length tolerance, Length radius) {
   state_.next.estimate = {tolerance.mm(), radius.mm()};
 }

@@ -49,6 +49,9 @@ class Joiner final : public EventSink {
   void chamfer_corner(const Origin& origin, Length size, Chamfer measure = Chamfer::Leg,
                       std::optional<Feed> feed = {});
 
+  /// The move that waits ends in no corner after all.
+  void drop_corner();
+
   /// The ends of the next move are estimates, of an arc the centre and this radius are not. Where
   /// two such moves follow one another, they join at the intersection nearest to the estimate; a
   /// line that misses its arc is turned about its other end until it touches. A point within

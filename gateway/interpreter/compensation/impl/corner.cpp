@@ -168,9 +168,69 @@ CornerEnd tangential_start(const Policy& policy, const Element& first, Element& 
   return {touch, {}};
 }
 
+/// An arc of `radius` that is tangent at `contour`, on the side of the tangent `along` on which
+/// `away` lies, and the point from which it goes straight to or comes straight from there.
+struct Approach {
+  PlaneVector center, touch;
+  double side = 1;  ///< of the turn: +1 to the left
+};
+std::optional<Approach> approach(PlaneVector contour, PlaneVector along, PlaneVector away,
+                                 double radius, bool leaves) {
+  Approach arc;
+  arc.side = cross(along, away - contour) < 0 ? -1 : 1;
+  arc.center = contour + arc.side * radius * left_of(along);
+  const PlaneVector out = away - arc.center;
+  const double distance = length(out);
+  if (distance < radius) return std::nullopt;
+  const PlaneVector direction = (1 / distance) * out;
+  const double cosine = radius / distance;
+  const double sine = std::sqrt(1 - cosine * cosine) * (leaves ? -arc.side : arc.side);
+  arc.touch = arc.center + radius * (cosine * direction + sine * left_of(direction));
+  return arc;
+}
+
+Piece approach_piece(const ByArc& by_arc, const Approach& arc, PlaneVector from, PlaneVector to) {
+  double sweep = turn_between(from - arc.center, to - arc.center);
+  if (sweep * arc.side < 0) sweep += arc.side * 2 * Angle::kPi;
+  return {.is_arc = true, .to = to, .center = arc.center, .sweep = sweep, .origin = by_arc.origin};
+}
+
+/// On the tangent itself there is nothing to turn into.
+bool is_on_tangent(PlaneVector contour, PlaneVector along, PlaneVector away, bool ahead) {
+  const PlaneVector way = away - contour;
+  return std::fabs(cross(along, way)) <= kNoLength && (dot(along, way) > 0) == ahead;
+}
+
+CornerEnd run_on(const Element& first, Element& second, PlaneVector tool) {
+  const PlaneVector contour = second.own_begin();
+  const PlaneVector along = second.direction_in;
+  if (first.by_arc->radius == 0 || is_on_tangent(contour, along, tool, false))
+    return at_point(second, contour);
+  const auto arc = approach(contour, along, tool, first.by_arc->radius, false);
+  if (!arc) return refusal(FaultKind::ArcTooLarge);
+  second.begin = contour;
+  if (length(contour - arc->touch) > kNoLength)
+    second.lead_in.add(approach_piece(*first.by_arc, *arc, arc->touch, contour));
+  return {arc->touch, {}};
+}
+
+CornerEnd run_off(const Element& first, Element& second) {
+  const PlaneVector contour = first.own_end();
+  const PlaneVector along = first.direction_out;
+  if (second.by_arc->radius == 0 || is_on_tangent(contour, along, second.end, true))
+    return at_point(second, contour);
+  const auto arc = approach(contour, along, second.end, second.by_arc->radius, true);
+  if (!arc) return refusal(FaultKind::ArcTooLarge);
+  second.begin = arc->touch;
+  if (length(contour - arc->touch) > kNoLength)
+    second.lead_in.add(approach_piece(*second.by_arc, *arc, contour, arc->touch));
+  return {contour, {}};
+}
+
 CornerEnd start_up_corner(const Policy& policy, const Element& first, Element& second,
                           PlaneVector tool) {
   if (second.role == Role::Cancel) return at_point(second, first.own_end());
+  if (first.by_arc) return run_on(first, second, tool);
   if (first.start_up == StartUp::Tangent) return tangential_start(policy, first, second, tool);
   const Turning turn(first, second);
   const Shape shape = shape_of(turn, second.offset, policy.tangent_tolerance.radians());
@@ -181,6 +241,7 @@ CornerEnd start_up_corner(const Policy& policy, const Element& first, Element& s
 
 /// The cancel move counts as offset like the element before it, but ends where programmed.
 CornerEnd cancel_corner(const Policy& policy, const Element& first, Element& second) {
+  if (second.by_arc) return run_off(first, second);
   const Turning turn(first, second);
   const Shape shape = shape_of(turn, second.offset, policy.tangent_tolerance.radians());
   if (policy.cancel == Cancel::Corner && shape == Shape::Outside && first.role != Role::StartUp)

@@ -19,7 +19,8 @@ struct Piece {
   bool is_arc = false;
   PlaneVector to;
   PlaneVector center;
-  double sweep = 0;  ///< of an arc: radians, positive to the left
+  double sweep = 0;                   ///< of an arc: radians, positive to the left
+  std::optional<Origin> origin = {};  ///< else the element's
 };
 struct LeadIn {
   std::uint8_t count = 0;
@@ -38,6 +39,12 @@ struct Arch {
   double sweep = 0;       ///< radians, > 0
 };
 
+/// A start-up or cancel move that meets the contour by an arc, which a block of its own asked for.
+struct ByArc {
+  double radius = 0;
+  Origin origin;
+};
+
 /// A programmed move in the plane on its way through compensation.
 struct Element {
   bool is_rapid = false;
@@ -53,6 +60,7 @@ struct Element {
   PlaneVector from, end;                    ///< as programmed
   PlaneVector direction_in, direction_out;  ///< of length 1, at start and end
   Arch arch;                                ///< of an arc
+  std::optional<ByArc> by_arc;              ///< of the roles StartUp and Cancel
   double offset = 0;                        ///< to the left of the direction
   PlaneVector begin;                        ///< where the compensated element starts
   LeadIn lead_in;                           ///< how the tool gets there

@@ -71,7 +71,7 @@ void PathWriter::straight(const Element& element, PlaneVector tip, const Company
 void PathWriter::arc(const Element& element, const Piece& piece, const Company& with) {
   const PlaneVector center = piece.center + state_.tip;
   const PlaneVector tip = piece.to + state_.tip;
-  Arc move{.origin = element.origin,
+  Arc move{.origin = piece.origin.value_or(element.origin),
            .to = with.others,
            .center_first = Length::mm(center.first),
            .center_second = Length::mm(center.second),

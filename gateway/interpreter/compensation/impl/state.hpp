@@ -29,9 +29,11 @@ struct State {
   PlaneVector tip;    ///< from the nose centre to the positioned point
   StartUp start_up = StartUp::NextNormal;
   std::optional<OutsideCorner> next_corner;
-  int idle_blocks = 0;  ///< without motion in the plane, since the element that waits
-  Position programmed;  ///< where the program thinks the machine is
-  Position tool;        ///< where it has been sent
+  std::optional<ByArc> next_arc;  ///< of the cancel move
+  bool begins_contour = false;    ///< Parallel: a contour begins where that move ends
+  int idle_blocks = 0;            ///< without motion in the plane, since the element that waits
+  Position programmed;            ///< where the program thinks the machine is
+  Position tool;                  ///< where it has been sent
   look_ahead::HeldEvents<> held;
   std::array<Element, 2> elements;
   std::uint8_t waiting_slot = 0;

@@ -13,6 +13,13 @@ void visit(Archive& archive, OutsideCorner& corner) {
 }  // namespace dripline::interpreter::compensation
 
 namespace dripline::interpreter::compensation::impl {
+
+template <class Archive>
+void visit(Archive& archive, ByArc& by_arc) {
+  look_ahead::visit(archive, by_arc.radius);
+  look_ahead::visit(archive, by_arc.origin);
+}
+
 namespace {
 
 using look_ahead::fail;
@@ -34,6 +41,7 @@ void visit(Archive& archive, LeadIn& lead_in) {
     visit(archive, piece.sweep);
     visit(archive, piece.to);
     visit(archive, piece.center);
+    visit_optional(archive, piece.origin);
   }
 }
 template <class Archive>
@@ -53,6 +61,7 @@ void visit(Archive& archive, Element& element) {
   Arch& arch = element.arch;
   visit_numbers(archive, arch.radius_in, arch.radius_out, arch.side, arch.sweep);
   visit(archive, element.lead_in);
+  visit_optional(archive, element.by_arc);
 }
 
 template <class Archive>
@@ -64,6 +73,8 @@ void visit_state(Archive& archive, State& state) {
   visit(archive, state.tip);
   up_to(archive, state.start_up, StartUp::Tangent);
   visit_optional(archive, state.next_corner);
+  visit_optional(archive, state.next_arc);
+  archive(state.begins_contour);
   visit(archive, state.programmed);
   visit(archive, state.tool);
   if (state.has_element) visit(archive, state.waiting());
