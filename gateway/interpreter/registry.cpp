@@ -7,6 +7,7 @@
 #include "gateway/interpreter/prototrak/dialect.hpp"
 #include "gateway/interpreter/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/tektronix1704/dialect.hpp"
+#include "gateway/interpreter/tnc155/dialect.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -16,8 +17,9 @@ constexpr int kClearLead = 30;
 
 /// One line for each dialect.
 const std::vector<Dialect>& table() {
-  static const std::vector<Dialect> kTable{kCenturionDialect, kFanucDialect, kProtoTrakDialect,
-                                           kRs274NgcDialect, kTektronix1704Dialect};
+  static const std::vector<Dialect> kTable{kCenturionDialect,     kFanucDialect,
+                                           kProtoTrakDialect,     kRs274NgcDialect,
+                                           kTektronix1704Dialect, kTnc155Dialect};
   return kTable;
 }
 

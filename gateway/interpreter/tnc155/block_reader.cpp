@@ -42,6 +42,13 @@ ReadState BlockReader::next(ReadingState& state, BlockParts& parts) {
   return ReadState::Ready;
 }
 
+ReadState BlockReader::peek(const ReadingState& state, std::string_view& next) {
+  ReadingState tried = state;
+  const ReadState loaded = load(tried);
+  next = loaded == ReadState::Ready ? text() : std::string_view();
+  return loaded;
+}
+
 ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
   switch (state.program.form) {

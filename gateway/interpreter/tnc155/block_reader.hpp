@@ -42,6 +42,10 @@ class BlockReader {
   /// first line decides.
   ReadState next(ReadingState& state, BlockParts& parts);
 
+  /// The text of the block that comes next, which stays the next one; `text` of the block read
+  /// last is gone.
+  ReadState peek(const ReadingState& state, std::string_view& next);
+
   /// Where the next block begins.
   const TextPlace& place() const { return place_; }
   /// Where the block read last begins.

@@ -1,0 +1,327 @@
+#include "gateway/interpreter/tnc155/contour.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/tnc155/target.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+using compensation::OutsideCorner;
+
+compensation::Cutter cutter_of(const State& state, Compensation side) {
+  compensation::Cutter cutter;
+  cutter.plane = state.plane;
+  const bool is_left =
+      (side == Compensation::Left) != state.transformation.turns_over(state.plane);
+  cutter.side = is_left ? compensation::Side::Left : compensation::Side::Right;
+  cutter.radius = Length::mm(state.tool.data.radius);
+  return cutter;
+}
+
+/// What the corner stage holds goes on: the block is no side of a corner.
+void release_corner(Run& run) {
+  if (run.state.joins) run.joiner.settle();
+}
+
+/// A nominal point of the plane where the machine has it.
+PlaneVector in_machine(const State& state, PlaneVector at) {
+  Target target = here(state);
+  set_in_plane(state, target, at);
+  return in_plane(machine_position(state, target), axes_of(state.plane));
+}
+
+bool refuse_start(Run& run, std::string_view why) {
+  return run.fail(ErrorCode::PathOffsetWronglyStarted, why);
+}
+
+/// M96: the tool stands on the offset path already. The programmed way to P1 begins beside it.
+bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutter& cutter) {
+  const double offset =
+      cutter.side == compensation::Side::Left ? cutter.radius.mm() : -cutter.radius.mm();
+  const PlaneVector tool = in_plane(run.compensator.tool(), axes_of(run.state.plane));
+  const PlaneVector way = in_machine(run.state, move.to) - tool;
+  const double distance = length(way);
+  if (distance <= std::fabs(offset)) {
+    return run.fail(ErrorCode::ToolRadiusTooLarge,
+                    fmt::format("{:.4f} mm to the first point", distance));
+  }
+  const double along = std::sqrt(distance * distance - offset * offset);
+  const PlaneVector direction =
+      (1 / (distance * distance)) * (along * way + offset * left_of(way));
+  run.compensator.begin_contour(cutter, tool - offset * left_of(direction));
+  return true;
+}
+
+bool start_contour(Run& run, const Block& block, const PlaneMove& move, Compensation side) {
+  State& state = run.state;
+  if (move.is_arc) return refuse_start(run, "a contour begins with a straight block");
+  if (state.last.is_single_offset) return refuse_start(run, "R+ or R- in the block before");
+  run.use_stages();
+  release_corner(run);
+  const compensation::Cutter cutter = cutter_of(state, side);
+  state.has_compensated = true;
+  state.compensation = side;
+  if (block.m == 96) return start_from_offset(run, move, cutter);
+  run.compensator.turn_on(cutter);
+  return true;
+}
+
+/// Behind M98: the block keeps the distance the tool has, and a contour may begin at its end.
+bool go_parallel(Run& run, const Block& block, const PlaneMove& move, Compensation side) {
+  State& state = run.state;
+  release_corner(run);
+  if (block.compensation == Compensation::Off) {
+    run.compensator.leave();
+    state.is_parallel = false;
+    return true;
+  }
+  const bool begins = side == Compensation::Left || side == Compensation::Right;
+  if (begins) {
+    if (move.is_arc) return refuse_start(run, "a contour begins with a straight block");
+    const compensation::Cutter cutter = cutter_of(state, side);
+    if (move.has_way) {
+      run.compensator.turn_on_in_parallel(cutter);
+    } else {
+      run.compensator.begin_contour(cutter);
+    }
+    state.compensation = side;
+  }
+  if (begins || move.has_way) state.is_parallel = false;
+  return true;
+}
+
+/// M95: the block before begins the contour once more, without compensation.
+bool start_again(Run& run, const Block& block) {
+  if (block.m != 95) return true;
+  if (!run.state.last.starts_contour) {
+    return refuse_start(run, "M95 is for the first compensated block");
+  }
+  release_corner(run);
+  run.compensator.start_again();
+  return true;
+}
+
+void finish_contour(Run& run) {
+  State& state = run.state;
+  Joint& joint = state.joint;
+  const bool by_arc =
+      joint.kind == JointKind::RunOff || (joint.kind == JointKind::Round && !joint.is_stated);
+  if (joint.kind == JointKind::Round && by_arc) run.joiner.drop_corner();
+  release_corner(run);
+  if (by_arc) {
+    run.compensator.turn_off_by_arc(joint.origin, Length::mm(joint.size));
+    joint = Joint{};
+  } else {
+    run.compensator.turn_off();
+  }
+  state.compensation = Compensation::Off;
+}
+
+bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
+  State& state = run.state;
+  Compensation side = block.compensation;
+  if (side == Compensation::NotProgrammed) side = state.compensation;
+  const bool is_side = side == Compensation::Left || side == Compensation::Right;
+  if (state.is_parallel) return go_parallel(run, block, move, side);
+  if (!state.is_compensating()) {
+    if (is_side) return start_contour(run, block, move, side);
+    state.compensation = side;
+    return true;
+  }
+  if (!is_side) {
+    finish_contour(run);
+    state.compensation = side;
+    return true;
+  }
+  if (side != state.compensation) {
+    release_corner(run);
+    run.compensator.turn_on(cutter_of(state, side));
+    state.compensation = side;
+  }
+  return start_again(run, block);
+}
+
+bool is_plain(const State& state, const Block& block) {
+  return !state.uses_stages &&
+         (block.compensation == Compensation::NotProgrammed ||
+          block.compensation == Compensation::Off) &&
+         state.compensation == Compensation::Off;
+}
+
+void shape_corner(Run& run) {
+  if (!run.state.is_compensating()) return;
+  run.compensator.shape_next_corner(OutsideCorner::IntersectCurves);
+}
+
+/// The second side of a corner must lie in the plane as the first one does.
+bool check_joint(Run& run, const PlaneMove& move) {
+  if (run.state.joint.kind == JointKind::None || (move.has_both && !move.has_third)) return true;
+  return run.fail(ErrorCode::PlaneWronglyDefined,
+                  "the block behind RND or a chamfer needs both coordinates of the plane only");
+}
+
+/// The tool comes from in front of P1' on the wrong side: the arc goes through the contour.
+void warn_of_quadrant(Run& run, const PlaneMove& move) {
+  State& state = run.state;
+  LastMove next;
+  next.is_arc = move.is_arc;
+  next.from = move.to;  // the direction at the start: that of the reversed move's end, reversed
+  next.to = move.from;
+  next.centre = move.centre;
+  next.turn = move.turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
+  const PlaneVector along = -end_direction(next);
+  const double sign = state.compensation == Compensation::Left ? 1 : -1;
+  const PlaneVector first = move.from + sign * state.tool.data.radius * left_of(along);
+  const PlaneVector way = state.last.from - first;
+  if (dot(way, along) > 0 && cross(along, way) * sign < 0) {
+    run.warn("TNC-QUADRANT", "the run-on comes from quadrant IV: its arc cuts into the contour");
+  }
+}
+
+}  // namespace
+
+bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
+  if (is_plain(run.state, block)) [[likely]] {
+    if (!run.joint_follows) return true;
+  }
+  State& state = run.state;
+  if (!check_joint(run, move)) return false;
+  if (state.joint.kind == JointKind::RunOn) warn_of_quadrant(run, move);
+  if (state.joint.kind == JointKind::None) release_corner(run);
+  if (!change_compensation(run, block, move)) return false;
+  if (block.m == 97 && !state.joins) shape_corner(run);
+  // RND behind the first compensated block is a run-on, which is the compensation's
+  const bool starts = state.is_compensating() && run.compensator.is_starting();
+  if (run.joint_follows && !starts) run.begin_joining();
+  return true;
+}
+
+bool finish_move(Run& run, const Block& block, const PlaneMove& move) {
+  State& state = run.state;
+  LastMove& last = state.last;
+  state.joint = Joint{};
+  if (block.m == 97 && state.joins) shape_corner(run);
+  if (state.joins && !run.joint_follows) {
+    run.joiner.settle();
+    state.joins = false;
+  }
+  last.exists = true;
+  last.is_arc = move.is_arc;
+  last.has_both = move.has_both;
+  last.has_third = move.has_third;
+  last.is_single_offset = false;
+  last.starts_contour = state.is_compensating() && run.compensator.is_start_waiting();
+  last.from = move.from;
+  last.to = move.to;
+  last.centre = move.centre;
+  last.turn = move.turn;
+  if (block.m == 97 && !move.has_way && state.is_compensating()) {
+    // a line of no length between two elements: the corner is that of their tangents
+    run.compensator.shape_corner(OutsideCorner::ExtendTangents);
+  }
+  if (block.m == 98 && state.is_compensating()) end_contour(run, true);
+  return true;
+}
+
+bool make_joint(Run& run, const Block& block) {
+  State& state = run.state;
+  const LastMove& last = state.last;
+  Joint joint;
+  joint.origin = run.origin;
+  joint.size = run.length(block.radius);
+  joint.kind = block.kind == BlockKind::Chamfer ? JointKind::Chamfer : JointKind::Round;
+  if (joint.kind == JointKind::Round && state.is_compensating() && last.starts_contour &&
+      (block.rounding == RoundingUse::Unstated || block.rounding == RoundingUse::RunOn)) {
+    joint.kind = JointKind::RunOn;
+  } else if (block.rounding == RoundingUse::RunOff) {
+    joint.kind = JointKind::RunOff;
+  }
+  joint.is_stated = block.rounding != RoundingUse::Unstated;
+  if (!last.exists || !last.has_both || last.has_third) {
+    return run.fail(ErrorCode::PlaneWronglyDefined,
+                    "the block before RND or a chamfer needs both coordinates of the plane only");
+  }
+  if (joint.size < 0) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("R {} is less than 0", joint.size));
+  }
+  const Length size = Length::mm(joint.size * state.transformation.factor(state.plane));
+  joint.size = size.mm();
+  state.joint = joint;
+  if (joint.kind != JointKind::RunOn && !state.joins) {
+    return run.fail(ErrorCode::PlaneWronglyDefined, "no move directly before RND or a chamfer");
+  }
+  switch (joint.kind) {
+    case JointKind::RunOn:
+      run.compensator.approach_by_arc(run.origin, size);
+      break;
+    case JointKind::Round:
+      run.joiner.round_corner(run.origin, size);
+      break;
+    case JointKind::Chamfer:
+      run.joiner.chamfer_corner(run.origin, size);
+      break;
+    case JointKind::RunOff:
+    case JointKind::None:
+      break;
+  }
+  return true;
+}
+
+void end_contour(Run& run, bool keeps_distance) {
+  State& state = run.state;
+  if (!state.uses_stages) return;
+  release_corner(run);
+  state.joint = Joint{};
+  if (!state.is_compensating() && !state.is_parallel) return;
+  state.compensation = Compensation::Off;
+  state.is_parallel = keeps_distance;
+  if (keeps_distance) {
+    run.compensator.leave_in_parallel();
+  } else {
+    run.compensator.leave();
+  }
+}
+
+void interrupt_contour(Run& run) {
+  State& state = run.state;
+  if (!state.uses_stages) return;
+  release_corner(run);
+  state.joint = Joint{};
+  run.compensator.leave();
+  state.is_parallel = false;
+}
+
+void resume_contour(Run& run) {
+  State& state = run.state;
+  if (state.is_compensating()) run.compensator.turn_on(cutter_of(state, state.compensation));
+}
+
+bool check_stages(Run& run) {
+  if (const auto& fault = run.joiner.fault()) {
+    run.origin.line = fault->origin.line;
+    return run.fail(fault->kind == joining::FaultKind::OtherPlane ||
+                            fault->kind == joining::FaultKind::NoElement
+                        ? ErrorCode::PlaneWronglyDefined
+                        : ErrorCode::RoundingRadiusTooLarge,
+                    joining::describe(*fault));
+  }
+  const auto& fault = run.compensator.fault();
+  if (!fault) [[likely]]
+    return true;
+  run.origin.line = fault->origin.line;
+  switch (fault->kind) {
+    case compensation::FaultKind::StartUpNotStraight:
+    case compensation::FaultKind::CancelNotStraight:
+      return run.fail(ErrorCode::PathOffsetWronglyStarted, compensation::describe(*fault));
+    case compensation::FaultKind::ArcTooLarge:
+      return run.fail(ErrorCode::RoundingRadiusTooLarge, compensation::describe(*fault));
+    case compensation::FaultKind::OtherPlane:
+      return run.fail(ErrorCode::PlaneWronglyDefined, compensation::describe(*fault));
+    default:
+      return run.fail(ErrorCode::ToolRadiusTooLarge, compensation::describe(*fault));
+  }
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "gateway/interpreter/tnc155/path.hpp"
+
+/// How positioning blocks make a contour: radius compensation from start to end, the corners
+/// between blocks, and what a block needs of the one before it.
+namespace dripline::interpreter::tnc155 {
+
+/// What a positioning block says of its way in the plane, before it moves.
+struct PlaneMove {
+  bool is_arc = false;
+  bool has_both = false;   ///< names both coordinates of the plane
+  bool has_third = false;  ///< and one outside it
+  bool has_way = false;    ///< goes anywhere in the plane
+  PlaneVector from, to;    ///< nominal
+  PlaneVector centre;
+  Turn turn = Turn::CounterClockwise;
+};
+
+/// Before the move: compensation begins, goes on, changes or ends; a corner that waits gets its
+/// second side.
+bool begin_move(Run& run, const Block& block, const PlaneMove& move);
+/// After it: M97, M98, what the next block joins on.
+bool finish_move(Run& run, const Block& block, const PlaneMove& move);
+
+/// RND and chamfers.
+bool make_joint(Run& run, const Block& block);
+
+/// What ends a contour besides R0: TOOL CALL and plane functions; with `keeps_distance`, as M98
+/// does, transformations.
+void end_contour(Run& run, bool keeps_distance);
+/// For moves in between that know no compensation (M91, a cycle): the contour ends, and after
+/// `resume_contour` the next block begins one.
+void interrupt_contour(Run& run);
+void resume_contour(Run& run);
+
+/// False after an alarm: a stage found that the contour can not be run.
+bool check_stages(Run& run);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,109 @@
+#include "gateway/interpreter/tnc155/dialect.hpp"
+
+#include <string>
+
+#include "gateway/interpreter/tnc155/interpreter.hpp"
+#include "gateway/interpreter/tnc155/tools.hpp"
+#include "protocol/base/decimal.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using namespace tnc155;
+
+/// "datum": where the workpiece's datum lies in machine coordinates.
+Result<void> load_datum(const Setup& setup, State& state) {
+  for (const OffsetRecord& offset : setup.offsets) {
+    if (offset.name != "datum") {
+      return fail(Errc::Unsupported, "offset {}: this control has datum", offset.name);
+    }
+    for (const Axis axis : kAllAxes) {
+      state.transformation.datum[static_cast<std::size_t>(axis)] = offset.value.raw(axis);
+    }
+  }
+  return {};
+}
+
+Result<void> load_parameters(const Setup& setup, State& state) {
+  for (const VariableRecord& variable : setup.variables) {
+    const std::string_view name = variable.name;
+    const auto number = parse_decimal(name.substr(name.starts_with('Q') ? 1 : 0));
+    if (!name.starts_with('Q') || !number || number->scale != 0 || number->digits < 0 ||
+        number->digits >= kParameterCount) {
+      return fail(Errc::Unsupported, "variable {}: this control has Q0 to Q{}", name,
+                  kParameterCount - 1);
+    }
+    state.q[static_cast<std::size_t>(number->digits)] = variable.value;
+  }
+  return {};
+}
+
+void stand_at_start(const Setup& setup, State& state) {
+  state.machine = setup.start;
+  state.machine.unmark_all();
+  state.transformation.update();
+  Transformation::Values at{};
+  for (const Axis axis : kAllAxes) at[static_cast<std::size_t>(axis)] = state.machine.raw(axis);
+  state.nominal = state.transformation.to_program(at);
+}
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  auto options = read_options(setup);
+  if (!options) return fail(options.error());
+  State state;
+  std::vector<ToolDefinition> tools;
+  if (auto done = load_datum(setup, state); !done) return fail(done.error());
+  if (auto done = load_parameters(setup, state); !done) return fail(done.error());
+  if (auto done = load_tools(setup, tools); !done) return fail(done.error());
+  stand_at_start(setup, state);
+  if (options->start_block >= 0) {
+    state.jump.kind = JumpKind::Start;
+    state.jump.number = static_cast<std::uint32_t>(options->start_block);
+  }
+  return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
+      *std::move(options), std::move(state), std::move(tools), source, sink));
+}
+
+/// Capitals and marks without blanks, line ends kept.
+std::string squeeze(std::string_view head) {
+  std::string text = "\n";
+  for (const char c : head) {
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\0') text += c;
+  }
+  return text;
+}
+
+bool contains(const std::string& text, std::string_view mark) {
+  return text.find(mark) != std::string::npos;
+}
+
+/// `%`, a number, and G71 or G70 on one line.
+bool has_iso_start(const std::string& text) {
+  const std::size_t percent = text.find('%');
+  if (percent == std::string::npos) return false;
+  std::size_t at = percent + 1;
+  while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+  return at > percent + 1 && (text.compare(at, 3, "G71") == 0 || text.compare(at, 3, "G70") == 0);
+}
+
+int likelihood(std::string_view head, std::string_view) {
+  const std::string text = squeeze(head);
+  if (contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"))) return 100;
+  if (has_iso_start(text)) return 90;
+  if (contains(text, "TOOLCALL") || contains(text, "CYCLDEF") || contains(text, "CALLLBL")) {
+    return 80;
+  }
+  return 0;
+}
+
+}  // namespace
+
+const Dialect kTnc155Dialect{"tnc155",
+                             "HEIDENHAIN TNC 151/155 (plain language and ISO)",
+                             &likelihood,
+                             &make,
+                             Units::Millimetre,
+                             MachineKind::Mill};
+
+}  // namespace dripline::interpreter

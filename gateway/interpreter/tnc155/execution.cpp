@@ -1,0 +1,148 @@
+#include "gateway/interpreter/tnc155/execution.hpp"
+
+#include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/cycles.hpp"
+#include "gateway/interpreter/tnc155/flow.hpp"
+#include "gateway/interpreter/tnc155/machine_functions.hpp"
+#include "gateway/interpreter/tnc155/motion.hpp"
+#include "gateway/interpreter/tnc155/q_parameters.hpp"
+#include "gateway/interpreter/tnc155/tools.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool begin_program(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!state.has_header && state.programs.empty()) {
+    state.program_number = block.target;
+    state.units = block.units;
+    return true;
+  }
+  if (state.units == block.units) return true;
+  state.units = block.units;
+  run.events().on_units({run.origin, state.units});
+  return true;
+}
+
+bool move(Run& run, const Block& block) {
+  switch (block.kind) {
+    case BlockKind::Line:
+      return run_line(run, block);
+    case BlockKind::PolarLine:
+      return run_polar_line(run, block);
+    case BlockKind::Arc:
+      return run_arc(run, block);
+    case BlockKind::PolarArc:
+      return run_polar_arc(run, block);
+    case BlockKind::TangentArc:
+      return run_tangent_arc(run, block);
+    default:
+      return run_single_axis(run, block);
+  }
+}
+
+/// M99 and M89: the machining cycle, after the motion.
+bool call_cycle_by_m(Run& run, int m, bool has_moved) {
+  CycleState& cycle = run.state.cycle;
+  if (m == 99) {
+    cycle.is_modal_call = false;
+    return call_cycle(run);
+  }
+  if (m == 89 && run.options.m89_modal) {
+    cycle.is_modal_call = true;
+    return true;
+  }
+  return !has_moved || !cycle.is_modal_call || call_cycle(run);
+}
+
+/// M functions behind the motion, those that end the program last.
+bool finish_m(Run& run, int m, bool has_moved) {
+  if (m == 2 || m == 30) {
+    end_program(run, true);
+    return true;
+  }
+  if (m != Block::kNone && !end_m(run, m)) return false;
+  return call_cycle_by_m(run, m, has_moved);
+}
+
+bool positioning(Run& run, const Block& block) {
+  if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
+    return move(run, block);
+  if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
+  return move(run, block) && finish_m(run, block.m, block.coordinate_count != 0);
+}
+
+bool stop_block(Run& run, const Block& block) {
+  const int m = block.m;
+  if (m != Block::kNone && !begin_m(run, m)) return false;
+  if (m == 0) return end_m(run, m);  // M00 stops by itself
+  if (m == 2 || m == 30) {
+    end_program(run, true);
+    return true;
+  }
+  if (m != Block::kNone && !end_m(run, m)) return false;
+  stop(run, StopKind::Program);
+  return true;
+}
+
+bool cycle_call(Run& run, const Block& block) {
+  if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
+  run.state.cycle.is_modal_call = false;
+  if (!call_cycle(run)) return false;
+  if (block.m == 99) return true;  // the call itself
+  return finish_m(run, block.m, false);
+}
+
+bool function(Run& run, const Block& block) {
+  if (block.function < 9) return compute(run, block);
+  return !is_true(run, block) || jump_to_label(run, block.target);
+}
+
+}  // namespace
+
+bool execute(Run& run, const Block& block) {
+  switch (block.kind) {
+    case BlockKind::Line:
+    case BlockKind::PolarLine:
+    case BlockKind::Arc:
+    case BlockKind::PolarArc:
+    case BlockKind::TangentArc:
+    case BlockKind::SingleAxis:
+      return positioning(run, block);
+    case BlockKind::Begin:
+      return begin_program(run, block);
+    case BlockKind::End:
+      end_program(run, false);
+      return true;
+    case BlockKind::ToolDefinition:
+      return define_tool(run, block);
+    case BlockKind::ToolCall:
+      return call_tool(run, block);
+    case BlockKind::Stop:
+      return stop_block(run, block);
+    case BlockKind::Chamfer:
+    case BlockKind::Rounding:
+      return make_joint(run, block);
+    case BlockKind::Centre:
+      return set_pole(run, block);
+    case BlockKind::Label:
+      return meet_label(run, block);
+    case BlockKind::LabelCall:
+      return call_label(run, block);
+    case BlockKind::ProgramCall:
+      return call_program(run, block.target);
+    case BlockKind::Function:
+      return function(run, block);
+    case BlockKind::CycleDefinition:
+      return define_cycle(run, block);
+    case BlockKind::CycleCall:
+      return cycle_call(run, block);
+    case BlockKind::BlankForm:
+      return define_blank(run, block);
+    case BlockKind::Probe:
+      return probe(run, block);
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,181 @@
+#include "gateway/interpreter/tnc155/interpreter.hpp"
+
+#include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/execution.hpp"
+#include "gateway/interpreter/tnc155/flow.hpp"
+#include "gateway/interpreter/tnc155/joint_ahead.hpp"
+#include "gateway/interpreter/tnc155/snapshot.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::tnc155 {
+TncInterpreter::TncInterpreter(ControlOptions options, State state,
+                               std::vector<ToolDefinition> tools, ProgramSource& source,
+                               EventSink& sink)
+    : run_(std::move(options), source, sink), search_(source) {
+  run_.state = std::move(state);
+  run_.tools = std::move(tools);
+  run_.reset_stages();
+}
+
+StepState TncInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  if (!run_.is_in_block) run_.reader.forget_window();  // the owner may have used the source
+  for (std::uint64_t left = max_blocks; left > 0; --left) {
+    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+      place_origin(run_.state.at);
+      const JumpOutcome outcome = take_jump(run_, search_);
+      run_.reader.forget_window();
+      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
+      if (outcome == JumpOutcome::More) return StepState::Ran;
+      if (outcome == JumpOutcome::Failed) return paused();
+    }
+    switch (run_block()) {
+      case BlockOutcome::Finished:
+        break;
+      case BlockOutcome::NeedsText:
+        return StepState::NeedsText;
+      case BlockOutcome::Paused:
+        return paused();
+    }
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+      return StepState::Ended;
+  }
+  return StepState::Ran;
+}
+
+StepState TncInterpreter::paused() {
+  if (run_.pause == Pause::Question) {
+    run_.pause = Pause::None;
+    is_asking_ = true;
+    return StepState::NeedsAnswer;
+  }
+  run_.pause = Pause::None;
+  run_.events().on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+TncInterpreter::BlockOutcome TncInterpreter::run_block() {
+  if (!run_.is_in_block) {
+    const BlockOutcome outcome = read();
+    if (outcome != BlockOutcome::Finished || !run_.is_in_block) [[unlikely]]
+      return outcome;
+  }
+  if (!execute_parts()) [[unlikely]]
+    return BlockOutcome::Paused;
+  return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
+}
+
+/// A corner is known from the block behind it: that block is looked at first.
+bool TncInterpreter::look_ahead() {
+  peeked_joint_ = false;
+  const BlockParts& parts = run_.parts;
+  if (parts.count == 0 || !is_positioning(parts.blocks[parts.count - 1])) return true;
+  std::string_view next;
+  const ReadState state = run_.reader.peek(run_.state.reading, next);
+  if (state == ReadState::NotYet) return false;
+  peeked_joint_ = state == ReadState::Ready && is_joint(next, run_.state.reading.program.form);
+  return true;
+}
+
+TncInterpreter::BlockOutcome TncInterpreter::read() {
+  const ReadingState before = run_.state.reading;
+  switch (run_.reader.next(run_.state.reading, run_.parts)) {
+    case ReadState::Ready:
+      break;
+    case ReadState::NotYet:
+      return BlockOutcome::NeedsText;
+    case ReadState::End:
+      return meet_end();
+    case ReadState::Failed:
+      place_origin(run_.reader.place());
+      run_.fail(ErrorCode::TextFailed, run_.reader.reason());
+      return BlockOutcome::Paused;
+    case ReadState::Wrong:
+      place_origin(run_.reader.place());
+      run_.origin.line = run_.reader.fault_line();
+      run_.fail_as(run_.reader.fault().code, run_.reader.fault().text());
+      run_.alarm.column = run_.reader.fault().column;
+      return BlockOutcome::Paused;
+  }
+  if (!look_ahead()) {
+    run_.state.reading = before;
+    run_.reader.seek(run_.state.at);
+    return BlockOutcome::NeedsText;
+  }
+  place_origin(run_.reader.block_place());
+  if (run_.parts.count != 0) run_.origin.sequence = run_.parts.blocks[0].number;
+  run_.state.at = run_.reader.place();
+  run_.is_in_block = true;
+  part_ = 0;
+  return BlockOutcome::Finished;
+}
+
+/// The text ends without END PGM: as if it were there.
+TncInterpreter::BlockOutcome TncInterpreter::meet_end() {
+  place_origin(run_.reader.place());
+  end_program(run_, false);
+  return BlockOutcome::Finished;
+}
+
+void TncInterpreter::place_origin(const TextPlace& at) {
+  Origin& origin = run_.origin;
+  origin.block = run_.state.blocks + 1;
+  origin.offset = at.offset;
+  origin.line = at.line;
+  origin.sequence = Origin::kNone;
+  origin.program = at.program;
+}
+
+bool TncInterpreter::execute_parts() {
+  const BlockParts& parts = run_.parts;
+  for (; part_ < parts.count; ++part_) {
+    const bool is_last = part_ + 1 == parts.count;
+    run_.joint_follows = is_last ? peeked_joint_ : is_joint(parts.blocks[part_ + 1]);
+    if (!execute(run_, parts.blocks[part_])) return false;
+    run_.answer.reset();
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+      break;
+  }
+  return true;
+}
+
+bool TncInterpreter::finish_block() {
+  if (run_.state.uses_stages) [[unlikely]] {
+    if (!check_stages(run_)) return false;
+  }
+  run_.is_in_block = false;
+  if (run_.state.phase == RunPhase::Running) run_.end_block();
+  ++run_.state.blocks;
+  return !run_.state.uses_stages || check_stages(run_);
+}
+
+Result<void> TncInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return dripline::fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) {
+    return dripline::fail(Errc::Syntax, "an answer to another question");
+  }
+  run_.answer = answer;
+  is_asking_ = false;
+  return {};
+}
+
+Snapshot TncInterpreter::snapshot() const {
+  invariant(!run_.is_in_block, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.reader.forget_window();
+  run_.reader.seek(run_.state.at);
+  run_.is_in_block = false;
+  run_.answer.reset();
+  run_.pause = Pause::None;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "gateway/interpreter/tnc155/run.hpp"
+#include "gateway/interpreter/tnc155/text_search.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// A TNC 151/155: text of either form to events, one block at a time.
+class TncInterpreter final : public Interpreter {
+ public:
+  TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
+                 ProgramSource& source, EventSink& sink);
+
+  StepState step(std::uint64_t max_blocks) override;
+  const Question& question() const override { return run_.question; }
+  Result<void> answer(const Answer& answer) override;
+  std::uint64_t blocks() const override { return run_.state.blocks; }
+  const Origin& origin() const override { return run_.origin; }
+  Snapshot snapshot() const override;
+  Result<void> restore(const Snapshot& snapshot) override;
+
+ private:
+  enum class BlockOutcome : std::uint8_t { Finished, NeedsText, Paused };
+
+  BlockOutcome run_block();
+  BlockOutcome read();
+  bool look_ahead();
+  BlockOutcome meet_end();
+  bool execute_parts();
+  bool finish_block();
+  StepState paused();
+  void place_origin(const TextPlace& at);
+
+  Run run_;
+  TextSearch search_;
+  std::size_t part_ = 0;  ///< of the block in hand, to be done next
+  bool peeked_joint_ = false;
+  bool is_asking_ = false;
+};
+
+}  // namespace dripline::interpreter::tnc155

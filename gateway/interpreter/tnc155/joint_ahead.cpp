@@ -1,0 +1,44 @@
+#include "gateway/interpreter/tnc155/joint_ahead.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+std::size_t skip_blanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && static_cast<unsigned char>(text[at]) <= ' ') ++at;
+  return at;
+}
+
+bool is_plain_joint(std::string_view text) {
+  std::size_t at = skip_blanks(text, 0);
+  while (at < text.size() && (is_digit(text[at]) || text[at] == ' ')) ++at;
+  if (at == text.size()) return false;
+  if (text[at] == 'R') return true;
+  if (text[at] != 'L') return false;
+  at = skip_blanks(text, at + 1);
+  if (at == text.size()) return false;
+  const char next = text[at];
+  return is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
+}
+
+/// G24 to G27 without a move of its own.
+bool is_iso_joint(std::string_view text) {
+  if (text.find_first_of("XYZABCUVWHIJK") != std::string_view::npos) return false;
+  for (std::size_t at = text.find('G'); at != std::string_view::npos; at = text.find('G', at + 1)) {
+    const std::size_t tens = skip_blanks(text, at + 1);
+    if (tens == text.size() || text[tens] != '2') continue;
+    const std::size_t ones = skip_blanks(text, tens + 1);
+    if (ones != text.size() && text[ones] >= '4' && text[ones] <= '7') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_joint(std::string_view text, Form form) {
+  return form == Form::Iso ? is_iso_joint(text) : is_plain_joint(text);
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,274 @@
+#include "gateway/interpreter/tnc155/motion.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/target.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool is_machine_block(const Block& block) {
+  return block.m == 91 || block.m == 92;
+}
+
+/// M91, M92: the block's words are machine coordinates, and nothing else changes them.
+bool run_machine_block(Run& run, const Block& block) {
+  if (!read_feed(run, block)) return false;
+  Target target;
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    const Coordinate& word = block.coordinates[i];
+    double value = run.coordinate(word.axis, word.value);
+    if (word.is_incremental) {
+      value += run.state.machine.raw(word.axis);
+    } else if (block.m == 92) {
+      value += run.options.m92_position.raw(word.axis);
+    }
+    target.set(word.axis, value);
+  }
+  Pace pace;
+  if (!pace_of(run, block, pace)) return false;
+  if (block.compensation == Compensation::Off) {
+    end_contour(run, false);
+    run.state.compensation = Compensation::Off;
+  }
+  interrupt_contour(run);
+  machine_line_to(run, target, pace);
+  resume_contour(run);
+  run.state.last = LastMove{};
+  run.state.polar.is_current = false;
+  return true;
+}
+
+/// M94: whole turns are taken off what a rotary axis shows.
+void reduce_rotary_axes(State& state) {
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double turns = std::trunc(state.nominal[i] / 360) * 360;
+    if (turns == 0) continue;
+    state.nominal[i] -= turns;
+    const bool has = state.machine.has(axis);
+    state.machine.set_raw(axis, state.machine.raw(axis) - turns);
+    if (!has) state.machine.unmark(axis);
+  }
+}
+
+/// After GOTO the first positioning has to be told by itself alone.
+bool check_restart(Run& run, const Block& block, const Target& target) {
+  if (!run.state.is_restart) [[likely]]
+    return true;
+  bool is_open = (target.named & (target.named - 1)) == 0;
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    is_open |= block.coordinates[i].is_incremental;
+  }
+  if (is_open || block.is_radius_incremental || block.is_angle_incremental) {
+    return run.fail(ErrorCode::ProgramStartUndefined,
+                    "the first block after GOTO is incremental or has one coordinate");
+  }
+  run.state.is_restart = false;
+  return true;
+}
+
+bool go_straight(Run& run, const Block& block, const Target& target) {
+  State& state = run.state;
+  if (!check_restart(run, block, target) || !read_feed(run, block)) return false;
+  const PlaneMove move = plane_move(state, target);
+  Pace pace;
+  if (target.named != 0 && !pace_of(run, block, pace)) return false;
+  if (!begin_move(run, block, move)) return false;
+  line_to(run, target, pace);
+  return finish_move(run, block, move);
+}
+
+/// Angle in degrees from `from` to `to` the way `turn` goes, in (0, 360].
+double sweep_of(double from, double to, Turn turn) {
+  double sweep = turn == Turn::CounterClockwise ? to - from : from - to;
+  sweep = std::fmod(sweep, 360.0);
+  if (sweep < 0) sweep += 360;
+  constexpr double kNoAngle = 1e-9;
+  return sweep < kNoAngle || sweep > 360 - kNoAngle ? 360 : sweep;
+}
+double sweep_of(PlaneVector from, PlaneVector to, Turn turn) {
+  const double angle = turn_between(from, to) * (180 / Angle::kPi);
+  return sweep_of(0, angle, turn);
+}
+
+bool go_round(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
+  State& state = run.state;
+  if (!check_restart(run, block, arc.to) || !read_feed(run, block)) return false;
+  PlaneMove move = plane_move(state, arc.to);
+  move.is_arc = true;
+  move.has_both = has_both;
+  move.has_way = true;
+  move.centre = arc.centre;
+  move.turn = arc.turn;
+  Pace pace;
+  if (!pace_of(run, block, pace) || !begin_move(run, block, move)) return false;
+  arc_to(run, arc, pace);
+  return finish_move(run, block, move);
+}
+
+bool has_pole(Run& run) {
+  if (run.state.has_pole) return true;
+  return run.fail(ErrorCode::AngleReferenceMissing, "no CC before");
+}
+
+/// CIRCLE END POS. INCORRECT where start and end are not on one circle.
+bool check_radii(Run& run, PlaneVector start, PlaneVector end) {
+  const double from = length(start);
+  const double to = length(end);
+  if (std::fabs(from - to) <= run.options.circle_tolerance) return true;
+  return run.fail(ErrorCode::CircleEndIncorrect,
+                  fmt::format("radius {:.4f} at the start, {:.4f} at the end", from, to));
+}
+
+}  // namespace
+
+bool run_line(Run& run, const Block& block) {
+  if (is_machine_block(block)) [[unlikely]]
+    return run_machine_block(run, block);
+  if (block.m == 94) [[unlikely]]
+    reduce_rotary_axes(run.state);
+  Target target = here(run.state);
+  read_coordinates(run, block, target);
+  run.state.polar.is_current = false;
+  return go_straight(run, block, target);
+}
+
+bool run_polar_line(Run& run, const Block& block) {
+  Target target = here(run.state);
+  if (!has_pole(run) || !read_polar(run, block, target)) return false;
+  return go_straight(run, block, target);
+}
+
+bool run_arc(Run& run, const Block& block) {
+  constexpr double kNoWay = 1e-6;  // a full circle ends where it begins
+  State& state = run.state;
+  if (!has_pole(run)) return false;
+  ArcTarget arc;
+  arc.to = here(state);
+  read_coordinates(run, block, arc.to);
+  const bool has_both = names_plane(state, arc.to);
+  name_plane(state, arc.to);
+  arc.centre = pole_in_plane(state);
+  arc.turn = *block.turn;
+  const PlaneVector start = nominal_in_plane(state) - arc.centre;
+  const PlaneVector end = in_plane(state, arc.to) - arc.centre;
+  if (!check_radii(run, start, end)) return false;
+  if (length(start) == 0) return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
+  arc.sweep = length(end - start) < kNoWay ? 360 : sweep_of(start, end, arc.turn);
+  state.polar.is_current = false;
+  return go_round(run, block, arc, has_both);
+}
+
+bool run_polar_arc(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!has_pole(run)) return false;
+  ArcTarget arc;
+  arc.to = here(state);
+  read_coordinates(run, block, arc.to);
+  arc.centre = pole_in_plane(state);
+  arc.turn = *block.turn;
+  const PlaneVector start = nominal_in_plane(state) - arc.centre;
+  const double radius = length(start);
+  if (radius == 0) return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
+  const double from = turn_between({1, 0}, start) * (180 / Angle::kPi);
+  const double angle = run.number(block.angle);
+  double to = angle;
+  if (block.is_angle_incremental) {
+    to = from + angle;
+    const double turns = std::floor(std::fabs(angle) / 360) * 360;
+    const double rest = std::fmod(std::fabs(angle), 360) == 0 ? 0 : sweep_of(from, to, arc.turn);
+    arc.sweep = turns + rest;
+    if (arc.sweep == 0) return run.fail(ErrorCode::CircleEndIncorrect, "IPA+0 turns nowhere");
+  } else {
+    arc.sweep = sweep_of(from, to, arc.turn);
+  }
+  set_in_plane(state, arc.to, arc.centre + radius * unit_vector(to));
+  state.polar = {true, true, radius, to};
+  return go_round(run, block, arc);
+}
+
+bool run_tangent_arc(Run& run, const Block& block) {
+  State& state = run.state;
+  const LastMove& last = state.last;
+  ArcTarget arc;
+  arc.to = here(state);
+  read_coordinates(run, block, arc.to);
+  if (!last.exists) {
+    return run.fail(ErrorCode::CircleEndIncorrect, "no element before CT");
+  }
+  if (!last.has_both || !names_plane(state, arc.to)) {
+    return run.fail(ErrorCode::AngleReferenceMissing,
+                    "CT and the block before need both coordinates of the plane");
+  }
+  const PlaneVector start = nominal_in_plane(state);
+  const PlaneVector along = end_direction(last);
+  const PlaneVector way = in_plane(state, arc.to) - start;
+  const double distance = length(way);
+  if (length(along) == 0 || distance == 0) {
+    return run.fail(ErrorCode::CircleEndIncorrect, "CT goes nowhere, or no element before it");
+  }
+  state.polar.is_current = false;
+  constexpr double kStraight = 1e-9;
+  const double side = cross(along, way) / distance;
+  if (std::fabs(side) < kStraight) {
+    if (dot(along, way) > 0) return go_straight(run, block, arc.to);
+    return run.fail(ErrorCode::CircleEndIncorrect, "the end of CT is behind its start");
+  }
+  const double radius = distance / (2 * side);
+  arc.centre = start + radius * left_of(along);
+  arc.turn = side > 0 ? Turn::CounterClockwise : Turn::Clockwise;
+  arc.sweep = sweep_of(start - arc.centre, in_plane(state, arc.to) - arc.centre, arc.turn);
+  return go_round(run, block, arc);
+}
+
+bool run_single_axis(Run& run, const Block& block) {
+  if (is_machine_block(block)) return run_machine_block(run, block);
+  State& state = run.state;
+  if (block.m == 94) reduce_rotary_axes(state);
+  if (block.coordinate_count == 0) return read_feed(run, block);
+  const Axis axis = block.coordinates[0].axis;
+  Target target = here(state);
+  read_coordinates(run, block, target);
+  const double wanted = target.at[static_cast<std::size_t>(axis)];
+  const Compensation how = block.compensation == Compensation::NotProgrammed ? state.compensation
+                                                                             : block.compensation;
+  if (state.is_compensating() && block.compensation != Compensation::Off &&
+      axis != axes_of(state.plane).normal && !is_rotary(axis)) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                    fmt::format("a single-axis block of {} within a contour", letter(axis)));
+  }
+  double extra = 0;
+  const bool is_offset = how == Compensation::Longer || how == Compensation::Shorter;
+  if (is_offset && axis != state.tool.axis && !is_rotary(axis)) {
+    const double travel = wanted - state.nominal_of(axis);
+    const double sign = travel > 0 ? 1 : travel < 0 ? -1 : 0;
+    extra = sign * (how == Compensation::Longer ? state.tool.data.radius : -state.tool.data.radius);
+  }
+  target.at[static_cast<std::size_t>(axis)] = wanted + extra;
+  state.polar.is_current = false;
+  if (!go_straight(run, block, target)) return false;
+  state.set_nominal(axis, wanted);
+  state.last.exists = false;
+  state.last.is_single_offset = is_offset;
+  return true;
+}
+
+bool set_pole(Run& run, const Block& block) {
+  State& state = run.state;
+  const PlaneAxes axes = axes_of(state.plane);
+  Target pole = here(state);
+  read_coordinates(run, block, pole);
+  for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+    const bool is_of_plane = axis == axes.first || axis == axes.second;
+    if (!is_of_plane && (pole.named & bit(axis)) == 0) continue;
+    state.pole[static_cast<std::size_t>(axis)] = pole.at[static_cast<std::size_t>(axis)];
+  }
+  state.has_pole = true;
+  state.polar.is_current = false;
+  return true;
+}
+
+}  // namespace dripline::interpreter::tnc155

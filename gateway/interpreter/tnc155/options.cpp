@@ -1,0 +1,127 @@
+#include "gateway/interpreter/tnc155/options.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+/// Reads options one after the other; the first error stays.
+class Reader {
+ public:
+  explicit Reader(const Options& options) : options_(options) {}
+
+  void flag(std::string_view key, bool& value) { take(options_.flag(key, value), value); }
+  void number(std::string_view key, double& value) { take(options_.number(key, value), value); }
+  void length(std::string_view key, double& value) {
+    Length read = Length::mm(value);
+    take(options_.length(key, read), read);
+    value = read.mm();
+  }
+  void integer(std::string_view key, int& value, std::int64_t most) {
+    std::int64_t read = value;
+    take(options_.integer(key, read), read);
+    if (read < -1 || read > most) {
+      refuse(fail(Errc::Syntax, "option {}: {} is not a number from -1 to {}", key, read, most));
+    }
+    value = static_cast<int>(read);
+  }
+  void position(std::string_view key, Position& value) { take(options_.position(key), value); }
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> allowed,
+                     std::size_t fallback) {
+    take(options_.choice(key, allowed, fallback), fallback);
+    return fallback;
+  }
+  void not_negative(std::string_view key, double value) {
+    if (value < 0) refuse(fail(Errc::Syntax, "option {}: {} is less than 0", key, value));
+  }
+  void refuse(Result<void> error) {
+    if (!error_ && !error) error_ = error.error();
+  }
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  template <class Value>
+  void take(Result<Value> read, Value& value) {
+    if (read) {
+      value = std::move(*read);
+    } else {
+      refuse(fail(read.error()));
+    }
+  }
+  const Options& options_;
+  std::optional<Error> error_;
+};
+
+/// The preferred numbers of coded speeds: a twentieth of a decade apart, five decades.
+std::vector<double> preferred_speeds() {
+  constexpr double kDecade[] = {1,    1.12, 1.25, 1.4,  1.6, 1.8, 2,   2.24, 2.5, 2.8,
+                                3.15, 3.55, 4,    4.5,  5,   5.6, 6.3, 7.1,  8,   9};
+  std::vector<double> speeds;
+  for (const double factor : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
+    for (const double mantissa : kDecade) speeds.push_back(mantissa * factor);
+  }
+  return speeds;
+}
+
+Result<std::vector<double>> read_speeds(const Options& options) {
+  auto read = options.integers("spindle_table");
+  if (!read) return fail(read.error());
+  if (read->empty()) return preferred_speeds();
+  std::vector<double> speeds;
+  for (const std::int64_t speed : *read) {
+    if (!speeds.empty() && static_cast<double>(speed) <= speeds.back()) {
+      return fail(Errc::Syntax, "option spindle_table: {} does not rise above {}", speed,
+                  speeds.back());
+    }
+    speeds.push_back(static_cast<double>(speed));
+  }
+  return speeds;
+}
+
+}  // namespace
+
+Result<ControlOptions> read_options(const Setup& setup) {
+  const Options& options = setup.control;
+  auto known = options.check_known(
+      {"probe_clearance", "probe_travel", "probe_feed", "pocket_overlap", "m89_modal", "m06_stop",
+       "central_tool_file", "decimal_sign", "iso_continuation", "strict_numbers",
+       "blockwise_restrictions", "heading_letter", "cancel_transformations", "scale_three_axes",
+       "spindle", "spindle_table", "spindle_minimum", "spindle_maximum", "rotary_feed",
+       "circle_tolerance", "fourth_axis", "m92_position", "start_block"});
+  if (!known) return fail(known.error());
+  ControlOptions read;
+  Reader reader(options);
+  reader.length("probe_clearance", read.probe_clearance);
+  reader.length("probe_travel", read.probe_travel);
+  reader.length("probe_feed", read.probe_feed);
+  reader.number("pocket_overlap", read.pocket_overlap);
+  reader.flag("m89_modal", read.m89_modal);
+  reader.flag("m06_stop", read.m06_stop);
+  reader.flag("central_tool_file", read.central_tool_file);
+  reader.flag("iso_continuation", read.iso_continuation);
+  reader.flag("blockwise_restrictions", read.blockwise_restrictions);
+  reader.flag("cancel_transformations", read.cancels_transformations);
+  reader.flag("scale_three_axes", read.scales_three_axes);
+  reader.choice("decimal_sign", {"comma", "point"}, 0);  // of written programs: the converter's
+  reader.choice("heading_letter", {"%", "H"}, 0);        // of the line's protocol
+  bool strict_numbers = false;
+  reader.flag("strict_numbers", strict_numbers);
+  read.spindle_coded = reader.choice("spindle", {"analogue", "coded"}, 0) == 1;
+  reader.number("spindle_minimum", read.spindle_minimum);
+  reader.number("spindle_maximum", read.spindle_maximum);
+  read.contour_feed = reader.choice("rotary_feed", {"contour", "rotary"}, 0) == 0;
+  reader.length("circle_tolerance", read.circle_tolerance);
+  constexpr std::string_view kFourth = "ABCUVW";
+  const std::size_t fourth = reader.choice("fourth_axis", {"A", "B", "C", "U", "V", "W"}, 2);
+  read.fourth_axis = *axis_of(kFourth[fourth]);
+  reader.position("m92_position", read.m92_position);
+  reader.integer("start_block", read.start_block, 65'534);
+  reader.not_negative("probe_clearance", read.probe_clearance);
+  reader.not_negative("probe_travel", read.probe_travel);
+  reader.not_negative("circle_tolerance", read.circle_tolerance);
+  if (reader.error()) return fail(*reader.error());
+  auto speeds = read_speeds(options);
+  if (!speeds) return fail(speeds.error());
+  read.spindle_table = std::move(*speeds);
+  return read;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/setup.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What the machine builder, the software version or a choice of ours decides. Lengths are
+/// millimetres, feeds millimetres per minute.
+struct ControlOptions {
+  // touch probe
+  double probe_clearance = 2;
+  double probe_travel = 100;
+  double probe_feed = 200;
+
+  double pocket_overlap = 1;  ///< factor k: stepover of pockets as a share of the tool radius
+  bool m89_modal = true;      ///< M89 is the modal cycle call; else a free M function
+  bool m06_stop = false;      ///< M06 stops the program
+  bool central_tool_file = false;
+  bool iso_continuation = true;
+  bool blockwise_restrictions = false;  ///< no calls, repeats and jumps
+  bool cancels_transformations = true;  ///< M02, M30 and END PGM do (MP 173)
+  bool scales_three_axes = true;        ///< cycle 11: all main axes, else those of the plane
+
+  bool spindle_coded = false;  ///< only the speeds of `spindle_table`, rounded up
+  std::vector<double> spindle_table;
+  double spindle_minimum = 0;
+  double spindle_maximum = 30'000;
+
+  /// A feed with linear and rotary axes together is that of the way of all of them (software 03
+  /// and later); off: that of the rotary axis.
+  bool contour_feed = true;
+  double circle_tolerance = 0.016;  ///< radii of an arc's start and end may differ by so much
+  Axis fourth_axis = Axis::C;       ///< axis IV
+  Position m92_position;            ///< what coordinates of M92 refer to
+  int start_block = -1;             ///< GOTO before the start: number of the first block; -1: none
+};
+
+/// Errors: Syntax, Unsupported; naming the option.
+Result<ControlOptions> read_options(const Setup& setup);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,131 @@
+#include "gateway/interpreter/tnc155/path.hpp"
+
+#include <cmath>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+constexpr AxisMask kRotary = bit(Axis::A) | bit(Axis::B) | bit(Axis::C);
+/// Rotated coordinates nearer to the old ones than this have not changed.
+constexpr double kSame = 1e-9;
+
+/// The feed of the linear axes when rotary ones move with them, as the machine wants it.
+double linear_feed(const Run& run, const Position& to, double feed) {
+  double linear = 0;
+  double rotary = 0;
+  for (const Axis axis : kAllAxes) {
+    const double way = to.raw(axis) - run.state.machine.raw(axis);
+    (is_rotary(axis) ? rotary : linear) += way * way;
+  }
+  if (linear == 0 || rotary == 0) return feed;
+  if (run.options.contour_feed) return feed * std::sqrt(linear / (linear + rotary));
+  return feed * std::sqrt(linear / rotary);
+}
+
+void put_out(Run& run, const Position& to, Pace pace) {
+  State& state = run.state;
+  const bool moves = !to.same_point(state.machine);
+  if (moves && pace.is_rapid) {
+    run.events().on_rapid({run.origin, to});
+  } else if (moves) {
+    run.events().on_line({run.origin, to, Feed::per_minute(Length::mm(pace.feed))});
+  }
+  state.machine = to;
+}
+
+void apply(const State& state, Position& to, const Target& target) {
+  if (!state.transformation.is_special) [[likely]] {
+    for (std::size_t i = 0; i < kAxisCount; ++i) {
+      const auto axis = static_cast<Axis>(i);
+      if ((target.named & bit(axis)) != 0) {
+        to.set_raw(axis, state.transformation.to_machine(axis, target.at[i]));
+      }
+    }
+    return;
+  }
+  const AxisValues at = state.transformation.to_machine(target.at);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const bool is_named = (target.named & bit(axis)) != 0;
+    const bool follows = axis <= Axis::Z && std::fabs(at[i] - to.raw(axis)) > kSame;
+    if (is_named || follows) to.set_raw(axis, at[i]);
+  }
+}
+
+}  // namespace
+
+PlaneVector nominal_in_plane(const State& state) {
+  const PlaneAxes axes = axes_of(state.plane);
+  return {state.nominal_of(axes.first), state.nominal_of(axes.second)};
+}
+
+Position machine_position(const State& state, const Target& target) {
+  Position to = state.machine;
+  apply(state, to, target);
+  return to;
+}
+
+void line_to(Run& run, const Target& target, Pace pace) {
+  State& state = run.state;
+  const Position to = machine_position(state, target);
+  state.nominal = target.at;
+  if ((target.named & kRotary) != 0 && !pace.is_rapid) [[unlikely]] {
+    pace.feed = linear_feed(run, to, pace.feed);
+  }
+  put_out(run, to, pace);
+}
+
+void arc_to(Run& run, const ArcTarget& target, Pace pace) {
+  State& state = run.state;
+  const PlaneAxes axes = axes_of(state.plane);
+  Arc arc;
+  arc.origin = run.origin;
+  arc.to = machine_position(state, target.to);
+  AxisValues centre = state.nominal;
+  centre[static_cast<std::size_t>(axes.first)] = target.centre.first;
+  centre[static_cast<std::size_t>(axes.second)] = target.centre.second;
+  centre = state.transformation.to_machine(centre);
+  arc.center_first = Length::mm(centre[static_cast<std::size_t>(axes.first)]);
+  arc.center_second = Length::mm(centre[static_cast<std::size_t>(axes.second)]);
+  arc.plane = state.plane;
+  const bool turns_over = state.transformation.turns_over(state.plane);
+  arc.turn = (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise
+                                                            : Turn::CounterClockwise;
+  arc.sweep = Angle::degrees(target.sweep);
+  arc.feed = Feed::per_minute(Length::mm(pace.feed));
+  run.events().on_arc(arc);
+  state.machine = arc.to;
+  state.nominal = target.to.at;
+}
+
+void machine_line_to(Run& run, const Target& target, Pace pace) {
+  State& state = run.state;
+  Position to = state.machine;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if ((target.named & bit(axis)) != 0) to.set_raw(axis, target.at[i]);
+  }
+  if ((target.named & kRotary) != 0 && !pace.is_rapid) {
+    pace.feed = linear_feed(run, to, pace.feed);
+  }
+  put_out(run, to, pace);
+  AxisValues machine{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
+  const AxisValues nominal = state.transformation.to_program(machine);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (state.transformation.is_special || (target.named >> i & 1u) != 0) {
+      state.nominal[i] = nominal[i];
+    }
+  }
+}
+
+void change_transformation(Run& run, const Transformation& changed) {
+  State& state = run.state;
+  const AxisValues at = state.transformation.to_machine(state.nominal);
+  state.transformation = changed;
+  state.transformation.update();
+  state.nominal = state.transformation.to_program(at);
+  state.polar.is_current = false;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/compensation/compensator.hpp"
+#include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/joining/joiner.hpp"
+#include "gateway/interpreter/tnc155/block_reader.hpp"
+#include "gateway/interpreter/tnc155/errors.hpp"
+#include "gateway/interpreter/tnc155/options.hpp"
+#include "gateway/interpreter/tnc155/state.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question };
+
+/// One run: what the files of this folder work on. Functions that can not go on give false and
+/// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
+/// that thing is done again once the answer is there.
+struct Run {
+  Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink);
+
+  /// Where events go, after the header has been delivered.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    if (state.uses_stages) [[unlikely]]
+      return stages();
+    return sink;
+  }
+  /// From now on events pass the stage for compensation.
+  void use_stages();
+  /// And the one for corners in front of it, from the next move on.
+  void begin_joining();
+  /// Both at the position of the state, with nothing waiting.
+  void reset_stages();
+  void end_block() {
+    if (state.uses_stages) [[unlikely]] {
+      stages().on_block_end(origin);
+    } else {
+      sink.on_block_end(origin);
+    }
+  }
+
+  /// All give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::string_view detail = {});
+  /// With a text in place of the control's.
+  [[gnu::cold]] bool fail_as(ErrorCode code, std::string_view text);
+  [[gnu::cold]] bool ask(Question asked);
+  [[gnu::cold]] void warn(std::string_view id, std::string_view text);
+
+  /// A word's number, or what its Q parameter holds; 0 for none.
+  double number(const Value& value) const {
+    if (!value.is_q()) [[likely]]
+      return value.amount();
+    const double held = state.q[static_cast<std::size_t>(value.number)];
+    return value.is_negated ? -held : held;
+  }
+  /// As millimetres, a rotary axis's as degrees.
+  double coordinate(Axis axis, const Value& value) const {
+    return is_rotary(axis) ? number(value) : number(value) * state.mm_per_unit();
+  }
+  double length(const Value& value) const { return number(value) * state.mm_per_unit(); }
+
+  const ControlOptions options;
+  ProgramSource& source;
+  EventSink& sink;
+  compensation::Compensator compensator;
+  joining::Joiner joiner;
+  BlockReader reader;
+  State state;
+  std::vector<ToolDefinition> tools;  ///< of the setup: the central tool file
+
+  BlockParts parts;  ///< of the block in hand
+  bool is_in_block = false;    ///< read, and not finished
+  bool joint_follows = false;  ///< RND or a chamfer stands behind the part in hand
+  Origin origin;
+  std::optional<Answer> answer;  ///< to the question of the part in hand
+  Question question;
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+
+ private:
+  EventSink& stages() {
+    if (state.joins) return joiner;
+    return compensator;
+  }
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::tnc155

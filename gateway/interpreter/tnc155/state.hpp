@@ -1,0 +1,166 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gateway/interpreter/geometry/plane_vector.hpp"
+#include "gateway/interpreter/tnc155/block_reader.hpp"
+#include "gateway/interpreter/tnc155/cycle_state.hpp"
+#include "gateway/interpreter/tnc155/transformation.hpp"
+
+/// Everything that stays from one block to the next. Lengths are millimetres, angles degrees.
+/// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+namespace dripline::interpreter::tnc155 {
+
+enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
+
+inline constexpr int kParameterCount = 100;         ///< Q0 to Q99
+inline constexpr int kLastTool = 254;
+inline constexpr int kLastLabel = 254;
+inline constexpr std::size_t kMostLabelLevels = 8;  ///< subprograms and repeats together
+inline constexpr std::size_t kMostProgramLevels = 4;
+inline constexpr std::size_t kMostLabels = (kLastLabel + 1) * (kMostProgramLevels + 1);
+
+struct ToolData {
+  double length = 0;
+  double radius = 0;
+};
+struct ToolDefinition {
+  std::uint8_t number = 0;
+  ToolData data;
+};
+/// What the last TOOL CALL left. Number 0 is no tool.
+struct ActiveTool {
+  int number = 0;
+  bool is_called = false;  ///< a TOOL CALL named a spindle axis
+  Axis axis = Axis::Z;
+  ToolData data;
+};
+
+struct SpindleModes {
+  SpindleState state = SpindleState::Off;
+  double speed = 0;
+  bool has_speed = false;
+};
+struct CoolantModes {
+  bool flood = false;
+};
+
+/// CALL LBL: where a subprogram goes back to, or what a repeat has left.
+struct LabelFrame {
+  bool is_repeat = false;
+  std::uint8_t label = 0;
+  std::uint32_t left = 0;      ///< of a repeat: passes still to come
+  TextPlace call;              ///< the calling block
+  TextPlace back;              ///< behind it
+  std::uint64_t from = 0;      ///< of a repeat: offset of its label
+};
+/// CALL PGM, cycle 12.
+struct ProgramFrame {
+  TextPlace back;
+  ProgramForm form;  ///< of the caller
+  std::uint8_t label_base = 0;
+};
+struct LabelPlace {
+  ProgramIndex program = kMainProgram;
+  std::uint8_t label = 0;
+  TextPlace at;  ///< the block LBL
+};
+
+/// A jump that needs text of another place; taken before the next block.
+enum class JumpKind : std::uint8_t { None, Label, Subprogram, Repeat, Program, Start };
+struct Jump {
+  JumpKind kind = JumpKind::None;
+  std::uint32_t number = 0;
+  std::uint32_t repeats = 0;
+  TextPlace call;  ///< the block that jumps
+};
+
+/// The positioning block before, for what joins it: CT, RND, chamfers, single-axis rules.
+struct LastMove {
+  bool exists = false;
+  bool is_arc = false;
+  bool has_both = false;        ///< both coordinates of the plane
+  bool has_third = false;       ///< and one besides
+  bool is_single_offset = false;  ///< R+ or R-
+  bool starts_contour = false;  ///< the first with RL or RR
+  PlaneVector from, to;         ///< nominal, program coordinates
+  PlaneVector centre;
+  Turn turn = Turn::CounterClockwise;
+};
+
+/// A corner that RND or a chamfer asked for and that the next move decides.
+enum class JointKind : std::uint8_t { None, Round, Chamfer, RunOn, RunOff };
+struct Joint {
+  JointKind kind = JointKind::None;
+  bool is_stated = false;  ///< G25: a corner and nothing else
+  double size = 0;
+  Origin origin;
+};
+
+/// The first half of DEF BLK FORM.
+struct BlankState {
+  bool has_minimum = false;
+  Axis axis = Axis::Z;
+  std::array<double, 3> minimum{};
+};
+
+struct PolarData {
+  bool exists = false;      ///< a polar block was executed in this run
+  bool is_current = false;  ///< and nothing since moved the tool or the pole
+  double radius = 0;
+  double angle = 0;
+};
+
+struct State {
+  RunPhase phase = RunPhase::Running;
+  bool has_header = false;
+  std::uint64_t blocks = 0;
+  TextPlace at;  ///< the next block
+  ReadingState reading;
+  std::int64_t program_number = -1;  ///< of the program that was started
+  Units units = Units::Millimetre;
+
+  Position machine;  ///< as events say, before radius compensation; marked: moved so far
+  std::array<double, kAxisCount> nominal{};  ///< program coordinates
+  Transformation transformation;
+
+  Plane plane = Plane::XY;
+  ActiveTool tool;
+  std::vector<ToolDefinition> definitions;  ///< executed in this run
+  SpindleModes spindle;
+  CoolantModes coolant;
+  double feed = 0;  ///< millimetres or degrees per minute; 0: none yet
+
+  Compensation compensation = Compensation::Off;
+  bool uses_stages = false;  ///< from the first RL, RR, RND or chamfer on
+  bool joins = false;        ///< moves pass the corner stage: one waits there
+  bool is_parallel = false;  ///< after M98: compensation has to be programmed anew
+  bool has_compensated = false;  ///< a contour was started in this run
+  Joint joint;
+  LastMove last;
+  std::array<double, 3> pole{};  ///< X, Y, Z; program coordinates
+  bool has_pole = false;
+  PolarData polar;
+
+  std::array<double, kParameterCount> q{};
+  CycleState cycle;
+  BlankState blank;
+
+  std::vector<LabelFrame> labels;
+  std::vector<ProgramFrame> programs;
+  std::vector<LabelPlace> known_labels;
+  Jump jump;
+  bool is_restart = false;  ///< after GOTO: the first positioning must say where it goes
+
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  bool is_compensating() const {
+    return compensation == Compensation::Left || compensation == Compensation::Right;
+  }
+  double nominal_of(Axis axis) const { return nominal[static_cast<std::size_t>(axis)]; }
+  void set_nominal(Axis axis, double value) { nominal[static_cast<std::size_t>(axis)] = value; }
+};
+
+}  // namespace dripline::interpreter::tnc155

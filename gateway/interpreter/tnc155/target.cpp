@@ -1,0 +1,146 @@
+#include "gateway/interpreter/tnc155/target.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+constexpr double kFastest = 15'999;      ///< millimetres per minute
+constexpr double kFastestInch = 6'299;   ///< tenths of an inch per minute
+constexpr double kTenthsPerInch = 10;
+
+constexpr std::size_t index(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+
+bool moves_only_rotary(const Block& block) {
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    if (!is_rotary(block.coordinates[i].axis)) return false;
+  }
+  return block.coordinate_count != 0;
+}
+
+/// Where the present nominal position is, seen from the pole.
+bool renew_polar(Run& run) {
+  State& state = run.state;
+  const PlaneVector out = nominal_in_plane(state) - pole_in_plane(state);
+  const double radius = length(out);
+  if (radius == 0) {
+    return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
+  }
+  state.polar.radius = radius;
+  state.polar.angle = turn_between({1, 0}, out) * (180 / Angle::kPi);
+  state.polar.is_current = true;
+  return true;
+}
+
+}  // namespace
+
+bool read_polar(Run& run, const Block& block, Target& target) {
+  State& state = run.state;
+  PolarData& polar = state.polar;
+  const bool misses_one = !block.radius.is_programmed() || !block.angle.is_programmed();
+  if (misses_one && !polar.exists) {
+    return run.fail(ErrorCode::AngleReferenceMissing, "PR or PA was never programmed");
+  }
+  const bool needs_last = misses_one || block.is_radius_incremental || block.is_angle_incremental;
+  if (needs_last && !polar.is_current && !renew_polar(run)) return false;
+  double radius = polar.radius;
+  double angle = polar.angle;
+  if (block.radius.is_programmed()) {
+    const double read = run.length(block.radius);
+    radius = block.is_radius_incremental ? radius + read : read;
+  }
+  if (block.angle.is_programmed()) {
+    const double read = run.number(block.angle);
+    angle = block.is_angle_incremental ? angle + read : read;
+  }
+  polar = {true, true, radius, angle};
+  set_in_plane(state, target, pole_in_plane(state) + radius * unit_vector(angle));
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    const Coordinate& word = block.coordinates[i];
+    double value = run.coordinate(word.axis, word.value);
+    if (word.is_incremental) value += state.nominal_of(word.axis);
+    target.set(word.axis, value);
+  }
+  return true;
+}
+
+bool read_feed(Run& run, const Block& block) {
+  if (!block.feed.is_programmed()) return true;
+  State& state = run.state;
+  const double feed = run.number(block.feed);
+  const bool is_inch = state.units == Units::Inch;
+  const double fastest = is_inch ? kFastestInch : kFastest;
+  if (!(feed >= 0 && feed <= fastest)) {
+    return run.fail(ErrorCode::EntryOutOfRange, fmt::format("F{} is not 0 to {}", feed, fastest));
+  }
+  state.feed = is_inch && !moves_only_rotary(block)
+                   ? feed / kTenthsPerInch * Length::kMillimetresPerInch
+                   : feed;
+  return true;
+}
+
+bool pace_of(Run& run, const Block& block, Pace& pace) {
+  pace = {block.is_rapid, run.state.feed};
+  if (block.is_rapid || run.state.feed > 0) [[likely]]
+    return true;
+  return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before this move");
+}
+
+PlaneMove plane_move(const State& state, const Target& target) {
+  const PlaneAxes axes = axes_of(state.plane);
+  PlaneMove move;
+  const AxisMask both = static_cast<AxisMask>(bit(axes.first) | bit(axes.second));
+  move.has_both = (target.named & both) == both;
+  move.has_third = (target.named & ~both) != 0;
+  move.from = nominal_in_plane(state);
+  move.to = in_plane(state, target);
+  move.has_way = !(move.from == move.to);
+  return move;
+}
+
+void set_in_plane(const State& state, Target& target, PlaneVector to) {
+  const PlaneAxes axes = axes_of(state.plane);
+  target.set(axes.first, to.first);
+  target.set(axes.second, to.second);
+}
+
+void name_plane(const State& state, Target& target) {
+  const PlaneAxes axes = axes_of(state.plane);
+  target.set(axes.first, target.at[index(axes.first)]);
+  target.set(axes.second, target.at[index(axes.second)]);
+}
+
+bool names_plane(const State& state, const Target& target) {
+  const PlaneAxes axes = axes_of(state.plane);
+  return (target.named & bit(axes.first)) != 0 && (target.named & bit(axes.second)) != 0;
+}
+
+PlaneVector pole_in_plane(const State& state) {
+  const PlaneAxes axes = axes_of(state.plane);
+  return {state.pole[index(axes.first)], state.pole[index(axes.second)]};
+}
+
+PlaneVector unit_vector(double degrees) {
+  const double turn = std::remainder(degrees, 360.0);
+  if (turn == 0) return {1, 0};
+  if (turn == 90) return {0, 1};
+  if (turn == -90) return {0, -1};
+  if (std::fabs(turn) == 180) return {-1, 0};
+  const double radians = turn * (Angle::kPi / 180);
+  return {std::cos(radians), std::sin(radians)};
+}
+
+PlaneVector end_direction(const LastMove& last) {
+  PlaneVector along = last.to - last.from;
+  if (last.is_arc) {
+    const PlaneVector out = last.to - last.centre;
+    along = last.turn == Turn::CounterClockwise ? left_of(out) : -left_of(out);
+  }
+  const double size = length(along);
+  return size > 0 ? (1 / size) * along : PlaneVector{};
+}
+
+}  // namespace dripline::interpreter::tnc155
