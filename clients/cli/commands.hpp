@@ -22,5 +22,6 @@ void add_approximate_command(CLI::App& app, Context& context);
 void add_forecast_command(CLI::App& app, Context& context);
 void add_graphics_command(CLI::App& app, Context& context);
 void add_convert_command(CLI::App& app, Context& context);
+void add_conversational_commands(CLI::App& app, Context& context);
 
 }  // namespace dripline::cli

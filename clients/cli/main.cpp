@@ -96,6 +96,7 @@ int run(int argc, char** argv) {
   add_graphics_command(app, context);
   add_approximate_command(app, context);
   add_convert_command(app, context);
+  add_conversational_commands(app, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   try {

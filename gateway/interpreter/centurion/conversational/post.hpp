@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "gateway/interpreter/centurion/conversational/events.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::conversational {
+
+struct PostOptions {
+  /// A thread given by its crest: the manual's formula takes the nose off twice, so the thread gets
+  /// too shallow by as much. False posts what geometry needs, one factor less.
+  bool has_printed_crest_formula = false;
+};
+
+/// The program the control posts for these events, one block a line, each ended by LF. Pure.
+/// Errors: Syntax, naming the event by its number: events out of their order (set-up first, end of
+/// program last, patterns begun, ended and finished).
+Result<std::string> post(const Events& events, const PostOptions& options = {});
+
+}  // namespace dripline::conversational
