@@ -13,6 +13,7 @@ void add_port_commands(CLI::App& app, Context& context);
 /// Verbs of `dnc port` that need no server.
 void add_port_doctor_command(CLI::App& group, Context& context);
 void add_port_replay_command(CLI::App& group, Context& context);
+void add_port_page_command(CLI::App& group, Context& context);
 void add_setup_commands(CLI::App& app, Context& context);
 void add_report_commands(CLI::App& app, Context& context);
 void add_server_commands(CLI::App& app, Context& context);

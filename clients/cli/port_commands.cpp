@@ -241,6 +241,7 @@ void add_port_commands(CLI::App& app, Context& context) {
   add_recording(*group, context);
   add_port_doctor_command(*group, context);
   add_port_replay_command(*group, context);
+  add_port_page_command(*group, context);
 }
 
 }  // namespace dripline::cli

@@ -48,7 +48,7 @@ TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   EXPECT_EQ(store_->run(run->id)->outputs, 1u);
 }
 
-TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {
+TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
   start_ports();
   add_machine("mill");
   add_port(mill());

@@ -221,7 +221,7 @@ TEST(ProtoTrakControl, HasNoCharactersToHoldTheHost) {
 
 // Centurion
 
-TEST(CenturionControl, SplitsWhatItReceivesAtOLines) {
+TEST(CenturionControl, SplitsWhatItReceivesAtOLines) {  // CEN-202
   TestedLine control = receiving("centurion", {{"split_programs", "yes"}});
   control.hear("O0001\r\nG0 X1\r\nO2 (SECOND)\r\nM30\r\n");
   control.pass(seconds(2));
@@ -237,7 +237,7 @@ TEST(CenturionControl, SplitsAtNothingThatOnlyLooksLikeAnOLine) {
   EXPECT_EQ(control.events(), "text \"O1\\nON ERROR\\nG0 O2\\nO12345\\nM30\\n\"\nreceived\n");
 }
 
-TEST(CenturionControl, KeepsAllInOneUnlessToldToSplit) {
+TEST(CenturionControl, KeepsAllInOneUnlessToldToSplit) {  // CEN-201
   TestedLine control = receiving("centurion");
   control.hear("O1\r\nM30\r\nO2\r\nM30\r\n");
   control.pass(seconds(2));
@@ -251,13 +251,13 @@ TEST(CenturionControl, DropsLinesThatHoldOnlyAPercentSign) {
   EXPECT_EQ(control.events(), "text \"O1\\nM30\\n\"\nreceived\n");
 }
 
-TEST(CenturionControl, EndsAtItsEndOfFileCharacter) {
+TEST(CenturionControl, EndsAtItsEndOfFileCharacter) {  // CEN-198, CEN-201
   TestedLine control = receiving("centurion", {{"end_char", "SUB"}});
   control.hear("O1\r\nM30\r\n\x1a");
   EXPECT_EQ(control.events(), "text \"O1\\nM30\\n\"\nreceived\n");
 }
 
-TEST(CenturionControl, SendsCrAloneOrCrLf) {
+TEST(CenturionControl, SendsCrAloneOrCrLf) {  // CEN-198, CEN-200
   for (const auto& [eob, expected] :
        {std::pair{"cr"s, "G0\rM30\r"s}, {"crlf"s, "G0\r\nM30\r\n"s}}) {
     TestedLine control(template_with("centurion", {{"eob", eob}}), Role::Control);
@@ -267,7 +267,7 @@ TEST(CenturionControl, SendsCrAloneOrCrLf) {
   }
 }
 
-TEST(CenturionControl, StartsAndStopsWhatStandsForItsTapeReader) {
+TEST(CenturionControl, StartsAndStopsWhatStandsForItsTapeReader) {  // CEN-199
   TestedLine control(
       template_with("centurion-tape",
                     {{"tape_start", "STX"}, {"tape_stop", "EM"}, {"end_char", "EOT"}}),
@@ -279,7 +279,7 @@ TEST(CenturionControl, StartsAndStopsWhatStandsForItsTapeReader) {
   EXPECT_EQ(control.events(), "receiving\ntext \"O1\\nM30\\n\"\nreceived\n");
 }
 
-TEST(CenturionHost, SendsWhenItsTapeStartCharacterComes) {
+TEST(CenturionHost, SendsWhenItsTapeStartCharacterComes) {  // CEN-199
   TestedLine host(template_with("centurion-tape", {{"tape_start", "STX"}}), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("M30\n"));
@@ -308,7 +308,7 @@ TEST(CenturionControl, SendsReportLinesAsTheyCome) {
   EXPECT_THAT(control.events(), HasSubstr("sent"));
 }
 
-TEST(CenturionControl, NamesItsErrors) {
+TEST(CenturionControl, NamesItsErrors) {  // CEN-208
   const std::pair<LineFault, std::string_view> rows[] = {{LineFault::Overrun, "error 900"},
                                                          {LineFault::Parity, "error 901"},
                                                          {LineFault::Framing, "error 902"},
@@ -321,7 +321,7 @@ TEST(CenturionControl, NamesItsErrors) {
   }
 }
 
-TEST(CenturionControl, OverrunsWhenItsBufferIsFull) {
+TEST(CenturionControl, OverrunsWhenItsBufferIsFull) {  // CEN-198, CEN-208
   TestedLine control = receiving("centurion", {{"buffer_size", "20"}});
   control.line->set_ready(false, control.now);
   EXPECT_EQ(control.say(), "\x13");
@@ -331,7 +331,7 @@ TEST(CenturionControl, OverrunsWhenItsBufferIsFull) {
   EXPECT_THAT(control.events(), HasSubstr("error 900: RS232 overrun, the buffer of 20"));
 }
 
-TEST(CenturionControl, NamesASendThatDidNotWork) {
+TEST(CenturionControl, NamesASendThatDidNotWork) {  // CEN-208
   TestedLine control(template_with("centurion", {{"hold_limit_ms", "1000"}}), Role::Control);
   ASSERT_TRUE(control.line->begin_send("", control.now));
   control.hear("\x13");
@@ -372,7 +372,7 @@ TEST(CenturionDnc, CanNotContinueOverALine) {
   EXPECT_EQ(begun.error().code, Errc::Unsupported);
 }
 
-TEST(CenturionDnc, CanNotBeLinkedWhileARunGoesOn) {
+TEST(CenturionDnc, CanNotBeLinkedWhileARunGoesOn) {  // CEN-208
   TestedLine control = receiving("centurion", {{"dnc_mode", "run"}});
   const auto again = control.line->begin_receive("", control.now);
   ASSERT_FALSE(again);
