@@ -11,10 +11,22 @@
 namespace dripline::interpreter::centurion {
 
 /// How far a block has come; a question suspends it between or within stages.
-enum class Stage : std::uint8_t { Start, Items, Execution, AfterMove };
+enum class Stage : std::uint8_t {
+  Start,
+  Items,
+  Execution,
+  BeforeMove,
+  Move,
+  AfterMove,
+  PostMove,
+  Flow
+};
 
 /// What ends the block besides running on to the next one.
 enum class Ending : std::uint8_t { None, Return, Wend, OperatorEnd, EndOfProgram };
+
+/// What calls a program with arguments; M6 gives none.
+enum class MacroCaller : std::uint8_t { G65, CustomCode, M6 };
 
 struct TextRange {
   std::uint32_t begin = 0;
@@ -35,6 +47,9 @@ struct Block {
     bool has_axis_words_before_input = false;
     std::uint8_t g_count = 0;
     std::uint8_t m_count = 0;
+    std::uint8_t m_next = 0;  ///< the M code to go on with in the stage at hand
+    std::uint16_t macro = 0;  ///< the program that is called with the words as arguments
+    MacroCaller caller = MacroCaller::G65;
     std::uint8_t action = kNoRow;  ///< the G row that decides what the axis words mean
     bool rests = false;            ///< G9
     std::optional<ProbeUntil> probe;

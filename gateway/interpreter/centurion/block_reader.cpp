@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/expression_reader.hpp"
 #include "gateway/interpreter/centurion/m_codes.hpp"
+#include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/number.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
 #include "gateway/interpreter/centurion/text_search.hpp"
@@ -74,7 +75,15 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
   Block& block = run.block;
   const bool is_whole =
       word.value >= 0 && word.value < 1000 && word.value == std::trunc(word.value);
-  const std::uint8_t index = is_whole ? g_row_index(static_cast<unsigned>(word.value)) : kNoRow;
+  std::uint8_t index = is_whole ? g_row_index(static_cast<unsigned>(word.value)) : kNoRow;
+  if (is_whole && run.options.has_custom_codes) [[unlikely]] {
+    const auto program = custom_program_of_g(run, static_cast<unsigned>(word.value));
+    if (program != 0) {
+      if (!request_macro(run, program, MacroCaller::CustomCode, run.column(word.start)))
+        return false;
+      index = g_row_index(65);
+    }
+  }
   if (index == kNoRow) [[unlikely]]
     return refuse_g(run, word, "");
   const GRow& row = g_row(index);
@@ -109,6 +118,11 @@ bool add_m(Run& run, const WordText& word) {
       word.digits == 0) {
     return run.fail(ErrorCode::IllegalStatement, run.column(word.start),
                     fmt::format("M{} is not a whole number from 0 to {}", word.value, kHighestM));
+  }
+  if (run.options.has_custom_codes) [[unlikely]] {
+    const auto program = custom_program_of_m(run, static_cast<unsigned>(word.value));
+    if (program != 0)
+      return request_macro(run, program, MacroCaller::CustomCode, run.column(word.start));
   }
   if (block.parts.m_count == Block::kMostCodes) {
     return run.fail(ErrorCode::IllegalStatement, run.column(word.start), "too many M codes");
@@ -152,6 +166,7 @@ bool set_sequence(Run& run, const WordText& word) {
 
 /// An O word begins a program; where code came before, the one before it is over (spec 20.2).
 bool begin_program(Run& run, const WordText& word) {
+  if (run.action() == GAction::MacroCall) return add_word(run, Address::O, word);
   if (read_head(run.text.begin()).kind != BlockHead::Kind::Program) {
     return run.fail(ErrorCode::IllegalStatement, run.column(word.start), "O stands first");
   }

@@ -78,6 +78,7 @@ enum class ErrorCode : std::uint16_t {
   CycleTooLong = 1007,  ///< more moves than one block may cause
   NotInDnc = 1008,      ///< with the option `dnc_refusals`
   SpindleNeeded = 1009,
+  InputMissing = 1010,
 
   CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends
   TooMuchBetween = 1021,           ///< between two compensated moves

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/centurion/g_functions.hpp"
 #include "gateway/interpreter/centurion/groove_cycles.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
 #include "gateway/interpreter/centurion/reference_points.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
@@ -50,24 +51,41 @@ bool act(Run& run) {
       return go_to_reference(run);
     case GAction::ReturnFromReference:
       return return_from_reference(run);
-    case GAction::NonMovement:
-      return move_in_thought(run);
+    case GAction::MacroCall:
+      if (run.block.parts.macro != 0) return true;
+      return passes_arguments(run) ? call_by_g65(run) : move_in_thought(run);
     default:
       return move(run);
   }
 }
 
-/// Up to and including the move.
+/// Dwell, zeroes, the move; a probe move ends with its answer.
 bool execute_move(Run& run) {
   if (const Answer* answer = run.next_answer()) {
     finish_probe(run, std::get<ProbeResult>(*answer));
     run.item_done();
     return true;
   }
-  if (!check_words(run) || !apply_modes(run)) return false;
-  if (!apply_machine_functions(run, MTiming::BeforeMove)) return false;
-  if (!apply_one_shots(run)) return false;
-  return act(run);
+  return apply_one_shots(run) && act(run);
+}
+
+/// A question in a stage resumes there.
+void enter(Block::Parts& parts, Stage stage) {
+  parts.stage = stage;
+  parts.m_next = 0;
+}
+
+bool execute_after_move(Run& run) {
+  Block::Parts& parts = run.block.parts;
+  if (parts.stage == Stage::AfterMove) {
+    if (!apply_machine_functions(run, MTiming::AfterMove)) return false;
+    enter(parts, Stage::PostMove);
+  }
+  if (parts.stage == Stage::PostMove) {
+    if (!apply_machine_functions(run, MTiming::PostMove)) return false;
+    enter(parts, Stage::Flow);
+  }
+  return plan_flow(run) && apply_machine_functions(run, MTiming::Flow);
 }
 
 }  // namespace
@@ -75,13 +93,20 @@ bool execute_move(Run& run) {
 bool execute_block(Run& run) {
   Block::Parts& parts = run.block.parts;
   if (parts.stage == Stage::Execution) {
-    if (!execute_move(run)) return false;
-    parts.stage = Stage::AfterMove;
+    if (!check_words(run) || !apply_modes(run)) return false;
+    enter(parts, Stage::BeforeMove);
   }
-  if (parts.m_count == 0) [[likely]]
+  if (parts.stage == Stage::BeforeMove) {
+    if (parts.m_count != 0 && !apply_machine_functions(run, MTiming::BeforeMove)) return false;
+    parts.stage = Stage::Move;
+  }
+  if (parts.stage == Stage::Move) {
+    if (!execute_move(run)) return false;
+    enter(parts, Stage::AfterMove);
+  }
+  if (parts.m_count == 0 && parts.macro == 0) [[likely]]
     return true;
-  return apply_machine_functions(run, MTiming::AfterMove) && plan_flow_of_m_codes(run) &&
-         apply_machine_functions(run, MTiming::Flow);
+  return execute_after_move(run);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/number.hpp"
+#include "gateway/interpreter/centurion/pins.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -200,15 +201,7 @@ class Terms {
   bool pin(double number, double& value) {
     const auto pin_number = static_cast<int>(std::clamp(number, -1.0, 99999.0));
     if (pin_number != number) return here(ErrorCode::ParameterOutOfRange, "pin number");
-    if (run_.options.answers_pins) {
-      const auto& ones = run_.options.pins_at_one;
-      value = std::find(ones.begin(), ones.end(), pin_number) != ones.end() ? 1 : 0;
-      return true;
-    }
-    const Answer* answer = run_.next_answer();
-    if (answer == nullptr) return run_.ask(InputQuestion{pin_number});
-    value = std::get<bool>(*answer) ? 1 : 0;
-    return true;
+    return read_pin(run_, pin_number, run_.column(at_), value);
   }
 
   /// A whole number from 0 up to below `limit`; the same sequence in every run.

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/output_text.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -28,7 +29,7 @@ bool refuse_two(Run& run) {
 bool plan_call(Run& run) {
   Block& block = run.block;
   if (run.options.refuses_loops_and_calls) {
-    return run.fail(ErrorCode::IllegalStatement, 0, "M98 is not allowed in DNC on this control");
+    return run.fail(ErrorCode::NotInDnc, 0, "M98");
   }
   if (!block.words.has(Address::P)) return run.fail(ErrorCode::MissingP, 0);
   const double number = block.words[Address::P];
@@ -41,10 +42,20 @@ bool plan_call(Run& run) {
   return true;
 }
 
+/// L is an argument here, not a repeat count.
+bool plan_macro(Run& run) {
+  Block::Parts& parts = run.block.parts;
+  if (parts.jump != JumpKind::None || parts.ending != Ending::None) return refuse_two(run);
+  parts.jump = JumpKind::Call;
+  parts.jump_number = parts.macro;
+  if (parts.caller != MacroCaller::M6) pass_arguments(run);
+  return true;
+}
+
 bool read_passes(Run& run, std::uint32_t& passes) {
   const Block& block = run.block;
   passes = 1;
-  if (!block.words.has(Address::L)) return true;
+  if (!block.words.has(Address::L) || block.parts.macro != 0) return true;
   const double repeats = block.words[Address::L];
   const bool is_m98 = block.parts.jump == JumpKind::Call && !block.parts.jump_is_call_word;
   const double most = is_m98 ? kMostRepeatsOfM98 : kMostRepeats;
@@ -89,8 +100,10 @@ void return_from_call(Run& run) {
     state.at = frame.entry;
     return;
   }
+  const bool changes_tool = frame.changes_tool;
   state.at = frame.back;
   state.calls.pop_back();
+  if (changes_tool) finish_tool_change(run);
 }
 
 bool return_to_while(Run& run, std::uint64_t block_offset) {
@@ -136,6 +149,9 @@ bool request_jump(Run& run, const TextPosition& head) {
   jump.number = parts.jump_number;
   jump.passes = passes;
   jump.from = head;
+  jump.custom = parts.caller == MacroCaller::G65 ? std::uint16_t{0} : parts.macro;
+  jump.changes_tool = parts.caller == MacroCaller::M6;
+  jump.is_not_in_ram = jump.custom == 0;
   return true;
 }
 
@@ -169,7 +185,8 @@ JumpOutcome enter_call(Run& run, const TextPosition& entry) {
   if (state.calls.size() == kMaxNesting) return refuse_depth(run);
   state.calls.push_back({state.at, entry, state.floating_zero, state.jump.passes - 1,
                          static_cast<std::uint8_t>(state.gosubs.size()),
-                         static_cast<std::uint8_t>(state.loops.size())});
+                         static_cast<std::uint8_t>(state.loops.size()), state.jump.custom,
+                         state.jump.changes_tool});
   state.at = entry;
   return JumpOutcome::Taken;
 }
@@ -201,6 +218,25 @@ JumpOutcome call_library(Run& run) {
   return enter_call(run, entry);
 }
 
+/// Programs called by codes of the machine: those of the RAM directory come before all others
+/// (spec 13.5). True: it was found there, or can not be told yet.
+bool call_ram(Run& run, JumpOutcome& outcome) {
+  Jump& jump = run.state.jump;
+  const ProgramLookup lookup = run.source.find(fmt::format("RAM-O{:04}", jump.number));
+  run.text.forget();
+  if (lookup.state == ProgramLookup::State::NotFound) {
+    jump.is_not_in_ram = true;
+    return false;
+  }
+  outcome = JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotYet) return true;
+  TextPosition entry;
+  entry.program = lookup.program;
+  outcome = enter_call(run, entry);
+  if (outcome == JumpOutcome::Taken) jump = Jump{};
+  return true;
+}
+
 JumpOutcome refuse_missing(Run& run) {
   const Jump& jump = run.state.jump;
   if (jump.kind == JumpKind::While) {
@@ -228,7 +264,7 @@ JumpOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop
 
 }  // namespace
 
-bool plan_flow_of_m_codes(Run& run) {
+bool plan_flow(Run& run) {
   Block::Parts& parts = run.block.parts;
   for (std::uint8_t i = 0; i < parts.m_count; ++i) {
     const MAction action = m_row(run.block.m[i]).action;
@@ -241,7 +277,7 @@ bool plan_flow_of_m_codes(Run& run) {
       return false;
     }
   }
-  return true;
+  return parts.macro == 0 || plan_macro(run);
 }
 
 bool leave_block(Run& run) {
@@ -278,6 +314,8 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
   TextPosition found;
   LoopFrame loop;
   TextSearch::Outcome outcome{};
+  JumpOutcome result = JumpOutcome::Failed;
+  if (jump.kind == JumpKind::Call && !jump.is_not_in_ram && call_ram(run, result)) return result;
   if (jump.kind == JumpKind::While) {
     outcome = search.find_wend(jump.from, state.at, loop);
   } else if (jump.kind == JumpKind::Call) {
@@ -285,7 +323,6 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
   } else {
     outcome = search.find_label(state.at, jump.number, found);
   }
-  JumpOutcome result = JumpOutcome::Failed;
   switch (outcome) {
     case TextSearch::Outcome::NotYet:
       return JumpOutcome::NeedsText;

@@ -6,8 +6,9 @@
 /// Where the program goes on: jumps, loops, subroutines, calls, ends (spec 13).
 namespace dripline::interpreter::centurion {
 
-/// M2, M30, M98 and M99 of the block become its ending or its jump.
-bool plan_flow_of_m_codes(Run& run);
+/// M2, M30, M98 and M99 of the block, or the program it calls with arguments, become its ending or
+/// its jump.
+bool plan_flow(Run& run);
 
 /// Moves on behind the visible block, or to where its ending says; a jump that needs other text is
 /// left in `state.jump`.

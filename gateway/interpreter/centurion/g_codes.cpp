@@ -8,6 +8,7 @@ using Group = ModalGroup;
 using Act = GAction;
 
 constexpr AddressSet kNone = 0;
+constexpr AddressSet kAllWords = (AddressSet{1} << kAddressCount) - 1;
 constexpr AddressSet kHoleWords = set_of(R, Z);
 constexpr AddressSet kGrooveWords = set_of(R, Z, X, V, Q, E, U, D, A, C);
 constexpr AddressSet kMultipleThreadWords = set_of(X, Z, U, W, I, Q, D, A, P, K);
@@ -58,7 +59,7 @@ constexpr std::array kRows{
     GRow{61, Group::PathMode, Act::PathMode, kNone, "exact stop mode"},
     GRow{63, Group::PathMode, Act::PathMode, kNone, "tapping mode"},
     GRow{64, Group::PathMode, Act::PathMode, kNone, "cutting mode"},
-    GRow{65, Group::OneShot, Act::NonMovement, kLineWords, "macro call or non-movement block"},
+    GRow{65, Group::OneShot, Act::MacroCall, kAllWords, "macro call or non-movement block"},
     GRow{70, Group::OneShot, Act::Later, kNone, "finish cycle"},
     GRow{71, Group::OneShot, Act::Later, kNone, "rough turning"},
     GRow{72, Group::OneShot, Act::Later, kNone, "rough facing"},

@@ -50,7 +50,6 @@ enum class GAction : std::uint8_t {
   ReturnFromReference,
   Retract,
   SingleDirection,
-  NonMovement,
   Mirror,
   MirrorOff,
   Scaling,
@@ -74,6 +73,7 @@ enum class GAction : std::uint8_t {
   Revolutions,
   FeedPerMinute,
   FeedPerRevolution,
+  MacroCall,  ///< the axis words are arguments, or points of a block without movement
   DrillingCycle,
   FaceGroove,
   DiameterGroove,

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/centurion/coordinates.hpp"
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/parameter_files.hpp"
 #include "gateway/interpreter/centurion/reference_points.hpp"
@@ -223,6 +224,8 @@ bool is_data_block(const Run& run) {
 bool check_words(Run& run) {
   const Block& block = run.block;
   AddressSet taken = kWordsOfAnyBlock | block.parts.taken;
+  if (block.parts.macro != 0 || passes_arguments(run)) return true;
+  if (run.action() == GAction::MacroCall) taken = kWordsOfAnyBlock | kLineWords;
   if (block.parts.action == kNoRow) taken |= kLineWords;
   if (block.parts.jump == JumpKind::Call || block.parts.jump == JumpKind::Gosub) {
     taken |= set_of(Address::L);
@@ -253,8 +256,10 @@ bool apply_modes(Run& run) {
   for (std::uint8_t i = 0; i < block.parts.g_count; ++i) {
     if (!apply_g(run, g_row(block.g[i]))) return false;
   }
-  if (block.words.has(Address::F) && !takes_lead(run) && !apply_feed(run)) return false;
-  if (block.words.has(Address::S) && !apply_speed(run)) return false;
+  const bool has_arguments = passes_arguments(run);
+  if (block.words.has(Address::F) && !has_arguments && !takes_lead(run) && !apply_feed(run))
+    return false;
+  if (block.words.has(Address::S) && !has_arguments && !apply_speed(run)) return false;
   if (block.parts.tool) apply_tool(run);
   if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0)
       [[unlikely]] {

@@ -21,9 +21,16 @@ enum class MAction : std::uint8_t {
   FloodOn,
   CoolantOff,
   Call,
+  // The machine is told these by number; reading pins and waiting is done here.
+  PulseAndWait,  ///< M20-M29: X output n pulsed, X output 12 on meanwhile, wait for X input n
+  WaitChannel,   ///< M32: wait for Z input 6
+  SetOutput,     ///< M60-M69: X output n
+  ClearOutput,   ///< M70-M79
+  WaitInput,     ///< M80-M89: X input n
 };
 
-enum class MTiming : std::uint8_t { BeforeMove, AfterMove, Flow };
+/// PostMove: what the machine's builder has listed to come last (option `post_m`).
+enum class MTiming : std::uint8_t { BeforeMove, AfterMove, PostMove, Flow };
 
 struct MRow {
   std::uint8_t code;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gateway/interpreter/centurion/macro_calls.hpp"
+#include "gateway/interpreter/centurion/pins.hpp"
 #include "gateway/interpreter/centurion/reference_points.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -47,55 +49,119 @@ std::optional<int> offset_or_none(int offset) {
   return offset >= 0 ? std::optional<int>(offset) : std::nullopt;
 }
 
+void take_pending_tool(Run& run) {
+  ToolModes& tool = run.state.tool;
+  tool.active = tool.pending;
+  if (tool.pending_offset >= 0) use_offset(run, tool.pending_offset);
+  run.events().on_tool({run.origin, tool.active, false, offset_or_none(tool.pending_offset)});
+}
+
 /// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
 void change_tool(Run& run) {
-  ModalState& state = run.state;
   go_to_tool_change(run);
-  state.tool.active = state.tool.pending;
-  if (state.tool.pending_offset >= 0) use_offset(run, state.tool.pending_offset);
-  run.events().on_tool(
-      {run.origin, state.tool.active, false, offset_or_none(state.tool.pending_offset)});
+  take_pending_tool(run);
   show_comment(run);
   run.events().on_stop({run.origin, StopKind::ToolChange});
 }
 
-void apply_m(Run& run, const MRow& row) {
+bool change_tool_or_call(Run& run) {
+  if (const std::uint16_t program = tool_change_program(run); program != 0) {
+    return request_macro(run, program, MacroCaller::M6, 0);
+  }
+  change_tool(run);
+  return true;
+}
+
+constexpr int kWaitChannelInput = 6;
+
+void strobe(Run& run, const MRow& row) {
+  run.events().on_miscellaneous({run.origin, row.code});
+}
+
+/// The machine is told by number, then the program stands until the input has come; the answer
+/// resumes behind the telling.
+bool strobe_and_wait(Run& run, const MRow& row, int pin) {
+  if (run.answers.empty()) strobe(run, row);
+  return wait_for_input(run, pin);
+}
+
+void set_flood(Run& run, bool on) {
+  run.state.wants_flood = on;
+  if (on && run.options.interlocks_coolant && run.state.spindle.state == SpindleState::Off) return;
+  run.state.coolant.flood = on;
+  if (!on) run.state.coolant.mist = false;
+  emit_coolant(run);
+}
+
+/// With the interlock, what M8 asked for follows the spindle.
+void follow_spindle(Run& run) {
+  const bool turns = run.state.spindle.state != SpindleState::Off;
+  if (!run.options.interlocks_coolant ||
+      run.state.coolant.flood == (turns && run.state.wants_flood))
+    return;
+  run.state.coolant.flood = turns;
+  emit_coolant(run);
+}
+
+MTiming timing_of(const Run& run, const MRow& row) {
+  if (run.options.post_m.empty() || row.timing == MTiming::Flow) return row.timing;
+  const auto& post = run.options.post_m;
+  const bool is_post = std::find(post.begin(), post.end(), int{row.code}) != post.end();
+  return is_post ? MTiming::PostMove : row.timing;
+}
+
+bool apply_m(Run& run, const MRow& row) {
+  const int pin_number = row.code % 10 + 1;  // of the codes that come in tens
   switch (row.action) {
     case MAction::Strobe:
-      run.events().on_miscellaneous({run.origin, row.code});
-      return;
+      strobe(run, row);
+      return true;
     case MAction::SpindleRange:
       run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
-      run.events().on_miscellaneous({run.origin, row.code});
-      return;
+      strobe(run, row);
+      return true;
     case MAction::SpindleClockwise:
-      return spindle_to(run, SpindleState::Clockwise);
+      spindle_to(run, SpindleState::Clockwise);
+      return true;
     case MAction::SpindleCounterClockwise:
-      return spindle_to(run, SpindleState::CounterClockwise);
+      spindle_to(run, SpindleState::CounterClockwise);
+      return true;
     case MAction::SpindleOff:
-      return spindle_to(run, SpindleState::Off);
+      spindle_to(run, SpindleState::Off);
+      return true;
     case MAction::ToolChange:
-      return change_tool(run);
+      return change_tool_or_call(run);
     case MAction::FloodOn:
-      run.state.coolant.flood = true;
-      return emit_coolant(run);
+      set_flood(run, true);
+      return true;
     case MAction::CoolantOff:
-      run.state.coolant.flood = run.state.coolant.mist = false;
-      return emit_coolant(run);
+      set_flood(run, false);
+      return true;
     case MAction::ProgramStop:
       show_comment(run);
       run.events().on_stop({run.origin, StopKind::Program});
-      return;
+      return true;
     case MAction::OptionalStop:
-      if (!run.options.optional_stop) return;
+      if (!run.options.optional_stop) return true;
       show_comment(run);
       run.events().on_stop({run.origin, StopKind::Optional});
-      return;
+      return true;
     case MAction::End:
     case MAction::EndAllOff:
     case MAction::Call:
-      return;  // flow.cpp
+      return true;  // flow.cpp
+    case MAction::PulseAndWait:
+    case MAction::WaitInput:
+      return strobe_and_wait(run, row, input_pin(Axis::X, pin_number));
+    case MAction::WaitChannel:
+      return strobe_and_wait(run, row, input_pin(Axis::Z, kWaitChannelInput));
+    case MAction::SetOutput:
+    case MAction::ClearOutput:
+      remember_output(run, {Axis::X, pin_number}, row.action == MAction::SetOutput);
+      strobe(run, row);
+      return true;
   }
+  return true;
 }
 
 }  // namespace
@@ -103,11 +169,17 @@ void apply_m(Run& run, const MRow& row) {
 bool apply_machine_functions(Run& run, MTiming timing) {
   Block& block = run.block;
   std::sort(block.m.begin(), block.m.begin() + block.parts.m_count);
-  for (std::uint8_t i = 0; i < block.parts.m_count; ++i) {
-    const MRow& row = m_row(block.m[i]);
-    if (row.timing == timing) apply_m(run, row);
+  for (std::uint8_t& next = block.parts.m_next; next < block.parts.m_count; ++next) {
+    const MRow& row = m_row(block.m[next]);
+    if (timing_of(run, row) == timing && !apply_m(run, row)) return false;
   }
   return true;
+}
+
+void finish_tool_change(Run& run) {
+  const ToolModes& tool = run.state.tool;
+  const bool has_offset = tool.pending_offset >= 0 && tool.pending_offset != tool.offset;
+  if (tool.active != tool.pending || has_offset) take_pending_tool(run);
 }
 
 void apply_tool(Run& run) {
@@ -152,10 +224,12 @@ double most_revolutions(const Run& run) {
 void spindle_to(Run& run, SpindleState state) {
   run.state.spindle.state = state;
   emit_spindle(run);
+  follow_spindle(run);
 }
 
 void all_off(Run& run) {
   if (run.state.spindle.state != SpindleState::Off) spindle_to(run, SpindleState::Off);
+  run.state.wants_flood = false;
   if (run.state.coolant.flood || run.state.coolant.mist) {
     run.state.coolant.flood = run.state.coolant.mist = false;
     emit_coolant(run);

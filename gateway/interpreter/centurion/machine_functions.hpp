@@ -6,8 +6,11 @@
 /// M functions, spindle, coolant and tools (spec 9, 10, 12).
 namespace dripline::interpreter::centurion {
 
-/// The M codes of the block that act at `timing`, in numerical order.
+/// The M codes of the block that act at `timing`, in numerical order, from `Parts::m_next` on: a
+/// wait for an input resumes there.
 bool apply_machine_functions(Run& run, MTiming timing);
+/// The program that stands for M6 has ended: the pending tool is in use, if it is not yet.
+void finish_tool_change(Run& run);
 
 /// The T word: asks for a tool, or for the offsets of the one in use (spec 9.1).
 void apply_tool(Run& run);

@@ -77,7 +77,7 @@ struct ReferenceVia {
   bool z = false;
 };
 
-/// M98, CALL.
+/// M98, CALL, and programs called with arguments.
 struct CallFrame {
   TextPosition back;
   TextPosition entry;
@@ -85,6 +85,8 @@ struct CallFrame {
   std::uint32_t passes_left = 0;
   std::uint8_t gosub_base = 0;  ///< subroutines and loops of the caller are out of reach
   std::uint8_t loop_base = 0;
+  std::uint16_t custom = 0;   ///< the program, when a code of the machine called it
+  bool changes_tool = false;  ///< in the place of M6
 };
 struct GosubFrame {
   TextPosition back;
@@ -107,7 +109,10 @@ struct Jump {
   bool condition = false;     ///< of WHILE
   std::uint32_t number = 0;
   std::uint32_t passes = 1;
-  TextPosition from;  ///< WHILE: before its block
+  TextPosition from;         ///< WHILE: before its block
+  std::uint16_t custom = 0;  ///< as of CallFrame
+  bool changes_tool = false;
+  bool is_not_in_ram = false;  ///< the RAM directory has been asked
 };
 
 /// What G990 wrote: a file Qnnnn of the control's RAM drive, for as long as the run lasts.
@@ -145,6 +150,8 @@ struct ModalState {
   ToolModes tool;
   NoseUse nose;
   bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
+  bool wants_flood = false;       ///< M8 is in force; with the interlock that is not yet coolant
+  std::uint32_t outputs = 0;      ///< a bit for each output pin: Z 1-12, then X 1-12 (pins.cpp)
   std::optional<OutputDevice> open_device;
   std::uint64_t random = 0x853c49e6748fea9bu;
 

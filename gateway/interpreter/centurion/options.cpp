@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/option.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -15,18 +16,6 @@ Units units_of(const Setup& setup) {
 
 double in_units(Length length, Units units) {
   return units == Units::Inch ? length.inch() : length.mm();
-}
-
-/// Known to the control, but nothing in this version acts on it: better refused than ignored.
-Result<void> refuse_unused(const Options& options) {
-  for (const std::string_view name : {"custom_g", "custom_m"}) {
-    const OptionValue* option = options.find(name);
-    if (option == nullptr) continue;
-    const auto* list = std::get_if<OptionList>(&option->value);
-    if (list != nullptr && list->empty()) continue;
-    return fail(Errc::Unsupported, "[control] {}: custom codes are not supported yet", name);
-  }
-  return {};
 }
 
 /// One number for both units, or [inch, metric].
@@ -236,6 +225,58 @@ Result<void> load_power_on(const Options& options, ModalState& state, Parameters
   return {};
 }
 
+/// Up to ten codes, in the order of the programs they are bound to; 0 leaves one out.
+Result<void> read_custom(const Options& options, std::string_view name, std::int64_t highest,
+                         std::array<int, 10>& codes) {
+  const auto values = options.integers(name);
+  if (!values) return fail(values.error());
+  const bool is_sane = std::all_of(values->begin(), values->end(), [highest](std::int64_t value) {
+    return value >= 0 && value <= highest;
+  });
+  if (values->size() > codes.size() || !is_sane) {
+    return fail(Errc::Syntax, "[control] {}: expected up to {} codes from 1 to {}, 0 for none",
+                name, codes.size(), highest);
+  }
+  std::copy(values->begin(), values->end(), codes.begin());
+  return {};
+}
+
+Result<void> read_machine_codes(const Options& options, ControlOptions& control) {
+  constexpr std::int64_t kHighestProgram = 9999;
+  if (auto done = read_custom(options, "custom_g", 999, control.custom_g); !done) return done;
+  if (auto done = read_custom(options, "custom_m", kHighestM, control.custom_m); !done) return done;
+  const auto is_bound = [](int code) { return code != 0; };
+  control.has_custom_codes =
+      std::any_of(control.custom_g.begin(), control.custom_g.end(), is_bound) ||
+      std::any_of(control.custom_m.begin(), control.custom_m.end(), is_bound);
+  std::array<int, 10> post{};
+  if (auto done = read_custom(options, "post_m", kHighestM, post); !done) return done;
+  for (const int code : post) {
+    if (code != 0) control.post_m.push_back(code);
+  }
+  const auto program = options.integer("m6_macro", 0);
+  if (!program) return fail(program.error());
+  if (*program < 0 || *program > kHighestProgram) {
+    return fail(Errc::LimitExceeded, "[control] m6_macro: {} is not 0 to {}", *program,
+                kHighestProgram);
+  }
+  control.tool_change_program = static_cast<std::uint16_t>(*program);
+  const auto interlock = options.flag("coolant_interlock", false);
+  if (!interlock) return fail(interlock.error());
+  control.interlocks_coolant = *interlock;
+  const auto asks = options.flag("ask_inputs", false);
+  if (!asks) return fail(asks.error());
+  control.asks_for_inputs = *asks;
+  return {};
+}
+
+Result<void> read_mode(const Options& options, ControlOptions& control) {
+  const auto mode = options.choice("mode", {"run", "verify"}, 0);
+  if (!mode) return fail(mode.error());
+  control.is_verify = *mode == 1;
+  return {};
+}
+
 Result<void> read_cycles(const Options& options, ControlOptions& control) {
   const auto check = options.choice("cycle_spindle", {"ignore", "warn", "alarm"}, 1);
   if (!check) return fail(check.error());
@@ -257,14 +298,14 @@ Result<void> read_cycles(const Options& options, ControlOptions& control) {
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   auto known = options.check_known(
-      {"stored_x",       "reference",   "tool_change",   "power_on_feed",  "power_on_feed_mode",
-       "special_flags",  "leading",     "trailing",      "report_file",    "custom_g",
-       "custom_m",       "resolve_dnc", "dnc_refusals",  "pins",           "disable_417",
-       "pulse_ms",       "home",        "positive_zone", "negative_zone",  "positive_limit",
-       "negative_limit", "g60_overrun", "g0_overrun",    "spindle_ranges", "spindle_range",
-       "cycle_spindle",  "tap_ramp",    "groove_relief"});
+      {"stored_x",          "reference",   "tool_change",   "power_on_feed",  "power_on_feed_mode",
+       "special_flags",     "leading",     "trailing",      "report_file",    "custom_g",
+       "custom_m",          "resolve_dnc", "dnc_refusals",  "pins",           "disable_417",
+       "pulse_ms",          "home",        "positive_zone", "negative_zone",  "positive_limit",
+       "negative_limit",    "g60_overrun", "g0_overrun",    "spindle_ranges", "spindle_range",
+       "cycle_spindle",     "tap_ramp",    "groove_relief", "m6_macro",       "post_m",
+       "coolant_interlock", "ask_inputs",  "mode"});
   if (!known) return fail(known.error());
-  if (auto unused = refuse_unused(options); !unused) return fail(unused.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
   }
@@ -274,7 +315,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   for (auto done :
        {read_digits(options, "leading", control.leading_digits),
         read_digits(options, "trailing", control.trailing_digits), read_dnc(options, control),
-        read_spindle(options, control), read_cycles(options, control)}) {
+        read_spindle(options, control), read_cycles(options, control),
+        read_machine_codes(options, control), read_mode(options, control)}) {
     if (!done) return fail(done.error());
   }
   const auto report = options.text("report_file", "REPORT.DAT");

@@ -21,7 +21,15 @@ struct ControlOptions {
   bool refuses_loops_and_calls = false;  ///< `dnc_refusals`
   bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
   std::array<double, 3> spindle_ranges{9999, 9999, 9999};  ///< most revolutions: low, medium, high
-  double pulse_ms = 150;
+  double pulse_ms = 150;                                   ///< of PULSE0 and PULSE1
+  bool asks_for_inputs = false;     ///< `ask_inputs`: waits for inputs ask the owner
+  bool is_verify = false;           ///< `mode = "verify"`
+  bool interlocks_coolant = false;  ///< `coolant_interlock`: coolant runs while the spindle turns
+  bool has_custom_codes = false;
+  std::array<int, 10> custom_g{};                   ///< bound to O9010-O9019; 0 none
+  std::array<int, 10> custom_m{};                   ///< bound to O9020-O9029
+  std::uint16_t tool_change_program = 0;            ///< `m6_macro`: in the place of M6; 0 none
+  std::vector<int> post_m;                          ///< M codes that come last
   SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`
   double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill
   /// `groove_relief`: G74 and G75 back off in the direction of their steps, not against it.

@@ -67,6 +67,9 @@ std::optional<double> axis_status(const ModalState& state, const Parameters& par
   }
 }
 
+/// Feedback pulses of both axes.
+constexpr double kPulsesPerInch = 10000;
+
 std::optional<double> mode_status(const ModalState& state, int number) {
   const auto flag = [](bool is_other) { return is_other ? 1.0 : 0.0; };
   switch (number) {
@@ -78,6 +81,11 @@ std::optional<double> mode_status(const ModalState& state, int number) {
       return state.modes.compensation;
     case 310:
       return 0;  // cycles are over when their block is
+    case 267:
+      return state.units == Units::Inch ? kPulsesPerInch
+                                        : kPulsesPerInch / Length::kMillimetresPerInch;
+    case 370:
+      return state.tool.active;
     case 311:
       return flag(state.modes.is_incremental);
     case 312:

@@ -30,7 +30,8 @@ void visit(Archive& archive, CallFrame& frame) {
   visit(archive, frame.back);
   visit(archive, frame.entry);
   visit(archive, frame.floating_zero);
-  all(archive, frame.passes_left, frame.gosub_base, frame.loop_base);
+  all(archive, frame.passes_left, frame.gosub_base, frame.loop_base, frame.custom,
+      frame.changes_tool);
 }
 template <class Archive>
 void visit(Archive& archive, GosubFrame& frame) {
@@ -92,7 +93,7 @@ void visit_modes(Archive& archive, ModalState& state) {
       retained.center_z, retained.has_radius);
   SpindleModes& spindle = state.spindle;
   all(archive, spindle.state, spindle.revolutions, spindle.surface, spindle.limit);
-  all(archive, state.coolant.flood, state.coolant.mist);
+  all(archive, state.coolant.flood, state.coolant.mist, state.wants_flood, state.outputs);
   visit(archive, state.coolant.origin);
   ToolModes& tool = state.tool;
   all(archive, tool.pending, tool.pending_offset, tool.active, tool.offset);
@@ -118,7 +119,8 @@ void visit_state(Archive& archive, ModalState& state) {
   visit_stack(archive, state.loops);
   visit_files(archive, state.files);
   Jump& jump = state.jump;
-  all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes);
+  all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes, jump.custom,
+      jump.changes_tool, jump.is_not_in_ram);
   visit(archive, jump.from);
 }
 

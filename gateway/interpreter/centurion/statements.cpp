@@ -6,6 +6,7 @@
 #include "gateway/interpreter/centurion/expression_reader.hpp"
 #include "gateway/interpreter/centurion/number.hpp"
 #include "gateway/interpreter/centurion/output_text.hpp"
+#include "gateway/interpreter/centurion/pins.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -35,8 +36,7 @@ bool read_jump(Run& run, JumpKind kind, std::uint32_t limit, const char* start, 
 }
 
 bool refuse_in_dnc(Run& run, const char* start) {
-  return run.fail(ErrorCode::IllegalStatement, run.column(start),
-                  "not allowed in DNC on this control");
+  return run.fail(ErrorCode::NotInDnc, run.column(start));
 }
 
 bool read_if(Run& run, const char*& at) {
@@ -108,22 +108,43 @@ bool read_input(Run& run, const char* start, const char*& at) {
   return answer_input(run, question, number, column, at);
 }
 
+/// HDW (prompt): the operator moves the axes by the handwheel until told to go on; a simulated
+/// machine is where it was.
+bool read_handwheel(Run& run, const char*& at) {
+  at = skip_blanks(at);
+  std::string_view text;
+  if (*at == '(') {
+    const char* open = at;
+    if (!skip_gaps(run, at)) return false;
+    const char* close = open;
+    while (*close != ')') ++close;
+    text = std::string_view(open + 1, static_cast<std::size_t>(close - open - 1));
+  }
+  if (run.options.is_verify) return true;
+  if (!text.empty()) run.events().on_message({run.origin, text});
+  run.events().on_stop({run.origin, StopKind::Operator});
+  return true;
+}
+
 /// SET X 3: an axis letter and the number of its output.
 bool read_pin_change(Run& run, bool state, bool is_pulse, const char*& at) {
   if (!skip_gaps(run, at)) return false;
   const std::uint32_t column = run.column(at);
-  PinChange change{run.origin, Axis::X, 0, state, {}};
+  OutputPin pin;
   if (take_word(at, "Z")) {
-    change.axis = Axis::Z;
+    pin.axis = Axis::Z;
   } else if (!take_word(at, "X")) {
     return run.fail(ErrorCode::IllegalStatement, column, "an axis X or Z is expected here");
   }
   std::uint32_t number = 0;
-  if (!read_whole(run, at, 12, number)) return false;
+  if (!read_whole(run, at, kPinsPerKind, number)) return false;
   if (number == 0) return run.fail(ErrorCode::ParameterOutOfRange, column, "outputs count from 1");
-  change.output = static_cast<int>(number);
-  if (is_pulse) change.pulse_ms = run.options.pulse_ms;
-  run.events().on_pin(change);
+  pin.number = static_cast<int>(number);
+  if (is_pulse) {
+    pulse_output(run, pin, state, run.options.pulse_ms);
+  } else {
+    set_output(run, pin, state);
+  }
   return true;
 }
 
@@ -185,6 +206,7 @@ bool read_statement(Run& run, Keyword keyword, const char* start, const char*& a
     case Keyword::None:
       return run.fail(ErrorCode::IllegalStatement, run.column(start), to_string(keyword));
     case Keyword::Hdw:
+      return read_handwheel(run, at);
     case Keyword::Tana:
     case Keyword::Tanl:
     case Keyword::Cgen:
@@ -218,6 +240,7 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
 
 bool store_byte(Run& run, int number, double value, std::uint32_t column) {
   const double byte = std::round(value);
+  if (run.options.is_verify) return true;  // spec 15.4
   if (!(byte >= 0 && byte <= 255)) {
     return run.fail(ErrorCode::ParameterOutOfRange, column,
                     fmt::format("{} is not a byte, 0 to 255", value));

@@ -62,7 +62,6 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusalCase{"table_parameter_outside_g10", "P500=1\n", "CEN0517 1:1"},
                     RefusalCase{"move_in_data_mode", "G10\nX1\n", "CEN0543 2:0"},
                     RefusalCase{"byte_too_high", "PB81=256\n", "CEN0517 1:1"},
-                    RefusalCase{"handwheel_not_yet", "HDW (MOVE)\n", "CEN1001 1:1"},
                     RefusalCase{"tangents_not_yet", "TANL C3\n", "CEN1001 1:1"},
                     RefusalCase{"forced", "P1=549\nG997\n", "CEN0549 2:0"},
                     RefusalCase{"forced_without_text", "P1=321\nG997\n", "CEN1006 2:0"},

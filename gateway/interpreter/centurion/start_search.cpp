@@ -1,0 +1,148 @@
+#include "gateway/interpreter/centurion/start_search.hpp"
+
+#include <fmt/core.h>
+#include <charconv>
+
+#include "gateway/interpreter/centurion/cycle_words.hpp"
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/run.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr std::uint8_t kHasX = 1;
+constexpr std::uint8_t kHasZ = 2;
+
+std::optional<StartAt::Kind> kind_of_letter(char letter) {
+  switch (letter) {
+    case 'N':
+      return StartAt::Kind::Block;
+    case 'T':
+      return StartAt::Kind::Tool;
+    case 'L':
+      return StartAt::Kind::Line;
+    case 'B':
+      return StartAt::Kind::Byte;
+    case '+':
+      return StartAt::Kind::Count;
+    default:
+      return std::nullopt;
+  }
+}
+
+Position place(const Point& millimetres) {
+  Position position;
+  position.set(Axis::X, Length::mm(millimetres.x));
+  position.set(Axis::Z, Length::mm(millimetres.z));
+  return position;
+}
+
+}  // namespace
+
+Result<StartAt> parse_start_at(std::string_view text) {
+  StartAt start;
+  start.text = text;
+  const auto kind = text.empty() ? std::nullopt : kind_of_letter(text.front());
+  const char* end = text.data() + text.size();
+  const auto read = kind ? std::from_chars(text.data() + 1, end, start.number)
+                         : std::from_chars_result{text.data(), std::errc::invalid_argument};
+  if (read.ec != std::errc{} || read.ptr != end) {
+    return fail(Errc::Syntax,
+                "\"{}\" is no start: N120 (block), T3 (tool), L40 (line), B4096 (byte), +25 (blocks "
+                "to skip)",
+                text);
+  }
+  start.kind = *kind;
+  return start;
+}
+
+bool StartSearch::is_here(const Run& run, std::optional<std::uint32_t> sequence) const {
+  const bool is_main = run.state.at.program == kMainProgram;
+  switch (start_.kind) {
+    case StartAt::Kind::Block:
+      return sequence && *sequence == start_.number;
+    case StartAt::Kind::Line:
+      return is_main && run.origin.line >= start_.number;
+    case StartAt::Kind::Byte:
+      return is_main && run.origin.offset >= start_.number;
+    case StartAt::Kind::Count:
+      return run.state.blocks >= start_.number;
+    case StartAt::Kind::Tool:
+      return false;
+  }
+  return false;
+}
+
+bool StartSearch::is_tool(int tool) const {
+  return start_.kind == StartAt::Kind::Tool && static_cast<std::uint64_t>(tool) == start_.number;
+}
+
+void StartSearch::begin_here(Run& run) {
+  ModalState& state = run.state;
+  state.is_searching = false;
+  show_machine_state(run);
+  const Point from = state.searched_from;
+  Point to = state.searched_to;
+  if ((state.searched_axes & kHasX) == 0) to.x = from.x;
+  if ((state.searched_axes & kHasZ) == 0) to.z = from.z;
+  if (!(to == from)) approach(run, from, to);
+}
+
+/// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after the
+/// operator has looked.
+void StartSearch::approach(Run& run, const Point& from, const Point& to) {
+  const ModalState& state = run.state;
+  const double clearance = run.length(state.origin.z + run.parameters[kClearanceZ]).mm();
+  Point at = from;
+  const auto rapid = [&](const Point& next) {
+    if (next == at) return;
+    at = next;
+    out().on_rapid({run.origin, place(at)});
+  };
+  if (from.z < clearance) {
+    rapid({from.x, clearance});
+    rapid({to.x, clearance});
+  } else {
+    rapid({to.x, from.z});
+    rapid({to.x, clearance});
+  }
+  out().on_stop({run.origin, StopKind::Operator});
+  if (at == to) return;
+  const bool has_per_minute = state.feed[0] > 0;
+  const Feed feed = has_per_minute ? Feed::per_minute(run.length(state.feed[0])) : run.active_feed();
+  out().on_line({run.origin, place(to), feed});
+}
+
+void StartSearch::begin_at_first(Run& run) {
+  run.state.is_searching = false;
+  run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
+  out().on_message({run.origin, run.scratch});
+}
+
+/// The search may have to begin again from the first block.
+void StartSearch::on_program(const ProgramHeader& event) {
+  if (!std::exchange(has_program_, true)) out().on_program(event);
+}
+
+template <class Event>
+void StartSearch::move(void (EventSink::*deliver)(const Event&), const Event& event) {
+  if (!state_->is_searching) return (out().*deliver)(event);
+  state_->searched_to = {event.to.linear(Axis::X).mm(), event.to.linear(Axis::Z).mm()};
+  if (event.to.has(Axis::X)) state_->searched_axes |= kHasX;
+  if (event.to.has(Axis::Z)) state_->searched_axes |= kHasZ;
+}
+
+void StartSearch::on_rapid(const Rapid& event) {
+  move(&EventSink::on_rapid, event);
+}
+void StartSearch::on_line(const Line& event) {
+  move(&EventSink::on_line, event);
+}
+void StartSearch::on_arc(const Arc& event) {
+  move(&EventSink::on_arc, event);
+}
+void StartSearch::on_thread(const Thread& event) {
+  move(&EventSink::on_thread, event);
+}
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,1 @@
+PRINT [PARTS 9011]
