@@ -50,11 +50,13 @@ MemorySource::Loader loader_of(const GoldenCase& golden) {
   };
 }
 
-std::optional<Verdict> verdict_of(const std::string& program) {
+std::optional<Verdict> verdict_of(const GoldenCase& golden, const std::string& program) {
+  const fs::path file = golden.folder / "verdict.txt";
+  const std::string text = fs::exists(file) ? read_text(file) : program;
   char id[32] = {};
   unsigned long line = 0;
   unsigned column = 0;
-  if (std::sscanf(program.c_str(), "(expect %31[-A-Za-z0-9] %lu:%u)", id, &line, &column) != 3) {
+  if (std::sscanf(text.c_str(), "(expect %31[-A-Za-z0-9] %lu:%u)", id, &line, &column) != 3) {
     return std::nullopt;
   }
   return Verdict{id, line, column};

@@ -27,12 +27,13 @@ Setup setup_of(const GoldenCase& golden, const Dialect& dialect);
 /// Called programs of the case: `O2.nc`, `O0002.nc` beside its program.
 MemorySource::Loader loader_of(const GoldenCase& golden);
 
-/// The verdict in line 1 of a program that is to be refused: `(expect CEN0549 4:9)`.
+/// The verdict on a program that is to be refused, in its line 1 or, of a control without comments,
+/// in a file verdict.txt beside it: `(expect CEN0549 4:9)`.
 struct Verdict {
   std::string id;
   std::uint64_t line = 0;
   std::uint32_t column = 0;
 };
-std::optional<Verdict> verdict_of(const std::string& program);
+std::optional<Verdict> verdict_of(const GoldenCase& golden, const std::string& program);
 
 }  // namespace dripline::interpreter

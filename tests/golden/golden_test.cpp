@@ -45,7 +45,7 @@ TEST_P(Golden, TraceIsAsExpected) {
     ASSERT_TRUE(ran) << ran.error().what;
     outcome = *ran;
   }
-  const auto verdict = verdict_of(program_);
+  const auto verdict = verdict_of(GetParam(), program_);
   ASSERT_EQ(verdict.has_value(), outcome->alarm.has_value())
       << (outcome->alarm ? outcome->alarm->text : "no alarm");
   if (verdict) {

@@ -82,6 +82,7 @@ ReadState BlockReader::find_form(ReadingState& state) {
   ReadingState tried = state;
   tried.program.form = Form::Plain;
   const WindowState loaded = window_.load(place_.program, place_.offset, FirstLineEnd{});
+  if (loaded == WindowState::NotYet) return ReadState::NotYet;
   if (loaded != WindowState::Ready) return load(tried);  // says it in the reader's words
   if (skip_blanks(window_.begin(), window_.end()) == window_.end()) return ReadState::End;
   tried.program.form = detect_form({window_.begin(), window_.end()});

@@ -1,28 +1,138 @@
 #include "gateway/interpreter/tnc155/cycles.hpp"
 
 #include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/flow.hpp"
+#include "gateway/interpreter/tnc155/machining_cycles.hpp"
 
 namespace dripline::interpreter::tnc155 {
+namespace {
 
-bool define_cycle(Run& run, const Block& block) {
-  return run.fail(ErrorCode::NotSupported, fmt::format("CYCL DEF {}", block.cycle));
+enum Machining : std::uint8_t { kPecking = 1, kTapping, kSlot, kPocket, kCircle, kProgram = 12 };
+
+bool check_signs(Run& run, const MachiningCycle& cycle) {
+  const double towards = cycle.depth;
+  const bool has_pecks = cycle.number != kTapping;
+  const bool good =
+      towards != 0 && cycle.clearance * towards >= 0 && (!has_pecks || cycle.peck * towards > 0);
+  if (good) return true;
+  const std::string pecking = has_pecks ? fmt::format(", PECKING {}", cycle.peck) : "";
+  return run.fail(ErrorCode::WrongSign,
+                  fmt::format("SET-UP {}, DEPTH {}{}: none may be 0 or of another sign",
+                              cycle.clearance, cycle.depth, pecking));
 }
 
-bool is_defining(const Run&) {
-  return false;
+bool check_feeds(Run& run, const MachiningCycle& cycle) {
+  const bool plunges = cycle.number >= kSlot;
+  if (cycle.feed > 0 && (!plunges || cycle.plunge_feed > 0)) return true;
+  return run.fail(ErrorCode::FeedRateMissing, fmt::format("in CYCL DEF {}", cycle.number));
+}
+
+bool too_narrow(Run& run, std::string_view what, double size) {
+  return run.fail(
+      ErrorCode::ToolRadiusTooLarge,
+      fmt::format("{} {:.4f} mm, tool radius {:.4f}", what, size, run.state.tool.data.radius));
+}
+
+/// The sides along the two axes of the plane, each one of them.
+bool check_sides(Run& run, const MachiningCycle& cycle) {
+  const PlaneAxes axes = axes_of(run.state.plane);
+  const auto is_in_plane = [&](Axis axis) { return axis == axes.first || axis == axes.second; };
+  if (is_in_plane(cycle.first_axis) && is_in_plane(cycle.second_axis) &&
+      cycle.first_axis != cycle.second_axis) {
+    return true;
+  }
+  return run.fail(
+      ErrorCode::PlaneWronglyDefined,
+      fmt::format("sides along {} and {}", letter(cycle.first_axis), letter(cycle.second_axis)));
+}
+
+bool check_room(Run& run, const MachiningCycle& cycle) {
+  const double width =
+      2 * run.state.tool.data.radius / run.state.transformation.factor(run.state.plane);
+  if (!(width > 0)) return too_narrow(run, "no tool to mill", 0);
+  if (cycle.number == kCircle) {
+    return 2 * cycle.radius > width || too_narrow(run, "circle radius", cycle.radius);
+  }
+  if (!check_sides(run, cycle)) return false;
+  for (const double side : {std::fabs(cycle.first_side), std::fabs(cycle.second_side)}) {
+    if (!(side > width)) return too_narrow(run, "side", side);
+  }
+  return true;
+}
+
+double stepover(const Run& run) {
+  return run.options.pocket_overlap * run.state.tool.data.radius /
+         run.state.transformation.factor(run.state.plane);
+}
+
+/// How many moves a call comes to, about.
+double moves_of(const Run& run, const MachiningCycle& cycle) {
+  if (cycle.number == kTapping) return 2;
+  const double pecks = pecks_of(cycle);
+  if (cycle.number == kPecking) return 3 * pecks;
+  if (cycle.number == kSlot) return 2 * pecks;
+  const double widest =
+      cycle.number == kCircle
+          ? cycle.radius
+          : std::min(std::fabs(cycle.first_side), std::fabs(cycle.second_side)) / 2;
+  return pecks * (4 + 6 * std::ceil(widest / stepover(run)));
+}
+
+bool check_bounds(Run& run, const MachiningCycle& cycle) {
+  const double moves = moves_of(run, cycle);
+  if (moves <= kMostMoves) return true;
+  return run.fail(ErrorCode::EntryOutOfRange,
+                  fmt::format("a call of CYCL DEF {} would be {:.0f} moves, at most {:.0f}",
+                              cycle.number, moves, kMostMoves));
+}
+
+void run_machining(Run& run, const MachiningCycle& cycle) {
+  CycleMotion motion(run);
+  switch (cycle.number) {
+    case kPecking:
+      drill_by_pecks(motion, cycle);
+      break;
+    case kTapping:
+      tap(run, motion, cycle);
+      break;
+    case kSlot:
+      mill_slot(motion, cycle);
+      break;
+    case kPocket:
+      mill_pocket(motion, cycle, stepover(run));
+      break;
+    default:
+      mill_circle(motion, cycle, stepover(run));
+      break;
+  }
+  motion.end();
+}
+
+}  // namespace
+
+bool check_machining(Run& run, const MachiningCycle& cycle) {
+  const State& state = run.state;
+  if (!state.tool.is_called || !state.spindle.has_speed) {
+    return run.fail(ErrorCode::ToolCallMissing, "a cycle needs TOOL CALL with axis and S");
+  }
+  if (state.spindle.state == SpindleState::Off) {
+    return run.fail(ErrorCode::SpindleRotatesMissing, "M03 or M04 before a cycle");
+  }
+  if (!check_signs(run, cycle) || !check_feeds(run, cycle)) return false;
+  if (cycle.number >= kSlot && !check_room(run, cycle)) return false;
+  return check_bounds(run, cycle);
 }
 
 bool call_cycle(Run& run) {
-  return run.fail(ErrorCode::NotSupported, "CYCL CALL");
-}
-
-void end_cycles(Run& run) {
-  run.state.cycle = CycleState{};
-  if (run.options.cancels_transformations) run.state.transformation.cancel_cycles();
-}
-
-bool probe(Run& run, const Block&) {
-  return run.fail(ErrorCode::NotSupported, "TCH PROBE");
+  const MachiningCycle& cycle = run.state.cycle.machining;
+  if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
+  if (cycle.number == kProgram) return call_program(run, cycle.program);
+  if (!check_machining(run, cycle)) return false;
+  run_machining(run, cycle);
+  return true;
 }
 
 }  // namespace dripline::interpreter::tnc155

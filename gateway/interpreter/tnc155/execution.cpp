@@ -1,5 +1,7 @@
 #include "gateway/interpreter/tnc155/execution.hpp"
 
+#include <fmt/core.h>
+
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/cycles.hpp"
 #include "gateway/interpreter/tnc155/flow.hpp"
@@ -101,6 +103,11 @@ bool function(Run& run, const Block& block) {
 }  // namespace
 
 bool execute(Run& run, const Block& block) {
+  if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
+    return run.fail(
+        ErrorCode::CycleIncomplete,
+        fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
+  }
   switch (block.kind) {
     case BlockKind::Line:
     case BlockKind::PolarLine:

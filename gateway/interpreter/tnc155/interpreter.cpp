@@ -1,5 +1,7 @@
 #include "gateway/interpreter/tnc155/interpreter.hpp"
 
+#include <utility>
+
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/execution.hpp"
 #include "gateway/interpreter/tnc155/flow.hpp"
@@ -80,9 +82,12 @@ bool TncInterpreter::look_ahead() {
   return true;
 }
 
+/// A block whose successor has not arrived is kept, and the run stays in front of it.
 TncInterpreter::BlockOutcome TncInterpreter::read() {
   const ReadingState before = run_.state.reading;
-  switch (run_.reader.next(run_.state.reading, run_.parts)) {
+  const bool was_kept = std::exchange(has_kept_block_, false);
+  if (was_kept) run_.state.reading = behind_kept_block_;
+  switch (was_kept ? ReadState::Ready : run_.reader.next(run_.state.reading, run_.parts)) {
     case ReadState::Ready:
       break;
     case ReadState::NotYet:
@@ -101,8 +106,8 @@ TncInterpreter::BlockOutcome TncInterpreter::read() {
       return BlockOutcome::Paused;
   }
   if (!look_ahead()) {
-    run_.state.reading = before;
-    run_.reader.seek(run_.state.at);
+    behind_kept_block_ = std::exchange(run_.state.reading, before);
+    has_kept_block_ = true;
     return BlockOutcome::NeedsText;
   }
   place_origin(run_.reader.block_place());
@@ -172,6 +177,7 @@ Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
   run_.reader.forget_window();
   run_.reader.seek(run_.state.at);
   run_.is_in_block = false;
+  has_kept_block_ = false;
   run_.answer.reset();
   run_.pause = Pause::None;
   is_asking_ = false;

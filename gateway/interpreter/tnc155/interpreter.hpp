@@ -35,6 +35,8 @@ class TncInterpreter final : public Interpreter {
   TextSearch search_;
   std::size_t part_ = 0;  ///< of the block in hand, to be done next
   bool peeked_joint_ = false;
+  bool has_kept_block_ = false;  ///< read, but its successor has not arrived
+  ReadingState behind_kept_block_;
   bool is_asking_ = false;
 };
 

@@ -19,24 +19,14 @@ CodeSet codes(std::initializer_list<std::pair<int, int>> ranges) {
 
 /// Free functions: what they mean is the machine builder's, when they are put out is not.
 const CodeSet& at_begin() {
-  static const CodeSet kSet = codes(
-      {{7, 7}, {11, 11}, {15, 29}, {31, 31}, {36, 51}, {55, 59}, {61, 62}, {71, 88}});
+  static const CodeSet kSet =
+      codes({{7, 7}, {11, 11}, {15, 29}, {31, 31}, {36, 51}, {55, 59}, {61, 62}, {71, 88}});
   return kSet;
 }
 const CodeSet& at_end() {
   static const CodeSet kSet =
       codes({{1, 1}, {10, 10}, {12, 12}, {32, 35}, {52, 54}, {60, 60}, {63, 70}});
   return kSet;
-}
-
-void turn_spindle(Run& run, SpindleState to) {
-  SpindleModes& spindle = run.state.spindle;
-  spindle.state = to;
-  Spindle event;
-  event.origin = run.origin;
-  event.state = to;
-  event.revolutions_per_minute = to == SpindleState::Off ? 0 : spindle.speed;
-  run.events().on_spindle(event);
 }
 
 void switch_coolant(Run& run, bool on) {
@@ -59,12 +49,22 @@ bool code_speed(Run& run, double& speed) {
 
 }  // namespace
 
+void turn_spindle(Run& run, SpindleState to) {
+  SpindleModes& spindle = run.state.spindle;
+  spindle.state = to;
+  Spindle event;
+  event.origin = run.origin;
+  event.state = to;
+  event.revolutions_per_minute = to == SpindleState::Off ? 0 : spindle.speed;
+  run.events().on_spindle(event);
+}
+
 bool set_speed(Run& run, double speed) {
   const ControlOptions& options = run.options;
   if (speed < options.spindle_minimum || speed > options.spindle_maximum) {
-    return run.fail(ErrorCode::WrongRpm, fmt::format("S {} is not {} to {}", speed,
-                                                     options.spindle_minimum,
-                                                     options.spindle_maximum));
+    return run.fail(ErrorCode::WrongRpm,
+                    fmt::format("S {} is not {} to {}", speed, options.spindle_minimum,
+                                options.spindle_maximum));
   }
   if (options.spindle_coded && !code_speed(run, speed)) return false;
   SpindleModes& spindle = run.state.spindle;

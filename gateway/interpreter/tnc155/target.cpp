@@ -6,8 +6,8 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-constexpr double kFastest = 15'999;      ///< millimetres per minute
-constexpr double kFastestInch = 6'299;   ///< tenths of an inch per minute
+constexpr double kFastest = 15'999;     ///< millimetres per minute
+constexpr double kFastestInch = 6'299;  ///< tenths of an inch per minute
 constexpr double kTenthsPerInch = 10;
 
 constexpr std::size_t index(Axis axis) {
@@ -67,18 +67,22 @@ bool read_polar(Run& run, const Block& block, Target& target) {
   return true;
 }
 
-bool read_feed(Run& run, const Block& block) {
-  if (!block.feed.is_programmed()) return true;
-  State& state = run.state;
-  const double feed = run.number(block.feed);
-  const bool is_inch = state.units == Units::Inch;
+bool read_cycle_feed(Run& run, const Value& word, double& feed) {
+  feed = run.number(word);
+  const bool is_inch = run.state.units == Units::Inch;
   const double fastest = is_inch ? kFastestInch : kFastest;
   if (!(feed >= 0 && feed <= fastest)) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("F{} is not 0 to {}", feed, fastest));
   }
-  state.feed = is_inch && !moves_only_rotary(block)
-                   ? feed / kTenthsPerInch * Length::kMillimetresPerInch
-                   : feed;
+  if (is_inch) feed *= Length::kMillimetresPerInch / kTenthsPerInch;
+  return true;
+}
+
+bool read_feed(Run& run, const Block& block) {
+  if (!block.feed.is_programmed()) return true;
+  double feed = 0;
+  if (!read_cycle_feed(run, block.feed, feed)) return false;
+  run.state.feed = moves_only_rotary(block) ? run.number(block.feed) : feed;
   return true;
 }
 

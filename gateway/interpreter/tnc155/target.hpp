@@ -18,6 +18,8 @@ inline void read_coordinates(const Run& run, const Block& block, Target& target)
 /// PR and PA of LP: the point, and what later polar blocks go on from.
 bool read_polar(Run& run, const Block& block, Target& target);
 
+/// F of a cycle: of the cycle alone.
+bool read_cycle_feed(Run& run, const Value& word, double& feed);
 /// F: stays in force.
 bool read_feed(Run& run, const Block& block);
 /// How fast the block moves: FEED RATE MISSING where nothing says.

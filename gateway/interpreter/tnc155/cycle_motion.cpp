@@ -1,0 +1,92 @@
+#include "gateway/interpreter/tnc155/cycle_motion.hpp"
+
+#include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/target.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+/// Where a contour has led the tool the cycle begins, not where its block pointed to.
+void stand_where_the_tool_is(Run& run) {
+  State& state = run.state;
+  if (!state.uses_stages) return;
+  interrupt_contour(run);
+  state.machine = run.compensator.tool();
+  AxisValues machine{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = state.machine.raw(static_cast<Axis>(i));
+  state.nominal = state.transformation.to_program(machine);
+}
+
+}  // namespace
+
+CycleMotion::CycleMotion(Run& run)
+    : run_(run), axes_(axes_of(run.state.plane)), nominal_(run.state.nominal) {
+  stand_where_the_tool_is(run);
+  start_ = nominal_in_plane(run.state);
+  start_height_ = run.state.nominal_of(run.state.tool.axis);
+  tool_radius_ = run.state.tool.data.radius / run.state.transformation.factor(run.state.plane);
+}
+
+void CycleMotion::end() {
+  run_.state.nominal = nominal_;
+  resume_contour(run_);
+  run_.state.last = LastMove{};
+}
+
+Turn CycleMotion::turn_for(Turn programmed) const {
+  if (!run_.state.transformation.turns_over(run_.state.plane)) return programmed;
+  return programmed == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
+}
+
+int CycleMotion::place_of(Axis axis) const {
+  if (axis == axes_.first) return 0;
+  return axis == axes_.second ? 1 : -1;
+}
+
+void CycleMotion::move(Axis axis, double value, Pace pace) {
+  Target target = here(run_.state);
+  target.set(axis, value);
+  line_to(run_, target, pace);
+}
+void CycleMotion::move(PlaneVector to, Pace pace) {
+  Target target = here(run_.state);
+  target.set(axes_.first, to.first);
+  target.set(axes_.second, to.second);
+  line_to(run_, target, pace);
+}
+
+void CycleMotion::feed_to_height(double height, double feed) {
+  move(run_.state.tool.axis, height, {false, feed});
+}
+void CycleMotion::rapid_to_height(double height) {
+  move(run_.state.tool.axis, height, kRapid);
+}
+void CycleMotion::feed_to(PlaneVector to, double feed) {
+  move(to, {false, feed});
+}
+void CycleMotion::rapid_to(PlaneVector to) {
+  move(to, kRapid);
+}
+
+void CycleMotion::arc_to(PlaneVector to, PlaneVector centre, Turn turn, double feed) {
+  ArcTarget target;
+  target.to = here(run_.state);
+  target.to.set(axes_.first, to.first);
+  target.to.set(axes_.second, to.second);
+  target.centre = centre;
+  target.turn = turn;
+  constexpr double kHalf = 180;
+  const bool is_full = to == nominal_in_plane(run_.state);
+  target.sweep = is_full ? 2 * kHalf : kHalf;
+  tnc155::arc_to(run_, target, {false, feed});
+}
+
+void CycleMotion::circle(PlaneVector centre, Turn turn, double feed) {
+  arc_to(nominal_in_plane(run_.state), centre, turn, feed);
+}
+
+void CycleMotion::dwell(double seconds) {
+  if (seconds > 0) run_.events().on_dwell({run_.origin, seconds, {}});
+}
+
+}  // namespace dripline::interpreter::tnc155
