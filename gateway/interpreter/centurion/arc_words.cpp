@@ -101,6 +101,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
         ThreadArc{event.center_first, event.center_second, event.plane, event.turn, event.sweep});
   }
   event.feed = run.active_feed();
+  event.rests = run.rests();
   event.to = event_position(run, target.to, kBothAxes);
   state.moved_axes = 3;
   state.last_arc_center = arc.center;

@@ -40,6 +40,7 @@ void change_units(Run& run, Units units) {
   constexpr double kFeetPerMetre = 1000 / (12 * Length::kMillimetresPerInch);
   state.spindle.surface *= units == Units::Millimetre ? 1 / kFeetPerMetre : kFeetPerMetre;
   run.parameters.convert_tables(factor);
+  refresh_tool(run);
   state.units = units;
   run.update_origin();
   if (state.has_header) run.events().on_units({run.origin, units});
@@ -256,6 +257,7 @@ bool apply_modes(Run& run) {
   for (std::uint8_t i = 0; i < block.parts.g_count; ++i) {
     if (!apply_g(run, g_row(block.g[i]))) return false;
   }
+  if (block.parts.m_count != 0) apply_spindle_range(run);
   const bool has_arguments = passes_arguments(run);
   if (block.words.has(Address::F) && !has_arguments && !takes_lead(run) && !apply_feed(run))
     return false;

@@ -114,10 +114,7 @@ bool apply_m(Run& run, const MRow& row) {
   const int pin_number = row.code % 10 + 1;  // of the codes that come in tens
   switch (row.action) {
     case MAction::Strobe:
-      strobe(run, row);
-      return true;
     case MAction::SpindleRange:
-      run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
       strobe(run, row);
       return true;
     case MAction::SpindleClockwise:
@@ -213,6 +210,14 @@ void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_sp
   if (!changed) return;
   if (has_m(run, MAction::SpindleClockwise) || has_m(run, MAction::SpindleCounterClockwise)) return;
   emit_spindle(run);
+}
+
+void apply_spindle_range(Run& run) {
+  for (std::uint8_t i = 0; i < run.block.parts.m_count; ++i) {
+    const MRow& row = m_row(run.block.m[i]);
+    if (row.action != MAction::SpindleRange) continue;
+    run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
+  }
 }
 
 double most_revolutions(const Run& run) {

@@ -20,6 +20,8 @@ void refresh_tool(Run& run);
 /// A spindle event when the block's words changed how the turning spindle turns; M3 and M4 of the
 /// same block show it themselves.
 void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_speed);
+/// M41 to M43 of the block: the range counts for its own S.
+void apply_spindle_range(Run& run);
 /// Of the active spindle range (PB50).
 double most_revolutions(const Run& run);
 void spindle_to(Run& run, SpindleState state);

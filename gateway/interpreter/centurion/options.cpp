@@ -84,6 +84,7 @@ constexpr PlaceOption kPlaceOptions[] = {
     {"negative_limit", kNegativeLimit},
     {"g60_overrun", kSingleOverrun},
     {"g0_overrun", kRapidOverrun},
+    {"maximum_feed", kMaximumFeed},
 };
 
 bool is_zero(const OptionValue& option) {
@@ -102,6 +103,10 @@ Result<void> load_places(const Setup& setup, Parameters& parameters) {
     if (!place) return fail(place.error());
     auto loaded = load_place(*place, option.name, option.parameter, setup, parameters);
     if (!loaded) return loaded;
+    // a feed is no position: always of the radius
+    if (option.parameter == kMaximumFeed) {
+      parameters[kMaximumFeed + 1] = in_units(place->linear(Axis::X), units_of(setup));
+    }
   }
   const OptionValue* value = options.find("reference");
   if (value == nullptr || is_zero(*value)) return {};
@@ -297,14 +302,40 @@ Result<void> read_cycles(const Options& options, ControlOptions& control) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known(
-      {"stored_x",          "reference",   "tool_change",   "power_on_feed",  "power_on_feed_mode",
-       "special_flags",     "leading",     "trailing",      "report_file",    "custom_g",
-       "custom_m",          "resolve_dnc", "dnc_refusals",  "pins",           "disable_417",
-       "pulse_ms",          "home",        "positive_zone", "negative_zone",  "positive_limit",
-       "negative_limit",    "g60_overrun", "g0_overrun",    "spindle_ranges", "spindle_range",
-       "cycle_spindle",     "tap_ramp",    "groove_relief", "m6_macro",       "post_m",
-       "coolant_interlock", "ask_inputs",  "mode"});
+  auto known = options.check_known({"stored_x",
+                                    "reference",
+                                    "tool_change",
+                                    "power_on_feed",
+                                    "power_on_feed_mode",
+                                    "special_flags",
+                                    "leading",
+                                    "trailing",
+                                    "report_file",
+                                    "custom_g",
+                                    "custom_m",
+                                    "resolve_dnc",
+                                    "dnc_refusals",
+                                    "pins",
+                                    "disable_417",
+                                    "pulse_ms",
+                                    "home",
+                                    "positive_zone",
+                                    "negative_zone",
+                                    "positive_limit",
+                                    "negative_limit",
+                                    "g60_overrun",
+                                    "g0_overrun",
+                                    "maximum_feed",
+                                    "spindle_ranges",
+                                    "spindle_range",
+                                    "cycle_spindle",
+                                    "tap_ramp",
+                                    "groove_relief",
+                                    "m6_macro",
+                                    "post_m",
+                                    "coolant_interlock",
+                                    "ask_inputs",
+                                    "mode"});
   if (!known) return fail(known.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");

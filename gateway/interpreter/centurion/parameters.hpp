@@ -18,6 +18,7 @@
 ///   P522 tool change position    P524, P526 corners of the safe zone, positive and negative
 ///   P528, P530 positive and negative software limit (both the same: none)
 ///   P532, P534 overrun of G60, of every G0
+///   P536 maximum feed per minute (0: none)
 /// All others keep what is written to them. X values are radii.
 namespace dripline::interpreter::centurion {
 
@@ -36,7 +37,8 @@ inline constexpr int kPositiveLimit = 528;
 inline constexpr int kNegativeLimit = 530;
 inline constexpr int kSingleOverrun = 532;
 inline constexpr int kRapidOverrun = 534;
-inline constexpr int kLastAxisParameter = 535;
+inline constexpr int kMaximumFeed = 536;
+inline constexpr int kLastAxisParameter = 537;
 inline constexpr int kToolOffsets = 600;
 inline constexpr int kFieldsPerTool = 10;
 inline constexpr int kSpindleRange = 50;  ///< PB50: 1 low, 2 medium, 3 high

@@ -24,10 +24,13 @@ bool Run::guards_travel() {
     if (zone->least_x > zone->most_x) std::swap(zone->least_x, zone->most_x);
     if (zone->least_z > zone->most_z) std::swap(zone->least_z, zone->most_z);
   }
+  const Point most = parameters.point(kMaximumFeed);
+  guard.set_maximum_feed({length(most.x).mm(), length(most.z).mm()});
   guard.set_limits(limits);
   guard.set_zone(zone);
   guard.place(state.uses_compensator ? compensator.tool() : present_position());
-  return zone || limits.least_x < limits.most_x || limits.least_z < limits.most_z;
+  return zone || most.x > 0 || most.z > 0 || limits.least_x < limits.most_x ||
+         limits.least_z < limits.most_z;
 }
 
 void Run::command(const PathCommand& command) {

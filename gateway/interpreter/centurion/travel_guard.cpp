@@ -141,14 +141,39 @@ bool TravelGuard::allows_arc(const Arc& arc) {
   return true;
 }
 
+Feed TravelGuard::followed(Feed feed, double most) const {
+  if (most <= 0 || feed.per() != Feed::Per::Minute || feed.length().mm() <= most) return feed;
+  return Feed::per_minute(Length::mm(most));
+}
+
+/// The path feed at which the first axis is at its maximum; 0 is none.
+double TravelGuard::most_on_line(const Position& to) const {
+  const Spot end = spot_of(to);
+  const double x = std::fabs(end.x - at_.x);
+  const double z = std::fabs(end.z - at_.z);
+  const double way = std::hypot(x, z);
+  double most = 0;
+  if (most_.x > 0 && x > 0) most = most_.x * way / x;
+  if (most_.z > 0 && z > 0) {
+    const double by_z = most_.z * way / z;
+    most = most > 0 ? std::min(most, by_z) : by_z;
+  }
+  return most;
+}
+
 void TravelGuard::on_rapid(const Rapid& event) {
   if (allows_line(event.origin, event.to)) next().on_rapid(event);
 }
 void TravelGuard::on_line(const Line& event) {
-  if (allows_line(event.origin, event.to)) next().on_line(event);
+  Line line = event;
+  line.feed = followed(event.feed, most_on_line(event.to));
+  if (allows_line(event.origin, event.to)) next().on_line(line);
 }
 void TravelGuard::on_arc(const Arc& event) {
-  if (allows_arc(event)) next().on_arc(event);
+  const bool has_both = most_.x > 0 && most_.z > 0;
+  Arc arc = event;
+  arc.feed = followed(event.feed, has_both ? std::min(most_.x, most_.z) : most_.x + most_.z);
+  if (allows_arc(event)) next().on_arc(arc);
 }
 void TravelGuard::on_thread(const Thread& event) {
   const bool is_allowed =

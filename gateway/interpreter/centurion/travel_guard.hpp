@@ -20,15 +20,22 @@ struct TravelFault {
   std::string detail;
 };
 
+/// Of each axis, millimetres per minute; 0 is none.
+struct MaximumFeed {
+  double x = 0;
+  double z = 0;
+};
+
 /// The last stage before the sink: stops a move that leaves the software limits (401, 403) or
 /// enters the safe zone (413), before it is made. The whole path counts. Positions are those of
-/// events: tool lengths left out.
+/// events: tool lengths left out. A feed per minute that an axis can not follow is lowered.
 class TravelGuard final : public PassingSink {
  public:
   explicit TravelGuard(EventSink& sink) : PassingSink(sink) {}
 
   /// An axis whose least is not below its most is not limited.
   void set_limits(const TravelArea& limits) { limits_ = limits; }
+  void set_maximum_feed(const MaximumFeed& most) { most_ = most; }
   void set_zone(const std::optional<TravelArea>& zone) { zone_ = zone; }
   /// Where the machine stands; from there the next move goes.
   void place(const Position& at);
@@ -53,10 +60,13 @@ class TravelGuard final : public PassingSink {
   bool crosses_zone(const Spot& to) const;
   bool is_in_zone(const Spot& at) const;
   bool arc_crosses_zone(const Arc& arc) const;
+  Feed followed(Feed feed, double most) const;
+  double most_on_line(const Position& to) const;
   bool refuse(ErrorCode code, const Origin& origin, std::string detail);
 
   TravelArea limits_;
   std::optional<TravelArea> zone_;
+  MaximumFeed most_;
   Spot at_;
   std::optional<TravelFault> fault_;
 };

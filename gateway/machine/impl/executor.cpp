@@ -257,7 +257,11 @@ MachineState Executor::state() const {
 
 MachineStatus Executor::status() const {
   const Coordinates now = position();
-  const double turn = spindle_.rpm(now[0], panel_.spindle_override);
+  // a rapid move already turns for the diameter it leads to
+  const bool is_rapid = motion_.is_active() && motion_.move().pace == Pace::Rapid;
+  const Path* way = is_rapid ? &motion_.move().path : nullptr;
+  const double x = way != nullptr ? way->at(way->length)[0] : now[0];
+  const double turn = spindle_.rpm(x, panel_.spindle_override);
   return {.state = state(),
           .position = to_position(now, axes_),
           .feed_per_minute = speed() * 60,

@@ -136,6 +136,16 @@ TEST(SurfaceSpeed, TurnsFasterTowardsTheCentreUpToItsLimit) {
   EXPECT_NEAR(test.machine.status().spindle_rpm, 1000, 1e-9);
 }
 
+// CEN-092: a rapid turns for where it leads, not for where it is
+TEST(SurfaceSpeed, OfARapidIsThatOfItsEnd) {
+  TestMachine test;
+  test.machine.begin(Program::at(50, 0));
+  test.program.surface_speed(100'000, 5000);
+  test.program.rapid(20, 0);
+  test.machine.advance(Seconds{0.001});
+  EXPECT_NEAR(test.machine.status().spindle_rpm, 100'000 / (40 * Angle::kPi), 1e-9);
+}
+
 TEST(InverseTime, TakesItsShareOfAMinute) {
   TestMachine test;
   test.program.line(0, 10, Feed::inverse_time(30));  // 2 s: 5 mm/s
