@@ -48,8 +48,7 @@ LineState LineReader::fetch_more() {
   wanted_ = same_line && wanted_ > have ? wanted_ : have + 1;
   wanted_at_ = place_;
   TextWindow window = source_.fetch(place_.program, place_.offset, wanted_);
-  begin_ = cursor_ = end_ = nullptr;
-  reaches_end_ = false;
+  forget_window();
   if (window.state == TextWindow::State::NotYet) return LineState::NotYet;
   if (window.state == TextWindow::State::Failed) {
     reason_ = std::move(window.reason);
@@ -87,6 +86,7 @@ ProgramLookup LineReader::find(std::string_view name) {
 
 void LineReader::forget_window() {
   begin_ = cursor_ = end_ = nullptr;
+  cr_free_begin_ = cr_free_end_ = nullptr;
   reaches_end_ = false;
 }
 

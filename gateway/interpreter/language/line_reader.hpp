@@ -81,8 +81,7 @@ class LineReader {
     const std::size_t seen = room < rules_.max_bytes + 2 ? room : rules_.max_bytes + 2;
     const auto* lf = static_cast<const char*>(std::memchr(cursor_, '\n', seen));
     const std::size_t before = lf ? static_cast<std::size_t>(lf - cursor_) : seen;
-    const auto* cr = static_cast<const char*>(std::memchr(cursor_, '\r', before));
-    if (cr) {
+    if (const char* cr = find_cr(before)) {
       length = static_cast<std::size_t>(cr - cursor_);
       if (cr + 1 == end_ && !reaches_end_) return false;
       consumed = length + (cr + 1 != end_ && cr[1] == '\n' ? 2 : 1);
@@ -92,6 +91,19 @@ class LineReader {
     length = before;
     consumed = before + 1;
     return true;
+  }
+
+  /// Within so many bytes. Most programs have none, so that looking well ahead saves the next lines
+  /// the search.
+  const char* find_cr(std::size_t before) const {
+    if (cursor_ < cr_free_begin_ || cursor_ + before > cr_free_end_) {
+      constexpr std::size_t kAhead = 4096;
+      const std::size_t seen = available() < kAhead || before > kAhead ? before : kAhead;
+      const auto* cr = static_cast<const char*>(std::memchr(cursor_, '\r', seen));
+      cr_free_begin_ = cursor_;
+      cr_free_end_ = cr ? cr : cursor_ + seen;
+    }
+    return cursor_ + before <= cr_free_end_ ? nullptr : cr_free_end_;
   }
 
   bool is_percent(std::size_t length) const {
@@ -119,6 +131,9 @@ class LineReader {
   const char* begin_ = nullptr;  ///< of the window
   const char* cursor_ = nullptr;
   const char* end_ = nullptr;
+  /// Between these the window has no CR.
+  mutable const char* cr_free_begin_ = nullptr;
+  mutable const char* cr_free_end_ = nullptr;
   bool reaches_end_ = false;
   std::size_t wanted_ = 0;  ///< bytes last asked for,
   TextPlace wanted_at_;     ///< from here

@@ -73,9 +73,19 @@ bool add_word(Run& run, char letter, const char* start, const char*& at) {
   return true;
 }
 
+/// A code of one digit, as those of most moves are; false and nothing read when there is more.
+bool read_short_g(const char*& at, double& value) {
+  if (!is_digit(*at)) return false;
+  const char* behind = skip_blanks(at + 1);
+  if (is_digit(*behind) || *behind == '.') return false;
+  value = *at - '0';
+  at = behind;
+  return true;
+}
+
 bool add_g(Run& run, const char* start, const char*& at) {
   double value = 0;
-  if (!read_value(run, at, value)) return false;
+  if (!read_short_g(at, value) && !read_value(run, at, value)) return false;
   const double tenths = std::floor(value * 10 + 0.5);
   if (!(std::fabs(value * 10 - tenths) <= 0.001) || !(tenths <= 999)) [[unlikely]] {
     return run.fail(ErrorCode::GRange, run.column(start), fmt::format("G{}", value));

@@ -82,7 +82,10 @@ bool Rs274NgcInterpreter::load_line(LineState& outcome) {
   if (outcome != LineState::Ready) [[unlikely]]
     return false;
   run_.here = line.place;
-  run_.next = reader.place();
+  // One by one: the reader has only just counted, and a copy of all at once would wait for it.
+  run_.next.program = reader.place().program;
+  run_.next.offset = reader.place().offset;
+  run_.next.line = reader.place().line;
   run_.line_begin = line.text.data();
   if (run_.next.offset - run_.here.offset == line.text.size()) [[unlikely]] {
     std::copy(line.text.begin(), line.text.end(), run_.last_line.begin());

@@ -14,15 +14,14 @@ constexpr std::array kRotaryAxes{Axis::A, Axis::B, Axis::C};
 constexpr AddressSet kRareAxisWords = set_of("ABCUVW");
 
 /// The point the words count from: with compensation on that of the programmed path.
-Axes base_of(const Run& run) {
-  Axes base = run.state.position;
+void begin_at_base(const Run& run, Axes& to) {
+  to = run.state.position;
   const Compensation& compensation = run.state.compensation;
-  if (compensation.side != Side::Off && !compensation.is_first) {
+  if (compensation.side != Side::Off && !compensation.is_first) [[unlikely]] {
     const PlaneAxes plane = axes_of(run.state.modes.plane);
-    base[index_of(plane.first)] = compensation.x;
-    base[index_of(plane.second)] = compensation.y;
+    to[index_of(plane.first)] = compensation.x;
+    to[index_of(plane.second)] = compensation.y;
   }
-  return base;
 }
 
 void take_axis(Target& target, Axis axis, double value, bool is_incremental) {
@@ -86,6 +85,14 @@ void name_turned_axes(const Run& run, Target& target) {
   }
 }
 
+/// The machine coordinates of the axes that are named, in a system that is not turned.
+void set_named(const State& state, const Target& target, Position& machine) {
+  for (AxisBits left = target.named; left != 0; left = static_cast<AxisBits>(left & (left - 1))) {
+    const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+    machine.set_raw(kAllAxes[i], target.to[i] + state.g92[i] + state.system_offset[i]);
+  }
+}
+
 bool is_no_move(const Run& run, const Axes& to) {
   return to == run.state.position && !run.state.is_displaced;
 }
@@ -96,7 +103,7 @@ bool read_target(Run& run, Target& target) {
   const Words& words = run.block.words;
   if (run.block.g(GGroup::OneShot) == 530) [[unlikely]]
     return read_machine_target(run, target);
-  target.to = base_of(run);
+  begin_at_base(run, target.to);
   const bool is_incremental = run.state.modes.is_incremental;
   const double unit = run.state.mm_per_unit();
   if (words.has('X')) take_axis(target, Axis::X, words['X'] * unit, is_incremental);
@@ -174,10 +181,7 @@ const Position& arrive(Run& run, const Target& target) {
   state.is_displaced = false;
   state.compensation.was_on = false;
   if (state.rotation == 0) [[likely]] {
-    for (AxisBits left = target.named; left != 0; left = static_cast<AxisBits>(left & (left - 1))) {
-      const auto i = static_cast<std::size_t>(__builtin_ctz(left));
-      state.machine.set_raw(kAllAxes[i], target.to[i] + state.g92[i] + state.system_offset[i]);
-    }
+    set_named(state, target, state.machine);
     state.position = target.to;
     return state.machine;
   }
@@ -209,14 +213,21 @@ bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& f
   if (state.rotation != 0 && state.modes.plane != Plane::XY) {
     return run.fail(ErrorCode::NotSupported, 0, "an arc in this plane of a turned system");
   }
-  Arc arc;
-  arc.origin = run.origin;
+  const auto shifted = [&](Axis axis, double value) {
+    return Length::mm(value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)]);
+  };
+  // A copy of the new place would have to wait for its numbers, which are only now being written.
+  Arc arc{.origin = run.origin,
+          .to = state.machine,
+          .center_first = shifted(axes.first, shape.center_first),
+          .center_second = shifted(axes.second, shape.center_second),
+          .plane = state.modes.plane,
+          .turn = shape.turn,
+          .sweep = Angle::degrees(shape.sweep),
+          .feed = feed};
   if (state.rotation == 0) [[likely]] {
-    const auto shifted = [&](Axis axis, double value) {
-      return Length::mm(value + state.g92[index_of(axis)] + state.system_offset[index_of(axis)]);
-    };
-    arc.center_first = shifted(axes.first, shape.center_first);
-    arc.center_second = shifted(axes.second, shape.center_second);
+    set_named(state, target, arc.to);
+    arrive(run, target);
   } else {
     Axes center = target.to;
     center[index_of(axes.first)] = shape.center_first;
@@ -224,12 +235,8 @@ bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& f
     const Position center_at = to_machine(run, center);
     arc.center_first = center_at.linear(axes.first);
     arc.center_second = center_at.linear(axes.second);
+    arc.to = arrive(run, target);
   }
-  arc.to = arrive(run, target);
-  arc.plane = state.modes.plane;
-  arc.turn = shape.turn;
-  arc.sweep = Angle::degrees(shape.sweep);
-  arc.feed = feed;
   run.events().on_arc(arc);
   return true;
 }
