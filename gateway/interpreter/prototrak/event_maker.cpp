@@ -8,8 +8,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
-
 bool is_axis(Address address) {
   return address <= Address::YO || (address >= Address::X && address <= Address::K);
 }
@@ -212,7 +210,7 @@ bool Receiver::fill_circle(const BlockWords& block, ProgramEvent& event) {
   using enum Address;
   const XY from = reference();
   std::int64_t direction = 1, holes = 0;
-  const double least = modal_.is_metric ? 0.01 : 0.0005 * kMillimetresPerInch;
+  const double least = modal_.is_metric ? 0.01 : 0.0005 * Length::kMillimetresPerInch;
   if (!require(block, {XC, YC, R}) || !coordinate(block, XC, from.x, event.begin.x) ||
       !coordinate(block, YC, from.y, event.begin.y) || !size(block, R, least, event.radius) ||
       !size(block, FC, 0, event.finish_cut) || !integer(block, DR, 1, 2, direction) ||
@@ -230,7 +228,7 @@ bool Receiver::store(ProgramEvent event) {
   if (program_.events.size() >= kMaxEvents) {
     return fail(Fault::MemoryFull, fmt::format("more than {} events", kMaxEvents));
   }
-  const double default_feed = modal_.is_metric ? 25.0 : kMillimetresPerInch;
+  const double default_feed = modal_.is_metric ? 25.0 : Length::kMillimetresPerInch;
   event.is_metric = modal_.is_metric;
   event.feed = modal_.has_feed ? modal_.feed : default_feed;
   event.side = modal_.side;

@@ -7,7 +7,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
 constexpr double kNoise = 1e-9;  ///< mm
 
 compensation::Policy policy() {
@@ -21,7 +20,7 @@ compensation::Policy policy() {
 
 /// Within a resolution step: what events may lie apart and still be one corner (spec 11.2).
 double join_tolerance(const ProgramEvent& event) {
-  return event.is_metric ? 0.01 : 0.0001 * kMillimetresPerInch;
+  return event.is_metric ? 0.01 : 0.0001 * Length::kMillimetresPerInch;
 }
 
 }  // namespace
@@ -164,7 +163,7 @@ bool Executor::begin_repeat(const ProgramEvent& event) {
 
 bool Executor::check_arc(const ProgramEvent& event) {
   if (event.kind != EventKind::Arc) return true;
-  const double tolerance = event.is_metric ? 0.02 : 0.001 * kMillimetresPerInch;
+  const double tolerance = event.is_metric ? 0.02 : 0.001 * Length::kMillimetresPerInch;
   const double last = distance(event.end, event.center);
   if (event.radius > kNoise && std::fabs(event.radius - last) <= tolerance) return true;
   return fail(Fault::ArcRadii,

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "protocol/base/units.hpp"
+
 /// What the control stores (spec 10): numbered events instead of blocks.
 namespace dripline::interpreter::prototrak {
 
@@ -50,7 +52,7 @@ struct ProgramEvent {
   std::int64_t sequence = -1;
 
   /// A length in the event's own unit, for people.
-  double shown(double mm) const { return is_metric ? mm : mm / 25.4; }
+  double shown(double mm) const { return is_metric ? mm : mm / Length::kMillimetresPerInch; }
   bool is_cut() const { return kind == EventKind::Mill || kind == EventKind::Arc; }
 };
 

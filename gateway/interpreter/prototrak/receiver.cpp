@@ -7,7 +7,6 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
 constexpr char kDosEnd = 0x1a;
 constexpr std::string_view kFanucHint = "is this a Fanuc program without the three changes?";
 
@@ -163,7 +162,7 @@ bool Receiver::BlockWords::has_g(int code) const {
 // Numbers.
 
 double Receiver::largest() const {
-  return modal_.is_metric ? 9999.99 : 99.9999 * kMillimetresPerInch;
+  return modal_.is_metric ? 9999.99 : 99.9999 * Length::kMillimetresPerInch;
 }
 
 /// To the control's resolution, half away from zero.
@@ -180,7 +179,7 @@ bool Receiver::dimension(const BlockWords& block, Address address, double& mm) {
   const Word* word = block.find(address);
   if (word == nullptr) return true;
   const double written = rounded(*word, word->number.value(modal_.is_metric ? 2 : 4));
-  const double value = modal_.is_metric ? written : written * kMillimetresPerInch;
+  const double value = modal_.is_metric ? written : written * Length::kMillimetresPerInch;
   if (std::fabs(value) > largest() * (1 + 1e-12)) {
     return fail(Fault::Range, fmt::format("{}{} is over {}", name_of(address), written,
                                           modal_.is_metric ? 9999.99 : 99.9999));
@@ -290,7 +289,7 @@ bool Receiver::apply_modal_words(const BlockWords& block) {
     if (feed < least || feed > most) {
       return fail(Fault::Range, fmt::format("F{} is not {} to {}", feed, least, most));
     }
-    modal_.feed = modal_.is_metric ? feed : feed * kMillimetresPerInch;
+    modal_.feed = modal_.is_metric ? feed : feed * Length::kMillimetresPerInch;
     modal_.has_feed = true;
   }
   std::int64_t tool = modal_.tool;

@@ -34,9 +34,12 @@ struct Tolerance {
 };
 Tolerance tolerance(const Run& run) {
   const bool is_inch = run.state.units == Units::Inch;
-  if (!run.is_linuxcnc()) return {is_inch ? 0.0002 * 25.4 : 0.002, 0, 0, 0, 0};
-  return {is_inch ? 0.00283 * 25.4 : 0.0283, 0.001, is_inch ? 0.283 * 25.4 : 2.83,
-          is_inch ? 0.00004 * 25.4 : 0.001, is_inch ? 0.00005 * 25.4 : 0.00127};
+  if (!run.is_linuxcnc())
+    return {is_inch ? 0.0002 * Length::kMillimetresPerInch : 0.002, 0, 0, 0, 0};
+  return {is_inch ? 0.00283 * Length::kMillimetresPerInch : 0.0283, 0.001,
+          is_inch ? 0.283 * Length::kMillimetresPerInch : 2.83,
+          is_inch ? 0.00004 * Length::kMillimetresPerInch : 0.001,
+          is_inch ? 0.00005 * Length::kMillimetresPerInch : 0.00127};
 }
 
 bool check_radii(Run& run, double at_start, double at_end) {
