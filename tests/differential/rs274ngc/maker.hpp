@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace dripline::differential {
+
+/// Ten-thousandths of a unit: what a program says exactly.
+using Ticks = std::int64_t;
+
+std::string text_of(Ticks ticks);
+
+/// One program in the making. The same number draws the same choices, in the order of the calls.
+class Maker {
+ public:
+  explicit Maker(std::uint64_t number) : random_(number * 7919 + 13) {}
+
+  std::string make();
+
+ private:
+  // Small choices.
+  std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
+  Ticks between(Ticks low, Ticks high) {
+    return low + static_cast<Ticks>(below(static_cast<std::uint64_t>(high - low + 1)));
+  }
+  template <std::size_t kSize>
+  const char* one_of(const std::array<const char*, kSize>& words) {
+    return words[below(kSize)];
+  }
+
+  void line(const std::string& words);
+  /// The value, written plainly or as something that computes it.
+  std::string value(Ticks ticks);
+  /// Settings that values asked for come before the line that uses them.
+  void line_with_values(const std::string& words);
+  void known_position();
+  void part();
+
+  // Moves: moving_parts.cpp
+  void lines(std::uint64_t count);
+  void arcs(std::uint64_t count);
+  void radius_arc();
+  void other_plane();
+  void offsets();
+  void lengths();
+  void compensation();
+  void cycles();
+
+  // O words and expressions: language_parts.cpp
+  std::string label();
+  void loop();
+  void body(std::uint64_t counter, const std::string& loop_label);
+  void conditions();
+  void subprogram();
+  std::string term(int depth);
+  void expressions();
+
+  void small_things();
+  /// One thing that is wrong, or looks so.
+  void mistake();
+
+  std::mt19937_64 random_;
+  std::string text_;
+  std::string settings_;
+  Ticks x_ = 0, y_ = 0, z_ = 0;
+  int label_ = 100;
+  bool has_break_ = false;
+};
+
+}  // namespace dripline::differential
