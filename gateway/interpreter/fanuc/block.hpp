@@ -45,6 +45,7 @@ struct Block {
   static constexpr std::size_t kMostArguments = 64;
   static constexpr std::size_t kMostWarnings = 8;
   static constexpr std::uint8_t kNoCode = 0xFF;
+  static constexpr std::uint32_t kKeepPasses = 0xFFFF'FFFF;
 
   struct Parts {
     Stage stage = Stage::Start;
@@ -52,8 +53,9 @@ struct Block {
     bool has_code = false;
     bool has_motion = false;  ///< axis words that moved: a modal macro call follows
     Ending ending = Ending::None;
-    bool rewinds = false;             ///< M30
-    std::uint32_t ending_number = 0;  ///< P of M99, 0 when there is none
+    bool rewinds = false;                     ///< M30
+    std::uint32_t ending_number = 0;          ///< P of M99, 0 when there is none
+    std::uint32_t passes_left = kKeepPasses;  ///< L of M99: of the call that it ends
     std::uint8_t one_shot = kNoCode;
     std::uint8_t last_motion_group = 0;  ///< 1 or 9: which of the two came later
     std::uint8_t m_count = 0;

@@ -57,6 +57,13 @@ bool plan_subprogram(Run& run, int code) {
 bool plan_return(Run& run) {
   const Words& words = run.block.words;
   run.block.parts.ending = Ending::Return;
+  if (words.has(L)) {
+    const double passes = run.whole(words[L]);
+    if (!(passes >= 0 && passes <= 9999)) {
+      return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", passes));
+    }
+    run.block.parts.passes_left = static_cast<std::uint32_t>(passes);
+  }
   if (!words.has(P)) return true;
   const double value = run.whole(words[P]);
   if (!(value >= 1 && value <= 99999)) {

@@ -63,6 +63,7 @@ constexpr std::array kRows{
     ErrorRow{ScaledOverflow, "PS143", "SCALED MOTION DATA OVERFLOW"},
     ErrorRow{RotationPlane, "PS144", "ILLEGAL PLANE SELECTED"},
     ErrorRow{IllegalAxis, "PS190", "ILLEGAL AXIS SELECT"},
+    ErrorRow{NoSpeed, "PS200", "ILLEGAL S CODE COMMAND"},
     ErrorRow{ExternalCall, "PS210", "CAN NOT COMMAND M198/M199"},
     ErrorRow{EndOfRecord, "PS5010", "END OF RECORD"},
     ErrorRow{OverTravel, "OT500", "OVER TRAVEL"},

@@ -58,6 +58,7 @@ enum class ErrorCode : std::uint16_t {
   IllegalScale = 142,
   ScaledOverflow = 143,
   RotationPlane = 144,
+  NoSpeed = 200,
   IllegalAxis = 190,
   ExternalCall = 210,
   EndOfRecord = 5010,

@@ -36,11 +36,13 @@ void apply_motion_groups(Run& run) {
       (!names_cycle || ends_cycle || block.parts.last_motion_group == kMotionGroup)) {
     state.g[kMotionGroup] = block.g[kMotionGroup];
     state.g[kCycleGroup] = 80;
+    state.is_rigid_tapping = false;
     return;
   }
   if (!names_cycle) return;
   const bool was_on = state.is_cycle();
   state.g[kCycleGroup] = block.g[kCycleGroup];
+  if (ends_cycle) state.is_rigid_tapping = false;
   if (!was_on && state.is_cycle()) begin_cycle_mode(run);
 }
 
@@ -49,12 +51,14 @@ bool apply_modes(Run& run) {
   const Block& block = run.block;
   ModalState& state = run.state;
   constexpr std::uint32_t kPlain = 1u << kDistanceGroup | 1u << kFeedGroup | 1u << kReturnGroup |
-                                   1u << kSpindleGroup | 1u << kPathGroup | 1u << kUnitsGroup;
+                                   1u << kSpindleGroup | 1u << kPathGroup | 1u << kUnitsGroup |
+                                   1u << kPolarGroup;
   for (std::uint32_t left = block.parts.groups & kPlain; left != 0; left &= left - 1) {
     const auto group = static_cast<std::size_t>(std::countr_zero(left));
     state.g[group] = block.g[group];
   }
   if (block.names(kUnitsGroup)) change_units(run);
+  if (block.names(kPolarGroup)) state.polar_angle = 0;
   if (block.names(kPlaneGroup)) {
     if (state.is_compensating() && state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
       return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);

@@ -79,6 +79,8 @@ bool return_from_call(Run& run, std::uint32_t number) {
   ModalState& state = run.state;
   if (state.calls.empty()) return go_round(run, number);
   CallFrame& frame = state.calls.back();
+  const std::uint32_t set = run.block.parts.passes_left;
+  if (set != Block::kKeepPasses) frame.passes_left = set;
   if (frame.passes_left > 0) {
     --frame.passes_left;
     if (!count_jump_back(run)) return false;

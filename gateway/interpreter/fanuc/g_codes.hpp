@@ -25,8 +25,9 @@ enum Group : std::uint8_t {
   kWorkGroup = 14,
   kPathGroup = 15,
   kRotationGroup = 16,
+  kPolarGroup = 17,
 };
-inline constexpr std::size_t kGroupCount = 17;
+inline constexpr std::size_t kGroupCount = 18;
 inline constexpr std::uint8_t kNoGroup = 0xFF;
 /// G54.1 is kept as this; all others as the number written.
 inline constexpr std::uint8_t kMoreWorkSystems = 154;
@@ -55,6 +56,7 @@ constexpr std::array<std::uint8_t, 100> groups_of_codes() {
   put(kWorkGroup, 54, 55, 56, 57, 58, 59);
   put(kPathGroup, 61, 62, 63, 64);
   put(kRotationGroup, 68, 69);
+  put(kPolarGroup, 15, 16);
   return groups;
 }
 }  // namespace detail

@@ -85,6 +85,9 @@ std::span<const Step> steps_of(std::uint8_t code) {
   }
 }
 
+/// Of a thread that a rigid tap cuts, millimetres.
+constexpr double kMostPitch = 500;
+
 /// Feeds of one block, so that a step never delivers without bound.
 constexpr double kMostPecks = 100'000;
 
@@ -121,6 +124,17 @@ class Hole {
     at_[place(axes_.normal)] = level;
     return line_to(run_, machine_point(run_, at_), run_.active_feed());
   }
+  /// With rigid tapping the spindle leads: G94 gives the pitch as feed over speed.
+  bool tap(double level) {
+    const std::uint8_t code = run_.state.g[kCycleGroup];
+    if (code != 74 && code != 84) return feed(level);
+    const ModalState& state = run_.state;
+    const double pitch =
+        state.is_per_revolution() ? state.feed[1] : state.feed[0] / state.spindle.revolutions;
+    if (!(pitch > 0 && pitch <= kMostPitch)) return run_.fail(ErrorCode::NoSpeed, 0);
+    at_[place(axes_.normal)] = level;
+    return thread_to(run_, machine_point(run_, at_), Length::mm(pitch), {});
+  }
   bool shift(double sign) {
     const double by = sign * data().depth;
     Position to = run_.state.position;
@@ -145,13 +159,13 @@ class Hole {
         return rapid_to(run_, to);
       }
       case FeedToBottom:
-        return feed(data().bottom);
+        return run_.state.is_rigid_tapping ? tap(data().bottom) : feed(data().bottom);
       case PeckWithBreak:
         return peck(false);
       case PeckWithRetract:
         return peck(true);
       case FeedToRetract:
-        return feed(data().retract);
+        return run_.state.is_rigid_tapping ? tap(data().retract) : feed(data().retract);
       case RapidToReturn:
         return out(return_level());
       case RapidToInitial:

@@ -110,6 +110,9 @@ void perform(Run& run, int code) {
     case 198:
     case 199:
       return;  // flow.cpp
+    case 29:
+      run.state.is_rigid_tapping = true;
+      [[fallthrough]];
     default:
       run.events().on_miscellaneous({run.origin, code});
       return;

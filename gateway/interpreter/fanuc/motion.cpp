@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/fanuc/path.hpp"
 #include "gateway/interpreter/fanuc/tool_offsets.hpp"
+#include "gateway/interpreter/geometry/plane_vector.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -20,18 +21,50 @@ bool refuse_range(Run& run, Axis axis, double value) {
 /// Letter order of Axis: X Y Z A B C U V W.
 constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
 
+/// G16: of the plane's two words the first is a radius, the second an angle, about the program's
+/// zero in G90, in G91 about the present place and on from the last angle.
+void place_by_angle(Run& run, Point3& point) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  const PlaneAxes axes = axes_of(state.plane());
+  const auto first = static_cast<std::size_t>(axes.first);
+  const auto second = static_cast<std::size_t>(axes.second);
+  const Address radius_word = kWordOfAxis[first];
+  const Address angle_word = kWordOfAxis[second];
+  if (!words.has(radius_word) && !words.has(angle_word)) return;
+  const bool is_incremental = state.is_incremental();
+  const Point3 center = is_incremental ? point : Point3{};
+  const PlaneVector out{point[first] - center[first], point[second] - center[second]};
+  const double radius =
+      words.has(radius_word) ? run.length(words[radius_word]) : dripline::interpreter::length(out);
+  double angle =
+      is_incremental ? state.polar_angle : std::atan2(out.second, out.first) * (180 / Angle::kPi);
+  if (words.has(angle_word)) angle = run.angle(words[angle_word]) + (is_incremental ? angle : 0);
+  state.polar_angle = angle;
+  const double turn = angle * (Angle::kPi / 180);
+  point[first] = center[first] + radius * std::cos(turn);
+  point[second] = center[second] + radius * std::sin(turn);
+}
+
+/// Whether G16 reads the word as a radius or an angle.
+bool is_polar_word(const ModalState& state, std::size_t axis) {
+  return state.is_polar() && static_cast<Axis>(axis) != axes_of(state.plane()).normal;
+}
+
+/// With scaling, rotation or polar coordinates.
 bool read_transformed_target(Run& run, Position& to) {
   const Words& words = run.block.words;
   Point3 point = program_position(run);
   const Point3 before = point;
   const double most = run.state.units == Units::Inch ? kMostInches : kMostMillimetres;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!words.has(kWordOfAxis[i])) continue;
+    if (!words.has(kWordOfAxis[i]) || is_polar_word(run.state, i)) continue;
     const double value = run.length(words[kWordOfAxis[i]]);
     if (!(std::fabs(value) <= most)) return refuse_range(run, static_cast<Axis>(i), value);
     point[i] = run.state.is_incremental() ? before[i] + value : value;
   }
-  const Point3 work = transform(run.state, point);
+  if (run.state.is_polar()) place_by_angle(run, point);
+  const Point3 work = run.state.is_transformed ? transform(run.state, point) : point;
   for (std::size_t i = 0; i < 3; ++i) {
     const double raw = run.state.origin[i] + work[i];
     if (!(std::fabs(raw) <= kMostMillimetres * 10)) {
@@ -86,7 +119,7 @@ bool read_target(Run& run, Position& to) {
   to = state.position;
   const bool is_incremental = state.is_incremental();
   AddressSet left = words.present() & kAxisWords;
-  if (state.is_transformed) [[unlikely]] {
+  if (state.is_transformed || state.is_polar()) [[unlikely]] {
     if (!read_transformed_target(run, to)) return false;
     left &= ~set_of(X, Y, Z);
   }

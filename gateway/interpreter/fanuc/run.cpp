@@ -69,9 +69,9 @@ void Run::update_origin() {
 
 void Run::update_special() {
   state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
-  state.is_special = state.is_cycle() || state.is_transformed || state.imaginary != 0 ||
-                     state.modal_active >= 0 || state.zone.is_on || options.has_limits ||
-                     state.g[kMotionGroup] > 3;
+  state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
+                     state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
+                     options.has_limits || state.g[kMotionGroup] > 3;
 }
 
 double Run::angle(const Word& word) const {

@@ -92,6 +92,7 @@ void visit_modes(Archive& archive, ModalState& state) {
   visit(archive, state.skip);
   LastWords& last = state.last;
   all(archive, last.b, last.d, last.h, last.m, last.n, last.o, last.s, last.t, last.f);
+  all(archive, state.polar_angle, state.is_rigid_tapping);
 }
 
 template <class Archive>

@@ -184,6 +184,8 @@ struct ModalState {
   AxisValues held{};                   ///< where the imaginary axes really stand
   AxisValues skip{};                   ///< work coordinates
   LastWords last;
+  double polar_angle = 0;         ///< degrees; where an angle of G16 in G91 counts from
+  bool is_rigid_tapping = false;  ///< M29, until the mode of hole cycles ends
 
   std::vector<Locals> locals{Locals{}};
   std::array<double, 100> commons{};  ///< #100
@@ -197,6 +199,7 @@ struct ModalState {
   Counters limits;
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  bool is_polar() const { return g[kPolarGroup] == 16; }
   bool is_incremental() const { return g[kDistanceGroup] == 91; }
   bool is_per_revolution() const { return g[kFeedGroup] == 95; }
   bool is_cycle() const { return g[kCycleGroup] != 80; }
