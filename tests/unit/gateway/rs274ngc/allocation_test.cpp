@@ -1,29 +1,11 @@
 #include <gtest/gtest.h>
-#include <cstdlib>
-#include <new>
 #include <string>
 
 #include "gateway/interpreter/memory_source.hpp"
 #include "gateway/interpreter/rs274ngc/dialect.hpp"
+#include "tests/support/allocation_counter.hpp"
 
 /// Ordinary blocks do not allocate: this program counts every call of operator new.
-namespace {
-std::size_t allocations = 0;
-}
-
-// Not inlined: the compiler would see malloc meet delete.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
@@ -54,9 +36,9 @@ TEST_P(Rs274OrdinaryBlocks, DoNotAllocate) {
   const auto made = kRs274NgcDialect.make(*setup, source, sink);
   ASSERT_TRUE(made);
   ASSERT_EQ((*made)->step(20), StepState::Ran);  // the header, the first of everything
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   ASSERT_EQ((*made)->step(kBlocks - 20), StepState::Ran);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
   EXPECT_GE(sink.moves, kBlocks / 4);
 }
 
