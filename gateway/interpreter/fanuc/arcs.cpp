@@ -20,9 +20,12 @@ std::size_t place(Axis axis) {
 double distance(const Flat& a, const Flat& b) {
   return length(a - b);
 }
+bool is_same_point(const Flat& a, const Flat& b) {
+  return dot(a - b, a - b) <= kSamePoint * kSamePoint;
+}
 
 double sweep_of(const Flat& start, const Flat& end, const Flat& centre, Turn turn) {
-  if (distance(start, end) <= kSamePoint) return 360;
+  if (is_same_point(start, end)) return 360;
   double sweep = turn_between(start - centre, end - centre) * (180.0 / Angle::kPi);
   if (turn == Turn::Clockwise) sweep = -sweep;
   return sweep <= 0 ? sweep + 360 : sweep;
@@ -173,7 +176,7 @@ bool move_on_arc(Run& run) {
                         end.raw(Axis::Z) - state.origin[2]};
   arc.end = state.is_transformed ? transform_back(state, work_end) : work_end;
   if (words.has(R) && run.length(words[R]) != 0) {
-    if (distance(flat(arc, arc.start), flat(arc, arc.end)) <= kSamePoint) {
+    if (is_same_point(flat(arc, arc.start), flat(arc, arc.end))) {
       return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
     }
     if (!centre_by_radius(run, run.length(words[R]), arc)) return false;
