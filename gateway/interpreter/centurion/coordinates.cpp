@@ -30,6 +30,7 @@ void transform(Run& run, Change change) {
   const Point machine = machine_of(run, state.position);
   const bool was_on = state.transformation.is_on();
   change(state.transformation);
+  state.nose_is_stale = true;
   if (!was_on && !state.transformation.is_on()) return;
   state.position = programmed_of(run, machine);
   state.previous = state.position;

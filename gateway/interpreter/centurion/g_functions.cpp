@@ -131,6 +131,7 @@ bool apply_g(Run& run, const GRow& row) {
       return true;
     case GAction::Compensation:
       modes.compensation = static_cast<std::uint8_t>(row.code - 40);
+      run.state.nose_is_stale = true;
       return true;
     case GAction::WorkSystem:
       modes.work_system = static_cast<std::uint8_t>(row.code - 54);
@@ -263,8 +264,7 @@ bool apply_modes(Run& run) {
     return false;
   if (block.words.has(Address::S) && !has_arguments && !apply_speed(run)) return false;
   if (block.parts.tool) apply_tool(run);
-  if (run.state.modes.compensation != run.state.nose.code || run.state.nose.code != 0)
-      [[unlikely]] {
+  if (run.state.nose_is_stale) [[unlikely]] {
     if (!update_compensation(run)) return false;
   }
   show_speed_change(run, before, was_surface_speed);

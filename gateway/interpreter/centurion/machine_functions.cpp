@@ -194,6 +194,7 @@ void apply_tool(Run& run) {
 }
 
 void refresh_tool(Run& run) {
+  run.state.nose_is_stale = true;
   const int offset = run.state.tool.offset;
   run.parameters[261] = run.parameters.tool(offset, ToolField::Radius);
   run.parameters[262] = run.parameters.tool(offset, ToolField::Type);

@@ -149,6 +149,7 @@ struct ModalState {
   Coolant coolant;
   ToolModes tool;
   NoseUse nose;
+  bool nose_is_stale = false;     ///< something that `nose` depends on may have changed
   bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
   bool wants_flood = false;       ///< M8 is in force; with the interlock that is not yet coolant
   std::uint32_t outputs = 0;      ///< a bit for each output pin: Z 1-12, then X 1-12 (pins.cpp)

@@ -104,6 +104,7 @@ compensation::Cutter nose_of(const Run& run, bool is_left) {
 }
 
 bool update_compensation(Run& run) {
+  run.state.nose_is_stale = false;
   const NoseUse use = wanted_use(run);
   const Transformation& how = run.state.transformation;
   if (use.code != 0 && how.scales && (how.factor.x < 0 || how.factor.z < 0)) {

@@ -29,8 +29,10 @@ bool Run::guards_travel() {
   guard.set_limits(limits);
   guard.set_zone(zone);
   guard.place(state.uses_compensator ? compensator.tool() : present_position());
-  return zone || most.x > 0 || most.z > 0 || limits.least_x < limits.most_x ||
-         limits.least_z < limits.most_z;
+  const bool is_active = zone || most.x > 0 || most.z > 0 || limits.least_x < limits.most_x ||
+                         limits.least_z < limits.most_z;
+  guard.set_active(is_active);
+  return is_active;
 }
 
 void Run::command(const PathCommand& command) {

@@ -79,8 +79,8 @@ void visit_modes(Archive& archive, ModalState& state) {
   all(archive, modes.motion, modes.is_incremental, modes.is_feed_per_revolution,
       modes.is_surface_speed, modes.returns_to_clearance, modes.takes_data, modes.work_system,
       modes.compensation, state.nose.code, state.nose.radius_mm, state.nose.tip,
-      state.nose.is_mirrored, state.uses_compensator, modes.path, modes.checks_zone,
-      state.tool.has_no_length);
+      state.nose.is_mirrored, state.nose_is_stale, state.uses_compensator, modes.path,
+      modes.checks_zone, state.tool.has_no_length);
   Transformation& how = state.transformation;
   all(archive, how.mirrors_x, how.mirrors_z, how.scales, how.rotates, how.degrees);
   for (Point* point : {&how.mirror, &how.scale_center, &how.factor, &how.rotation_center,

@@ -246,6 +246,7 @@ bool store_byte(Run& run, int number, double value, std::uint32_t column) {
                     fmt::format("{} is not a byte, 0 to 255", value));
   }
   run.parameters.byte(number) = static_cast<std::uint8_t>(byte);
+  if (number == kSpecialFlags) run.state.nose_is_stale = true;
   return true;
 }
 

@@ -33,6 +33,8 @@ class TravelGuard final : public PassingSink {
  public:
   explicit TravelGuard(EventSink& sink) : PassingSink(sink) {}
 
+  /// Without a limit, a zone or a maximum everything passes; `place` is due before that ends.
+  void set_active(bool active) { is_active_ = active; }
   /// An axis whose least is not below its most is not limited.
   void set_limits(const TravelArea& limits) { limits_ = limits; }
   void set_maximum_feed(const MaximumFeed& most) { most_ = most; }
@@ -64,6 +66,7 @@ class TravelGuard final : public PassingSink {
   double most_on_line(const Position& to) const;
   bool refuse(ErrorCode code, const Origin& origin, std::string detail);
 
+  bool is_active_ = false;
   TravelArea limits_;
   std::optional<TravelArea> zone_;
   MaximumFeed most_;
