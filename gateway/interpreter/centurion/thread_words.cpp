@@ -20,7 +20,7 @@ double side_of(const ThreadPass& pass) {
 /// Where the pull-out leaves the thread's line, which may be tapered.
 Point chamfer_start(const ThreadPass& pass, const ThreadChamfer& chamfer) {
   const double length = pass.cut_to.z - pass.cut_from.z;
-  if (length == 0) return pass.cut_to;
+  if (length == 0 || chamfer.along == 0) return pass.cut_to;  // exactly
   const double part = 1 - chamfer.along / std::fabs(length);
   return {pass.cut_from.x + (pass.cut_to.x - pass.cut_from.x) * part,
           pass.cut_from.z + length * part};
