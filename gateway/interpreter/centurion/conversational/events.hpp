@@ -220,7 +220,7 @@ struct ProgramCall {
 
 struct Scaling {
   bool is_on = true;
-  Entry x_factor, z_factor, x, z;
+  Entry centre_x, centre_z, x_factor, z_factor;
 };
 struct Rotation {
   bool is_on = true;

@@ -114,28 +114,31 @@ void walk(Form& form, Scaling& event) {
   const std::string_view condition = "state = on";
   form.number({.name = "i",
                .word = "I",
+               .quantity = Quantity::Diameter,
+               .help = "centre in X; blank: the last one",
+               .applies = event.is_on,
+               .condition = condition},
+              event.centre_x);
+  form.number({.name = "k",
+               .word = "K",
+               .help = "centre in Z; blank: the last one",
+               .applies = event.is_on,
+               .condition = condition},
+              event.centre_z);
+  form.number({.name = "x",
+               .word = "X",
                .quantity = Quantity::Factor,
                .help = "factor of X",
                .applies = event.is_on,
                .condition = condition},
               event.x_factor);
-  form.number({.name = "k",
-               .word = "K",
+  form.number({.name = "z",
+               .word = "Z",
                .quantity = Quantity::Factor,
                .help = "factor of Z",
                .applies = event.is_on,
                .condition = condition},
               event.z_factor);
-  form.number({.name = "x",
-               .word = "X",
-               .quantity = Quantity::Diameter,
-               .help = "centre",
-               .applies = event.is_on,
-               .condition = condition},
-              event.x);
-  form.number(
-      {.name = "z", .word = "Z", .help = "centre", .applies = event.is_on, .condition = condition},
-      event.z);
 }
 
 void walk(Form& form, Rotation& event) {

@@ -34,7 +34,7 @@ struct Field {
   Quantity quantity = Quantity::Length;
   std::string_view help = {};
   bool is_required = false;
-  bool applies = true;         ///< with the toggles before it as they stand
+  bool applies = true;              ///< with the toggles before it as they stand
   std::string_view condition = {};  ///< those toggles, for people: "coordinates = polar"
   double least = std::numeric_limits<double>::lowest();  ///< in addition to the quantity's
   double most = std::numeric_limits<double>::max();

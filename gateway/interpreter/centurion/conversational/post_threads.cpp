@@ -7,20 +7,28 @@ BlockText start_of(const Entry& x, const Entry& z) {
   return BlockText("G0").word("X", x).word("Z", z);
 }
 
-/// The tool's nose does not reach the point of a sharp thread. Non-movement blocks lead it, as a
-/// tool of type 0, around a vertex at the origin: how far it stays off (P209) gives the height that
-/// is left, and with it the diameter to cut to.
-void post_crest(Posting& out, const MultipleThread& event) {
-  out.parameter(91, event.crest_x);
-  out.parameter(101, event.lead);
-  out.parameter(108, event.nose_angle);
+/// How far the nose stays off the point of a sharp thread, into P124, as the manual prints it:
+/// non-movement blocks lead it, as a tool of type 0, around a vertex at the origin.
+void post_printed_truncation(Posting& out) {
   out.parameter(92, "P262");
   out.parameter(262, 0.0);
   out.block("G65 G42 G0 XC0 ZC0 R2 AB[90-P108/2]");
   out.block("G65 X0 Z0");
   out.block("G65 G40 R2 AB[90+P108/2]");
-  out.parameter(124, out.options().has_printed_crest_formula ? "P209*2 - P261" : "P209 - P261");
+  out.parameter(124, "P209*2 - P261");
   out.parameter(262, "P92");
+}
+
+/// The height that is left, and with it the diameter to cut to.
+void post_crest(Posting& out, const MultipleThread& event) {
+  out.parameter(91, event.crest_x);
+  out.parameter(101, event.lead);
+  out.parameter(108, event.nose_angle);
+  if (out.options().has_printed_crest_formula) {
+    post_printed_truncation(out);
+  } else {
+    out.parameter(124, "P261/SIN[P108/2] - P261");
+  }
   out.parameter(106, "P101/[2*TAN[P108/2]] - P124");
   out.parameter(124, "P91-2*P106");
   out.block("IF P139 < P91 THEN P124 = P91+2*P106");

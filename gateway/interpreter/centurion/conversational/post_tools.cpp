@@ -68,8 +68,8 @@ void post(Posting& out, const ProgramCall& event) {
 void post(Posting& out, const Scaling& event) {
   if (!event.is_on) return out.block("G550");
   BlockText block("G551");
-  block.word("I", event.x_factor).word("K", event.z_factor);
-  out.block(block.word("X", event.x).word("Z", event.z));
+  block.word("I", event.centre_x).word("K", event.centre_z);
+  out.block(block.word("X", event.x_factor).word("Z", event.z_factor));
 }
 
 void post(Posting& out, const Rotation& event) {

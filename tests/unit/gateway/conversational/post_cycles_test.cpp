@@ -86,17 +86,15 @@ TEST(PostCycles, PostsAThreadByRootAndHeight) {  // CEN-239
 TEST(PostCycles, WorksOutAThreadGivenByItsCrest) {  // CEN-239
   const std::string file =
       event("multiple_thread", kStart + kThread + "entry = \"crest\"\ncrest_x = 2.9226");
-  const auto crest = [](const std::string& nose) {
-    return kThreadHead +
-           "P91 = 2.9226\nP101 = .1\nP108 = 60\nP92 = P262\nP262 = 0\n"
-           "G65 G42 G0 XC0 ZC0 R2 AB[90-P108/2]\nG65 X0 Z0\n"
-           "G65 G40 R2 AB[90+P108/2]\nP124 = " +
-           nose +
-           "\nP262 = P92\nP106 = P101/[2*TAN[P108/2]] - P124\nP124 = P91-2*P106\n"
+  const auto crest = [](const std::string& truncation) {
+    return kThreadHead + "P91 = 2.9226\nP101 = .1\nP108 = 60\n" + truncation +
+           "P106 = P101/[2*TAN[P108/2]] - P124\nP124 = P91-2*P106\n"
            "IF P139 < P91 THEN P124 = P91+2*P106\nG76 X[P124] Z-1.5 F.1 K[P106] A60 D.02 P2\n";
   };
-  EXPECT_EQ(posted(file), crest("P209 - P261"));
-  EXPECT_EQ(posted(file, {.has_printed_crest_formula = true}), crest("P209*2 - P261"));
+  EXPECT_EQ(posted(file), crest("P124 = P261/SIN[P108/2] - P261\n"));
+  EXPECT_EQ(posted(file, {.has_printed_crest_formula = true}),
+            crest("P92 = P262\nP262 = 0\nG65 G42 G0 XC0 ZC0 R2 AB[90-P108/2]\nG65 X0 Z0\n"
+                  "G65 G40 R2 AB[90+P108/2]\nP124 = P209*2 - P261\nP262 = P92\n"));
 }
 
 const std::string kHole = "clearance = 0.15\nz = -1.2\nfeed = 0.006\n";

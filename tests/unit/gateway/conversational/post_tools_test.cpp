@@ -63,9 +63,9 @@ TEST(PostTools, CallsPrograms) {  // CEN-243
 }
 
 TEST(PostTools, PostsTheSpecials) {  // CEN-243
-  EXPECT_EQ(posted(event("scaling", "i = 0.5\nk = 2\nx = 1\nz = -1") +
+  EXPECT_EQ(posted(event("scaling", "i = 1\nk = -1\nx = 0.5\nz = 2") +
                    event("scaling", "state = \"off\"")),
-            "G551 I.5 K2 X1 Z-1\nG550\n");
+            "G551 I1 K-1 X.5 Z2\nG550\n");
   EXPECT_EQ(
       posted(event("rotation", "x = 2\nz = 0\naa = -15") + event("rotation", "state = \"off\"")),
       "G568 X2 Z0 AA-15\nG569\n");
