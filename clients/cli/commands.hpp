@@ -22,6 +22,7 @@ void add_trace_command(CLI::App& app, Context& context);
 void add_approximate_command(CLI::App& app, Context& context);
 void add_forecast_command(CLI::App& app, Context& context);
 void add_graphics_command(CLI::App& app, Context& context);
+void add_touch_command(CLI::App& app, Context& context);
 void add_convert_command(CLI::App& app, Context& context);
 void add_conversational_commands(CLI::App& app, Context& context);
 

@@ -93,6 +93,7 @@ int run(int argc, char** argv) {
   add_check_command(app, context);
   add_trace_command(app, context);
   add_forecast_command(app, context);
+  add_touch_command(app, context);
   add_graphics_command(app, context);
   add_approximate_command(app, context);
   add_convert_command(app, context);

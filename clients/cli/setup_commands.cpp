@@ -4,10 +4,12 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/port_file.hpp"
+#include "clients/cli/setup_forms.hpp"
 #include "clients/cli/setup_text.hpp"
 #include "clients/cli/standard_output.hpp"
 #include "clients/cli/value_text.hpp"
 #include "clients/lib/output_file.hpp"
+#include "gateway/interpreter/tnc155/memory_files.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -81,22 +83,58 @@ int push(Context& context, const SetupCommand& command) {
   return saved ? report_saved(context, *saved) : complain(saved.error());
 }
 
+int put_out(const std::string& path, std::string_view text, const std::string& what) {
+  if (path.empty() || path == "-") {
+    StandardOutput output;
+    (void)output.write(text).has_value();
+    return output.error() ? output.complain() : kExitOk;
+  }
+  auto file = client::OutputFile::create(path);
+  if (!file) return complain(file.error());
+  if (auto written = file->write(text); !written) return complain(written.error());
+  if (auto kept = file->commit(); !kept) return complain(kept.error());
+  fmt::print(stderr, "Wrote {} to {}\n", what, path);
+  return kExitOk;
+}
+
 int pull(Context& context, const SetupCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
   auto setup = client->setup(command.machine, command.revision);
   if (!setup) return complain(setup.error());
-  if (command.file.empty() || command.file == "-") {
-    StandardOutput output;
-    (void)output.write(setup->text).has_value();
-    return output.error() ? output.complain() : kExitOk;
-  }
-  auto file = client::OutputFile::create(command.file);
-  if (!file) return complain(file.error());
-  if (auto written = file->write(setup->text); !written) return complain(written.error());
-  if (auto kept = file->commit(); !kept) return complain(kept.error());
-  fmt::print(stderr, "Wrote setup {} of {} to {}\n", setup->revision, setup->machine, command.file);
-  return kExitOk;
+  return put_out(command.file, setup->text,
+                 fmt::format("setup {} of {}", setup->revision, setup->machine));
+}
+
+int export_tools(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  const auto text = tool_store_of(setup->text);
+  if (!text) return complain(text.error());
+  return put_out(command.file, *text,
+                 fmt::format("the tools of setup {} of {}", setup->revision, setup->machine));
+}
+
+int import_tools(const std::string& path, const std::string& output) {
+  const auto text = read_small_file(path, kMaxSetupFile);
+  if (!text) return complain(text.error());
+  const auto tools = interpreter::tnc155::read_tool_store(*text);
+  if (!tools) return complain(Error{tools.error().code, path + ": " + tools.error().what});
+  return put_out(output, tools_toml(*tools), fmt::format("{} tools", tools->size()));
+}
+
+void add_import(CLI::App& group, Context& context) {
+  auto* command =
+      group.add_subcommand("import", "Make a setup from the tool store that a TNC 151/155 sent");
+  auto files = std::make_shared<std::pair<std::string, std::string>>();
+  command->add_option("FILE", files->first, "Its program 0")->required();
+  command->add_option("-o,--output", files->second,
+                      "TOML file to write, - for standard output [-]");
+  command->footer("No server is needed.");
+  command->callback(
+      [&context, files] { context.status = import_tools(files->first, files->second); });
 }
 
 /// The old text becomes the newest revision: nothing is ever lost.
@@ -163,6 +201,13 @@ void add_setup_commands(CLI::App& app, Context& context) {
   pulling.command->add_option("-r,--revision", pulling.options->revision, "This one [newest]");
   pulling.command->add_option("-o,--output", pulling.options->file,
                               "File to write, - for standard output [-]");
+
+  auto exporting = add_verb(*group, context, "export",
+                            "The tools as a TNC 151/155 takes them: its program 0", export_tools);
+  exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
+  exporting.command->add_option("-o,--output", exporting.options->file,
+                                "File to write, - for standard output [-]");
+  add_import(*group, context);
 
   auto restoring = add_verb(*group, context, "restore", "Make an old version the newest", restore);
   restoring.command->add_option("REVISION", restoring.options->revision, "Which")->required();

@@ -56,6 +56,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (auto done = load_datum(setup, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());
   if (auto done = load_tools(setup, tools); !done) return fail(done.error());
+  state.transformation.basic_rotation = options->basic_rotation;
   stand_at_start(setup, state);
   if (options->start_block >= 0) {
     state.jump.kind = JumpKind::Start;

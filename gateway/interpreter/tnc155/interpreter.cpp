@@ -1,5 +1,6 @@
 #include "gateway/interpreter/tnc155/interpreter.hpp"
 
+#include <fmt/core.h>
 #include <utility>
 
 #include "gateway/interpreter/tnc155/contour.hpp"
@@ -148,6 +149,10 @@ bool TncInterpreter::execute_parts() {
 }
 
 bool TncInterpreter::finish_block() {
+  if (run_.limit) [[unlikely]] {
+    return run_.fail(ErrorCode::LimitSwitch, fmt::format("{}{}", letter(run_.limit->axis),
+                                                         run_.limit->is_positive ? '+' : '-'));
+  }
   if (run_.state.uses_stages) [[unlikely]] {
     if (!check_stages(run_)) return false;
   }

@@ -52,8 +52,8 @@ class Reader {
 
 /// The preferred numbers of coded speeds: a twentieth of a decade apart, five decades.
 std::vector<double> preferred_speeds() {
-  constexpr double kDecade[] = {1,    1.12, 1.25, 1.4,  1.6, 1.8, 2,   2.24, 2.5, 2.8,
-                                3.15, 3.55, 4,    4.5,  5,   5.6, 6.3, 7.1,  8,   9};
+  constexpr double kDecade[] = {1,    1.12, 1.25, 1.4, 1.6, 1.8, 2,   2.24, 2.5, 2.8,
+                                3.15, 3.55, 4,    4.5, 5,   5.6, 6.3, 7.1,  8,   9};
   std::vector<double> speeds;
   for (const double factor : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
     for (const double mantissa : kDecade) speeds.push_back(mantissa * factor);
@@ -80,18 +80,26 @@ Result<std::vector<double>> read_speeds(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known(
-      {"probe_clearance", "probe_travel", "probe_feed", "pocket_overlap", "m89_modal", "m06_stop",
-       "central_tool_file", "decimal_sign", "iso_continuation", "strict_numbers",
-       "blockwise_restrictions", "heading_letter", "cancel_transformations", "scale_three_axes",
-       "spindle", "spindle_table", "spindle_minimum", "spindle_maximum", "rotary_feed",
-       "circle_tolerance", "fourth_axis", "m92_position", "start_block"});
+  auto known = options.check_known({"probe_clearance",  "probe_travel",
+                                    "probe_feed",       "basic_rotation",
+                                    "pocket_overlap",   "m89_modal",
+                                    "m06_stop",         "central_tool_file",
+                                    "decimal_sign",     "iso_continuation",
+                                    "strict_numbers",   "blockwise_restrictions",
+                                    "heading_letter",   "cancel_transformations",
+                                    "scale_three_axes", "spindle",
+                                    "spindle_table",    "spindle_minimum",
+                                    "spindle_maximum",  "rotary_feed",
+                                    "circle_tolerance", "fourth_axis",
+                                    "limit_low",        "limit_high",
+                                    "m92_position",     "start_block"});
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
   reader.length("probe_clearance", read.probe_clearance);
   reader.length("probe_travel", read.probe_travel);
   reader.length("probe_feed", read.probe_feed);
+  reader.number("basic_rotation", read.basic_rotation);
   reader.number("pocket_overlap", read.pocket_overlap);
   reader.flag("m89_modal", read.m89_modal);
   reader.flag("m06_stop", read.m06_stop);
@@ -112,6 +120,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   constexpr std::string_view kFourth = "ABCUVW";
   const std::size_t fourth = reader.choice("fourth_axis", {"A", "B", "C", "U", "V", "W"}, 2);
   read.fourth_axis = *axis_of(kFourth[fourth]);
+  reader.position("limit_low", read.limit_low);
+  reader.position("limit_high", read.limit_high);
   reader.position("m92_position", read.m92_position);
   reader.integer("start_block", read.start_block, 65'534);
   reader.not_negative("probe_clearance", read.probe_clearance);

@@ -14,6 +14,7 @@ struct ControlOptions {
   double probe_clearance = 2;
   double probe_travel = 100;
   double probe_feed = 200;
+  double basic_rotation = 0;  ///< degrees, as the probe measured it
 
   double pocket_overlap = 1;  ///< factor k: stepover of pockets as a share of the tool radius
   bool m89_modal = true;      ///< M89 is the modal cycle call; else a free M function
@@ -34,8 +35,10 @@ struct ControlOptions {
   bool contour_feed = true;
   double circle_tolerance = 0.016;  ///< radii of an arc's start and end may differ by so much
   Axis fourth_axis = Axis::C;       ///< axis IV
-  Position m92_position;            ///< what coordinates of M92 refer to
-  int start_block = -1;             ///< GOTO before the start: number of the first block; -1: none
+  /// MOD function LIMIT: machine coordinates that a move may reach, of the axes that are marked.
+  Position limit_low, limit_high;
+  Position m92_position;  ///< what coordinates of M92 refer to
+  int start_block = -1;   ///< GOTO before the start: number of the first block; -1: none
 };
 
 /// Errors: Syntax, Unsupported; naming the option.

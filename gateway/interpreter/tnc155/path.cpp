@@ -22,8 +22,23 @@ double linear_feed(const Run& run, const Position& to, double feed) {
   return feed * std::sqrt(linear / rotary);
 }
 
+/// The move is left out, and its block fails when it is finished.
+bool stays_within_limits(Run& run, const Position& to) {
+  if (run.limit) return false;
+  for (const Axis axis : kAllAxes) {
+    const bool is_low =
+        run.options.limit_low.has(axis) && to.raw(axis) < run.options.limit_low.raw(axis) - kSame;
+    const bool is_high =
+        run.options.limit_high.has(axis) && to.raw(axis) > run.options.limit_high.raw(axis) + kSame;
+    if (is_low || is_high) run.limit = LimitReached{axis, is_high};
+  }
+  return !run.limit;
+}
+
 void put_out(Run& run, const Position& to, Pace pace) {
   State& state = run.state;
+  if (run.has_limits && !stays_within_limits(run, to)) [[unlikely]]
+    return;
   const bool moves = !to.same_point(state.machine);
   if (moves && pace.is_rapid) {
     run.events().on_rapid({run.origin, to});
@@ -89,10 +104,12 @@ void arc_to(Run& run, const ArcTarget& target, Pace pace) {
   arc.center_second = Length::mm(centre[static_cast<std::size_t>(axes.second)]);
   arc.plane = state.plane;
   const bool turns_over = state.transformation.turns_over(state.plane);
-  arc.turn = (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise
-                                                            : Turn::CounterClockwise;
+  arc.turn =
+      (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise : Turn::CounterClockwise;
   arc.sweep = Angle::degrees(target.sweep);
   arc.feed = Feed::per_minute(Length::mm(pace.feed));
+  if (run.has_limits && !stays_within_limits(run, arc.to)) [[unlikely]]
+    return;
   run.events().on_arc(arc);
   state.machine = arc.to;
   state.nominal = target.to.at;

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/tnc155/run.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <limits>
 
 namespace dripline::interpreter::tnc155 {
@@ -33,10 +34,16 @@ Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_vi
   return made;
 }
 
+bool has_any(const Position& position) {
+  return std::any_of(kAllAxes.begin(), kAllAxes.end(),
+                     [&](Axis axis) { return position.has(axis); });
+}
+
 }  // namespace
 
 Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
     : options(std::move(control_options)),
+      has_limits(has_any(options.limit_low) || has_any(options.limit_high)),
       source(program_source),
       sink(event_sink),
       compensator(policy(), event_sink),

@@ -17,6 +17,12 @@ namespace dripline::interpreter::tnc155 {
 /// Why a function gave false.
 enum class Pause : std::uint8_t { None, Alarm, Question };
 
+/// A move would lead beyond the limits set by hand.
+struct LimitReached {
+  Axis axis = Axis::X;
+  bool is_positive = false;
+};
+
 /// One run: what the files of this folder work on. Functions that can not go on give false and
 /// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
 /// that thing is done again once the answer is there.
@@ -66,6 +72,7 @@ struct Run {
   double length(const Value& value) const { return number(value) * state.mm_per_unit(); }
 
   const ControlOptions options;
+  const bool has_limits;
   ProgramSource& source;
   EventSink& sink;
   compensation::Compensator compensator;
@@ -74,12 +81,13 @@ struct Run {
   State state;
   std::vector<ToolDefinition> tools;  ///< of the setup: the central tool file
 
-  BlockParts parts;  ///< of the block in hand
+  BlockParts parts;            ///< of the block in hand
   bool is_in_block = false;    ///< read, and not finished
   bool joint_follows = false;  ///< RND or a chamfer stands behind the part in hand
   Origin origin;
   std::optional<Answer> answer;  ///< to the question of the part in hand
   Question question;
+  std::optional<LimitReached> limit;
   Diagnostic alarm;
   Pause pause = Pause::None;
 

@@ -142,6 +142,7 @@ struct UsualLine {
   std::string_view name, line, flow, control;
 };
 
+// Rows: HD-217, HD-218 and HD-232 (a line of the TNC).
 TEST(LineTemplates, AreTheControlsUsualLines) {
   for (const UsualLine& usual :
        {UsualLine{"prototrak", "4800e71", "none", "prototrak-plus"},

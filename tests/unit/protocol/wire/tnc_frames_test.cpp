@@ -29,6 +29,7 @@ struct Check {
 
 class TncBlock : public testing::TestWithParam<Check> {};
 
+// Rows: HD-223 (check character).
 TEST_P(TncBlock, HasItsCheckCharacterAndIsReadBack) {
   const auto& tested = GetParam();
   HeidenhainSettings tnc;

@@ -106,6 +106,7 @@ INSTANTIATE_TEST_SUITE_P(, TncLine, testing::Values(Flow::Heidenhain, Flow::Heid
                                                                                : "blockwise");
                          });
 
+// Rows: HD-222 (heading and blocks).
 TEST(TncBlockwise, SendsExactlyTheCharactersOfTheProtocol) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
   wire.keep_traffic(true);
@@ -117,6 +118,7 @@ TEST(TncBlockwise, SendsExactlyTheCharactersOfTheProtocol) {
   EXPECT_EQ(wire.from_host().seen, "\x06" + make_tnc_block(2, "1 STOP", tnc) + "\x03");
 }
 
+// Rows: HD-227 (the control asks for more when there is room).
 TEST(TncBlockwise, WaitsWithoutLimitForAControlWhoseMemoryIsFullAndSaysSo) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
   serve(wire, kProgram);
@@ -139,6 +141,7 @@ TEST(TncBlockwise, WaitsWithoutLimitForAControlWhoseMemoryIsFullAndSaysSo) {
   EXPECT_EQ(wire.control().received, kProgram);
 }
 
+// Rows: HD-216 (what the menu asks for), HD-226 (no number is asked for).
 TEST(TncBlockwise, GivesAllProgramsUntilThereIsNoneLeft) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
   std::vector<std::string> programs = {"%3 G71\nN10 G90\nN9999 %3 G71\n",
@@ -163,6 +166,7 @@ TEST(TncBlockwise, GivesAllProgramsUntilThereIsNoneLeft) {
   EXPECT_EQ(wire.control().failures[0].code, Errc::NotFound);
 }
 
+// Rows: HD-225 (a message in place of a program).
 TEST(TncBlockwise, ShowsTheControlWhyItIsRefused) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
   wire.host().on_event = [](LineEnd& end, const Event& event, LineTime now) {
@@ -176,6 +180,7 @@ TEST(TncBlockwise, ShowsTheControlWhyItIsRefused) {
   EXPECT_EQ(wire.control().failures[0].what, "the device says: no such program, and a long stor");
 }
 
+// Rows: HD-224 (NAK).
 TEST(TncBlockwise, RepeatsARefusedBlockThreeTimesAndThenStops) {
   const auto settings = settings_of(Flow::HeidenhainBcc);
   auto host = make_discipline(settings, Role::Host).value();
@@ -277,6 +282,7 @@ TEST(TncBlockwise, RefusesControlCharactersThatExcludeEachOther) {
   EXPECT_FALSE(make_discipline(settings, Role::Host));
 }
 
+// Rows: HD-221 (leader, line ends, end characters).
 TEST(TncStandard, SendsExactlyTheCharactersOfTheProtocol) {
   auto settings = settings_of(Flow::Heidenhain);
   settings.leader = 3;
@@ -313,6 +319,7 @@ TEST(TncStandard, TellsProgramsApartThatFollowEachOtherWithoutAnEndCharacter) {
   EXPECT_EQ(ended, 2U);
 }
 
+// Rows: HD-231 (a program that is not complete).
 TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
   auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
   const auto hear = [&](std::string_view text) {
@@ -331,6 +338,7 @@ TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
   EXPECT_EQ(troubles, "parity error behind '2 L X'|block 2 came behind block 0|");
 }
 
+// Rows: HD-219 (DC1 and DC3).
 TEST(TncStandard, StopsSendingBetweenDc3AndDc1) {
   auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
   ASSERT_TRUE(host->begin_send("5", {}));

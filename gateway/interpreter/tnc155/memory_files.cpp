@@ -1,0 +1,179 @@
+#include "gateway/interpreter/tnc155/memory_files.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+std::string length_text(Length length, Units units) {
+  const bool is_inch = units == Units::Inch;
+  std::string text =
+      is_inch ? fmt::format("{:+.4f}", length.inch()) : fmt::format("{:+.3f}", length.mm());
+  std::ranges::replace(text, '.', ',');
+  return text;
+}
+
+/// Lines with their numbers, without blanks at their ends and CR; empty ones left out.
+template <class Take>
+Result<void> each_line(std::string_view text, Take take) {
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    const auto is_blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    if (line.empty()) continue;
+    if (auto taken = take(line); !taken) {
+      return fail(taken.error().code, "line {}: {}", number, taken.error().what);
+    }
+  }
+  return {};
+}
+
+/// Takes words off the front of a line.
+class Words {
+ public:
+  explicit Words(std::string_view line) : line_(line) {}
+  bool take(std::string_view word) {
+    skip();
+    if (!line_.starts_with(word)) return false;
+    line_.remove_prefix(word.size());
+    return true;
+  }
+  /// Comma or point before the decimals.
+  std::optional<double> number() {
+    skip();
+    std::string text;
+    while (!line_.empty() &&
+           (std::isdigit(static_cast<unsigned char>(line_.front())) != 0 ||
+            std::string_view("+-,.").find(line_.front()) != std::string_view::npos)) {
+      if (line_.front() != '+') text += line_.front() == ',' ? '.' : line_.front();
+      line_.remove_prefix(1);
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
+    return is_whole && std::fabs(value) <= kMost ? std::optional(value) : std::nullopt;
+  }
+  bool is_at_end() {
+    skip();
+    return line_.empty();
+  }
+
+ private:
+  static constexpr double kMost = 1e9;
+  void skip() {
+    while (!line_.empty() && line_.front() == ' ') line_.remove_prefix(1);
+  }
+  std::string_view line_;
+};
+
+bool is_frame(std::string_view line) {
+  return line.find("PGM") != std::string_view::npos;
+}
+
+Result<ToolRecord> read_tool(std::string_view line, Units units) {
+  Words words(line);
+  ToolRecord tool;
+  const auto length = [&](double value) {
+    return units == Units::Inch ? Length::inch(value) : Length::mm(value);
+  };
+  const auto number = words.take("T") ? words.number() : std::nullopt;
+  if (!number) return fail(Errc::Syntax, "\"{}\": expected T and its number", line);
+  tool.number = static_cast<int>(*number);
+  if (*number < 1 || *number > kMostStoredTools || *number != tool.number) {
+    return fail(Errc::LimitExceeded, "T{:g}: the store has tools 1 to {}", *number,
+                kMostStoredTools);
+  }
+  tool.is_special = words.take("S");
+  if (words.take("P")) {
+    if (const auto pocket = words.number())
+      tool.pocket = static_cast<int>(std::clamp(*pocket, 0.0, 9999.0));
+  }
+  const auto tool_length = words.take("L") ? words.number() : std::nullopt;
+  const auto radius = words.take("R") ? words.number() : std::nullopt;
+  if (!tool_length || !radius || !words.is_at_end()) {
+    return fail(Errc::Syntax, "\"{}\": expected T, P, L and R", line);
+  }
+  tool.length.set(Axis::Z, length(*tool_length));
+  tool.radius = length(*radius);
+  return tool;
+}
+
+}  // namespace
+
+Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units) {
+  if (tools.size() > kMostStoredTools) {
+    return fail(Errc::LimitExceeded, "{} tools: the store has {}", tools.size(), kMostStoredTools);
+  }
+  const char* unit = units == Units::Inch ? "INCH" : "MM";
+  std::string text = fmt::format("0 BEGIN PGM 0 {}\r\n", unit);
+  for (const ToolRecord& tool : tools) {
+    if (tool.number < 1 || tool.number > kMostStoredTools) {
+      return fail(Errc::LimitExceeded, "tool {}: the store has tools 1 to {}", tool.number,
+                  kMostStoredTools);
+    }
+    text += fmt::format("T{} {}P{} L{} R{}\r\n", tool.number, tool.is_special ? "S" : "",
+                        tool.pocket ? std::to_string(*tool.pocket) : "",
+                        length_text(tool.length.linear(Axis::Z), units),
+                        length_text(tool.radius, units));
+  }
+  return text + fmt::format("{} END PGM 0 {}\r\n", tools.size() + 1, unit);
+}
+
+Result<std::vector<ToolRecord>> read_tool_store(std::string_view text) {
+  std::vector<ToolRecord> tools;
+  Units units = Units::Millimetre;
+  auto read = each_line(text, [&](std::string_view line) -> Result<void> {
+    if (is_frame(line)) {
+      if (line.ends_with("INCH")) units = Units::Inch;
+      return {};
+    }
+    const auto tool = read_tool(line, units);
+    if (!tool) return fail(tool.error());
+    if (std::ranges::find(tools, tool->number, &ToolRecord::number) != tools.end()) {
+      return fail(Errc::Syntax, "tool {} is there twice", tool->number);
+    }
+    tools.push_back(*tool);
+    return {};
+  });
+  if (!read) return fail(read.error());
+  return tools;
+}
+
+std::string write_machine_parameters(const MachineParameters& parameters) {
+  std::string text;
+  for (const auto& [number, value] : parameters)
+    text += fmt::format("MP{}: {}\r\n", number, value);
+  return text;
+}
+
+Result<MachineParameters> read_machine_parameters(std::string_view text) {
+  MachineParameters parameters;
+  auto read = each_line(text, [&](std::string_view line) -> Result<void> {
+    Words words(line);
+    const auto number = words.take("MP") ? words.number() : std::nullopt;
+    const auto value = number && words.take(":") ? words.number() : std::nullopt;
+    if (!value || !words.is_at_end()) {
+      return fail(Errc::Syntax, "\"{}\": expected MP, its number, a colon and a value", line);
+    }
+    if (*number < 0 || *number > kLastMachineParameter) {
+      return fail(Errc::LimitExceeded, "MP{:g}: there are 0 to {}", *number, kLastMachineParameter);
+    }
+    if (!parameters.emplace(static_cast<int>(*number), *value).second) {
+      return fail(Errc::Syntax, "MP{:g} is there twice", *number);
+    }
+    return {};
+  });
+  if (!read) return fail(read.error());
+  return parameters;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/setup.hpp"
+
+/// What the control's memory holds besides programs, as the texts it sends and takes: the central
+/// tool store (program 0) and the machine parameters.
+namespace dripline::interpreter::tnc155 {
+
+inline constexpr int kMostStoredTools = 99;
+inline constexpr int kLastMachineParameter = 236;
+
+/// BEGIN PGM 0, a line a tool (T, pocket P, an S before it for a special tool, L, R), END PGM 0.
+/// Errors: LimitExceeded (more than 99 tools, a number that is not 1 to 99).
+Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units);
+/// Errors: Syntax, LimitExceeded; with the line.
+Result<std::vector<ToolRecord>> read_tool_store(std::string_view text);
+
+/// MP number and value.
+using MachineParameters = std::map<int, double>;
+/// "MP0: 0", a line each, in order.
+std::string write_machine_parameters(const MachineParameters& parameters);
+/// Errors: Syntax, LimitExceeded; with the line.
+Result<MachineParameters> read_machine_parameters(std::string_view text);
+
+}  // namespace dripline::interpreter::tnc155

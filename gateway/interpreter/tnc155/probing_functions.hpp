@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "gateway/interpreter/geometry/plane_vector.hpp"
+#include "gateway/interpreter/geometry/workpiece.hpp"
+#include "gateway/interpreter/tnc155/block.hpp"
+#include "protocol/base/result.hpp"
+
+/// The touch probe's functions of the manual and handwheel modes: what an operator measures before
+/// a program runs (TNC 151/155, chapter on the touch probe). Pure: touch points in, results out.
+/// Lengths are millimetres in machine coordinates with the stylus length left out, angles degrees.
+namespace dripline::interpreter::tnc155 {
+
+/// The stylus as calibrated.
+struct Stylus {
+  double radius = 0;    ///< of the ball, effective
+  double travel = 100;  ///< longest way of one touch
+};
+
+/// One touch: from a place along one axis until contact.
+struct Touch {
+  Position from;
+  Axis axis = Axis::Z;
+  ProbeDirection direction = ProbeDirection::Negative;
+};
+
+/// Where the stylus was at contact. Errors: NotFound, TOUCH POINT INACCESSIBLE: no contact within
+/// the travel, or deflected at the start.
+Result<Position> touch(const Workpiece& workpiece, const Stylus& stylus, const Touch& touch);
+
+/// The surface's coordinate along the touch's axis: of the tip along the tool, of the ball's rim
+/// across it.
+double touched_coordinate(const Position& at, const Touch& touch, const Stylus& stylus,
+                          Axis tool_axis);
+
+/// CALIBRATION EFFECTIVE LENGTH: by how much the stylus is longer than its length so far, so that
+/// the plane touched has the coordinate `plane`.
+double calibrated_length(const Position& at, Axis tool_axis, double plane);
+
+/// CALIBRATION EFFECTIVE RADIUS: the ball's, from four touches inside a ring gauge, in the order
+/// first axis +, -, second axis +, -. Errors: LimitExceeded (larger than the ring).
+Result<double> calibrated_radius(std::span<const Position, 4> touches, Plane plane,
+                                 double ring_radius);
+
+/// BASIC ROTATION: the angle of the line through two touches, less the nominal one, within 90
+/// degrees of it. Errors: LimitExceeded (the same point twice).
+Result<double> basic_rotation(const Position& first, const Position& second, Plane plane,
+                              double nominal);
+
+/// A side of a corner: two touches of one direction.
+struct Side {
+  Touch first, second;
+  Position first_at, second_at;
+};
+struct Corner {
+  PlaneVector at;      ///< in the plane's axes
+  double first_angle;  ///< PA of each side
+  double second_angle;
+};
+/// CORNER = DATUM. Errors: LimitExceeded (the sides are parallel).
+Result<Corner> corner(const Side& first, const Side& second, const Stylus& stylus, Plane plane);
+
+struct Circle {
+  PlaneVector centre;
+  double radius = 0;  ///< PR
+};
+/// CIRCLE CENTRE = DATUM from four touches: first axis +, -, second axis +, -; of a bore they lead
+/// outwards, of a boss inwards.
+Circle circle_centre(std::span<const Position, 4> touches, Plane plane, bool is_bore,
+                     const Stylus& stylus);
+
+}  // namespace dripline::interpreter::tnc155
