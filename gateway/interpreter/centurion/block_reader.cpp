@@ -86,6 +86,8 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
   }
   if (index == kNoRow) [[unlikely]]
     return refuse_g(run, word, "");
+  if (run.options.is_dnc_fast && word.value == 90) [[unlikely]]
+    index = g_row_index(93);  // FAST's list of codes has it for "absolute"
   const GRow& row = g_row(index);
   if (row.action != GAction::Motion) [[unlikely]] {
     if (row.action == GAction::Later) {

@@ -33,6 +33,11 @@ void cycle_rapid(Run& run, const Point& to) {
   rapid_to(run, target, axes);
 }
 
+void cycle_rapid_to_clearance(Run& run, const Point& to) {
+  cycle_rapid(run, to);
+  if (run.options.single_block) run.events().on_stop({run.origin, StopKind::Operator});
+}
+
 void cycle_feed(Run& run, const Point& to, Feed feed) {
   Point target = machine_point(run, to);
   const AxesNamed axes = moved_axes(run, target);

@@ -10,6 +10,9 @@ namespace dripline::interpreter::centurion {
 Point cycle_position(const Run& run);
 
 void cycle_rapid(Run& run, const Point& to);
+/// The way to the clearance with which a cycle begins; in single block the operator is waited for
+/// there (spec 11.7).
+void cycle_rapid_to_clearance(Run& run, const Point& to);
 void cycle_feed(Run& run, const Point& to, Feed feed);
 void cycle_dwell(Run& run, double seconds);
 

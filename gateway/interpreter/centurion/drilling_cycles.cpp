@@ -50,6 +50,10 @@ void feed_z(Run& run, const Hole& hole, double z) {
   cycle_feed(run, {hole.x, z}, hole.feed);
 }
 
+void go_to_clearance(Run& run, const Hole& hole) {
+  cycle_rapid_to_clearance(run, {hole.x, hole.clearance});
+}
+
 double return_level(const Run& run, const Hole& hole) {
   return run.state.modes.returns_to_clearance ? hole.clearance : hole.initial;
 }
@@ -64,7 +68,7 @@ void return_feed(Run& run, const Hole& hole) {
 
 /// G81, G82, G85, G89.
 void drill(Run& run, const Hole& hole, bool feeds_out) {
-  rapid_z(run, hole, hole.clearance);
+  go_to_clearance(run, hole);
   feed_z(run, hole, hole.bottom);
   cycle_dwell(run, hole.dwell);
   if (feeds_out) return return_feed(run, hole);
@@ -99,7 +103,7 @@ bool drill_in_pecks(Run& run, const Hole& hole) {
   const double left = std::max(0.0, pecks.first - hole.bottom);
   const double more = std::ceil(left / pecks.increment - kSame);
   if (!check_cycle_length(run, 3 * more + 3)) return false;
-  rapid_z(run, hole, hole.clearance);
+  go_to_clearance(run, hole);
   double depth = std::max(pecks.first, hole.bottom);
   feed_z(run, hole, depth);
   for (double peck = 1; peck <= more; ++peck) {
@@ -142,7 +146,7 @@ bool tap(Run& run, const Hole& hole) {
         ErrorCode::ParameterOutOfRange, 0,
         fmt::format("the tap coasts {} and the thread is {} long", coast, std::fabs(way)));
   }
-  rapid_z(run, hole, hole.clearance);
+  go_to_clearance(run, hole);
   feed_z(run, hole, hole.bottom - std::copysign(coast, way));
   spindle_to(run, reverse_of(turns));
   feed_z(run, hole, hole.clearance);
@@ -157,7 +161,7 @@ bool bore_with_stop(Run& run, const Hole& hole) {
   const double speed = run.state.modes.is_surface_speed ? spindle.surface : spindle.revolutions;
   if (!(speed > 0)) return run.fail(ErrorCode::SpindleOutOfRange, 0, "G86 needs S");
   if (spindle.state != SpindleState::Clockwise) spindle_to(run, SpindleState::Clockwise);
-  rapid_z(run, hole, hole.clearance);
+  go_to_clearance(run, hole);
   feed_z(run, hole, hole.bottom);
   spindle_to(run, SpindleState::Off);
   return_rapid(run, hole);

@@ -22,6 +22,11 @@ class DryRun final : public EventFilter {
     out().on_arc(arc);
   }
   void on_thread(const Thread& event) override {
+    if (event.arc) {
+      Arc arc = arc_of(event);
+      arc.feed = feed_;
+      return out().on_arc(arc);
+    }
     Line line;
     line.origin = event.origin;
     line.to = event.to;

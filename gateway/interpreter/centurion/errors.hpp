@@ -68,6 +68,7 @@ enum class ErrorCode : std::uint16_t {
   NoSuchProgram = 603,
   EmptyProgram = 606,
   MissingP = 608,
+  UnitsInFast = 609,
 
   NotSupported = 1001,  ///< of this control, but not of this version of the interpreter
   BlockTooLong = 1002,
@@ -79,6 +80,7 @@ enum class ErrorCode : std::uint16_t {
   NotInDnc = 1008,      ///< with the option `dnc_refusals`
   SpindleNeeded = 1009,
   InputMissing = 1010,
+  ProbeBeforeStart = 1011,
 
   CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends
   TooMuchBetween = 1021,           ///< between two compensated moves

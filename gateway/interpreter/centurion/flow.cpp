@@ -31,6 +31,7 @@ bool plan_call(Run& run) {
   if (run.options.refuses_loops_and_calls) {
     return run.fail(ErrorCode::NotInDnc, 0, "M98");
   }
+  if (run.options.is_mdi) return run.fail(ErrorCode::IllegalStatement, 0, "M98 in MDI");
   if (!block.words.has(Address::P)) return run.fail(ErrorCode::MissingP, 0);
   const double number = block.words[Address::P];
   if (!(number >= 1 && number <= 9999) || number != std::trunc(number)) {

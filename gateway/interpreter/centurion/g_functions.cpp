@@ -83,7 +83,26 @@ bool force_error(Run& run) {
                      fmt::format("G997 with P1 = {}", number));
 }
 
+/// DNC FAST has neither compensation nor transformations, and takes no change of units (spec 21).
+bool check_fast(Run& run, const GRow& row) {
+  switch (row.code) {
+    case 20:
+    case 21:
+      return run.fail(ErrorCode::UnitsInFast, 0, fmt::format("G{}", row.code));
+    case 41:
+    case 42:
+    case 511:
+    case 551:
+    case 568:
+      return run.fail(ErrorCode::NotInDnc, 0, fmt::format("G{} in FAST", row.code));
+    default:
+      return true;
+  }
+}
+
 bool apply_g(Run& run, const GRow& row) {
+  if (run.options.is_dnc_fast && !check_fast(run, row)) [[unlikely]]
+    return false;
   Modes& modes = run.state.modes;
   switch (row.action) {
     case GAction::Motion:

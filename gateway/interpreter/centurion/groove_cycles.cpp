@@ -154,7 +154,7 @@ class GrooveCutter {
 
   void cut() {
     const double columns = column_count();
-    rapid(groove_.clearance);
+    cycle_rapid_to_clearance(run_, at(groove_.clearance));
     for (double column = 0; column < columns; ++column) {
       across_ = column + 1 == columns
                     ? groove_.rough_end()

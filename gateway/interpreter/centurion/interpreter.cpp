@@ -9,13 +9,39 @@
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::centurion {
+namespace {
+
+std::unique_ptr<DryRun> dry_run_of(const ControlOptions& options, EventSink& sink) {
+  if (!options.is_dry_run) return nullptr;
+  const Feed feed = Feed::per_minute(Length::mm(options.dry_run_feed_mm));
+  return std::make_unique<DryRun>(sink, feed, options.dry_run_turns_spindle);
+}
+std::unique_ptr<StartSearch> start_search_of(const ControlOptions& options, EventSink& sink) {
+  return options.start_at ? std::make_unique<StartSearch>(sink, *options.start_at) : nullptr;
+}
+EventSink& front_of(StartSearch* start, DryRun* dry_run, EventSink& sink) {
+  if (start != nullptr) return *start;
+  if (dry_run != nullptr) return *dry_run;
+  return sink;
+}
+
+}  // namespace
+
 CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState state,
                                            Parameters parameters, ProgramSource& source,
                                            EventSink& sink)
-    : run_(std::move(options), source, sink), search_(run_.text) {
+    : dry_run_(dry_run_of(options, sink)),
+      start_(start_search_of(options, dry_run_ ? *dry_run_ : sink)),
+      run_(std::move(options), source, front_of(start_.get(), dry_run_.get(), sink)),
+      search_(run_.text) {
   run_.state = std::move(state);
   run_.parameters = parameters;
   run_.update_origin();
+  if (start_) {
+    first_ = take_snapshot(run_);
+    start_->attach(run_.state);
+    run_.state.is_searching = true;
+  }
 }
 
 StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
@@ -33,8 +59,10 @@ StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
     const BlockOutcome outcome = run_block();
     if (outcome == BlockOutcome::Paused) [[unlikely]]
       return paused();
-    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
-      return StepState::Ended;
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
+      if (!run_.state.is_searching) return StepState::Ended;
+      begin_at_first();
+    }
     if (outcome == BlockOutcome::Finished) --left;
   }
   return StepState::Ran;
@@ -47,6 +75,8 @@ StepState CenturionInterpreter::paused() {
       return StepState::NeedsText;
     case Pause::Question:
       run_.pause = Pause::None;
+      if (run_.state.is_searching && settle_in_search()) return StepState::Ran;
+      if (run_.pause == Pause::Alarm) break;
       is_asking_ = true;
       return StepState::NeedsAnswer;
     default:
@@ -71,9 +101,11 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
       settle_name();
   }
   if (parts.stage == Stage::Items) {
-    if (!read_items(run_)) [[unlikely]]
+    if (!read_items(run_) || !fits_mode()) [[unlikely]]
       return BlockOutcome::Paused;
     parts.stage = Stage::Execution;
+    if (run_.state.is_searching && parts.tool && start_->is_tool(*parts.tool)) [[unlikely]]
+      start_->begin_here(run_);
   }
   if (!execute_block(run_) || !finish_block()) [[unlikely]]
     return BlockOutcome::Paused;
@@ -118,11 +150,42 @@ bool CenturionInterpreter::begin_block() {
   run_.origin.offset = run_.text.offset();
   run_.block.clear();
   run_.block.parts.stage = Stage::Items;
+  if (run_.state.is_searching && starts_here()) [[unlikely]]
+    start_->begin_here(run_);
   if (!is_plain && is_skipped()) [[unlikely]] {
     run_.block.parts.has_code = true;
     run_.block.parts.resume = run_.offset(run_.text.end());
   }
   return true;
+}
+
+/// MDI takes one block.
+bool CenturionInterpreter::fits_mode() {
+  if (!run_.options.is_mdi || run_.state.blocks == 0 || !run_.block.parts.has_code) return true;
+  return run_.fail(ErrorCode::IllegalStatement, 0, "a second block in MDI");
+}
+
+bool CenturionInterpreter::starts_here() const {
+  const BlockHead head = read_head(run_.text.begin());
+  const bool has_number = head.kind == BlockHead::Kind::Label;
+  return start_->is_here(run_, has_number ? std::optional(head.number) : std::nullopt);
+}
+
+/// Nobody is bothered for what happens before the start, unless the program's way hangs on it.
+/// False leaves the question to the owner, or an alarm.
+bool CenturionInterpreter::settle_in_search() {
+  if (!std::holds_alternative<ProbeQuestion>(run_.question)) return false;
+  run_.fail(ErrorCode::ProbeBeforeStart, 0, "a start behind it can not be looked for");
+  return false;
+}
+
+/// The start that was asked for is not in the program.
+void CenturionInterpreter::begin_at_first() {
+  const bool has_header = run_.state.has_header;
+  const bool is_restored = restore(*first_).has_value();
+  invariant(is_restored, "the state of a moment ago reads back");
+  run_.state.has_header = has_header;
+  start_->begin_at_first(run_);
 }
 
 bool CenturionInterpreter::is_end_of_segment() const {

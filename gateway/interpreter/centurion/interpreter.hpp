@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+
+#include "gateway/interpreter/centurion/dry_run.hpp"
 #include "gateway/interpreter/centurion/run.hpp"
 #include "gateway/interpreter/centurion/text_search.hpp"
 
@@ -31,7 +34,15 @@ class CenturionInterpreter final : public Interpreter {
   bool finish_block();
   StepState paused();
   void place_origin();
+  bool fits_mode();
+  bool starts_here() const;
+  bool settle_in_search();
+  void begin_at_first();
 
+  // What the run's events pass on their way to the owner's sink; each only where it is asked for.
+  std::unique_ptr<DryRun> dry_run_;
+  std::unique_ptr<StartSearch> start_;
+  std::optional<Snapshot> first_;  ///< the state at the first block, while a start is looked for
   Run run_;
   TextSearch search_;
   bool is_asking_ = false;

@@ -242,6 +242,15 @@ void all_off(Run& run) {
   }
 }
 
+void show_machine_state(Run& run) {
+  const ToolModes& tool = run.state.tool;
+  if (tool.active != 0) {
+    run.events().on_tool({run.origin, tool.active, false, tool.offset});
+  }
+  if (run.state.spindle.state != SpindleState::Off) emit_spindle(run);
+  if (run.state.coolant.flood) emit_coolant(run);
+}
+
 void show_comment(Run& run) {
   const TextRange comment = run.block.parts.comment;
   if (comment.empty()) return;

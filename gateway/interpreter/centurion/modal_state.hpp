@@ -151,8 +151,14 @@ struct ModalState {
   NoseUse nose;
   bool nose_is_stale = false;     ///< something that `nose` depends on may have changed
   bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
-  bool wants_flood = false;       ///< M8 is in force; with the interlock that is not yet coolant
-  std::uint32_t outputs = 0;      ///< a bit for each output pin: Z 1-12, then X 1-12 (pins.cpp)
+  /// A start elsewhere than at the first block (start_search.hpp): where the machine stands, where
+  /// the program would have brought it (machine millimetres, X a radius), and the axes it moved.
+  bool is_searching = false;
+  Point searched_from;
+  Point searched_to;
+  std::uint8_t searched_axes = 0;
+  bool wants_flood = false;   ///< M8 is in force; with the interlock that is not yet coolant
+  std::uint32_t outputs = 0;  ///< a bit for each output pin: Z 1-12, then X 1-12 (pins.cpp)
   std::optional<OutputDevice> open_device;
   std::uint64_t random = 0x853c49e6748fea9bu;
 

@@ -276,9 +276,35 @@ Result<void> read_machine_codes(const Options& options, ControlOptions& control)
 }
 
 Result<void> read_mode(const Options& options, ControlOptions& control) {
-  const auto mode = options.choice("mode", {"run", "verify"}, 0);
+  const auto mode = options.choice("mode", {"run", "verify", "mdi"}, 0);
   if (!mode) return fail(mode.error());
   control.is_verify = *mode == 1;
+  control.is_mdi = *mode == 2;
+  const auto dnc = options.choice("dnc_mode", {"none", "run", "fast"}, 0);
+  if (!dnc) return fail(dnc.error());
+  control.is_dnc_fast = *dnc == 2;
+  return {};
+}
+
+Result<void> read_start(const Options& options, ControlOptions& control) {
+  const auto text = options.text("start_at", "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  auto start = parse_start_at(*text);
+  if (!start) return fail(Errc::Syntax, "[control] start_at: {}", start.error().what);
+  control.start_at = std::move(*start);
+  return {};
+}
+
+Result<void> read_dry_run(const Options& options, ControlOptions& control) {
+  constexpr double kUsualFeed = 75;  // inches per minute
+  const auto feed = options.length("dry_run_feed", Length::inch(kUsualFeed));
+  if (!feed) return fail(feed.error());
+  if (!(feed->mm() > 0)) return fail(Errc::LimitExceeded, "[control] dry_run_feed: not above 0");
+  control.dry_run_feed_mm = feed->mm();
+  const auto turns = options.flag("dry_run_spindle", false);
+  if (!turns) return fail(turns.error());
+  control.dry_run_turns_spindle = *turns;
   return {};
 }
 
@@ -335,7 +361,11 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "post_m",
                                     "coolant_interlock",
                                     "ask_inputs",
-                                    "mode"});
+                                    "mode",
+                                    "dnc_mode",
+                                    "start_at",
+                                    "dry_run_feed",
+                                    "dry_run_spindle"});
   if (!known) return fail(known.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
@@ -343,11 +373,14 @@ Result<ControlOptions> read_options(const Setup& setup) {
   ControlOptions control;
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;
+  control.single_block = setup.switches.single_block;
+  control.is_dry_run = setup.switches.dry_run;
   for (auto done :
        {read_digits(options, "leading", control.leading_digits),
         read_digits(options, "trailing", control.trailing_digits), read_dnc(options, control),
         read_spindle(options, control), read_cycles(options, control),
-        read_machine_codes(options, control), read_mode(options, control)}) {
+        read_machine_codes(options, control), read_mode(options, control),
+        read_start(options, control), read_dry_run(options, control)}) {
     if (!done) return fail(done.error());
   }
   const auto report = options.text("report_file", "REPORT.DAT");
@@ -369,6 +402,7 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   state.position = {in_units(setup.start.linear(Axis::X), state.units),
                     in_units(setup.start.linear(Axis::Z), state.units)};
   state.previous = state.position;
+  state.searched_from = {setup.start.linear(Axis::X).mm(), setup.start.linear(Axis::Z).mm()};
   if (auto done = load_power_on(setup.control, state, parameters); !done) return done;
   const auto is_diameter = stored_x_is_diameter(setup.control);
   if (!is_diameter) return fail(is_diameter.error());

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gateway/interpreter/centurion/modal_state.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
+#include "gateway/interpreter/centurion/start_search.hpp"
 #include "gateway/interpreter/setup.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -22,8 +24,15 @@ struct ControlOptions {
   bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
   std::array<double, 3> spindle_ranges{9999, 9999, 9999};  ///< most revolutions: low, medium, high
   double pulse_ms = 150;                                   ///< of PULSE0 and PULSE1
-  bool asks_for_inputs = false;     ///< `ask_inputs`: waits for inputs ask the owner
-  bool is_verify = false;           ///< `mode = "verify"`
+  bool asks_for_inputs = false;        ///< `ask_inputs`: waits for inputs ask the owner
+  std::optional<StartAt> start_at;     ///< `start_at`: not the first block
+  bool single_block = false;           ///< the panel's switch; cycles stop at their clearance
+  bool is_dry_run = false;             ///< the panel's switch
+  double dry_run_feed_mm = 0;          ///< `dry_run_feed`, per minute
+  bool dry_run_turns_spindle = false;  ///< `dry_run_spindle`
+  bool is_dnc_fast = false;            ///< `dnc_mode = "fast"`: what that mode refuses
+  bool is_mdi = false;                 ///< `mode = "mdi"`: one block, no M98
+  bool is_verify = false;              ///< `mode = "verify"`
   bool interlocks_coolant = false;  ///< `coolant_interlock`: coolant runs while the spindle turns
   bool has_custom_codes = false;
   std::array<int, 10> custom_g{};                   ///< bound to O9010-O9019; 0 none

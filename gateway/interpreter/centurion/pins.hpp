@@ -25,8 +25,8 @@ void pulse_output(Run& run, OutputPin pin, bool state, double milliseconds);
 bool read_pin(Run& run, int pin, std::uint32_t column, double& value);
 
 /// An M function that ends when the input reads 1. The machine is told the function and has its own
-/// say when it is done; here it is made sure that the input can come: by the setup's `pins`, or by a
-/// question where the option `ask_inputs` says so. An input that reads 0 is error InputMissing.
+/// say when it is done; here it is made sure that the input can come: by the setup's `pins`, or by
+/// a question where the option `ask_inputs` says so. An input that reads 0 is error InputMissing.
 bool wait_for_input(Run& run, int pin);
 
 }  // namespace dripline::interpreter::centurion

@@ -93,7 +93,10 @@ void visit_modes(Archive& archive, ModalState& state) {
       retained.center_z, retained.has_radius);
   SpindleModes& spindle = state.spindle;
   all(archive, spindle.state, spindle.revolutions, spindle.surface, spindle.limit);
-  all(archive, state.coolant.flood, state.coolant.mist, state.wants_flood, state.outputs);
+  all(archive, state.coolant.flood, state.coolant.mist, state.wants_flood, state.outputs,
+      state.is_searching, state.searched_axes);
+  visit(archive, state.searched_from);
+  visit(archive, state.searched_to);
   visit(archive, state.coolant.origin);
   ToolModes& tool = state.tool;
   all(archive, tool.pending, tool.pending_offset, tool.active, tool.offset);

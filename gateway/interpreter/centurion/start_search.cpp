@@ -47,10 +47,11 @@ Result<StartAt> parse_start_at(std::string_view text) {
   const auto read = kind ? std::from_chars(text.data() + 1, end, start.number)
                          : std::from_chars_result{text.data(), std::errc::invalid_argument};
   if (read.ec != std::errc{} || read.ptr != end) {
-    return fail(Errc::Syntax,
-                "\"{}\" is no start: N120 (block), T3 (tool), L40 (line), B4096 (byte), +25 (blocks "
-                "to skip)",
-                text);
+    return fail(
+        Errc::Syntax,
+        "\"{}\" is no start: N120 (block), T3 (tool), L40 (line), B4096 (byte), +25 (blocks "
+        "to skip)",
+        text);
   }
   start.kind = *kind;
   return start;
@@ -88,8 +89,8 @@ void StartSearch::begin_here(Run& run) {
   if (!(to == from)) approach(run, from, to);
 }
 
-/// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after the
-/// operator has looked.
+/// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after
+/// the operator has looked.
 void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   const ModalState& state = run.state;
   const double clearance = run.length(state.origin.z + run.parameters[kClearanceZ]).mm();
@@ -109,7 +110,8 @@ void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   out().on_stop({run.origin, StopKind::Operator});
   if (at == to) return;
   const bool has_per_minute = state.feed[0] > 0;
-  const Feed feed = has_per_minute ? Feed::per_minute(run.length(state.feed[0])) : run.active_feed();
+  const Feed feed =
+      has_per_minute ? Feed::per_minute(run.length(state.feed[0])) : run.active_feed();
   out().on_line({run.origin, place(to), feed});
 }
 
@@ -117,11 +119,6 @@ void StartSearch::begin_at_first(Run& run) {
   run.state.is_searching = false;
   run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
   out().on_message({run.origin, run.scratch});
-}
-
-/// The search may have to begin again from the first block.
-void StartSearch::on_program(const ProgramHeader& event) {
-  if (!std::exchange(has_program_, true)) out().on_program(event);
 }
 
 template <class Event>

@@ -13,9 +13,9 @@ namespace dripline::interpreter::centurion {
 
 struct Run;
 
-/// Where a run begins when not at its first block: `N120` the first block with this number, `T3` the
-/// first with this tool, `L40` the line, `B4096` the first block at or behind the byte (a run that
-/// was cut off goes on there), `+25` after as many blocks.
+/// Where a run begins when not at its first block: `N120` the first block with this number, `T3`
+/// the first with this tool, `L40` the line, `B4096` the first block at or behind the byte (a run
+/// that was cut off goes on there), `+25` after as many blocks.
 struct StartAt {
   enum class Kind : std::uint8_t { Block, Tool, Line, Byte, Count };
   Kind kind = Kind::Block;
@@ -43,7 +43,6 @@ class StartSearch final : public EventFilter {
   void begin_here(Run& run);
   void begin_at_first(Run& run);
 
-  void on_program(const ProgramHeader& event) override;
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
@@ -78,7 +77,6 @@ class StartSearch final : public EventFilter {
 
   const StartAt start_;
   ModalState* state_ = nullptr;
-  bool has_program_ = false;
 };
 
 }  // namespace dripline::interpreter::centurion

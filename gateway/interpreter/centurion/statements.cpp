@@ -120,7 +120,7 @@ bool read_handwheel(Run& run, const char*& at) {
     while (*close != ')') ++close;
     text = std::string_view(open + 1, static_cast<std::size_t>(close - open - 1));
   }
-  if (run.options.is_verify) return true;
+  if (run.options.is_verify || run.options.is_mdi) return true;
   if (!text.empty()) run.events().on_message({run.origin, text});
   run.events().on_stop({run.origin, StopKind::Operator});
   return true;
