@@ -22,6 +22,14 @@ bool move_in_thought(Run& run) {
   return is_done;
 }
 
+/// Drills and grooving tools have no use for compensation (spec 9.4).
+bool run_aside(Run& run, bool (*cycle)(Run&)) {
+  leave_compensation(run);
+  const bool is_done = cycle(run);
+  resume_compensation(run);
+  return is_done;
+}
+
 /// What the axis words of the block are for (step 5 of spec 12.3).
 bool act(Run& run) {
   switch (run.action()) {
@@ -32,10 +40,10 @@ bool act(Run& run) {
     case GAction::Rotation:
       return true;  // apply_one_shots did it
     case GAction::DrillingCycle:
-      return run_drilling_cycle(run);
+      return run_aside(run, run_drilling_cycle);
     case GAction::FaceGroove:
     case GAction::DiameterGroove:
-      return run_groove_cycle(run);
+      return run_aside(run, run_groove_cycle);
     case GAction::TurningBox:
       return cut_turning_box(run);
     case GAction::FacingBox:

@@ -299,7 +299,7 @@ bool apply_one_shots(Run& run) {
   for (std::uint8_t i = 0; i < parts.g_count; ++i) {
     const GRow& row = g_row(run.block.g[i]);
     if (row.action == GAction::ClearFloatingZero) clear_floating_zero(run);
-    if (row.action == GAction::Retract) retract(run, row.code);
+    if (row.action == GAction::Retract && !retract(run, row.code)) return false;
   }
   return set_coordinates(run);
 }

@@ -57,19 +57,19 @@ void take_pending_tool(Run& run) {
 }
 
 /// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
-void change_tool(Run& run) {
-  go_to_tool_change(run);
+bool change_tool(Run& run) {
+  if (!go_to_tool_change(run)) return false;
   take_pending_tool(run);
   show_comment(run);
   run.events().on_stop({run.origin, StopKind::ToolChange});
+  return true;
 }
 
 bool change_tool_or_call(Run& run) {
   if (const std::uint16_t program = tool_change_program(run); program != 0) {
     return request_macro(run, program, MacroCaller::M6, 0);
   }
-  change_tool(run);
-  return true;
+  return change_tool(run);
 }
 
 constexpr int kWaitChannelInput = 6;

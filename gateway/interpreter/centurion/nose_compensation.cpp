@@ -1,5 +1,6 @@
 #include "gateway/interpreter/centurion/nose_compensation.hpp"
 
+#include <fmt/core.h>
 #include <cmath>
 #include <limits>
 
@@ -110,6 +111,11 @@ bool update_compensation(Run& run) {
   if (use.code != 0 && how.scales && (how.factor.x < 0 || how.factor.z < 0)) {
     return run.fail(ErrorCode::IllegalStatement, 0,
                     "nose compensation with a scale factor below 0");
+  }
+  constexpr double kMostRadius = 1e6;
+  if (!(std::fabs(use.radius_mm) <= kMostRadius)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, 0,
+                    fmt::format("nose radius {} mm", use.radius_mm));
   }
   NoseUse& now = run.state.nose;
   if (now == use) return true;

@@ -70,10 +70,12 @@ bool go_to_reference(Run& run) {
   Point reference;
   if (!read_reference(run, reference) || !read_via(run, via)) return false;
   if (!via.named.x && !via.named.z) return true;
+  const Point last = in_axes(run, reference, via.named);
+  if (!check_target(run, last)) return false;
   leave_compensation(run);
   run.state.reference_via = {via.to, via.named.x, via.named.z};
   machine_rapid_to(run, via.to, via.named);
-  machine_rapid_to(run, in_axes(run, reference, via.named), via.named);
+  machine_rapid_to(run, in_axes(run, last, via.named), via.named);
   resume_compensation(run);
   return true;
 }
@@ -91,31 +93,29 @@ bool return_from_reference(Run& run) {
   return is_read;
 }
 
-void retract(Run& run, int code) {
+bool retract(Run& run, int code) {
+  const AxesNamed axis = code == 45 || code == 47 ? kZOnly : kXOnly;
   const Point& zero = run.state.origin;
   const Point clearance{zero.x + run.parameters[kClearances] / 2,
                         zero.z + run.parameters[kClearances + 1]};
-  const Point change = run.parameters.point(kToolChangePoint);
+  const Point change = in_axes(run, run.parameters.point(kToolChangePoint), axis);
+  Point to = run.state.position;
+  if (axis.x) to.x = clearance.x;
+  if (axis.z) to.z = clearance.z;
+  const bool is_clearance = code == 45 || code == 46;
+  if (!check_target(run, is_clearance ? to : change)) return false;
   leave_compensation(run);
-  switch (code) {
-    case 45:
-      rapid_to(run, {run.state.position.x, clearance.z}, kZOnly);
-      break;
-    case 46:
-      rapid_to(run, {clearance.x, run.state.position.z}, kXOnly);
-      break;
-    case 47:
-      machine_rapid_to(run, in_axes(run, change, kZOnly), kZOnly);
-      break;
-    default:
-      machine_rapid_to(run, in_axes(run, change, kXOnly), kXOnly);
-      break;
+  if (is_clearance) {
+    rapid_to(run, to, axis);
+  } else {
+    machine_rapid_to(run, change, axis);
   }
   resume_compensation(run);
+  return true;
 }
 
-void go_to_tool_change(Run& run) {
-  retract(run, 48);
+bool go_to_tool_change(Run& run) {
+  return retract(run, 48);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -13,8 +13,8 @@ bool go_to_reference(Run& run);
 /// G29.
 bool return_from_reference(Run& run);
 /// G45 to G48, one axis each.
-void retract(Run& run, int code);
+bool retract(Run& run, int code);
 /// X to the place where tools are changed (M6).
-void go_to_tool_change(Run& run);
+bool go_to_tool_change(Run& run);
 
 }  // namespace dripline::interpreter::centurion
