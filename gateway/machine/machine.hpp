@@ -76,7 +76,7 @@ class Machine {
   /// text beyond this becomes an alarm (MCH0005). Step one block, then ask again.
   bool has_room() const;
   static constexpr std::size_t kQueuedActions = 8192;
-  static constexpr std::size_t kBlockReserve = 2048;
+  static constexpr std::size_t kBlockReserve = 8192;
   static constexpr std::size_t kQueuedText = 512 * 1024;
   static constexpr std::size_t kTextReserve = 128 * 1024;
 

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::tnc155 {
 
 /// A call is one block, and one block brings a bounded number of moves.
-inline constexpr double kMostMoves = 2000;
+inline constexpr double kMostMoves = 8000;
 
 /// Conditions of a call: tool, spindle, signs, sizes, bounds.
 bool check_machining(Run& run, const MachiningCycle& cycle);
