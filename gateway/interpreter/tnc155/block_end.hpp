@@ -34,14 +34,21 @@ inline const char* find_line_end(const char* at, const char* limit) {
 /// Plain language: the end of a line behind which a block begins: a line with a number, or, if the
 /// block has none itself, one that is not indented. The block END PGM is complete at once.
 struct PlainEnd {
+  bool*
+      is_one_line;  ///< set to true when the block is seen to be one line with no blanks before it
+
   const char* operator()(const char* at, const char* limit) const {
+    *is_one_line = false;
     const char* begin = skip_blanks(at, limit);
     if (begin == limit) return limit;
     for (const char* line = begin;;) {
       const char* end = find_line_end(line, limit);
       if (!end) return limit;
       const char* next = end + 1;
-      if (next != limit && is_decimal(*next)) return end;
+      if (next != limit && is_decimal(*next)) {
+        *is_one_line = line == at;
+        return end;
+      }
       if (is_frame(begin, end, "END", 3)) return end;
       next = skip_blanks(next, limit);
       if (next == limit) return limit;
@@ -64,19 +71,27 @@ struct PlainEnd {
 /// ISO: its `*`, or the end of a line that the next one does not continue. A block with a % is
 /// complete at once.
 struct IsoEnd {
-  bool has_continuation = true;
+  bool has_continuation;
+  bool* is_one_line;  ///< as above; blanks before it do not count
 
   const char* operator()(const char* at, const char* limit) const {
+    *is_one_line = false;
     const char* begin = skip(at, limit);
     if (begin == limit) return limit;
     for (const char* line = begin;;) {
       const char* end = find_line_end(line, limit);
       const auto* star = static_cast<const char*>(
           std::memchr(line, '*', static_cast<std::size_t>((end ? end : limit) - line)));
-      if (star) return star;
+      if (star) {
+        *is_one_line = line == begin;
+        return star;
+      }
       if (!end) return limit;
       const char* next = end + 1;
-      if (next != limit && (*next == 'N' || *next == '%')) return end;
+      if (next != limit && (*next == 'N' || *next == '%')) {
+        *is_one_line = line == begin;
+        return end;
+      }
       if (std::memchr(begin, '%', static_cast<std::size_t>(end - begin))) return end;
       next = skip_blanks(next, limit);
       if (next == limit) return limit;

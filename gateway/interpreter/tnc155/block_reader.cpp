@@ -53,10 +53,11 @@ ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
   switch (state.program.form) {
     case Form::Plain:
-      loaded = window_.load(place_.program, place_.offset, PlainEnd{});
+      loaded = window_.load(place_.program, place_.offset, PlainEnd{&is_one_line_});
       break;
     case Form::Iso:
-      loaded = window_.load(place_.program, place_.offset, IsoEnd{options_.iso_continuation});
+      loaded = window_.load(place_.program, place_.offset,
+                            IsoEnd{options_.iso_continuation, &is_one_line_});
       break;
     case Form::Unknown:
       return find_form(state);
@@ -138,7 +139,11 @@ void BlockReader::move_on() {
   if (window_.is_terminated()) ++behind;
   place_ = block_place_;
   place_.offset += static_cast<std::uint64_t>(behind - text_);
-  place_.line += line_ends_in(text_, behind);
+  if (is_one_line_) {
+    place_.line += *text_end_ == '*' ? 0 : 1;
+  } else {
+    place_.line += line_ends_in(text_, behind);
+  }
 }
 
 ProgramLookup BlockReader::find(std::string_view name) {

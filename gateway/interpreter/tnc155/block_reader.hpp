@@ -79,6 +79,7 @@ class BlockReader {
   TextPlace block_place_;
   const char* text_ = nullptr;
   const char* text_end_ = nullptr;
+  bool is_one_line_ = false;  ///< no line end within the text, and the source's behind it
   Fault fault_;
   std::uint64_t fault_line_ = 0;
   IsoBlock iso_;

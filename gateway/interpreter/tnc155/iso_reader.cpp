@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <bit>
-
 #include "gateway/interpreter/tnc155/iso_axes.hpp"
 #include "gateway/interpreter/tnc155/iso_block.hpp"
 #include "gateway/interpreter/tnc155/iso_codes.hpp"
@@ -108,6 +106,7 @@ class IsoReader {
           fmt::format("G{:02} after G{:02}", code, block_.code(static_cast<IsoGroup>(group))));
     }
     block_.set(static_cast<IsoGroup>(group), static_cast<std::uint8_t>(code));
+    ++code_count_;
     return true;
   }
 
@@ -134,6 +133,7 @@ class IsoReader {
       if (!cursor_.read_value(value, range, {&letter, 1})) return false;
     }
     block_.set(name, value, distance_);
+    axis_count_ += name >= IsoSlot::X && name <= IsoSlot::W ? 1 : 0;
     return true;
   }
 
@@ -211,7 +211,7 @@ class IsoReader {
   }
 
   bool finish() {
-    if (std::popcount(block_.groups) > kMostCodes) {
+    if (code_count_ > kMostCodes) {
       return cursor_.wrong(fmt::format("more than {} G functions", kMostCodes));
     }
     if (bare_ != 0 && !are_bare_words_right()) return false;
@@ -297,6 +297,8 @@ class IsoReader {
   TextCursor cursor_;
   IsoBlock& block_;
   Distance distance_ = Distance::AsBefore;
+  int code_count_ = 0;
+  int axis_count_ = 0;
   unsigned bare_ = 0;  ///< slots without values
   bool is_short_feed_ = false;
   const char* feed_ = nullptr;

@@ -92,42 +92,22 @@ bool read_compensation(TextCursor& cursor, Block& block) {
   return true;
 }
 
-/// Direction, compensation, feed, M: each once at most, up to the end of the block.
-bool read_tail(TextCursor& cursor, Block& block) {
-  unsigned seen = 0;
-  const auto first_time = [&](unsigned bit) {
-    if ((seen & bit) != 0) return cursor.wrong("a word stands twice");
-    seen |= bit;
-    cursor.advance();
-    return true;
-  };
-  while (!cursor.is_at_end()) {
-    switch (cursor.peek()) {
-      case 'R':
-        if (!first_time(1) || !read_compensation(cursor, block)) return false;
-        break;
-      case 'F':
-        if (!first_time(2) || !read_feed(cursor, block, true)) return false;
-        break;
-      case 'M':
-        if (!first_time(4) || !read_m(cursor, block)) return false;
-        break;
-      case 'D':
-        if (!first_time(8) || !read_turn(cursor, block)) return false;
-        break;
-      default:
-        return cursor.unexpected();
-    }
-  }
+bool is_compensation_right(TextCursor& cursor, const Block& block) {
+  if (block.compensation <= Compensation::Off) return true;
   const bool is_single = block.kind == BlockKind::SingleAxis;
-  const bool is_path =
-      block.compensation == Compensation::Left || block.compensation == Compensation::Right;
-  const bool is_axis_wise = block.compensation > Compensation::Right;
-  if (is_single ? is_path : is_axis_wise) {
-    return cursor.wrong(is_single ? "a single-axis block has R0, R+ or R-"
-                                  : "R+ and R- are for single-axis blocks");
-  }
-  return true;
+  if (is_single == (block.compensation > Compensation::Right)) return true;
+  return cursor.wrong(is_single ? "a single-axis block has R0, R+ or R-"
+                                : "R+ and R- are for single-axis blocks");
+}
+
+/// Direction, compensation, feed, M in this order, up to the end of the block.
+bool read_tail(TextCursor& cursor, Block& block) {
+  if (cursor.take('D') && !read_turn(cursor, block)) return false;
+  if (cursor.take('R') && !read_compensation(cursor, block)) return false;
+  if (cursor.take('F') && !read_feed(cursor, block, true)) return false;
+  if (cursor.take('M') && !read_m(cursor, block)) return false;
+  if (!cursor.is_at_end()) return cursor.unexpected();
+  return is_compensation_right(cursor, block);
 }
 
 bool read_arc_tail(TextCursor& cursor, Block& block) {

@@ -112,9 +112,15 @@ bool read_c(TextCursor& cursor, Block& block, const char* start) {
 
 /// Behind an L.
 bool read_l(TextCursor& cursor, Block& block) {
-  if (cursor.take('P')) return read_polar_line(cursor, block);
-  if (cursor.take("BL")) return read_label(cursor, block);
-  return read_line(cursor, block);
+  switch (cursor.peek()) {
+    case 'P':
+      cursor.advance();
+      return read_polar_line(cursor, block);
+    case 'B':
+      return cursor.take("BL") ? read_label(cursor, block) : read_line(cursor, block);
+    default:
+      return read_line(cursor, block);
+  }
 }
 
 bool read_keyword(TextCursor& cursor, Block& block, const char* start) {

@@ -38,10 +38,7 @@ inline const Range& angle_range(bool is_incremental) {
   return is_incremental ? kIncrementalAngle : kAbsoluteAngle;
 }
 
-/// The axis of a letter, without a table of words behind it. Nothing for other letters.
-inline bool is_axis_letter(char c) {
-  return (c >= 'X' && c <= 'Z') || (c >= 'A' && c <= 'C') || (c >= 'U' && c <= 'W');
-}
+/// Of a letter for which `is_axis_letter`.
 inline Axis axis_of_letter(char c) {
   if (c >= 'X') return static_cast<Axis>(c - 'X');
   if (c >= 'U') return static_cast<Axis>(static_cast<int>(Axis::U) + (c - 'U'));

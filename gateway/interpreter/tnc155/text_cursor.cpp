@@ -85,6 +85,21 @@ std::string TextCursor::word_at(const char* start) const {
   return word;
 }
 
+/// Leading zeros count for nothing.
+std::int64_t TextCursor::long_number(const char* start) const {
+  constexpr std::int64_t kTooLong = 1'000'000'000;
+  std::int64_t number = 0;
+  for (; start != at_ && number < kTooLong; ++start) number = number * 10 + (*start - '0');
+  return number;
+}
+
+bool TextCursor::read_last_decimals(const char* start, std::int32_t fraction,
+                                    std::string_view name) {
+  bool is_fine = fraction % 10 == 0 || is_inch();
+  for (; is_digit(*at_); ++at_) is_fine = is_fine && *at_ == '0';
+  return is_fine ? true : too_fine(start, name);
+}
+
 bool TextCursor::too_fine(const char* start, std::string_view name) {
   return wrong(
       ErrorCode::EntryOutOfRange, start,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,6 +17,23 @@ struct Range {
   bool is_whole = false;  ///< no decimals
   bool may_be_q = true;
 };
+
+/// What a character can be the beginning of.
+inline constexpr std::uint8_t kDigitBit = 1;
+inline constexpr std::uint8_t kValueBit = 2;  ///< sign, digit, decimal sign, Q
+inline constexpr std::uint8_t kAxisBit = 4;
+inline constexpr auto kCharacterBits = [] {
+  std::array<std::uint8_t, 256> bits{};
+  for (const char c : std::string_view("0123456789")) {
+    bits[static_cast<unsigned char>(c)] = kDigitBit | kValueBit;
+  }
+  for (const char c : std::string_view("+-,.Q")) bits[static_cast<unsigned char>(c)] = kValueBit;
+  for (const char c : std::string_view("XYZABCUVW")) bits[static_cast<unsigned char>(c)] = kAxisBit;
+  return bits;
+}();
+inline bool is_axis_letter(char c) {
+  return (kCharacterBits[static_cast<unsigned char>(c)] & kAxisBit) != 0;
+}
 
 /// Reads the words of one block from left to right; blanks and line ends between two characters
 /// mean nothing. `*end` can be read and is no character of a word. A function that gives false has
@@ -56,8 +74,7 @@ class TextCursor {
   bool is_digit_next() { return is_digit(peek()); }
   /// A sign, a digit, a decimal sign or a Q comes next.
   bool is_value_next() {
-    const char c = peek();
-    return is_digit(c) || c == '+' || c == '-' || c == ',' || c == '.' || c == 'Q';
+    return (kCharacterBits[static_cast<unsigned char>(peek())] & kValueBit) != 0;
   }
 
   /// Digits without sign. `name` is what the fault calls it.
@@ -65,8 +82,7 @@ class TextCursor {
                     std::string_view name) {
     peek();
     const char* start = at_;
-    std::int64_t number = 0;
-    while (is_digit(*at_) && number < 1'000'000'000) number = number * 10 + (*at_++ - '0');
+    std::int64_t number = take_digits();
     if (at_ == start) return missing(name);
     if (number < low || number > high) return out_of_range(start, name, low, high);
     value = static_cast<std::int32_t>(number);
@@ -129,27 +145,41 @@ class TextCursor {
   bool read_q(Value& value, bool is_negated, const Range& range, std::string_view name,
               const char* start);
 
+  /// A run of digits, perhaps empty; more than any range allows becomes kTooLong.
+  std::int64_t take_digits() {
+    const char* at = at_;
+    std::uint64_t number = 0;
+    for (unsigned digit = 0; (digit = static_cast<unsigned char>(*at) - unsigned{'0'}) < 10; ++at) {
+      number = number * 10 + digit;
+    }
+    const bool is_long = at - at_ > 9;
+    const char* start = at_;
+    at_ = at;
+    return is_long ? long_number(start) : static_cast<std::int64_t>(number);
+  }
+  [[gnu::cold]] std::int64_t long_number(const char* start) const;
+
   /// Digits with up to as many decimals as the program's units have.
   bool read_steps(std::int64_t& steps, std::string_view name) {
+    static constexpr std::int32_t kScale[]{10'000, 1'000, 100, 10, 1};
     const char* start = at_;
-    std::int64_t number = 0;
-    while (is_digit(*at_) && number < 1'000'000'000) number = number * 10 + (*at_++ - '0');
-    std::size_t digits = static_cast<std::size_t>(at_ - start);
-    std::int64_t fraction = 0;
-    if (*at_ == ',' || *at_ == '.') {
-      ++at_;
-      std::int64_t step = kSteps;
-      for (; is_digit(*at_); ++at_, ++digits) {
-        step /= 10;
-        fraction += step * (*at_ - '0');
-        if (step == 0 && *at_ != '0') return too_fine(start, name);
-      }
-      if (fraction % 10 != 0 && !is_inch()) return too_fine(start, name);
+    steps = take_digits() * kSteps;
+    const char* at = at_;
+    if (*at == ',' || *at == '.') {
+      const char* decimals = ++at;
+      std::int32_t fraction = 0;
+      while (is_digit(*at) && at - decimals < 4) fraction = fraction * 10 + (*at++ - '0');
+      const auto count = at - decimals;
+      if (count == 0 && decimals == start + 1) return at_ = start, missing(name);
+      steps += fraction * kScale[count];
+      at_ = at;
+      return count < 4 || read_last_decimals(start, fraction, name);
     }
-    if (digits == 0) return at_ = start, missing(name);
-    steps = number * kSteps + fraction;
-    return true;
+    return at == start ? missing(name) : true;
   }
+  /// Behind the fourth decimal.
+  [[gnu::cold]] bool read_last_decimals(const char* start, std::int32_t fraction,
+                                        std::string_view name);
   [[gnu::cold]] bool too_fine(const char* start, std::string_view name);
   [[gnu::cold]] bool out_of_range(const char* start, std::string_view name, std::int64_t low,
                                   std::int64_t high);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/tnc155/block_reader.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// A block of plain language and the line it began in.
+struct NumberedBlock {
+  Block block;
+  std::uint64_t line = 0;
+};
+/// The words of an ISO block and the line they began in.
+struct NumberedIsoBlock {
+  IsoBlock block;
+  std::uint64_t line = 0;
+};
+
+struct PlainProgram {
+  std::vector<NumberedBlock> blocks;
+  Units units = Units::Millimetre;
+};
+struct IsoProgram {
+  std::vector<NumberedIsoBlock> blocks;
+  Units units = Units::Millimetre;
+};
+
+/// All blocks up to the program's last one. Errors: Syntax, "line 3, column 8: ..."; Unsupported
+/// (text behind the last block).
+Result<PlainProgram> read_plain_program(std::string_view text);
+Result<IsoProgram> read_iso_program(std::string_view text, bool has_continuation);
+
+}  // namespace dripline::interpreter::tnc155
