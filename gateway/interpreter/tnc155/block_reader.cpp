@@ -104,12 +104,27 @@ ReadState BlockReader::show(Form form) {
   return text_ == text_end_ ? ReadState::End : ReadState::Ready;
 }
 
-bool BlockReader::read(ReadingState& state, BlockParts& parts) {
+void BlockReader::find_place() {
   block_place_ = place_;
-  if (text_ != window_.begin()) {
-    block_place_.offset += static_cast<std::uint64_t>(text_ - window_.begin());
-    block_place_.line += line_ends_in(window_.begin(), text_);
+  if (text_ == window_.begin()) return;
+  block_place_.offset += static_cast<std::uint64_t>(text_ - window_.begin());
+  block_place_.line += line_ends_in(window_.begin(), text_);
+}
+
+ReadState BlockReader::next_words(ReadingState& state) {
+  if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
+  find_place();
+  if (!read_iso_block(text_, text_end_, state.program, iso_, fault_)) return complain();
+  if (place_.offset == 0 && iso_.program != IsoBlock::kNone && iso_.has(IsoGroup::Unit)) {
+    state.program.units = iso_.code(IsoGroup::Unit) == 70 ? Units::Inch : Units::Millimetre;
+    state.program.number = iso_.program;
   }
+  move_on();
+  return ReadState::Ready;
+}
+
+bool BlockReader::read(ReadingState& state, BlockParts& parts) {
+  find_place();
   if (state.program.form == Form::Iso) {
     return read_iso_block(text_, text_end_, state.program, iso_, fault_) &&
            resolve(iso_, place_.offset == 0, state, parts, fault_);

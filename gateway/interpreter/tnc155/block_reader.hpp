@@ -46,6 +46,10 @@ class BlockReader {
   /// last is gone.
   ReadState peek(const ReadingState& state, std::string_view& next);
 
+  /// The next block of a program in ISO form, only its words: see `iso_block`. Of `state` only the
+  /// program changes, and only by its % block.
+  ReadState next_words(ReadingState& state);
+
   /// Where the next block begins.
   const TextPlace& place() const { return place_; }
   /// Where the block read last begins.
@@ -68,6 +72,7 @@ class BlockReader {
   ReadState load(ReadingState& state);
   ReadState find_form(ReadingState& state);
   ReadState show(Form form);
+  void find_place();
   bool read(ReadingState& state, BlockParts& parts);
   ReadState complain();
   void move_on();

@@ -1,69 +1,72 @@
 #include "gateway/interpreter/tnc155/program_text.hpp"
 
 #include "gateway/interpreter/memory_source.hpp"
-#include "gateway/interpreter/tnc155/block_end.hpp"
-#include "gateway/interpreter/tnc155/plain_reader.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-Error fault_of(const BlockReader& reader) {
-  return {Errc::Syntax, fmt::format("line {}, column {}: {}", reader.fault_line(),
-                                    reader.fault().column, reader.fault().text())};
-}
-
-/// Calls `take` with every block read; false from it ends the program.
-template <class Take>
-Result<void> walk(std::string_view text, Form form, ReaderOptions options, Take take) {
-  MemorySource source(text);
-  BlockReader reader(source, options);
-  ReadingState state;
-  state.program.form = form;
-  BlockParts parts;
+/// Reads with `next` up to the block for which `take` gives false, and sees that nothing follows.
+template <class Next, class Take>
+Result<void> walk(BlockReader& reader, Next next, Take take) {
   bool is_over = false;
   while (true) {
-    switch (reader.next(state, parts)) {
-      case ReadState::Ready:
-        if (is_over) {
-          return fail(Errc::Unsupported, "line {}: text behind the last block of the program",
-                      reader.block_place().line);
-        }
-        is_over = !take(reader, state, parts);
-        break;
-      case ReadState::End:
-        return {};
-      case ReadState::Wrong:
-        if (is_over) {
-          return fail(Errc::Unsupported, "line {}: text behind the last block of the program",
-                      reader.block_place().line);
-        }
-        return fail(fault_of(reader));
-      default:
-        return fail(Errc::Io, "{}", reader.reason());
+    const ReadState read = next();
+    if (read == ReadState::End) return {};
+    if (is_over && (read == ReadState::Ready || read == ReadState::Wrong)) {
+      return fail(Errc::Unsupported, "text behind the last block of the program");
     }
+    if (read == ReadState::Wrong) {
+      return fail(Errc::Syntax, "line {}, column {}: {}", reader.fault_line(),
+                  reader.fault().column, reader.fault().text());
+    }
+    if (read != ReadState::Ready) return fail(Errc::Io, "{}", reader.reason());
+    is_over = !take();
   }
+}
+
+/// The last block of an ISO program names it again.
+bool is_last(const IsoBlock& block, const ProgramForm& program, bool is_first) {
+  if (block.program == IsoBlock::kNone || is_first) return false;
+  return block.has(IsoGroup::Unit) || block.program == program.number;
 }
 
 }  // namespace
 
 Result<PlainProgram> read_plain_program(std::string_view text) {
+  MemorySource source(text);
+  BlockReader reader(source);
   PlainProgram program;
-  auto walked = walk(text, Form::Plain, {},
-                     [&](const BlockReader& reader, const ReadingState& state,
-                         const BlockParts& parts) {
-                       program.units = state.program.units;
-                       program.blocks.push_back({parts.blocks[0], reader.block_place().line});
-                       return parts.blocks[0].kind != BlockKind::End;
-                     });
+  ReadingState state;
+  state.program.form = Form::Plain;
+  BlockParts parts;
+  const auto walked = walk(
+      reader, [&] { return reader.next(state, parts); },
+      [&] {
+        program.blocks.push_back(parts.blocks[0]);
+        program.lines.push_back(reader.block_place().line);
+        return parts.blocks[0].kind != BlockKind::End;
+      });
   if (!walked) return fail(walked.error());
+  program.units = state.program.units;
   return program;
 }
 
-namespace {
-
-/// In the order of the text nothing is known of what is in force: a block is only taken apart.
-bool read_words(BlockReader& reader, ReadingState& state, IsoBlock& block);
-
-}  // namespace
+Result<IsoProgram> read_iso_program(std::string_view text, bool has_continuation) {
+  MemorySource source(text);
+  BlockReader reader(source, {has_continuation});
+  IsoProgram program;
+  ReadingState state;
+  state.program.form = Form::Iso;
+  const auto walked = walk(
+      reader, [&] { return reader.next_words(state); },
+      [&] {
+        const bool is_first = program.blocks.empty();
+        program.blocks.push_back({reader.iso_block(), reader.block_place().line});
+        return !is_last(reader.iso_block(), state.program, is_first);
+      });
+  if (!walked) return fail(walked.error());
+  program.units = state.program.units;
+  return program;
+}
 
 }  // namespace dripline::interpreter::tnc155

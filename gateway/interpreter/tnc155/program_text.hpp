@@ -8,20 +8,16 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// A block of plain language and the line it began in.
-struct NumberedBlock {
-  Block block;
-  std::uint64_t line = 0;
+struct PlainProgram {
+  std::vector<Block> blocks;
+  std::vector<std::uint64_t> lines;  ///< where they begin
+  Units units = Units::Millimetre;
 };
-/// The words of an ISO block and the line they began in.
+
+/// The words of a block and the line they begin in.
 struct NumberedIsoBlock {
   IsoBlock block;
   std::uint64_t line = 0;
-};
-
-struct PlainProgram {
-  std::vector<NumberedBlock> blocks;
-  Units units = Units::Millimetre;
 };
 struct IsoProgram {
   std::vector<NumberedIsoBlock> blocks;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "gateway/interpreter/tnc155/iso_modes.hpp"
+#include "gateway/interpreter/tnc155/program_text.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What is in force in front of an ISO block, over all ways the run of a program can come to it.
+struct ModesBefore {
+  IsoModes modes;
+  // Where the ways disagree:
+  bool is_motion_open = false;
+  bool is_distance_open = false;
+  bool is_turn_open = false;
+  bool is_reached = false;
+  friend bool operator==(const ModesBefore&, const ModesBefore&) = default;
+};
+
+/// One for each block of the program. Labels, repeats, jumps and returns are followed; what a
+/// called program leaves in force is open. Blocks that nothing reaches go on from those before
+/// them.
+std::vector<ModesBefore> modes_before(const IsoProgram& program);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,423 @@
+#include <fmt/format.h>
+
+#include "gateway/interpreter/tnc155/conversion_parts.hpp"
+#include "gateway/interpreter/tnc155/cycle_names.hpp"
+#include "gateway/interpreter/tnc155/iso_axes.hpp"
+#include "gateway/interpreter/tnc155/iso_cycles.hpp"
+#include "gateway/interpreter/tnc155/rounding_use.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+/// What the ISO text has made known so far; nothing is known where the run may come from elsewhere.
+struct KnownModes {
+  int motion = IsoBlock::kNone;
+  Distance distance = Distance::AsBefore;
+};
+
+Value whole(std::int32_t number) {
+  return Value::steps(number * Value::kStepsPerUnit);
+}
+
+class PlainToIso {
+ public:
+  PlainToIso(const PlainProgram& program, const ConversionOptions& options)
+      : program_(program), blocks_(program.blocks), options_(options) {}
+
+  Result<std::string> run() {
+    increment_ = options_.increment;
+    if (static_cast<std::int64_t>(blocks_.size()) * increment_ > kLastNumber - 1) increment_ = 1;
+    if (blocks_.size() > kMostNumber) increment_ = 0;
+    CompensationTrack track;
+    while (at_ < blocks_.size()) {
+      const std::size_t begin = at_;
+      iso_ = IsoBlock{};
+      if (auto converted = convert(blocks_[at_], track); !converted) return fail(converted.error());
+      for (; begin_pass_ < at_; ++begin_pass_) track.pass(blocks_[begin_pass_]);
+      if (at_ == begin) return fail(Errc::Unsupported, "line {}: no counterpart", line());
+    }
+    return std::move(text_);
+  }
+
+ private:
+  std::uint64_t line() const { return program_.lines[std::min(at_, blocks_.size() - 1)]; }
+  Result<void> refuse(std::string_view what) const {
+    return fail(Errc::Unsupported, "line {}: {}", line(), what);
+  }
+
+  /// The block is done with `iso_`.
+  Result<void> put(std::size_t count = 1) {
+    write();
+    at_ += count;
+    return {};
+  }
+  void write() {
+    const bool is_end = blocks_[at_].kind == BlockKind::End;
+    const bool is_begin = blocks_[at_].kind == BlockKind::Begin;
+    if (is_end) {
+      iso_.number = kLastNumber;
+    } else if (!is_begin && increment_ > 0) {
+      iso_.number = number_ += increment_;
+    }
+    write_iso_block(iso_, options_.layout, text_);
+  }
+
+  Result<void> convert(const Block& block, const CompensationTrack& track) {
+    if (is_flow(block) || is_move(block)) make_start_complete(block);
+    switch (block.kind) {
+      case BlockKind::Begin:
+      case BlockKind::End:
+        iso_.program = block.target;
+        iso_.set(IsoGroup::Unit, block.units == Units::Inch ? 70 : 71);
+        if (block.is_protected) iso_.set(IsoGroup::Protection, 50);
+        return put();
+      case BlockKind::ToolDefinition:
+        return convert_tool_definition(block);
+      case BlockKind::ToolCall:
+        return convert_tool_call(block);
+      case BlockKind::Stop:
+        iso_.set(IsoGroup::Stop, 38);
+        iso_.m = block.m;
+        return put();
+      case BlockKind::CycleCall:
+        iso_.set(IsoGroup::Call, 79);
+        iso_.m = block.m;
+        if (calls_programs_) known_ = {};
+        return put();
+      case BlockKind::Chamfer:
+        return convert_corner(block, 24);
+      case BlockKind::Rounding:
+        return convert_rounding(block, track);
+      case BlockKind::Centre:
+        return convert_centre(block);
+      case BlockKind::Label:
+      case BlockKind::LabelCall:
+      case BlockKind::ProgramCall:
+        return convert_flow(block);
+      case BlockKind::Function:
+        return convert_function(block);
+      case BlockKind::CycleDefinition:
+        return convert_cycle(block);
+      case BlockKind::BlankForm:
+        return convert_blank(block);
+      case BlockKind::Probe:
+        return convert_probe(block);
+      default:
+        return convert_path(block);
+    }
+  }
+
+  static bool is_move(const Block& block) {
+    return is_path(block) || block.kind == BlockKind::SingleAxis;
+  }
+
+  /// ISO presets nothing: the plane comes from the first tool call or blank form, and what runs
+  /// first has a compensation.
+  void make_start_complete(const Block& block) {
+    if (has_start_) return;
+    has_start_ = true;
+    const bool needs_compensation =
+        is_flow(block) || block.compensation == Compensation::NotProgrammed;
+    if (has_plane_ && !needs_compensation) return;
+    IsoBlock start;
+    if (!has_plane_) start.set(IsoGroup::Plane, first_plane());
+    if (needs_compensation) start.set(IsoGroup::Compensation, 40);
+    if (increment_ > 0) start.number = number_ += increment_;
+    write_iso_block(start, options_.layout, text_);
+  }
+  std::uint8_t first_plane() const {
+    for (const Block& block : blocks_) {
+      const bool names_axis =
+          block.kind == BlockKind::ToolCall || block.kind == BlockKind::BlankForm;
+      if (names_axis && block.axis && plane_of_axis(*block.axis))
+        return *plane_of_axis(*block.axis);
+      if (names_axis && block.is_fourth_axis) return 20;
+    }
+    return 17;
+  }
+
+  Result<void> convert_tool_definition(const Block& block) {
+    const bool is_next = !block.length.is_programmed() && !block.radius.is_programmed();
+    iso_.set(IsoGroup::Tool, is_next ? 51 : 99);
+    iso_.tool = block.target;
+    iso_.length = block.length;
+    if (block.radius.is_programmed()) iso_.set(IsoSlot::R, block.radius, Distance::AsBefore);
+    return put();
+  }
+
+  Result<void> convert_tool_call(const Block& block) {
+    if (block.target == Block::kNone && !block.axis && !block.is_fourth_axis &&
+        !block.spindle.is_programmed()) {
+      return refuse("TOOL CALL without words has no counterpart in ISO");
+    }
+    iso_.tool = block.target;
+    iso_.spindle = block.spindle;
+    if (block.is_fourth_axis) iso_.set(IsoGroup::Plane, 20);
+    if (block.axis) {
+      const auto plane = plane_of_axis(*block.axis);
+      if (!plane) return refuse("TOOL CALL with this axis has no counterpart in ISO; IV has: G20");
+      iso_.set(IsoGroup::Plane, *plane);
+    }
+    has_plane_ |= iso_.has(IsoGroup::Plane);
+    return put();
+  }
+
+  Result<void> convert_corner(const Block& block, std::uint8_t code) {
+    iso_.set(IsoGroup::Corner, code);
+    iso_.set(IsoSlot::R, block.radius, Distance::AsBefore);
+    return put();
+  }
+
+  Result<void> convert_rounding(const Block& block, const CompensationTrack& track) {
+    const RoundingUse use = track.use_of(blocks_, at_);
+    if (use == RoundingUse::Unstated) {
+      return refuse("whether RND is G25, G26 or G27 depends on where the run comes from");
+    }
+    return convert_corner(block, use == RoundingUse::RunOn    ? 26
+                                 : use == RoundingUse::RunOff ? 27
+                                                              : 25);
+  }
+
+  Result<void> convert_centre(const Block& block) {
+    if (block.coordinate_count == 0) iso_.set(IsoGroup::Pole, 29);
+    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+      const Coordinate& coordinate = block.coordinates[i];
+      if (coordinate.axis > Axis::Z) return refuse("CC with this axis has no counterpart in ISO");
+      set_slot(static_cast<IsoSlot>(coordinate.axis), coordinate.value, coordinate.is_incremental);
+    }
+    sort_distances();
+    return put();
+  }
+
+  Result<void> convert_flow(const Block& block) {
+    known_ = {};
+    if (block.kind == BlockKind::ProgramCall) {
+      if (block.target == program_number()) return refuse("the program calls itself");
+      iso_.program = block.target;
+      return put();
+    }
+    iso_.label = block.target;
+    if (block.kind == BlockKind::Label) iso_.set(IsoGroup::Label, 98);
+    iso_.repeats = block.repeats;
+    return put();
+  }
+  std::int32_t program_number() const {
+    return blocks_.front().kind == BlockKind::Begin ? blocks_.front().target : Block::kNone;
+  }
+
+  void set_parameter(std::size_t number, const IsoParameter& parameter) {
+    iso_.parameters = static_cast<std::uint8_t>(iso_.parameters | 1u << number);
+    iso_.cycle[number] = parameter;
+  }
+
+  Result<void> convert_function(const Block& block) {
+    const bool is_jump = block.function >= 9;
+    iso_.function = static_cast<std::int8_t>(block.function);
+    if (!is_jump) iso_.parameter = block.target;
+    set_parameter(1, {block.first, {}, {}});
+    if (block.second.is_programmed()) set_parameter(2, {block.second, {}, {}});
+    if (is_jump) set_parameter(3, {whole(block.target), {}, {}});
+    return put();
+  }
+
+  /// The sub-blocks that follow one another, as one block.
+  Result<void> convert_cycle(const Block& first) {
+    const auto rows = cycle_parts(first.cycle);
+    std::size_t count = 0;
+    while (at_ + count < blocks_.size() && count < rows.size()) {
+      const Block& part = blocks_[at_ + count];
+      if (part.kind != BlockKind::CycleDefinition || part.cycle != first.cycle ||
+          part.part != count) {
+        break;
+      }
+      ++count;
+    }
+    const std::size_t least = first.cycle == 7 ? 2 : rows.size();
+    if (count < least)
+      return refuse("CYCL INCOMPLETE: the sub-blocks of the cycle are not complete");
+    std::optional<Turn> turn;
+    next_parameter_ = 1;
+    for (std::size_t i = 1; i < count; ++i) {
+      const Block& part = blocks_[at_ + i];
+      if (part.turn) turn = part.turn;
+      take_cycle_part(part, rows[i].field);
+    }
+    const int code = code_of_cycle(first.cycle, turn);
+    iso_.set(IsoGroup::Cycle, static_cast<std::uint8_t>(code));
+    calls_programs_ |= first.cycle == 12;
+    sort_distances();
+    return check_shift() ? put(count) : refuse("CYCL DEF 7 names an axis twice");
+  }
+
+  bool check_shift() const { return !is_slot_twice_; }
+
+  void add_parameter(const Value& value, std::optional<Axis> axis = {}) {
+    set_parameter(next_parameter_++, {value, axis, {}});
+  }
+
+  void take_cycle_part(const Block& part, CycleField field) {
+    switch (field) {
+      case CycleField::Length:
+        return add_parameter(part.first);
+      case CycleField::Dwell:
+        if (part.cycle == 9) {
+          iso_.feed = part.first;
+          return;
+        }
+        return add_parameter(part.first);
+      case CycleField::Feed:
+      case CycleField::FeedTurn:
+        return add_parameter(part.feed);
+      case CycleField::Peck:
+        add_parameter(part.first);
+        return add_parameter(part.feed);
+      case CycleField::Radius:
+        return add_parameter(part.radius);
+      case CycleField::Side:
+        return add_parameter(part.coordinates[0].value, part.coordinates[0].axis);
+      case CycleField::Program:
+        return add_parameter(whole(part.target));
+      case CycleField::Shift:
+        return set_slot(slot_of_axis(part.coordinates[0].axis), part.coordinates[0].value,
+                        part.coordinates[0].is_incremental);
+      case CycleField::Axes:
+        for (std::size_t i = 0; i < part.coordinate_count; ++i) {
+          iso_.set(slot_of_axis(part.coordinates[i].axis), {}, Distance::AsBefore);
+        }
+        return;
+      case CycleField::Rotation:
+        return set_slot(IsoSlot::H, part.angle, part.is_angle_incremental);
+      case CycleField::Scale:
+        iso_.factor = part.factor;
+        return;
+      case CycleField::Name:
+        return;
+    }
+  }
+
+  Result<void> convert_blank(const Block& block) {
+    iso_.set(IsoGroup::Blank, block.is_maximum ? 31 : 30);
+    const Axis axis = block.axis.value_or(Axis::Z);
+    if (block.axis || !block.is_maximum) {
+      if (!plane_of_axis(axis)) return refuse("BLK FORM with this axis has no counterpart in ISO");
+      iso_.set(IsoGroup::Plane, *plane_of_axis(axis));
+    }
+    set_coordinates(block);
+    sort_distances();
+    return put();
+  }
+
+  Result<void> convert_probe(const Block& block) {
+    const bool has_point = at_ + 1 < blocks_.size() && blocks_[at_ + 1].kind == BlockKind::Probe &&
+                           blocks_[at_ + 1].part == 1;
+    if (block.part != 0 || !has_point)
+      return refuse("TCH PROBE 0.0 and 0.1 do not follow one another");
+    iso_.set(IsoGroup::Probe, 55);
+    set_parameter(1, {whole(block.target), {}, {}});
+    set_parameter(2, {{}, block.axis, block.direction});
+    set_parameter(3, {});
+    set_coordinates(blocks_[at_ + 1]);
+    sort_distances();
+    return put(2);
+  }
+
+  Result<void> convert_path(const Block& block) {
+    const int motion = motion_of(block);
+    if (motion == kNoMotion) return refuse("F MAX of this block has no counterpart in ISO");
+    const bool moves = is_move(block);
+    if (block.kind == BlockKind::PolarLine && !block.radius.is_programmed() &&
+        !block.angle.is_programmed()) {
+      return refuse("LP without PR and PA has no counterpart in ISO");
+    }
+    if (moves && (motion == 7 || motion != known_.motion)) {
+      iso_.set(IsoGroup::Motion, static_cast<std::uint8_t>(motion));
+    }
+    if (moves && motion != 7) known_.motion = motion;
+    if (block.compensation != Compensation::NotProgrammed) {
+      iso_.set(IsoGroup::Compensation,
+               static_cast<std::uint8_t>(static_cast<int>(block.compensation) + 39));
+    }
+    set_coordinates(block);
+    if (block.radius.is_programmed()) {
+      set_slot(IsoSlot::R, block.radius, block.is_radius_incremental);
+    }
+    if (block.angle.is_programmed()) set_slot(IsoSlot::H, block.angle, block.is_angle_incremental);
+    iso_.feed = block.feed;
+    iso_.m = block.m;
+    sort_distances();
+    if (calls_programs_) known_ = {};  // M89 may call after any move
+    return put();
+  }
+
+  static constexpr int kNoMotion = -2;
+  static int motion_of(const Block& block) {
+    const bool is_clockwise = block.turn == Turn::Clockwise;
+    switch (block.kind) {
+      case BlockKind::Line:
+        return block.is_rapid ? 0 : 1;
+      case BlockKind::PolarLine:
+        return block.is_rapid ? 10 : 11;
+      case BlockKind::Arc:
+        return block.is_rapid ? kNoMotion : is_clockwise ? 2 : 3;
+      case BlockKind::PolarArc:
+        return block.is_rapid ? kNoMotion : is_clockwise ? 12 : 13;
+      case BlockKind::TangentArc:
+        return block.is_rapid ? kNoMotion : 6;
+      default:
+        return block.is_rapid ? kNoMotion : 7;
+    }
+  }
+
+  void set_coordinates(const Block& block) {
+    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+      const Coordinate& coordinate = block.coordinates[i];
+      set_slot(slot_of_axis(coordinate.axis), coordinate.value, coordinate.is_incremental);
+    }
+  }
+  void set_slot(IsoSlot slot, const Value& value, bool is_incremental) {
+    is_slot_twice_ |= iso_.has(slot);
+    iso_.set(slot, value, is_incremental ? Distance::Incremental : Distance::Absolute);
+  }
+
+  /// G90 and G91 only where they change something. Words of what is in force come first in the
+  /// block, so the rest must say theirs.
+  void sort_distances() {
+    Distance last = known_.distance;
+    for (std::size_t i = 0; i < kIsoSlots; ++i) {
+      const auto slot = static_cast<IsoSlot>(i);
+      if (!iso_.has(slot) || iso_.distance(slot) == Distance::AsBefore) continue;
+      if (iso_.distance(slot) == known_.distance) {
+        iso_.set(slot, iso_.value(slot), Distance::AsBefore);
+      } else {
+        last = iso_.distance(slot);
+      }
+    }
+    known_.distance = last;
+  }
+
+  static constexpr std::int32_t kLastNumber = 9'999;
+  static constexpr std::size_t kMostNumber = 65'000;
+  const PlainProgram& program_;
+  const std::vector<Block>& blocks_;
+  const ConversionOptions& options_;
+  std::int32_t increment_ = 10;
+  std::int32_t number_ = 0;
+  std::size_t at_ = 0;
+  std::size_t begin_pass_ = 0;
+  std::size_t next_parameter_ = 1;
+  bool has_start_ = false;
+  bool has_plane_ = false;
+  bool calls_programs_ = false;
+  bool is_slot_twice_ = false;
+  KnownModes known_;
+  IsoBlock iso_;
+  std::string text_;
+};
+
+}  // namespace
+
+Result<std::string> to_iso(const PlainProgram& program, const ConversionOptions& options) {
+  return PlainToIso(program, options).run();
+}
+
+}  // namespace dripline::interpreter::tnc155

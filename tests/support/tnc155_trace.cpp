@@ -1,0 +1,52 @@
+#include "tests/support/tnc155_trace.hpp"
+
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/trace/trace_writer.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+constexpr std::uint64_t kMostBlocks = 20'000;
+
+/// Leaves out `"name":value,` where value has no comma.
+void erase_member(std::string& line, std::string_view name) {
+  const auto at = line.find(name);
+  if (at == std::string::npos) return;
+  const auto end = line.find_first_of(",}", at + name.size());
+  if (end != std::string::npos) line.erase(at, end - at + (line[end] == ',' ? 1 : 0));
+}
+
+std::string without_places(std::string line) {
+  if (line.starts_with("{\"event\":\"alarm\"") || line.starts_with("{\"event\":\"warning\"")) {
+    const auto id = line.find("\"id\":");
+    return line.substr(id == std::string::npos ? 0 : id, line.find(',', id) - id);
+  }
+  erase_member(line, "\"line\":");
+  erase_member(line, "\"block\":");
+  return line;
+}
+
+}  // namespace
+
+std::string tnc155_trace(std::string_view text) {
+  const Dialect& dialect = **find_dialect("tnc155");
+  MemorySource source(text);
+  std::string written;
+  std::string trace;
+  {
+    TraceWriter writer([&](std::string_view lines) { written += lines; });
+    const auto outcome = run_offline(dialect, Setup{}, source, writer, {kMostBlocks});
+    writer.flush();
+    if (!outcome) trace = "...";
+  }
+  std::string lines;
+  for (std::size_t at = 0; at < written.size();) {
+    const auto end = written.find('\n', at);
+    lines += without_places(written.substr(at, end - at)) + "\n";
+    at = end == std::string::npos ? written.size() : end + 1;
+  }
+  return lines + trace;
+}
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "gateway/interpreter/tnc155/conversion.hpp"
+#include "tests/support/tnc155_trace.hpp"
+
+/// A program and its conversion do the same: over the golden programs, and over programs made at
+/// random with a fixed seed.
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+Form other(Form form) {
+  return form == Form::Plain ? Form::Iso : Form::Plain;
+}
+
+/// Converts there and back, and compares what the three do. False: it has no counterpart.
+bool does_the_same(const std::string& text) {
+  const auto there = convert_program(text, other(detect_form(text)));
+  if (!there) {
+    EXPECT_EQ(there.error().code, Errc::Unsupported) << there.error().what << "\n" << text;
+    return false;
+  }
+  const std::string trace = tnc155_trace(text);
+  EXPECT_EQ(tnc155_trace(*there), trace) << text << "\n" << *there;
+  const auto back = convert_program(*there, detect_form(text));
+  EXPECT_TRUE(back.has_value()) << (back ? "" : back.error().what) << "\n" << *there;
+  if (back) {
+    EXPECT_EQ(tnc155_trace(*back), trace) << text << "\n" << *back;
+  }
+  return true;
+}
+
+TEST(Tnc155ConversionTrace, OfGoldenProgramsIsTheSame) {
+  int converted = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(DRIPLINE_GOLDEN)) {
+    std::ifstream file(entry.path() / "program.nc", std::ios::binary);
+    if (!file) continue;
+    std::ostringstream text;
+    text << file.rdbuf();
+    SCOPED_TRACE(entry.path().filename().string());
+    const auto readable = rewrite_program(text.str());
+    if (!readable) continue;  // a case of a block that can not be read
+    converted += does_the_same(text.str()) ? 1 : 0;
+  }
+  EXPECT_GE(converted, 20);
+}
+
+/// Programs of plain language whose blocks all can be read.
+class ProgramMaker {
+ public:
+  explicit ProgramMaker(unsigned seed) : random_(seed) {}
+
+  std::string make() {
+    text_ = pick(4) == 0 ? "0 BEGIN PGM 7 INCH\n" : "0 BEGIN PGM 7 MM\n";
+    number_ = 1;
+    if (pick(4) != 0) add("TOOL DEF 1 L+0 R+{}", pick(4));
+    if (pick(8) != 0) add("TOOL CALL 1 {} S 500", "ZZZY"[pick(4)]);
+    add("L X{} Y{} Z{} R0 F{} M03", length(), length(), length(), 10 + pick(500));
+    const unsigned blocks = 3 + pick(14);
+    for (unsigned i = 0; i < blocks; ++i) add_block();
+    if (has_label_) add("CALL LBL 1 REP {}", pick(3) + 1);
+    add("END PGM 7 {}", text_.find("INCH") == std::string::npos ? "MM" : "INCH");
+    return text_;
+  }
+
+ private:
+  unsigned pick(unsigned choices) { return static_cast<unsigned>(random_() % choices); }
+  template <class... Args>
+  void add(fmt::format_string<Args...> block, const Args&... args) {
+    text_ += fmt::format("{} ", number_++) + fmt::format(block, args...) + "\n";
+  }
+  std::string length() {
+    return fmt::format("{}{},{:03}", pick(2) ? "+" : "-", pick(40), pick(8) * 125);
+  }
+  std::string axis(char name) { return fmt::format("{}{}{}", pick(4) ? "" : "I", name, length()); }
+  std::string compensation() {
+    static constexpr std::array kWords{"R", "R", "R", "R", "R0", "R0", "RL", "RR"};
+    return kWords[pick(kWords.size())];
+  }
+  std::string tail() {
+    static constexpr std::array kFeeds{"F", "F", "F90", "F200"};
+    static constexpr std::array kAuxiliary{"M", "M", "M", "M", "M", "M08", "M97", "M98", "M99"};
+    return fmt::format("{} {} {}", compensation(), kFeeds[pick(kFeeds.size())],
+                       kAuxiliary[pick(kAuxiliary.size())]);
+  }
+  std::string turn() { return pick(2) ? "DR+" : "DR-"; }
+
+  void add_block() {
+    switch (pick(18)) {
+      case 0:
+        return add("CC {} {}", axis('X'), axis('Y'));
+      case 1:
+        return add("CC");
+      case 2:
+        return add("LP PR+{} PA{} {}", 1 + pick(30), length(), tail());
+      case 3:
+        return add("LP {}PA{} {}", pick(2) ? "I" : "", length(), tail());
+      case 4:
+        return add("CP {}PA{} {} {}", pick(2) ? "I" : "", length(), turn(), tail());
+      case 5:
+        return add("CP IPA+720 IZ{} {} {}", length(), turn(), tail());
+      case 6:
+        return add("C {} {} {} {}", axis('X'), axis('Y'), turn(), tail());
+      case 7:
+        return add("CT {} {} {}", axis('X'), axis('Y'), tail());
+      case 8:
+        return add("RND R{}", 1 + pick(3));
+      case 9:
+        return add("L {}", 1 + pick(3));
+      case 10:
+        return add("{} {} F80 M", axis('Y'), pick(2) ? "R+" : "R-");
+      case 11:
+        return add("L Z{} R F MAX M", length());
+      case 12:
+        return add("FN {}: Q1 = {} {} {}", 1 + pick(3), length(), "+", length());
+      case 13:
+        add("CYCL DEF 7.0 DATUM SHIFT");
+        return add("CYCL DEF 7.1 {}", axis('X'));
+      case 14:
+        add("CYCL DEF 10.0 ROTATION");
+        return add("CYCL DEF 10.1 {}ROT{}", pick(2) ? "I" : "", length());
+      case 15:
+        if (has_label_ || pick(3) != 0) return add("STOP M09");
+        has_label_ = true;
+        return add("LBL 1");
+      default:
+        return add("L {} {} {}", axis('X'), axis('Y'), tail());
+    }
+  }
+
+  std::mt19937 random_;
+  std::string text_;
+  int number_ = 0;
+  bool has_label_ = false;
+};
+
+TEST(Tnc155ConversionTrace, OfProgramsMadeAtRandomIsTheSame) {
+  int converted = 0;
+  for (unsigned seed = 1; seed <= 1500 && !testing::Test::HasFailure(); ++seed) {
+    const std::string text = ProgramMaker(seed).make();
+    if (!rewrite_program(text)) continue;
+    converted += does_the_same(text) ? 1 : 0;
+  }
+  EXPECT_GE(converted, 300);
+}
+
+}  // namespace
+}  // namespace dripline::interpreter::tnc155
