@@ -24,6 +24,7 @@ std::string without_places(std::string line) {
   }
   erase_member(line, "\"line\":");
   erase_member(line, "\"block\":");
+  erase_member(line, "\"blocks\":");
   return line;
 }
 

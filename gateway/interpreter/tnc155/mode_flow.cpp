@@ -60,6 +60,9 @@ ModesBefore behind(const IsoBlock& block, ModesBefore state) {
     state.modes.is_incremental = last == Distance::Incremental;
     state.is_distance_open = false;
   }
+  if (block.has(IsoGroup::Cycle) && block.parameters != 0) {
+    state.has_program_cycle = block.code(IsoGroup::Cycle) == 39;
+  }
   state.modes.has_compensation |= block.has(IsoGroup::Compensation);
   state.modes.has_plane |= block.has(IsoGroup::Plane) && !block.has(IsoGroup::Blank) &&
                            !block.has_code(IsoGroup::Cycle, 73);
@@ -79,6 +82,7 @@ bool merge(ModesBefore& into, const ModesBefore& from) {
                            into.modes.has_distance != from.modes.has_distance ||
                            into.modes.is_incremental != from.modes.is_incremental;
   into.is_turn_open |= from.is_turn_open || into.modes.last_turn != from.modes.last_turn;
+  into.has_program_cycle |= from.has_program_cycle;
   into.modes.has_plane |= from.modes.has_plane;
   into.modes.has_compensation |= from.modes.has_compensation;
   return into != old;
@@ -113,10 +117,7 @@ class ModeFlow {
       if (block.label != 0) labels_[block.label] = {i, end_of_sub};
     }
     bool has_jumps = false;
-    for (const auto& block : blocks_) {
-      has_jumps |= jump_target(block.block) != IsoBlock::kNone;
-      calls_programs_ |= block.block.has_code(IsoGroup::Cycle, 39);
-    }
+    for (const auto& block : blocks_) has_jumps |= jump_target(block.block) != IsoBlock::kNone;
     for (std::size_t i = 0; i + 1 < blocks_.size(); ++i) {
       const IsoBlock& block = blocks_[i].block;
       if (!is_label_call(block) || block.repeats != IsoBlock::kNone) continue;
@@ -141,7 +142,7 @@ class ModeFlow {
   void pass_on(std::size_t at) {
     const IsoBlock& block = blocks_[at].block;
     ModesBefore state = behind(block, before_[at]);
-    if (calls_programs_ && (block.slots != 0 || block.has(IsoGroup::Call))) open(state);
+    if (state.has_program_cycle && (block.slots != 0 || block.has(IsoGroup::Call))) open(state);
     if (is_label_call(block)) {
       reach_label(block.label, state);
       if (block.repeats != IsoBlock::kNone) reach(at + 1, state);
@@ -163,7 +164,6 @@ class ModeFlow {
   const std::vector<NumberedIsoBlock>& blocks_;
   std::vector<ModesBefore> before_;
   std::vector<std::size_t> waiting_;
-  bool calls_programs_ = false;  ///< by cycle calls
   std::map<std::int32_t, Sub> labels_;
   std::map<std::size_t, std::vector<std::size_t>> returns_;  ///< of a LBL 0: behind the calls
 };

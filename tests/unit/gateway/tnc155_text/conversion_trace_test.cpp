@@ -72,8 +72,8 @@ class ProgramMaker {
  private:
   unsigned pick(unsigned choices) { return static_cast<unsigned>(random_() % choices); }
   template <class... Args>
-  void add(fmt::format_string<Args...> block, const Args&... args) {
-    text_ += fmt::format("{} ", number_++) + fmt::format(block, args...) + "\n";
+  void add(std::string_view block, const Args&... args) {
+    text_ += fmt::format("{} ", number_++) + fmt::format(fmt::runtime(block), args...) + "\n";
   }
   std::string length() {
     return fmt::format("{}{},{:03}", pick(2) ? "+" : "-", pick(40), pick(8) * 125);
@@ -117,8 +117,10 @@ class ProgramMaker {
         return add("{} {} F80 M", axis('Y'), pick(2) ? "R+" : "R-");
       case 11:
         return add("L Z{} R F MAX M", length());
-      case 12:
-        return add("FN {}: Q1 = {} {} {}", 1 + pick(3), length(), "+", length());
+      case 12: {
+        const unsigned function = 1 + pick(3);
+        return add("FN {}: Q1 = {} {} {}", function, length(), "+-*"[function - 1], length());
+      }
       case 13:
         add("CYCL DEF 7.0 DATUM SHIFT");
         return add("CYCL DEF 7.1 {}", axis('X'));
