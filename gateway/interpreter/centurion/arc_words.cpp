@@ -2,16 +2,12 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/arcs.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
-
-/// "On the arc" means within ten least increments (spec 5.4).
-double arc_tolerance(const Run& run) {
-  return run.state.units == Units::Inch ? 0.001 : 0.01;
-}
 
 constexpr AddressSet kAbsoluteCenter = set_of(Address::XC, Address::ZC);
 
@@ -19,24 +15,15 @@ constexpr AddressSet kAbsoluteCenter = set_of(Address::XC, Address::ZC);
 struct ArcCenter {
   Point center;
   double radius = 0;
-  bool is_absolute = false;
+  bool is_known = false;  ///< to Trig Help: the joining stage finds the ends
 };
 
-/// Points off the circle are estimates to Trig Help, unless it is off or the data can not use it.
-bool refuse_off_arc(Run& run, const ArcCenter& arc, double off_by) {
-  const Words& words = run.block.words;
-  const bool trig_help_applies = arc.is_absolute && !run.state.modes.is_incremental &&
-                                 !words.has_any(set_of(Address::U, Address::W)) &&
-                                 (run.parameters.byte(kSpecialFlags) & 2) == 0;
-  const std::string detail =
-      fmt::format("point is {:.6f} off the radius {:.6f}", off_by, arc.radius);
-  if (!trig_help_applies) return run.fail(ErrorCode::OutOfPosition, motion_column(run), detail);
-  return run.fail(ErrorCode::NotSupported, motion_column(run), "Trig Help (" + detail + ")");
-}
-
 bool check_on_arc(Run& run, const ArcCenter& arc, const Point& point) {
+  if (arc.is_known) return true;
   const double off_by = std::fabs(distance(point, arc.center) - arc.radius);
-  return off_by <= arc_tolerance(run) || refuse_off_arc(run, arc, off_by);
+  if (off_by <= arc_tolerance(run)) return true;
+  return run.fail(ErrorCode::OutOfPosition, motion_column(run),
+                  fmt::format("point is {:.6f} off the radius {:.6f}", off_by, arc.radius));
 }
 
 bool refuse_negative_radius(Run& run) {
@@ -47,7 +34,7 @@ bool refuse_negative_radius(Run& run) {
 bool read_absolute_center(Run& run, ArcCenter& arc) {
   const Words& words = run.block.words;
   const ModalState& state = run.state;
-  arc.is_absolute = true;
+  arc.is_known = state.retained.has_radius && has_trig_help(run);
   arc.center = state.position;
   if (words.has(Address::XC)) arc.center.x = state.origin.x + words[Address::XC] / 2;
   if (words.has(Address::ZC)) arc.center.z = state.origin.z + words[Address::ZC];
@@ -106,6 +93,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   state.moved_axes = 3;
   state.last_arc_center = arc.center;
   state.last_arc_radius = arc.radius;
+  announce_arc(run, arc.is_known ? std::optional(arc.radius) : std::nullopt);
   run.events().on_arc(event);
   arrive(run, target.to);
   return true;

@@ -7,6 +7,7 @@
 #include "gateway/interpreter/centurion/g_codes.hpp"
 #include "gateway/interpreter/centurion/modal_state.hpp"
 #include "gateway/interpreter/centurion/words.hpp"
+#include "gateway/interpreter/joining/policy.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -32,6 +33,17 @@ struct TextRange {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
   bool empty() const { return begin == end; }
+};
+
+/// `,R` `,C` and BACK, in program units.
+struct JoinWords {
+  struct Back {
+    double slope = 0;  ///< degrees
+    joining::Back which = joining::Back::Nearest;
+  };
+  std::optional<double> round, chamfer;
+  std::optional<Back> back;
+  std::uint32_t column = 0;
 };
 
 /// One block while it is read and executed. Values are kept, text is not: ranges are offsets within
@@ -64,8 +76,10 @@ struct Block {
     bool jump_is_call_word = false;
     bool while_condition = false;
     std::uint32_t jump_number = 0;
+    bool has_joins = false;  ///< `Block::joins` says more
   };
 
+  bool leads_back() const { return parts.has_joins && joins.back; }
   void clear() {
     words.clear();
     parts = Parts{};
@@ -73,6 +87,7 @@ struct Block {
 
   Words words;
   Parts parts;
+  JoinWords joins;                           ///< when `Parts::has_joins`
   std::array<std::uint8_t, kMostCodes> g{};  ///< row indexes, in the order written
   std::array<std::uint8_t, kMostCodes> m{};  ///< numbers
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/expression_reader.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/m_codes.hpp"
 #include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/number.hpp"
@@ -292,10 +293,6 @@ bool refuse_character(Run& run, const char* at) {
     return run.fail(ErrorCode::BadCharacter, run.column(at),
                     fmt::format("code {}", static_cast<unsigned char>(*at)));
   }
-  if (*at == ',') {
-    return run.fail(ErrorCode::NotSupported, run.column(at),
-                    "corner rounding and chamfering (,R ,C)");
-  }
   return run.fail(ErrorCode::IllegalStatement, run.column(at), std::string_view(at, 1));
 }
 
@@ -319,6 +316,7 @@ bool read_other_item(Run& run, const char*& at) {
         ++at;
         return true;
       }
+      if (*at == ',') return read_corner_word(run, at);
       [[fallthrough]];
     default:
       return refuse_character(run, at);

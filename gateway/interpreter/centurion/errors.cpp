@@ -206,6 +206,7 @@ constexpr std::array kTexts{
     ErrorText{1020, "compensation begins and ends on straight moves"},
     ErrorText{1021, "too much between two compensated moves"},
     ErrorText{1022, "contour too narrow for the tool nose"},
+    ErrorText{1030, "the corner does not fit"},
 };
 
 constexpr std::size_t kIdLength = 7;  // CEN0549

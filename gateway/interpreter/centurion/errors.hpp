@@ -36,6 +36,13 @@ enum class ErrorCode : std::uint16_t {
   IllegalTool = 523,
   IllegalOffset = 524,
   DuplicateAddress = 529,
+  StraightLineToLine = 530,
+  StraightLineToArc = 531,
+  StraightArcToLine = 532,
+  StraightArcToArc = 533,
+  NegativeChamfer = 535,
+  ChamferAndRound = 536,
+  ChamferAtArc = 537,
   LoopCounter = 538,
   DwellOutOfRange = 539,
   IllegalDwell = 540,
@@ -84,6 +91,7 @@ enum class ErrorCode : std::uint16_t {
 
   CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends
   TooMuchBetween = 1021,           ///< between two compensated moves
+  CornerDoesNotFit = 1030,         ///< a rounding or chamfer takes more than there is
   ContourTooNarrow = 1022,         ///< the compensated move would run backwards
 };
 

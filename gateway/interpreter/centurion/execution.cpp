@@ -5,6 +5,7 @@
 #include "gateway/interpreter/centurion/flow.hpp"
 #include "gateway/interpreter/centurion/g_functions.hpp"
 #include "gateway/interpreter/centurion/groove_cycles.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
@@ -32,6 +33,8 @@ bool run_aside(Run& run, bool (*cycle)(Run&)) {
 
 /// What the axis words of the block are for (step 5 of spec 12.3).
 bool act(Run& run) {
+  if (run.block.parts.has_joins && !check_join_words(run)) [[unlikely]]
+    return false;
   switch (run.action()) {
     case GAction::FloatingZero:
     case GAction::LocalZero:

@@ -119,7 +119,10 @@ bool return_to_while(Run& run, std::uint64_t block_offset) {
 
 void end_program(Run& run, std::uint64_t blocks) {
   close_open_device(run);
-  run.events().on_end({run.origin, blocks, true});
+  EventSink& events = run.events();
+  // what still waits may be refused: then there is no end
+  if (!run.settle_path()) return;
+  events.on_end({run.origin, blocks, true});
   run.state.phase = RunPhase::Ended;
 }
 
@@ -354,7 +357,7 @@ bool run_off_end(Run& run) {
   }
   if (state.blocks == 0) return run.fail(ErrorCode::EmptyProgram, 0);
   end_program(run, state.blocks);
-  return !run.has_stages() || check_path(run);
+  return check_path(run);
 }
 
 }  // namespace dripline::interpreter::centurion

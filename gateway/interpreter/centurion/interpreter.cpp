@@ -37,6 +37,8 @@ CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState st
   run_.state = std::move(state);
   run_.parameters = parameters;
   run_.update_origin();
+  run_.joiner.set_plane(Plane::ZX);
+  run_.joiner.reset(run_.present_position());
   if (start_) {
     first_ = take_snapshot(run_);
     start_->attach(run_.state);
@@ -214,7 +216,7 @@ void CenturionInterpreter::settle_name() {
 bool CenturionInterpreter::finish_block() {
   if (!leave_block(run_)) return false;
   run_.end_block();
-  if (run_.has_stages() && !check_path(run_)) [[unlikely]]
+  if (run_.may_have_failed() && !check_path(run_)) [[unlikely]]
     return false;
   ++run_.state.blocks;
   run_.block.parts.stage = Stage::Start;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/arcs.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
 #include "gateway/interpreter/centurion/transform_stage.hpp"
 
@@ -142,7 +143,11 @@ bool move(Run& run) {
     return true;
   }
   if (!check_feed(run)) return false;
-  feed_to(run, target.to, target.named, run.active_feed());
+  if (target.to == run.state.position && !run.block.leads_back()) return true;
+  announce_line(run);
+  const Position to = event_position(run, target.to, target.named);
+  run.events().on_line({run.origin, to, run.active_feed()});
+  arrive(run, target.to);
   return true;
 }
 

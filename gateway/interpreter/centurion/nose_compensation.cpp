@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -54,7 +55,7 @@ ErrorCode code_of(const Fault& fault) {
 void begin_use(Run& run) {
   if (run.state.uses_compensator) return;
   run.events();  // the header first
-  run.compensator.reset(run.present_position());
+  run.compensator.reset(run.joiner.given());
   // the stage learns its plane from a cutter
   compensation::Cutter none;
   none.plane = Plane::ZX;
@@ -66,18 +67,18 @@ void begin_use(Run& run) {
 
 }  // namespace
 
-void carry_out(compensation::Compensator& compensator, const PathCommand& command) {
+void carry_out(joining::Joiner& front, const PathCommand& command) {
   switch (command.kind) {
     case PathCommand::Kind::TurnOn:
-      return compensator.turn_on(command.cutter);
+      return front.turn_on(command.cutter);
     case PathCommand::Kind::TurnOff:
-      return compensator.turn_off();
+      return front.turn_off();
     case PathCommand::Kind::Leave:
-      return compensator.leave();
+      return front.leave();
     case PathCommand::Kind::StandStill:
-      return compensator.stand_still(true);
+      return front.stand_still(true);
     case PathCommand::Kind::Go:
-      return compensator.stand_still(false);
+      return front.stand_still(false);
   }
 }
 
@@ -152,6 +153,10 @@ bool check_path(Run& run) {
   if (const auto& stopped = run.guard.fault()) {
     run.origin.line = stopped->origin.line;
     return run.fail(stopped->code, 0, stopped->detail);
+  }
+  if (const auto& fault = run.joiner.fault(); fault) {
+    run.origin.line = fault->origin.line;
+    return run.fail(code_of(*fault), 0, joining::describe(*fault, run.state.units));
   }
   const auto& fault = run.compensator.fault();
   if (!fault) return true;

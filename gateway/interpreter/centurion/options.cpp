@@ -324,6 +324,16 @@ Result<void> read_cycles(const Options& options, ControlOptions& control) {
   return {};
 }
 
+Result<void> read_geometry(const Options& options, ControlOptions& control) {
+  const auto chamfer = options.choice("chamfer", {"leg", "face"}, 0);
+  if (!chamfer) return fail(chamfer.error());
+  control.chamfer = *chamfer == 0 ? joining::Chamfer::Leg : joining::Chamfer::Face;
+  const auto solver_x = options.choice("solver_x", {"diameter", "radius"}, 0);
+  if (!solver_x) return fail(solver_x.error());
+  control.solver_x_is_radius = *solver_x == 1;
+  return {};
+}
+
 }  // namespace
 
 Result<ControlOptions> read_options(const Setup& setup) {
@@ -365,7 +375,9 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "dnc_mode",
                                     "start_at",
                                     "dry_run_feed",
-                                    "dry_run_spindle"});
+                                    "dry_run_spindle",
+                                    "chamfer",
+                                    "solver_x"});
   if (!known) return fail(known.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
@@ -375,12 +387,12 @@ Result<ControlOptions> read_options(const Setup& setup) {
   control.optional_stop = setup.switches.optional_stop;
   control.single_block = setup.switches.single_block;
   control.is_dry_run = setup.switches.dry_run;
-  for (auto done :
-       {read_digits(options, "leading", control.leading_digits),
-        read_digits(options, "trailing", control.trailing_digits), read_dnc(options, control),
-        read_spindle(options, control), read_cycles(options, control),
-        read_machine_codes(options, control), read_mode(options, control),
-        read_start(options, control), read_dry_run(options, control)}) {
+  for (auto done : {read_digits(options, "leading", control.leading_digits),
+                    read_digits(options, "trailing", control.trailing_digits),
+                    read_dnc(options, control), read_spindle(options, control),
+                    read_cycles(options, control), read_machine_codes(options, control),
+                    read_mode(options, control), read_start(options, control),
+                    read_dry_run(options, control), read_geometry(options, control)}) {
     if (!done) return fail(done.error());
   }
   const auto report = options.text("report_file", "REPORT.DAT");

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/centurion/modal_state.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
 #include "gateway/interpreter/centurion/start_search.hpp"
+#include "gateway/interpreter/joining/policy.hpp"
 #include "gateway/interpreter/setup.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -43,6 +44,8 @@ struct ControlOptions {
   double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill
   /// `groove_relief`: G74 and G75 back off in the direction of their steps, not against it.
   bool groove_relief_goes_on = false;
+  joining::Chamfer chamfer = joining::Chamfer::Leg;  ///< `chamfer`: what the size of ,C is
+  bool solver_x_is_radius = false;           ///< `solver_x`: of the points of TANL, TANA and CGEN
   std::array<int, 2> trailing_digits{4, 3};  ///< of #n without format: inch, metric
   std::array<int, 2> leading_digits{0, 0};
   std::string report_file;

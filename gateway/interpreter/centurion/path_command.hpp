@@ -1,11 +1,11 @@
 #pragma once
 
-#include "gateway/interpreter/compensation/compensator.hpp"
+#include "gateway/interpreter/joining/joiner.hpp"
 
 namespace dripline::interpreter::centurion {
 
-/// What a program says to the compensation stage besides its moves. A stage in front of it that
-/// holds moves back must hold these in their place among them.
+/// What a program says to the compensation stage besides its moves. The joining stage in front of
+/// it, which holds moves back, holds these in their place among them.
 struct PathCommand {
   enum class Kind : std::uint8_t {
     TurnOn,      ///< from the next move on, with `cutter`
@@ -18,6 +18,9 @@ struct PathCommand {
   compensation::Cutter cutter;
 };
 
-void carry_out(compensation::Compensator& compensator, const PathCommand& command);
+/// This control's rules for joins.
+joining::Policy joining_policy();
+
+void carry_out(joining::Joiner& front, const PathCommand& command);
 
 }  // namespace dripline::interpreter::centurion

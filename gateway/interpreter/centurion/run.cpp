@@ -5,9 +5,13 @@ namespace dripline::interpreter::centurion {
 void Run::choose_stages() {
   if (!state.has_header) deliver_header();
   EventSink& last = guards_travel() ? static_cast<EventSink&>(guard) : sink;
-  machine_front = state.uses_compensator ? &compensator : &last;
-  transform.lead_to(*machine_front);
-  front = state.transformation.is_on() ? &transform : machine_front;
+  if (state.uses_compensator) {
+    joiner.lead_to(compensator);
+  } else {
+    joiner.lead_to(last);
+  }
+  front = state.transformation.is_on() ? static_cast<EventSink*>(&transform) : &joiner;
+  has_stages = state.uses_compensator || &last != &sink || front != &joiner;
 }
 
 /// Brings the guard up to date. True when it has anything to look after.
@@ -28,7 +32,7 @@ bool Run::guards_travel() {
   guard.set_maximum_feed({length(most.x).mm(), length(most.z).mm()});
   guard.set_limits(limits);
   guard.set_zone(zone);
-  guard.place(state.uses_compensator ? compensator.tool() : present_position());
+  guard.place(state.uses_compensator ? compensator.tool() : joiner.given());
   const bool is_active = zone || most.x > 0 || most.z > 0 || limits.least_x < limits.most_x ||
                          limits.least_z < limits.most_z;
   guard.set_active(is_active);
@@ -36,13 +40,13 @@ bool Run::guards_travel() {
 }
 
 void Run::command(const PathCommand& command) {
-  carry_out(compensator, command);
+  carry_out(joiner, command);
 }
 
 /// A block says that it is over even where it does nothing, header or not.
 void Run::end_block() {
-  EventSink& stage = front != nullptr ? *front : sink;
-  stage.on_block_end(origin);
+  if (front != nullptr) return joiner.on_block_end(origin);
+  sink.on_block_end(origin);
 }
 
 Position Run::present_position() const {
@@ -82,12 +86,18 @@ bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view
   return false;
 }
 
+bool Run::settle_path() {
+  joiner.settle();
+  if (state.uses_compensator) compensator.settle();
+  return !may_have_failed() || check_path(*this);
+}
+
 bool Run::ask(Question asked) {
-  pause = Pause::Question;
   // an operator or a probe needs the tool in its place
   const bool meets_tool =
       std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
-  if (meets_tool && state.uses_compensator) compensator.settle();
+  if (meets_tool && !settle_path()) return false;
+  pause = Pause::Question;
   question = std::move(asked);
   if (block.parts.stage == Stage::Items) state.random = random_at_item;
   return false;

@@ -14,6 +14,7 @@
 #include "gateway/interpreter/centurion/transform_stage.hpp"
 #include "gateway/interpreter/centurion/travel_guard.hpp"
 #include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/joining/joiner.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -30,7 +31,8 @@ struct Run {
         sink(event_sink),
         guard(event_sink),
         compensator(compensation_policy(), guard),
-        transform(*this, event_sink),
+        joiner(joining_policy(), event_sink),
+        transform(*this, joiner),
         text(program_source) {}
 
   /// Where events go, after the header has been delivered: through the stages in use, to the sink.
@@ -44,19 +46,24 @@ struct Run {
   void choose_stages();
   /// The same, when there has been an event; else the first one does it.
   void stages_changed() {
-    if (front != nullptr) choose_stages();
+    if (front == nullptr) return;
+    // a move that waits is made as things were when it was read
+    if (guard.has_zone() != state.modes.checks_zone) joiner.settle();
+    choose_stages();
   }
-  /// Events do not go straight to the sink.
-  bool has_stages() const { return front != &sink; }
+  /// A stage may have refused what it was given: `check_path` says more.
+  bool may_have_failed() const { return has_stages || joiner.fault(); }
   /// For moves of the machine's own, which nothing transforms.
   EventSink& machine_events() {
     if (front == nullptr) [[unlikely]]
       choose_stages();
-    return *machine_front;
+    return joiner;
   }
-  /// To the compensation stage, in order with the events.
+  /// To the compensation stage, in order with the events. The joining stage stands in front.
   void command(const PathCommand& command);
   void end_block();
+  /// Moves that wait in the stages end as programmed. False: they are refused.
+  bool settle_path();
   /// Whether the move of the block ends at rest (G9, G61).
   bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
 
@@ -106,6 +113,7 @@ struct Run {
   EventSink& sink;
   TravelGuard guard;
   compensation::Compensator compensator;
+  joining::Joiner joiner;
   TransformStage transform;
   TextCursor text;
   ModalState state;
@@ -124,7 +132,7 @@ struct Run {
   std::string scratch;  ///< output text being made
 
   EventSink* front = nullptr;  ///< the first stage; none before the header
-  EventSink* machine_front = nullptr;
+  bool has_stages = false;     ///< besides the joining stage
 
  private:
   bool guards_travel();

@@ -190,6 +190,7 @@ bool is_plausible(const ModalState& state) {
 Snapshot take_snapshot(const Run& run) {
   Writer writer;
   ModalState state = run.state;
+  std::vector<std::byte> joins = run.joiner.state();
   std::vector<std::byte> path;
   if (state.uses_compensator) path = run.compensator.state();
   Parameters parameters = run.parameters;
@@ -200,6 +201,7 @@ Snapshot take_snapshot(const Run& run) {
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
+  visit_bytes(writer, joins);
   visit_bytes(writer, path);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
@@ -219,11 +221,13 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit_parameters(reader, parameters);
   visit(reader, origin);
   visit_name(reader, name, is_settled);
-  std::vector<std::byte> path;
+  std::vector<std::byte> joins, path;
+  visit_bytes(reader, joins);
   visit_bytes(reader, path);
   if (!reader.is_complete() || !is_plausible(state)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
   }
+  if (auto restored = run.joiner.restore(joins); !restored) return restored;
   if (!state.uses_compensator) {
     run.compensator.reset({});
   } else if (auto restored = run.compensator.restore(path); !restored) {

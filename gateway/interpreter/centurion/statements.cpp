@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/expression_reader.hpp"
+#include "gateway/interpreter/centurion/geometry_statements.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/number.hpp"
 #include "gateway/interpreter/centurion/output_text.hpp"
 #include "gateway/interpreter/centurion/pins.hpp"
@@ -210,10 +212,11 @@ bool read_statement(Run& run, Keyword keyword, const char* start, const char*& a
     case Keyword::Tana:
     case Keyword::Tanl:
     case Keyword::Cgen:
+      return solve_geometry(run, keyword, start, at);
     case Keyword::Back:
-      break;
+      return read_back_words(run, start, at);
   }
-  return run.fail(ErrorCode::NotSupported, run.column(start), to_string(keyword));
+  return run.fail(ErrorCode::IllegalStatement, run.column(start), to_string(keyword));
 }
 
 bool store_parameter(Run& run, int number, double value, std::uint32_t column) {

@@ -39,6 +39,7 @@ class TravelGuard final : public PassingSink {
   void set_limits(const TravelArea& limits) { limits_ = limits; }
   void set_maximum_feed(const MaximumFeed& most) { most_ = most; }
   void set_zone(const std::optional<TravelArea>& zone) { zone_ = zone; }
+  bool has_zone() const { return zone_.has_value(); }
   /// Where the machine stands; from there the next move goes.
   void place(const Position& at);
   /// Nothing more is given on, alarms excepted.

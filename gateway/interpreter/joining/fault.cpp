@@ -6,9 +6,10 @@
 
 namespace dripline::interpreter::joining {
 
-std::string describe(const Fault& fault) {
-  const double value = fault.value.mm();
-  const double limit = fault.limit.mm();
+std::string describe(const Fault& fault, Units units) {
+  const bool is_inch = units == Units::Inch;
+  const double value = is_inch ? fault.value.inch() : fault.value.mm();
+  const double limit = is_inch ? fault.limit.inch() : fault.limit.mm();
   const auto line = fault.origin.line;
   const auto next = fault.next.line;
   switch (fault.kind) {
@@ -17,14 +18,14 @@ std::string describe(const Fault& fault) {
     case FaultKind::ArcsApart:
       return fmt::format("the arc of line {} does not meet that of line {}", line, next);
     case FaultKind::OffArc:
-      return fmt::format("point is {:.6f} mm off the radius {:.6f} mm", value, limit);
+      return fmt::format("point is {:.6f} off the radius {:.6f}", value, limit);
     case FaultKind::Straight:
       return fmt::format("no corner to round between lines {} and {}", line, next);
     case FaultKind::DoesNotFit:
       if (limit < 0)
-        return fmt::format("no arc of radius {:.6f} mm touches the moves of lines {} and {}", value,
+        return fmt::format("no arc of radius {:.6f} touches the moves of lines {} and {}", value,
                            line, next);
-      return fmt::format("the corner takes {:.6f} mm of a move that is {:.6f} mm long", value,
+      return fmt::format("the corner takes {:.6f} of a move that is {:.6f} long", value,
                          limit);
     case FaultKind::ChamferAtArc:
       return fmt::format("a chamfer between lines {} and {}, of which one is an arc", line, next);

@@ -31,7 +31,7 @@ struct Fault {
   bool first_is_arc = false, next_is_arc = false;
 };
 
-/// For a diagnostic: what is wrong, with value and limit.
-std::string describe(const Fault& fault);
+/// For a diagnostic: what is wrong, with value and limit in these units.
+std::string describe(const Fault& fault, Units units = Units::Millimetre);
 
 }  // namespace dripline::interpreter::joining

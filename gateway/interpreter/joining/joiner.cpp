@@ -27,18 +27,19 @@ CornerShape::Kind kind_of(Chamfer measure) {
 }  // namespace
 
 Joiner::Joiner(const Policy& policy, EventSink& sink, const Position& start)
-    : policy_(policy), sink_(sink) {
+    : policy_(policy), sink_(&sink) {
   reset(start);
 }
 
 Joiner::Joiner(const Policy& policy, compensation::Compensator& behind, const Position& start)
-    : policy_(policy), sink_(behind), compensator_(&behind) {
+    : policy_(policy), sink_(&behind), compensator_(&behind) {
   reset(start);
 }
 
 void Joiner::reset(const Position& start) {
   state_.has_element = false;
   state_.next = {};
+  state_.has_end = false;
   state_.held.clear();
   fault_.reset();
   follow(start);
@@ -59,6 +60,15 @@ void Joiner::set_plane(Plane plane) {
   if (plane == state_.plane) return;
   settle();
   state_.plane = plane;
+}
+
+void Joiner::lead_to(EventSink& sink) {
+  sink_ = &sink;
+  compensator_ = nullptr;
+}
+void Joiner::lead_to(compensation::Compensator& behind) {
+  sink_ = &behind;
+  compensator_ = &behind;
 }
 
 void Joiner::announce(CornerShape::Kind kind, Length size, std::optional<Feed> feed) {
@@ -130,10 +140,7 @@ void Joiner::take_straight(const Move& move, Feed feed, bool rests) {
   Element& element = state_.spare();
   element.is_arc = false;
   element.is_rapid = kIsRapid;
-  element.rests = rests;
-  element.origin = move.origin;
-  element.to = move.to;
-  element.feed = feed;
+  element.line = {move.origin, move.to, feed, rests};
   element.from = from;
   element.end = end;
   element.sweep = 0;
@@ -147,7 +154,7 @@ void Joiner::take_aside(const Move& move) {
   state_.next = {};
   if (!state_.has_element) {
     follow(move.to);
-    return joining::give(sink_, move);
+    return joining::give(*sink_, move);
   }
   const PlaneVector from = in_plane(state_.programmed, axes_of(state_.plane));
   state_.programmed = move.to;
@@ -161,10 +168,35 @@ void Joiner::on_rapid(const Rapid& event) {
   if (fault_) return;
   state_.next = {};
   follow(event.to);
-  sink_.on_rapid(event);
+  sink_->on_rapid(event);
+}
+
+/// Two lines with nothing to say about the corner between them: no geometry, and little copying.
+bool Joiner::flows_on(const Line& event) {
+  if (!state_.has_element || state_.next.corner || state_.next.back || fault_) return false;
+  Element& element = state_.waiting();
+  if (element.is_arc || element.announced.corner) return false;
+  const PlaneAxes axes = axes_of(state_.plane);
+  const PlaneVector end = in_plane(event.to, axes);
+  const PlaneVector way = end - in_plane(state_.programmed, axes);
+  if (std::fabs(way.first) + std::fabs(way.second) <= 2 * kNoLength) return false;
+  finish(nullptr);
+  element.from = element.end;
+  element.end = end;
+  element.is_rapid = element.is_moved = false;
+  element.line = event;
+  element.announced.estimate = state_.next.estimate;
+  element.announced.back.reset();
+  state_.next.estimate.reset();
+  state_.programmed = event.to;
+  state_.has_element = true;
+  if (!waits(element)) settle();
+  return true;
 }
 
 void Joiner::on_line(const Line& event) {
+  if (flows_on(event)) [[likely]]
+    return;
   take_straight(event, event.feed, event.rests);
 }
 
@@ -172,21 +204,18 @@ void Joiner::on_arc(const Arc& event) {
   if (fault_) return;
   if (event.plane != state_.plane) {
     if (state_.has_element && state_.waiting().announced.corner)
-      return refuse(FaultKind::OtherPlane, state_.waiting().origin, event.origin);
+      return refuse(FaultKind::OtherPlane, state_.waiting().line.origin, event.origin);
     if (state_.next.corner) return refuse(FaultKind::OtherPlane, event.origin, event.origin);
     settle();
     state_.next = {};
     follow(event.to);
-    return sink_.on_arc(event);
+    return sink_->on_arc(event);
   }
   const PlaneAxes axes = axes_of(state_.plane);
   Element& element = state_.spare();
   element.is_arc = true;
   element.is_rapid = false;
-  element.rests = event.rests;
-  element.origin = event.origin;
-  element.to = event.to;
-  element.feed = event.feed;
+  element.line = {event.origin, event.to, event.feed, event.rests};
   element.from = in_plane(state_.programmed, axes);
   element.end = in_plane(event.to, axes);
   element.center = {event.center_first.mm(), event.center_second.mm()};
@@ -212,7 +241,7 @@ void Joiner::take(Element& element) {
     begin_alone(element);
   }
   if (fault_) return;
-  state_.programmed = element.to;
+  state_.programmed = element.line.to;
   state_.swap_elements();
   state_.has_element = true;
   if (!waits(element)) settle();
@@ -220,10 +249,11 @@ void Joiner::take(Element& element) {
 
 /// Nothing waits: the machine stands where this element begins.
 void Joiner::begin_alone(const Element& element) {
-  if (element.announced.back) return refuse(FaultKind::NoElement, element.origin, element.origin);
+  if (element.announced.back)
+    return refuse(FaultKind::NoElement, element.line.origin, element.line.origin);
   const Joint joint = joint_on(element, element.from);
   if (!joint.fault) return;
-  refuse(*joint.fault, element.origin, element.origin);
+  refuse(*joint.fault, element.line.origin, element.line.origin);
   fault_->value = Length::mm(joint.off_by);
   fault_->limit = Length::mm(joint.radius);
 }
@@ -232,7 +262,7 @@ void Joiner::join(Element& next) {
   Element& first = state_.waiting();
   const Joint joint = joint_of(first, next);
   if (joint.fault) {
-    refuse(*joint.fault, first.origin, next.origin);
+    refuse(*joint.fault, first.line.origin, next.line.origin);
     fault_->value = Length::mm(joint.off_by);
     fault_->limit = Length::mm(joint.radius);
     return;
@@ -243,7 +273,7 @@ void Joiner::join(Element& next) {
   if (!first.announced.corner) return finish(nullptr);
   const Corner corner = shape_corner(*first.announced.corner, policy_, first, next);
   if (!corner.fault) return finish(corner.is_piece ? &corner : nullptr);
-  refuse(*corner.fault, first.origin, next.origin);
+  refuse(*corner.fault, first.line.origin, next.line.origin);
   fault_->value = Length::mm(corner.value);
   fault_->limit = Length::mm(corner.limit);
   fault_->first_is_arc = first.is_arc;
@@ -252,11 +282,11 @@ void Joiner::join(Element& next) {
 
 /// The end of the element that waits is decided.
 void Joiner::finish(const Corner* corner) {
-  PathWriter writer(sink_, state_);
+  PathWriter writer(*sink_, state_);
   const Element& element = state_.waiting();
   writer.put_out(element);
   if (corner && !element.announced.corner->has_own_block)
-    writer.put_out(*corner, element, element.origin);
+    writer.put_out(*corner, element, element.line.origin);
   state_.has_element = false;
   release_held(corner);
 }
@@ -265,10 +295,10 @@ void Joiner::settle() {
   if (!state_.has_element || fault_) return;
   const Element& element = state_.waiting();
   if (element.announced.corner && policy_.refuses_open_corner)
-    return refuse(FaultKind::OpenCorner, element.origin, element.origin);
+    return refuse(FaultKind::OpenCorner, element.line.origin, element.line.origin);
   const Joint joint = joint_on(element, element.end);
   if (!joint.fault) return finish(nullptr);
-  refuse(*joint.fault, element.origin, element.origin);
+  refuse(*joint.fault, element.line.origin, element.line.origin);
   fault_->value = Length::mm(joint.off_by);
   fault_->limit = Length::mm(joint.radius);
 }

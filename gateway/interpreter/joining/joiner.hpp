@@ -61,10 +61,15 @@ class Joiner final : public EventSink {
   /// meets the move before it, which ends there.
   void lead_next_back(Angle slope, Back which);
 
-  /// `Compensator::turn_on` and `turn_off`, in their place among the events.
+  /// What stands behind from here on; what waits goes there too.
+  void lead_to(EventSink& sink);
+  void lead_to(compensation::Compensator& behind);
+  /// What the compensator behind is told, in its place among the events.
   void turn_on(const compensation::Cutter& cutter);
   void turn_on(const compensation::Cutter& cutter, compensation::StartUp start_up);
   void turn_off();
+  void leave();
+  void stand_still(bool still);
 
   /// Ends what waits where the program says.
   void settle();
@@ -116,6 +121,7 @@ class Joiner final : public EventSink {
   void on_warning(const Warning& event) override;
 
  private:
+  bool flows_on(const Line& event);
   template <class Move>
   void take_straight(const Move& move, Feed feed, bool rests);
   template <class Move>
@@ -136,6 +142,7 @@ class Joiner final : public EventSink {
   void hold_or_pass(const Event& event) {
     hold_or_pass(event, event.origin);
   }
+  void hold_or_pass(const impl::CompensationCall& call);
   void hold_or_pass(look_ahead::HeldText text, std::string_view content);
   bool make_room(const Origin& origin);
   void release_held(const impl::Corner* corner);
@@ -149,7 +156,7 @@ class Joiner final : public EventSink {
   void refuse(FaultKind kind, const Origin& origin, const Origin& next);
 
   Policy policy_;
-  EventSink& sink_;
+  EventSink* sink_;
   compensation::Compensator* compensator_ = nullptr;
   std::optional<Fault> fault_;
   impl::State state_;

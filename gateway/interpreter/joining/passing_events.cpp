@@ -15,7 +15,7 @@ using look_ahead::HeldText;
 /// A corner needs all that stands at it; a plain move goes out instead.
 bool Joiner::make_room(const Origin& origin) {
   if (state_.waiting().announced.corner) {
-    refuse(FaultKind::TooMuchBetween, state_.waiting().origin, origin);
+    refuse(FaultKind::TooMuchBetween, state_.waiting().line.origin, origin);
     return false;
   }
   settle();
@@ -37,24 +37,41 @@ void Joiner::hold_or_pass(HeldText text, std::string_view content) {
   if (fault_) return;
   if (state_.has_element && state_.held.push(text, content)) return;
   if (state_.has_element && !make_room(text.origin)) return;
-  Giver{sink_}.give(text, content);
+  Giver{*sink_}.give(text, content);
 }
+
+namespace {
+
+void carry_out(compensation::Compensator& compensator, const CompensationCall& call) {
+  switch (call.kind) {
+    case CompensationCall::Kind::TurnOn:
+      return compensator.turn_on(call.cutter);
+    case CompensationCall::Kind::TurnOnAs:
+      return compensator.turn_on(call.cutter, call.start_up);
+    case CompensationCall::Kind::TurnOff:
+      return compensator.turn_off();
+    case CompensationCall::Kind::Leave:
+      return compensator.leave();
+    case CompensationCall::Kind::StandStill:
+      return compensator.stand_still(true);
+    case CompensationCall::Kind::Go:
+      return compensator.stand_still(false);
+  }
+}
+
+}  // namespace
 
 template <class Event>
 void Joiner::give(const Event& event) {
   if constexpr (std::is_same_v<Event, CompensationCall>) {
-    if (!compensator_) return;
-    using Kind = CompensationCall::Kind;
-    if (event.kind == Kind::TurnOff) return compensator_->turn_off();
-    if (event.kind == Kind::TurnOn) return compensator_->turn_on(event.cutter);
-    compensator_->turn_on(event.cutter, event.start_up);
+    if (compensator_) carry_out(*compensator_, event);
   } else if constexpr (std::is_same_v<Event, UncountedEnd>) {
     if (compensator_) return compensator_->end_uncounted_block(event.origin);
-    sink_.on_block_end(event.origin);
+    sink_->on_block_end(event.origin);
   } else if constexpr (std::is_same_v<Event, Rapid> || std::is_same_v<Event, Line>) {
     deliver_aside(event);
   } else if constexpr (!std::is_same_v<Event, CornerPlace>) {
-    Giver{sink_}(event);
+    Giver{*sink_}(event);
   }
 }
 
@@ -65,39 +82,55 @@ void Joiner::deliver_aside(Move move) {
   const PlaneVector at = in_plane(state_.given, axes);
   if (in_plane(move.to, axes) != at) set_in_plane(move.to, axes, at);
   state_.given = move.to;
-  Giver{sink_}(move);
+  Giver{*sink_}(move);
 }
 
 template <class Event>
 void Joiner::deliver(const Event& event, const Corner* corner) {
   if constexpr (std::is_same_v<Event, HeldText>) {
-    Giver{sink_}.give(event, state_.held.text(event));
+    Giver{*sink_}.give(event, state_.held.text(event));
   } else if constexpr (std::is_same_v<Event, CornerPlace>) {
-    if (corner) PathWriter(sink_, state_).put_out(*corner, state_.waiting(), event.origin);
+    if (corner) PathWriter(*sink_, state_).put_out(*corner, state_.waiting(), event.origin);
   } else {
     give(event);
   }
 }
 
 void Joiner::release_held(const Corner* corner) {
+  if (state_.has_end) {
+    state_.has_end = false;
+    sink_->on_block_end(state_.end);
+  }
+  if (state_.held.empty()) [[likely]]
+    return;
   for (std::size_t i = 0; i < state_.held.size(); ++i) {
     std::visit([&](const auto& one) { deliver(one, corner); }, state_.held[i]);
   }
   state_.held.clear();
 }
 
+void Joiner::hold_or_pass(const CompensationCall& call) {
+  hold_or_pass(call, Origin{});
+}
 void Joiner::turn_on(const compensation::Cutter& cutter) {
-  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOn, cutter, {}}, Origin{});
+  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOn, cutter, {}});
 }
 void Joiner::turn_on(const compensation::Cutter& cutter, compensation::StartUp start_up) {
-  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOnAs, cutter, start_up}, Origin{});
+  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOnAs, cutter, start_up});
 }
 void Joiner::turn_off() {
-  hold_or_pass(CompensationCall{}, Origin{});
+  hold_or_pass(CompensationCall{CompensationCall::Kind::TurnOff, {}, {}});
+}
+void Joiner::leave() {
+  hold_or_pass(CompensationCall{CompensationCall::Kind::Leave, {}, {}});
+}
+void Joiner::stand_still(bool still) {
+  using Kind = CompensationCall::Kind;
+  hold_or_pass(CompensationCall{still ? Kind::StandStill : Kind::Go, {}, {}});
 }
 
 void Joiner::on_program(const ProgramHeader& event) {
-  if (!fault_) sink_.on_program(event);
+  if (!fault_) sink_->on_program(event);
 }
 void Joiner::on_units(const UnitsChange& event) {
   hold_or_pass(event);
@@ -136,6 +169,11 @@ void Joiner::on_message(const Message& event) {
   hold_or_pass(held(event), event.text);
 }
 void Joiner::on_block_end(const Origin& event) {
+  if (state_.has_element && !state_.has_end && state_.held.empty() && !fault_) [[likely]] {
+    state_.has_end = true;
+    state_.end = event;
+    return;
+  }
   hold_or_pass(BlockEnd{event}, event);
 }
 void Joiner::end_uncounted_block(const Origin& event) {
@@ -146,37 +184,37 @@ void Joiner::on_thread(const Thread& event) {
   settle();
   if (fault_) return;
   follow(event.to);
-  sink_.on_thread(event);
+  sink_->on_thread(event);
 }
 
 void Joiner::on_probe(const Probe& event) {
   settle();
   if (fault_) return;
   if (event.result) follow(event.result->at);
-  sink_.on_probe(event);
+  sink_->on_probe(event);
 }
 
 void Joiner::on_prompt(const Prompt& event) {
   settle();
-  if (!fault_) sink_.on_prompt(event);
+  if (!fault_) sink_->on_prompt(event);
 }
 
 void Joiner::on_alarm(const Alarm& event) {
   settle();
-  sink_.on_alarm(event);
+  sink_->on_alarm(event);
 }
 
 void Joiner::on_end(const End& event) {
   settle();
-  if (!fault_) sink_.on_end(event);
+  if (!fault_) sink_->on_end(event);
 }
 
 void Joiner::on_blank(const Blank& event) {
-  if (!fault_) sink_.on_blank(event);
+  if (!fault_) sink_->on_blank(event);
 }
 
 void Joiner::on_warning(const Warning& event) {
-  if (!fault_) sink_.on_warning(event);
+  if (!fault_) sink_->on_warning(event);
 }
 
 }  // namespace dripline::interpreter::joining

@@ -45,11 +45,9 @@ struct Announced {
 struct Element {
   bool is_rapid = false;
   bool is_arc = false;
-  bool rests = false;
   bool is_moved = false;  ///< an end is not where the program has it
-  Origin origin;
-  Position to;  ///< as programmed
-  Feed feed;
+  /// As programmed; of an arc and a rapid move what they have of it.
+  Line line;
   PlaneVector from, end;  ///< as programmed until its joins are decided
   PlaneVector center;     ///< of an arc
   double side = 1;        ///< +1 turns to the left, -1 to the right

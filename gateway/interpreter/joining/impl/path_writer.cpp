@@ -33,34 +33,36 @@ void PathWriter::straight(const Element& element, const Origin& origin, const Po
   if (element.is_rapid) {
     sink_.on_rapid({origin, to});
   } else {
-    sink_.on_line({origin, to, feed, element.rests});
+    sink_.on_line({origin, to, feed, element.line.rests});
   }
 }
 
 void PathWriter::put_out(const Element& element) {
   if (!element.is_arc && !element.is_moved) {
-    return straight(element, element.origin, element.to, element.feed);
+    state_.given = element.line.to;
+    if (!element.is_rapid) return sink_.on_line(element.line);
+    return sink_.on_rapid({element.line.origin, element.line.to});
   }
-  Position to = element.to;
+  Position to = element.line.to;
   if (element.is_moved) place(to, axes_of(state_.plane), element.end);
   const bool is_point = element.is_moved && element.is_arc &&
                         element.sweep * length(element.end - element.center) <= kNoLength;
   if (!element.is_arc || is_point) {
-    if (!to.same_point(state_.given)) straight(element, element.origin, to, element.feed);
+    if (!to.same_point(state_.given)) straight(element, element.line.origin, to, element.line.feed);
     return;
   }
-  Arc arc = arc_event(element.origin, to, state_.plane, element.center);
+  Arc arc = arc_event(element.line.origin, to, state_.plane, element.center);
   arc.turn = turn_of(element.side);
   arc.sweep = element.is_moved ? Angle::radians(element.sweep) : element.given_sweep;
-  arc.feed = element.feed;
-  arc.rests = element.rests;
+  arc.feed = element.line.feed;
+  arc.rests = element.line.rests;
   state_.given = to;
   sink_.on_arc(arc);
 }
 
 void PathWriter::put_out(const Corner& corner, const Element& element, const Origin& origin) {
   if (length(corner.arrive - corner.leave) <= kNoLength) return;
-  const Feed feed = element.announced.corner->feed.value_or(element.feed);
+  const Feed feed = element.announced.corner->feed.value_or(element.line.feed);
   Position to = state_.given;
   place(to, axes_of(state_.plane), corner.arrive);
   if (!corner.is_arc) return straight(element, origin, to, feed);
@@ -68,7 +70,7 @@ void PathWriter::put_out(const Corner& corner, const Element& element, const Ori
   arc.turn = turn_of(corner.sweep);
   arc.sweep = Angle::radians(std::fabs(corner.sweep));
   arc.feed = feed;
-  arc.rests = element.rests;
+  arc.rests = element.line.rests;
   state_.given = to;
   sink_.on_arc(arc);
 }

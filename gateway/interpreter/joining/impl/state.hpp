@@ -11,7 +11,7 @@ namespace dripline::interpreter::joining::impl {
 
 /// What the compensation stage behind is told, in its place among the events.
 struct CompensationCall {
-  enum class Kind : std::uint8_t { TurnOn, TurnOnAs, TurnOff };
+  enum class Kind : std::uint8_t { TurnOn, TurnOnAs, TurnOff, Leave, StandStill, Go };
   Kind kind = Kind::TurnOff;
   compensation::Cutter cutter;
   compensation::StartUp start_up = compensation::StartUp::NextNormal;  ///< of TurnOnAs
@@ -34,6 +34,10 @@ struct State {
   Position programmed;  ///< where the program thinks the machine is
   Position given;       ///< where it has been sent
   Announced next;
+  /// An end of a block right behind the element that waits, which most blocks have: kept apart from
+  /// what comes later since this is quicker.
+  bool has_end = false;
+  Origin end;
   Held held;
   std::array<Element, 2> elements;
   std::uint8_t waiting_slot = 0;

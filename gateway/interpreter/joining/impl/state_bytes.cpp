@@ -14,7 +14,7 @@ using look_ahead::visit_optional;
 
 template <class Archive>
 void visit(Archive& archive, CompensationCall& call) {
-  up_to(archive, call.kind, CompensationCall::Kind::TurnOff);
+  up_to(archive, call.kind, CompensationCall::Kind::Go);
   up_to(archive, call.cutter.plane, Plane::YZ);
   up_to(archive, call.cutter.side, compensation::Side::Right);
   visit(archive, call.cutter.radius);
@@ -55,10 +55,8 @@ void visit(Archive& archive, Announced& announced) {
 }
 template <class Archive>
 void visit(Archive& archive, Element& element) {
-  visit_all(archive, element.is_rapid, element.is_arc, element.rests, element.is_moved);
-  visit(archive, element.origin);
-  visit(archive, element.to);
-  visit(archive, element.feed);
+  visit_all(archive, element.is_rapid, element.is_arc, element.is_moved);
+  visit(archive, element.line);
   for (PlaneVector* vector : {&element.from, &element.end, &element.center}) {
     visit(archive, *vector);
   }
@@ -77,6 +75,8 @@ void visit_state(Archive& archive, State& state) {
   visit(archive, state.given);
   visit(archive, state.next);
   if (state.has_element) visit(archive, state.waiting());
+  archive(state.has_end);
+  if (state.has_end) visit(archive, state.end);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+O0110
+G21 G98 F100
+G0 X20 Z5
+G1 Z-20, R4
+X60, C3
+M8 (BETWEEN)
+G4 P.5
+Z-50 ,R[2+3]
+G3 K-20 X100 Z-70 ,R 3
+G2 I0 K-15 X70 Z-85 , R2
+G1 X90, R5 (the next is a rapid: no corner)
+G0 Z10, R1
+M30

@@ -1,2 +1,0 @@
-(expect CEN1001 2:12)
-G1 X1 Z1 F5, R.1

@@ -1,4 +1,0 @@
-(expect CEN1001 4:4)
-G1 F5 X1 Z0
-X5 Z-2
-G3 R2 XC1 ZC-3 X5 Z-4
