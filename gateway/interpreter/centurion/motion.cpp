@@ -146,7 +146,7 @@ bool move(Run& run) {
   if (target.to == run.state.position && !run.block.leads_back()) return true;
   announce_line(run);
   const Position to = event_position(run, target.to, target.named);
-  run.events().on_line({run.origin, to, run.active_feed()});
+  run.events().on_line({run.origin, to, run.active_feed(), run.rests()});
   arrive(run, target.to);
   return true;
 }
