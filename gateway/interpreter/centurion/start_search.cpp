@@ -80,6 +80,8 @@ bool StartSearch::is_tool(int tool) const {
 
 void StartSearch::begin_here(Run& run) {
   ModalState& state = run.state;
+  run.settle_path();  // what still waits is part of what came before; the block's end looks at
+                      // faults
   state.is_searching = false;
   show_machine_state(run);
   const Point from = state.searched_from;
