@@ -1,6 +1,7 @@
 #include "gateway/interpreter/rs274ngc/arcs.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/interpreter/geometry/plane_axes.hpp"
@@ -42,8 +43,25 @@ Tolerance tolerance(const Run& run) {
           is_inch ? 0.00005 * Length::kMillimetresPerInch : 0.00127};
 }
 
-bool check_radii(Run& run, double at_start, double at_end) {
+/// Of squares, so that nearly all arcs need no root: |a - b| is at most |a^2 - b^2| over the
+/// larger.
+bool surely_agree(const Tolerance& limits, double at_start, double at_end) {
+  const double off = at_start - at_end;
+  return std::min(at_start, at_end) > limits.least_radius * limits.least_radius &&
+         off * off <= limits.radius * limits.radius * std::max(at_start, at_end);
+}
+
+bool check_radii(Run& run, PlanePoint center, PlanePoint start, PlanePoint end) {
   const Tolerance limits = tolerance(run);
+  const auto square = [&](PlanePoint point) {
+    const double first = point.first - center.first;
+    const double second = point.second - center.second;
+    return first * first + second * second;
+  };
+  if (surely_agree(limits, square(start), square(end))) [[likely]]
+    return true;
+  const double at_start = std::sqrt(square(start));
+  const double at_end = std::sqrt(square(end));
   if (at_start <= limits.least_radius || at_end <= limits.least_radius) {
     return run.fail(ErrorCode::ArcZero, 0);
   }
@@ -78,8 +96,7 @@ bool center_of_offsets(Run& run, const OffsetWords& offsets, PlanePoint start, P
   }
   const Compensation& compensation = run.state.compensation;
   if (compensation.side != Side::Off && compensation.is_first && !run.is_linuxcnc()) return true;
-  return check_radii(run, length(start.first - center.first, start.second - center.second),
-                     length(end.first - center.first, end.second - center.second));
+  return check_radii(run, center, start, end);
 }
 
 bool center_of_radius(Run& run, PlanePoint start, PlanePoint end, Turn turn, PlanePoint& center) {
