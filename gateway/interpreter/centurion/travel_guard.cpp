@@ -67,6 +67,7 @@ bool TravelGuard::crosses_zone(const Spot& to) const {
   const auto cut = [&](double from, double way, double least, double most) {
     least += kRounding;
     most -= kRounding;
+    if (least >= most) return false;  // no zone was ever set
     if (way == 0) return from > least && from < most;
     const double a = (least - from) / way;
     const double b = (most - from) / way;
