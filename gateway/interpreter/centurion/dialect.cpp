@@ -62,6 +62,7 @@ int likelihood(std::string_view head, std::string_view) {
 
 const Dialect kCenturionDialect{"centurion", "Milltronics Centurion 5T/6T (lathe)",
                                 &likelihood, &make,
-                                Units::Inch, MachineKind::Lathe};
+                                Units::Inch, MachineKind::Lathe,
+                                {.step = 0.1, .most = 1.5, .fastest = std::nullopt}};
 
 }  // namespace dripline::interpreter

@@ -27,6 +27,15 @@ TEST(Registry, EveryDialectIsFoundByItsNameAndComplete) {
   }
 }
 
+/// Row: CEN-052.
+TEST(Registry, TheCenturionsFeedKnobStandsInStepsOfTenPercentUpTo150) {
+  const auto dialect = find_dialect("centurion");
+  ASSERT_TRUE(dialect);
+  EXPECT_EQ((*dialect)->feed_dial.step, 0.1);
+  EXPECT_EQ((*dialect)->feed_dial.most, 1.5);
+  EXPECT_FALSE((*dialect)->feed_dial.fastest);
+}
+
 TEST(Registry, AnEmptyProgramIsNoControlsForSure) {
   EXPECT_NE(detect_dialect("", "program").size(), 1U);
 }

@@ -1,0 +1,2 @@
+(expect CEN0555 2:10)
+P1=ATAN[1]
