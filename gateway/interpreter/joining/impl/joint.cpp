@@ -5,6 +5,9 @@
 namespace dripline::interpreter::joining::impl {
 namespace {
 
+/// Millimetres; farther out, or where numbers end, nothing meets.
+constexpr double kFarthest = 1e9;
+
 Joint at_point(PlaneVector point) {
   return {.at = point, .fault = {}};
 }
@@ -45,6 +48,7 @@ Joint led_back(const Element& first, const Element& second) {
 Joint line_and_arc(PlaneVector anchor, const Element& arc, PlaneVector corner) {
   const PlaneCircle circle = circle_of(arc, corner);
   const PlaneVector along = anchor - corner;
+  if (length(along) <= kNoLength) return refusal(FaultKind::NoIntersection);
   const PlaneLine line = line_through({}, (1 / length(along)) * along);
   auto points = meet(line, circle);
   if (!points) points = touching_points(circle, along);
@@ -75,12 +79,24 @@ Joint joint_on(const Element& element, PlaneVector point) {
   return joint;
 }
 
-Joint joint_of(const Element& first, const Element& second) {
+namespace {
+
+Joint decided(const Element& first, const Element& second) {
   if (second.announced.back) return led_back(first, second);
   if (!first.is_arc && !second.is_arc) return at_point(first.end);
   if (first.announced.estimate && second.announced.estimate) return estimated(first, second);
   Joint joint = joint_on(first, first.end);
   return joint.fault ? joint : joint_on(second, first.end);
+}
+
+}  // namespace
+
+Joint joint_of(const Element& first, const Element& second) {
+  const Joint joint = decided(first, second);
+  if (joint.fault) return joint;
+  const bool is_near =
+      std::fabs(joint.at.first) <= kFarthest && std::fabs(joint.at.second) <= kFarthest;
+  return is_near ? joint : refusal(FaultKind::NoIntersection);
 }
 
 }  // namespace dripline::interpreter::joining::impl

@@ -119,6 +119,15 @@ INSTANTIATE_TEST_SUITE_P(
                               p.arc({10, 0}, 90).back(0).line(30, 30);
                             },
                             FaultKind::NoIntersection},
+                    Refused{"meets_beyond_any_machine",
+                            [](Path& p) { p.line(3, 0).back(1e-9).line(9, 2); },
+                            FaultKind::NoIntersection},
+                    Refused{"no_number",
+                            [](Path& p) {
+                              p.line(3, 0).estimated().line(6, 1).estimated(1e200);
+                              p.arc_to({1e200, 0}, {9, 9}, 90).end();
+                            },
+                            FaultKind::NoIntersection},
                     Refused{"nothing_to_lead_back_to", [](Path& p) { p.back(45).line(9, 2); },
                             FaultKind::NoElement},
                     Refused{"arcs_apart",
