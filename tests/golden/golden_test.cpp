@@ -142,6 +142,21 @@ class Stepper {
   std::size_t answers_used_;
 };
 
+/// What a machine counts as executed: the block that ends the program, too, is finished.
+TEST_P(Golden, TheLastBlockEnds) {
+  MemorySource whole(program_, loader_of(GetParam()));
+  EventLog log;
+  auto interpreter = dialect_->make(setup_, whole, log);
+  ASSERT_TRUE(interpreter) << interpreter.error().what;
+  Stepper(**interpreter, setup_).run([](std::size_t) {});
+  if (!log.lines().empty() && log.lines().back().starts_with("alarm ")) return;
+  const auto last = std::find_if(log.lines().rbegin(), log.lines().rend(),
+                                 [](const auto& line) { return line.starts_with("block "); });
+  ASSERT_NE(last, log.lines().rend());
+  EXPECT_TRUE(last->starts_with("block " + std::to_string((*interpreter)->blocks()) + ":"))
+      << *last;
+}
+
 TEST_P(Golden, WindowsOfTheTextDoNotShow) {
   MemorySource whole(program_, loader_of(GetParam()));
   EventLog expected;

@@ -157,7 +157,7 @@ bool TncInterpreter::finish_block() {
     if (!check_stages(run_)) return false;
   }
   run_.is_in_block = false;
-  if (run_.state.phase == RunPhase::Running) run_.end_block();
+  run_.end_block();
   ++run_.state.blocks;
   return !run_.state.uses_stages || check_stages(run_);
 }
