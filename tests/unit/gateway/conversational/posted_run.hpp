@@ -54,6 +54,17 @@ class MoveLog final : public interpreter::EventSink {
   void add(const std::string& line) { text += line + '\n'; }
 };
 
+/// The moves of a program on the control that a setup file's text describes.
+inline std::string moves_of(const std::string& program, const std::string& setup_text) {
+  const auto setup = interpreter::parse_setup(setup_text, interpreter::Units::Inch);
+  if (!setup) return "setup: " + setup.error().what;
+  interpreter::MemorySource source(program);
+  MoveLog log;
+  const auto outcome =
+      interpreter::run_offline(interpreter::kCenturionDialect, *setup, source, log);
+  return outcome ? log.text : "not run: " + outcome.error().what + "\n" + log.text;
+}
+
 /// The moves of what `body` posts, run on the control; or why it can not be posted or run.
 /// `more` is appended to the program: others of the same file.
 inline std::string run_of(const std::string& body, const std::string& setup_text = "",
@@ -62,14 +73,7 @@ inline std::string run_of(const std::string& body, const std::string& setup_text
   if (!events) return "error: " + events.error().what;
   const auto text = post(*events);
   if (!text) return "error: " + text.error().what;
-  const auto setup = interpreter::parse_setup("units = \"in\"\n" + setup_text);
-  if (!setup) return "setup: " + setup.error().what;
-  const std::string program = *text + more;
-  interpreter::MemorySource source(program);
-  MoveLog log;
-  const auto outcome =
-      interpreter::run_offline(interpreter::kCenturionDialect, *setup, source, log);
-  return outcome ? log.text : "not run: " + outcome.error().what + "\n" + log.text;
+  return moves_of(*text + more, "units = \"in\"\n" + setup_text);
 }
 
 }  // namespace dripline::conversational

@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "gateway/interpreter/trace/offline_run.hpp"
+#include "tests/unit/gateway/conversational/posted_run.hpp"
+
+/// The examples of deploy/examples do what they say.
+namespace dripline::conversational {
+namespace {
+
+std::string text_of(const std::string& name) {
+  std::ifstream file("deploy/examples/" + name);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Examples, TheCenturionsPagesAreTaken) {  // CEN-214, CEN-215, CEN-216, CEN-219
+  const std::string setup = text_of("centurion.toml");
+  EXPECT_EQ(moves_of("G0 X2 Z1\nG53 X3 Z-1\n", setup), "rapid X2 Z-9\nrapid X3 Z-1\n");
+  EXPECT_NE(moves_of("G0 X20\n", setup).find("alarm CEN0401"), std::string::npos);
+  EXPECT_EQ(moves_of("G28 X4\n", setup), "rapid X4 Z0\nrapid X10 Z0\n");
+}
+
+}  // namespace
+}  // namespace dripline::conversational
