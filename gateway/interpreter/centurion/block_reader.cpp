@@ -95,7 +95,7 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
       return run.fail(ErrorCode::NotSupported, run.column(word.start),
                       fmt::format("G{} ({})", row.code, row.name));
     }
-    if ((row.words & kEndWords) != 0) {
+    if ((row.words & kEndWords) != 0 || row.action == GAction::PatternCycle) {
       if (block.parts.action != kNoRow) {
         return run.fail(ErrorCode::IllegalStatement, run.column(word.start),
                         fmt::format("G{} and G{} both want the axis words", row.code,

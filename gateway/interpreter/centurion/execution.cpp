@@ -9,6 +9,7 @@
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/centurion/pattern_cycles.hpp"
 #include "gateway/interpreter/centurion/reference_points.hpp"
 #include "gateway/interpreter/centurion/threads.hpp"
 
@@ -47,6 +48,8 @@ bool act(Run& run) {
     case GAction::FaceGroove:
     case GAction::DiameterGroove:
       return run_aside(run, run_groove_cycle);
+    case GAction::PatternCycle:
+      return plan_pattern_cycle(run);
     case GAction::TurningBox:
       return cut_turning_box(run);
     case GAction::FacingBox:

@@ -7,6 +7,7 @@
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/macro_calls.hpp"
 #include "gateway/interpreter/centurion/output_text.hpp"
+#include "gateway/interpreter/centurion/pattern_cycles.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -124,6 +125,12 @@ void end_program(Run& run, std::uint64_t blocks) {
   if (!run.settle_path()) return;
   events.on_end({run.origin, blocks, true});
   run.state.phase = RunPhase::Ended;
+}
+
+bool refuse_end_in_pattern(Run& run) {
+  return run.fail(ErrorCode::IllegalStatement, 0,
+                  fmt::format("the program ends before N{}, the last block of the pattern",
+                              run.state.pattern.last_label));
 }
 
 bool has_m30(const Run& run) {
@@ -304,6 +311,7 @@ bool leave_block(Run& run) {
       end_program(run, state.blocks + 1);
       return true;
     case Ending::EndOfProgram:
+      if (state.calls.empty() && is_reading_pattern(state)) return refuse_end_in_pattern(run);
       end_by_code(run);
       return true;
     case Ending::None:
@@ -315,6 +323,7 @@ bool leave_block(Run& run) {
 JumpOutcome take_jump(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   Jump& jump = state.jump;
+  if (jump.kind == JumpKind::Pattern) return enter_pattern(run, search);
   TextPosition found;
   LoopFrame loop;
   TextSearch::Outcome outcome{};
@@ -351,6 +360,9 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
 
 bool run_off_end(Run& run) {
   ModalState& state = run.state;
+  if (is_reading_pattern(state) && state.calls.size() <= state.pattern.calls) {
+    return refuse_end_in_pattern(run);
+  }
   if (!state.calls.empty()) {
     return_from_call(run);
     return true;

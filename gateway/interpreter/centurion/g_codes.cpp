@@ -11,6 +11,7 @@ constexpr AddressSet kNone = 0;
 constexpr AddressSet kAllWords = (AddressSet{1} << kAddressCount) - 1;
 constexpr AddressSet kHoleWords = set_of(R, Z);
 constexpr AddressSet kGrooveWords = set_of(R, Z, X, V, Q, E, U, D, A, C);
+constexpr AddressSet kRoughingWords = set_of(P, Q, U, W, I, K, V, D, R);
 constexpr AddressSet kMultipleThreadWords = set_of(X, Z, U, W, I, Q, D, A, P, K);
 
 constexpr std::array kRows{
@@ -60,10 +61,10 @@ constexpr std::array kRows{
     GRow{63, Group::PathMode, Act::PathMode, kNone, "tapping mode"},
     GRow{64, Group::PathMode, Act::PathMode, kNone, "cutting mode"},
     GRow{65, Group::OneShot, Act::MacroCall, kAllWords, "macro call or non-movement block"},
-    GRow{70, Group::OneShot, Act::Later, kNone, "finish cycle"},
-    GRow{71, Group::OneShot, Act::Later, kNone, "rough turning"},
-    GRow{72, Group::OneShot, Act::Later, kNone, "rough facing"},
-    GRow{73, Group::OneShot, Act::Later, kNone, "pattern repeat"},
+    GRow{70, Group::OneShot, Act::PatternCycle, set_of(P, Q), "finish cycle"},
+    GRow{71, Group::OneShot, Act::PatternCycle, kRoughingWords, "rough turning"},
+    GRow{72, Group::OneShot, Act::PatternCycle, kRoughingWords, "rough facing"},
+    GRow{73, Group::OneShot, Act::PatternCycle, set_of(P, Q, U, W, I, K, D), "pattern repeat"},
     GRow{74, Group::OneShot, Act::FaceGroove, kGrooveWords | set_of(I), "face grooving"},
     GRow{75, Group::OneShot, Act::DiameterGroove, kGrooveWords | set_of(K), "diameter grooving"},
     GRow{76, Group::OneShot, Act::MultipleThread, kMultipleThreadWords, "multiple thread cycle"},

@@ -62,7 +62,8 @@ enum class GAction : std::uint8_t {
   LocalZero,
   MachineCoordinates,
   WorkSystem,
-  ThreadLine,  ///< the block's line or arc is a thread
+  ThreadLine,    ///< the block's line or arc is a thread
+  PatternCycle,  ///< G70-G73
   TurningBox,
   FacingBox,
   SingleThread,

@@ -4,6 +4,7 @@
 #include "gateway/interpreter/centurion/execution.hpp"
 #include "gateway/interpreter/centurion/flow.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
+#include "gateway/interpreter/centurion/pattern_cycles.hpp"
 #include "gateway/interpreter/centurion/snapshot.hpp"
 #include "gateway/interpreter/centurion/statements.hpp"
 #include "protocol/base/invariant.hpp"
@@ -57,6 +58,14 @@ StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
       if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
       if (outcome == JumpOutcome::More) return StepState::Ran;
       if (outcome == JumpOutcome::Failed) return paused();
+    }
+    if (has_pattern_pass(run_.state)) [[unlikely]] {
+      make_pattern_pass(run_);
+      run_.end_block();
+      if (run_.may_have_failed() && !check_path(run_)) return paused();
+      ++run_.state.blocks;
+      --left;
+      continue;
     }
     const BlockOutcome outcome = run_block();
     if (outcome == BlockOutcome::Paused) [[unlikely]]
@@ -215,6 +224,8 @@ void CenturionInterpreter::settle_name() {
 
 bool CenturionInterpreter::finish_block() {
   if (!leave_block(run_)) return false;
+  if (run_.state.pattern.phase != PatternPhase::None && !leave_pattern_block(run_)) [[unlikely]]
+    return false;
   run_.end_block();
   if (run_.may_have_failed() && !check_path(run_)) [[unlikely]]
     return false;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/interpreter/centurion/pattern.hpp"
 #include "gateway/interpreter/centurion/text_cursor.hpp"
 #include "gateway/interpreter/centurion/transformation.hpp"
 #include "gateway/interpreter/event.hpp"
@@ -102,7 +103,7 @@ struct LoopFrame {
 };
 
 /// A jump that a block asked for and that needs text of another place; taken before the next block.
-enum class JumpKind : std::uint8_t { None, Goto, Gosub, Call, While };
+enum class JumpKind : std::uint8_t { None, Goto, Gosub, Call, While, Pattern };
 struct Jump {
   JumpKind kind = JumpKind::None;
   bool is_call_word = false;  ///< CALL, not M98: its own error number
@@ -167,6 +168,8 @@ struct ModalState {
   std::vector<LoopFrame> loops;
   std::vector<ParameterFile> files;
   Jump jump;
+  PatternCycle pattern;                    ///< of G70-G73, while one is under way
+  std::vector<ModalState> before_pattern;  ///< one while a pattern is read: what it must not change
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
   double active_feed() const { return feed[modes.is_feed_per_revolution]; }

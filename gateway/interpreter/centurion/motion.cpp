@@ -62,6 +62,10 @@ void position_to(Run& run, const Target& target) {
 }
 
 bool start_probe(Run& run, const Target& target) {
+  if (run.state.pattern.phase == PatternPhase::Reading) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "a probe move in a pattern that is roughed");
+  }
   if (run.state.modes.motion == MotionMode::Rapid) {
     return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
   }

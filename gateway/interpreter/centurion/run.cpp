@@ -4,14 +4,30 @@ namespace dripline::interpreter::centurion {
 
 void Run::choose_stages() {
   if (!state.has_header) deliver_header();
-  EventSink& last = guards_travel() ? static_cast<EventSink&>(guard) : sink;
-  if (state.uses_compensator) {
+  EventSink* last = guards_travel() ? static_cast<EventSink*>(&guard) : &sink;
+  if (state.pattern.phase == PatternPhase::Reading) last = &recorder;
+  if (passes_compensator()) {
     joiner.lead_to(compensator);
   } else {
-    joiner.lead_to(last);
+    joiner.lead_to(*last);
   }
   front = state.transformation.is_on() ? static_cast<EventSink*>(&transform) : &joiner;
-  has_stages = state.uses_compensator || &last != &sink || front != &joiner;
+  has_stages = passes_compensator() || last != &sink || front != &joiner;
+}
+
+/// The passes of a cycle are made from moves that are compensated.
+bool Run::passes_compensator() const {
+  return state.uses_compensator && !is_making_passes(state.pattern);
+}
+
+void Run::restart_stages() {
+  if (state.uses_compensator) {
+    compensator.leave();
+    compensator.place(present_position());
+  }
+  joiner.place(present_position());
+  resume_compensation(*this);
+  choose_stages();
 }
 
 /// Brings the guard up to date. True when it has anything to look after.
@@ -32,7 +48,7 @@ bool Run::guards_travel() {
   guard.set_maximum_feed({length(most.x).mm(), length(most.z).mm()});
   guard.set_limits(limits);
   guard.set_zone(zone);
-  guard.place(state.uses_compensator ? compensator.tool() : joiner.given());
+  guard.place(passes_compensator() ? compensator.tool() : joiner.given());
   const bool is_active = zone || most.x > 0 || most.z > 0 || limits.least_x < limits.most_x ||
                          limits.least_z < limits.most_z;
   guard.set_active(is_active);

@@ -10,6 +10,7 @@
 #include "gateway/interpreter/centurion/nose_compensation.hpp"
 #include "gateway/interpreter/centurion/options.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
+#include "gateway/interpreter/centurion/pattern_recorder.hpp"
 #include "gateway/interpreter/centurion/text_cursor.hpp"
 #include "gateway/interpreter/centurion/transform_stage.hpp"
 #include "gateway/interpreter/centurion/travel_guard.hpp"
@@ -30,7 +31,8 @@ struct Run {
         source(program_source),
         sink(event_sink),
         guard(event_sink),
-        compensator(compensation_policy(), guard),
+        recorder(guard, state),
+        compensator(compensation_policy(), recorder),
         joiner(joining_policy(), event_sink),
         transform(*this, joiner),
         text(program_source) {}
@@ -59,6 +61,8 @@ struct Run {
       choose_stages();
     return joiner;
   }
+  /// From here on, with the machine at the program's position and compensation, if on, anew.
+  void restart_stages();
   /// To the compensation stage, in order with the events. The joining stage stands in front.
   void command(const PathCommand& command);
   void end_block();
@@ -112,6 +116,7 @@ struct Run {
   ProgramSource& source;
   EventSink& sink;
   TravelGuard guard;
+  PatternRecorder recorder;
   compensation::Compensator compensator;
   joining::Joiner joiner;
   TransformStage transform;
@@ -136,6 +141,7 @@ struct Run {
 
  private:
   bool guards_travel();
+  bool passes_compensator() const;
   [[gnu::cold]] void deliver_header();
 };
 

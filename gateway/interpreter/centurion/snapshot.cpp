@@ -52,6 +52,40 @@ void visit(Archive& archive, Origin& origin) {
 }
 
 template <class Archive>
+void visit(Archive& archive, PatternMove& move) {
+  all(archive, move.kind, move.is_clockwise, move.is_feed_per_revolution);
+  visit(archive, move.to);
+  visit(archive, move.center);
+  all(archive, move.sweep, move.feed, move.spindle, move.revolutions, move.surface, move.most_turns,
+      move.line, move.sequence);
+  if (move.kind > PatternMove::Kind::Spindle) archive.damage();
+}
+
+template <class Archive>
+void visit(Archive& archive, PatternCycle& cycle) {
+  archive(cycle.phase);
+  if (cycle.phase > PatternPhase::Repeats) return archive.damage();
+  if (cycle.phase == PatternPhase::None) return;
+  all(archive, cycle.fault, cycle.code, cycle.last_label, cycle.program, cycle.end_offset,
+      cycle.calls);
+  visit(archive, cycle.back);
+  visit(archive, cycle.origin);
+  for (PlanePoint* point : {&cycle.home, &cycle.start, &cycle.finish, &cycle.rough, &cycle.tool}) {
+    visit(archive, *point);
+  }
+  double feed = cycle.feed.length().mm();
+  bool is_per_revolution = cycle.feed.per() == Feed::Per::Revolution;
+  all(archive, cycle.step, cycle.relief, cycle.first_level, cycle.has_first_level,
+      cycle.relief_is_45, cycle.passes, feed, is_per_revolution, cycle.done);
+  cycle.feed = is_per_revolution ? Feed::per_revolution(Length::mm(feed))
+                                 : Feed::per_minute(Length::mm(feed));
+  std::size_t count = cycle.moves.size();
+  if (!archive.size(count, kMostPatternMoves)) return;
+  cycle.moves.resize(count);
+  for (PatternMove& move : cycle.moves) visit(archive, move);
+}
+
+template <class Archive>
 void visit_files(Archive& archive, std::vector<ParameterFile>& files) {
   std::size_t count = files.size();
   if (!archive.size(count, kMaxParameterFiles)) return;
@@ -125,6 +159,17 @@ void visit_state(Archive& archive, ModalState& state) {
   all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes, jump.custom,
       jump.changes_tool, jump.is_not_in_ram);
   visit(archive, jump.from);
+  visit(archive, state.pattern);
+}
+
+/// The state, and while a pattern is read the one before it.
+template <class Archive>
+void visit_states(Archive& archive, ModalState& state) {
+  visit_state(archive, state);
+  std::size_t count = state.before_pattern.size();
+  if (!archive.size(count, 1)) return;
+  state.before_pattern.resize(count);
+  for (ModalState& before : state.before_pattern) visit_state(archive, before);
 }
 
 /// Only what is not 0: most are.
@@ -175,13 +220,21 @@ void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
   }
 }
 
+/// A cycle that cuts has what it cuts.
+bool is_plausible(const PatternCycle& cycle, std::size_t states_before) {
+  const bool is_reading = cycle.phase == PatternPhase::Reading;
+  const bool cuts = cycle.phase >= PatternPhase::Levels;
+  return is_reading == (states_before == 1) && (!cuts || (!cycle.moves.empty() && cycle.step >= 0));
+}
+
 /// Values that index tables must be in range, whatever the bytes say.
 bool is_plausible(const ModalState& state) {
   return state.phase <= RunPhase::Alarmed && state.units <= Units::Millimetre &&
          state.modes.motion <= MotionMode::CounterClockwise && state.modes.work_system < 6 &&
          state.modes.compensation <= 2 && state.nose.code <= 2 &&
          state.spindle.state <= SpindleState::Oriented && state.tool.offset >= 0 &&
-         state.tool.offset <= kOffsetCount && state.jump.kind <= JumpKind::While &&
+         state.tool.offset <= kOffsetCount && state.jump.kind <= JumpKind::Pattern &&
+         is_plausible(state.pattern, state.before_pattern.size()) &&
          state.open_device.value_or(OutputDevice::File) <= OutputDevice::Printer;
 }
 
@@ -197,7 +250,7 @@ Snapshot take_snapshot(const Run& run) {
   Origin origin = run.origin;
   std::string name = run.name;
   bool is_settled = run.name_is_settled;
-  visit_state(writer, state);
+  visit_states(writer, state);
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
@@ -217,7 +270,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   Origin origin;
   std::string name;
   bool is_settled = false;
-  visit_state(reader, state);
+  visit_states(reader, state);
   visit_parameters(reader, parameters);
   visit(reader, origin);
   visit_name(reader, name, is_settled);
