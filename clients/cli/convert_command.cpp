@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "clients/cli/commands.hpp"
+#include "clients/cli/form_conversion.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/progress.hpp"
 #include "clients/cli/standard_output.hpp"
@@ -22,6 +23,8 @@ struct ConvertCommand {
   std::optional<unsigned> leader, trailer;
   bool is_listing = false, has_no_rewind_stop = false, has_parentheses = false;
   bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
+  bool has_decimal_point = false;
+  std::int32_t increment = 10;
 };
 
 constexpr std::size_t kPiece = 64 * 1024;
@@ -193,9 +196,40 @@ int convert_to(Context& context, const ConvertCommand& command, CharacterCode fr
   return kExitOk;
 }
 
+/// Plain language is asked for, or ISO of a program in plain language.
+bool is_between_forms(const ConvertCommand& command, client::FileSource& file) {
+  if (command.is_listing || command.from != "auto") return false;
+  if (command.to == "plain") return true;
+  if (command.to != "iso") return false;
+  std::string head(std::min<std::uint64_t>(file.size(), kPiece), '\0');
+  return file.read(0, head) && is_plain_language(head);
+}
+
+int convert_between_forms(Context& context, const ConvertCommand& command,
+                          client::FileSource& file) {
+  if (command.output.empty()) {
+    return refuse(Error{Errc::Syntax, "convert needs -o FILE (or -o -)"});
+  }
+  if (!command.end_of_block.empty() && command.end_of_block != "lf" &&
+      command.end_of_block != "crlf") {
+    return refuse(Error{Errc::Syntax, "--eob of a TNC program is lf or crlf"});
+  }
+  const FormConversion conversion{command.input,
+                                  command.output,
+                                  command.to == "plain",
+                                  command.has_decimal_point,
+                                  command.end_of_block == "lf",
+                                  command.increment};
+  return convert_form(context, conversion, file);
+}
+
 int convert(Context& context, const ConvertCommand& command) {
   auto file = client::FileSource::open(command.input);
   if (!file) return refuse(file.error());
+  if (is_between_forms(command, *file)) return convert_between_forms(context, command, *file);
+  if (command.to == "plain") {
+    return refuse(Error{Errc::Syntax, "--to plain goes with neither --from nor --list"});
+  }
   const auto from = source_code(command, *file);
   if (!from) return say_no(named(command, from.error()));
   catch_interrupts();
@@ -210,8 +244,13 @@ void add_options(CLI::App& command, ConvertCommand& options) {
   auto codes = names_of(kCodes);
   command.add_option("IN", options.input, "Tape image or program text")->required();
   command.add_option("-o,--output", options.output, "File to write; - for standard output");
-  command.add_option("--to", options.to, "eia, iso, or ascii (program text; the default)")
-      ->check(CLI::IsMember(codes));
+  auto targets = codes;
+  targets.push_back("plain");
+  command
+      .add_option("--to", options.to,
+                  "eia, iso, or ascii (program text; the default); of a TNC 151/155 program its "
+                  "form: iso or plain")
+      ->check(CLI::IsMember(targets));
   codes.push_back("auto");
   command.add_option("--from", options.from, "eia, iso, ascii, or auto (found out from IN)")
       ->check(CLI::IsMember(codes));
@@ -233,6 +272,11 @@ void add_options(CLI::App& command, ConvertCommand& options) {
                    "Take what stands before the first end of block for a block");
   command.add_flag("--replace-wrong", options.replaces_wrong,
                    "'?' for rows that can not be read, instead of an error");
+  command.add_flag("--decimal-point", options.has_decimal_point,
+                   "TNC programs: a point in numbers instead of the comma");
+  command
+      .add_option("--increment", options.increment, "TNC programs: of ISO block numbers; 0: none")
+      ->check(CLI::Range(0, 99));
   command.add_flag("--strict-blanks", options.is_strict,
                    "Blank tape inside an EIA block is an error");
 }
@@ -241,15 +285,20 @@ void add_options(CLI::App& command, ConvertCommand& options) {
 
 void add_convert_command(CLI::App& app, Context& context) {
   auto* command = app.add_subcommand(
-      "convert", "Convert tape images between EIA, ISO and program text, or list one");
+      "convert",
+      "Convert tape images between EIA, ISO and program text, or TNC programs between their forms");
   auto options = std::make_shared<ConvertCommand>();
   add_options(*command, *options);
   command->footer(
       "No server is needed. A tape is read as a control reads it: nothing counts before the first "
-      "end of block; deletes and blanks are left out.\n\nExit status: 0 converted, 1 the tape or "
+      "end of block; deletes and blanks are left out.\n\nA program that begins with BEGIN PGM is "
+      "plain language of a HEIDENHAIN TNC 151/155: --to iso makes it the control's ISO form "
+      "(--from ascii: an ISO tape of the text), --to plain makes plain language of ISO. What has "
+      "no "
+      "counterpart in the other form is refused.\n\nExit status: 0 converted, 1 the tape or "
       "the program can not be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
       "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
-      "convert shaft.ptp --list | less");
+      "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso");
   command->callback([&context, options] { context.status = convert(context, *options); });
 }
 

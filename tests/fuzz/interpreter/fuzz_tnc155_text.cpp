@@ -1,0 +1,40 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/tnc155/conversion.hpp"
+#include "tests/support/tnc155_trace.hpp"
+
+namespace {
+
+using namespace dripline::interpreter;
+using namespace dripline::interpreter::tnc155;
+
+void insist(bool holds) {
+  if (!holds) __builtin_trap();
+}
+
+/// A program and its conversion do the same.
+void check_conversion(const std::string& text, Form form) {
+  const auto there = convert_program(text, form == Form::Plain ? Form::Iso : Form::Plain);
+  if (!there) return;
+  const std::string trace = tnc155_trace(text);
+  if (trace.ends_with("...")) return;  // cut off, and the forms count blocks differently
+  insist(tnc155_trace(*there) == trace);
+}
+
+}  // namespace
+
+/// Any text is read or refused; what was written is read again to the same text; a conversion does
+/// what the program did.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 4096) return 0;
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const auto written = rewrite_program(text);
+  if (!written || written->empty()) return 0;
+  const auto again = rewrite_program(*written);
+  insist(again && *again == *written);
+  check_conversion(text, detect_form(text));
+  return 0;
+}
