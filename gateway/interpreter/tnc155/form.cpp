@@ -7,7 +7,7 @@ namespace {
 bool has_g_code(std::string_view line) {
   for (std::size_t at = line.find('G'); at != std::string_view::npos; at = line.find('G', at + 1)) {
     std::size_t behind = at + 1;
-    while (behind < line.size() && line[behind] == ' ') ++behind;
+    while (behind < line.size() && is_blank_or_control(line[behind])) ++behind;
     if (behind < line.size() && is_decimal(line[behind])) return true;
   }
   return false;
@@ -29,7 +29,7 @@ Form detect_form(std::string_view head) {
   if (line.empty()) return Form::Unknown;
   if (line.front() == '%' || line.front() == 'N') return Form::Iso;
   std::size_t at = 0;
-  while (at < line.size() && (is_decimal(line[at]) || line[at] == ' ')) ++at;
+  while (at < line.size() && (is_decimal(line[at]) || is_blank_or_control(line[at]))) ++at;
   const bool has_number = at > 0;
   line.remove_prefix(at);
   if (line.empty()) return Form::Unknown;
@@ -39,12 +39,15 @@ Form detect_form(std::string_view head) {
                                       "BLK", "LBL", "LP", "CALL", "CYCL", "CC", "CP", "CT"}) {
     if (line.starts_with(word)) return Form::Plain;
   }
+  if (line.substr(0, line.find_last_not_of(' ') + 1).ends_with('*')) return Form::Iso;
   std::size_t next = 1;
-  while (next < line.size() && line[next] == ' ') ++next;
+  while (next < line.size() && is_blank_or_control(line[next])) ++next;
   const char second = next < line.size() ? line[next] : '\0';
   switch (line.front()) {
-    case 'L':
-      return is_decimal(second) ? Form::Iso : Form::Plain;
+    case 'L':  // L15.8 calls a label, a length has a comma or a sign
+      while (next < line.size() && is_decimal(line[next])) ++next;
+      return is_decimal(second) && (next == line.size() || line[next] != ',') ? Form::Iso
+                                                                              : Form::Plain;
     case 'X':
     case 'Y':
     case 'Z':

@@ -221,7 +221,36 @@ class IsoReader {
         std::popcount(block_.slots & kAxisSlots) > most_axes()) {
       return cursor_.wrong(fmt::format("more than {} coordinates", most_axes()));
     }
-    return check_radius() && check_angle();
+    return is_alone() && check_radius() && check_angle();
+  }
+
+  /// %, D functions and label calls share their block with nothing but N and what belongs to them.
+  bool is_alone() {
+    constexpr unsigned kHead = 1u << static_cast<unsigned>(IsoGroup::Unit) |
+                               1u << static_cast<unsigned>(IsoGroup::Protection);
+    const bool is_program = block_.program != IsoBlock::kNone;
+    const bool is_function = block_.function != IsoBlock::kNone;
+    const bool is_call = block_.label != IsoBlock::kNone && !block_.has(IsoGroup::Label);
+    if (!is_program && (block_.groups & kHead) != 0) {
+      return cursor_.wrong("G50, G70 and G71 stand in the % block");
+    }
+    if (!is_function && block_.parameter != IsoBlock::kNone) {
+      return cursor_.wrong("Q stands without a D function");
+    }
+    if (!is_program && !is_function && !is_call) return true;
+    const bool has_words = block_.slots != 0 || block_.m != IsoBlock::kNone ||
+                           block_.tool != IsoBlock::kNone || block_.feed.is_programmed() ||
+                           block_.spindle.is_programmed() || block_.length.is_programmed() ||
+                           block_.factor != IsoBlock::kNone ||
+                           block_.last_distance != Distance::AsBefore;
+    const bool is_two = is_program + is_function + (block_.label != IsoBlock::kNone) > 1;
+    if (is_two || has_words || (block_.groups & ~(is_program ? kHead : 0u)) != 0 ||
+        (!is_function && block_.parameters != 0)) {
+      return cursor_.wrong(is_program    ? "% stands alone in its block"
+                           : is_function ? "a D function stands alone in its block"
+                                         : "a label call stands alone in its block");
+    }
+    return true;
   }
 
   int most_axes() const { return block_.has(IsoGroup::Cycle) ? 4 : 3; }

@@ -87,7 +87,7 @@ const IsoCase kWords[] = {
      "3:1 PROGRAM START UNDEFINED: G05 repeats a direction, and there is none yet"},
     {"QForbiddenInSpeed", "N20 SQ4", "3:6 BLOCK FORMAT INCORRECT: S can not be a Q parameter"},
     {"FunctionNotAlone", "N20 D00 Q1 P01 4 X1",
-     "3:1 BLOCK FORMAT INCORRECT: a D function stands alone in its block"},
+     "3:20 BLOCK FORMAT INCORRECT: a D function stands alone in its block"},
     {"BadCharacter", "N20 ?", "3:5 BLOCK FORMAT INCORRECT: '?' is not expected here"},
 };
 
