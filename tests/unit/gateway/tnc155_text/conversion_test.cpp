@@ -33,7 +33,7 @@ TEST_P(Tnc155Conversion, IsoBecomesPlain) {
             std::string(kPlainHead) + GetParam().plain);
 }
 
-// HD-039, HD-040, HD-041, HD-043, HD-045 to HD-050
+// HD-039, HD-040, HD-041, HD-043, HD-045, HD-046, HD-047, HD-048, HD-049, HD-050
 const Pair kPairs[] = {
     {"Lines", "2 L X+1,000 Y+2,000 R0 F MAX M03\n3 L Z-1,500 R F80 M\n4 L IX+3,000 R F M\n",
      "N20 G00 G40 G90 X+1 Y+2 M03 *\nN30 G01 Z-1,5 F80 *\nN40 G91 X+3 *\n"},

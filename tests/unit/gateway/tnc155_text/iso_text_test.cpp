@@ -18,7 +18,7 @@ TEST_P(Tnc155IsoBlock, IsWrittenAsTheControlSortsIt) {
             std::string("%1 G71 *\nN1 G17 G01 G40 G90 X+0 *\n") + GetParam().written);
 }
 
-// HD-027 to HD-038.
+// HD-027, HD-028, HD-029, HD-030, HD-031, HD-032, HD-033, HD-034, HD-035, HD-036, HD-037
 const IsoCase kWords[] = {
     {"Move", "N20 G1X+12.5Y-3F250M3*", "N20 G01 X+12,5 Y-3 F250 M03 *\n"},
     {"WordOrder", "N20 M8 F80 Y4 G91 X3 G41 G01", "N20 G01 G41 Y+4 G91 X+3 F80 M08 *\n"},

@@ -17,7 +17,9 @@ TEST_P(Tnc155PlainBlock, IsWrittenAsTheControlWritesIt) {
   EXPECT_EQ(rewritten(GetParam().read, Form::Plain), GetParam().written);
 }
 
-// HD-001 to HD-026, one row each or more.
+// HD-001, HD-002, HD-003, HD-004, HD-005, HD-006, HD-007, HD-008, HD-009, HD-010, HD-011, HD-012,
+// HD-013, HD-014, HD-015, HD-016, HD-017, HD-018, HD-019, HD-020, HD-021, HD-022, HD-023, HD-024,
+// HD-025, HD-026, HD-059
 const PlainCase kBlocks[] = {
     {"ContinuationLines", "41 L X+12,5\n   Y-3\n   R F M\n42 CC",
      "41 L X+12,500 Y-3,000 R F M\n42 CC\n"},
