@@ -26,6 +26,30 @@ TEST_F(DncConvert, GoesRoundThroughBothTapeCodes) {
   EXPECT_EQ(dnc.read("eia.iso").substr(0, 10), std::string("\0\0\0\0\0\0\0\xA5\x8D\n", 10));
 }
 
+TEST_F(DncConvert, ChangesTheFormOfTncPrograms) {
+  const std::string plain =
+      "0 BEGIN PGM 5 MM\r\n1 TOOL CALL 2 Z S 400,000\r\n2 L X+1,500 R0 F80 M\r\n"
+      "3 END PGM 5 MM\r\n";
+  const std::string iso =
+      "%5 G71 *\r\nN10 T2 G17 S400 *\r\nN20 G01 G40 G90 X+1,5 F80 *\r\n"
+      "N9999 %5 G71 *\r\n";
+  dnc.write("a.h", plain);
+  const auto there = dnc({"convert", "a.h", "-o", "a.i", "--to", "iso"});
+  ASSERT_EQ(there.status, 0) << there.err;
+  EXPECT_EQ(there.out, "Converted a.h -> a.i (ISO)\n");
+  EXPECT_EQ(dnc.read("a.i"), iso);
+  EXPECT_EQ(dnc({"convert", "a.i", "-o", "-", "--to", "plain"}).out, plain);
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--eob", "lf", "--increment", "0",
+                 "--decimal-point"})
+                .out,
+            "%5 G71 *\nT2 G17 S400 *\nG01 G40 G90 X+1.5 F80 *\nN9999 %5 G71 *\n");
+  dnc.write("b.h", "0 BEGIN PGM 5 MM\n1 C X1 Y1 DR+ R0 F MAX M\n");
+  const auto refused = dnc({"convert", "b.h", "-o", "b.i", "--to", "iso"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "dnc: b.h: line 2: F MAX of this block has no counterpart in ISO\n");
+  EXPECT_EQ(dnc.read("b.i"), "");
+}
+
 TEST_F(DncConvert, NamesWhatEiaCanNotSayAndWritesNothing) {
   dnc.write("a.nc", "N1G1\nN2X[4]\n");
   const auto refused = dnc({"convert", "a.nc", "--from", "ascii", "-o", "b.ptp", "--to", "eia"});
