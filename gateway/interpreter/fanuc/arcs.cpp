@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/interpreter/fanuc/motion.hpp"
@@ -71,6 +72,17 @@ bool centre_by_radius(Run& run, double radius, ArcWords& arc) {
   return true;
 }
 
+/// The radii at both ends differ by no more than `limit`, told without roots: |a - b| is at most
+/// |a^2 - b^2| over the larger. False says nothing.
+bool surely_agree(const ArcWords& arc, double limit) {
+  const Flat at_start = flat(arc, arc.start) - arc.centre;
+  const Flat at_end = flat(arc, arc.end) - arc.centre;
+  const double start_square = dot(at_start, at_start);
+  const double end_square = dot(at_end, at_end);
+  const double off = start_square - end_square;
+  return off * off <= limit * limit * std::max(start_square, end_square);
+}
+
 bool centre_by_offsets(Run& run, ArcWords& arc) {
   const Words& words = run.block.words;
   arc.centre = flat(arc, arc.start);
@@ -80,14 +92,15 @@ bool centre_by_offsets(Run& run, ArcWords& arc) {
   if (words.has(third)) return run.fail(ErrorCode::IllegalPlaneAxis, words.column(third));
   if (words.has(first)) arc.centre.first += run.length(words[first]);
   if (words.has(second)) arc.centre.second += run.length(words[second]);
-  const double start_radius = distance(arc.centre, flat(arc, arc.start));
-  const double end_radius = distance(arc.centre, flat(arc, arc.end));
-  if (start_radius <= kSamePoint) {
+  if (is_same_point(arc.centre, flat(arc, arc.start))) {
     return run.fail(ErrorCode::NoRadius, words.first_column(kCentreWords),
                     "the centre is the start");
   }
-  const double error = std::fabs(start_radius - end_radius);
-  if (run.options.arc_error > 0 && error > run.options.arc_error) {
+  const double limit = run.options.arc_error;
+  if (limit <= 0 || surely_agree(arc, limit)) return true;
+  const double error = std::fabs(distance(arc.centre, flat(arc, arc.start)) -
+                                 distance(arc.centre, flat(arc, arc.end)));
+  if (error > limit) {
     return run.fail(ErrorCode::RadiusTolerance, words.first_column(kCentreWords),
                     fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
   }
