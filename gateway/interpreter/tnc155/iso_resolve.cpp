@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "gateway/interpreter/tnc155/iso_alone.hpp"
 #include "gateway/interpreter/tnc155/iso_axes.hpp"
 #include "gateway/interpreter/tnc155/iso_block.hpp"
 #include "gateway/interpreter/tnc155/iso_cycles.hpp"
@@ -36,14 +37,15 @@ class Resolver {
 
  private:
   bool resolve_all(bool is_first) {
-    if (block_.program != IsoBlock::kNone) return resolve_program(is_first);
-    if (block_.function != IsoBlock::kNone) return resolve_function();
-    if (block_.label != IsoBlock::kNone && !block_.has(IsoGroup::Label)) return resolve_call();
+    if (block_.program != IsoBlock::kNone || block_.function != IsoBlock::kNone ||
+        (block_.label != IsoBlock::kNone && !block_.has(IsoGroup::Label))) {
+      return resolve_alone(block_, is_first, state_.program, parts_, fault_);
+    }
     if (!resolve_distances()) return false;
     const unsigned other = block_.groups & ~(bit(IsoGroup::Motion) | bit(IsoGroup::Compensation));
     const bool is_move = other == 0 && (block_.slots & kCentreSlots) == 0 &&
                          block_.tool == IsoBlock::kNone && !block_.spindle.is_programmed() &&
-                         block_.parameters == 0 && block_.parameter == IsoBlock::kNone;
+                         block_.parameters == 0;
     if (!is_move) return resolve_functions();
     return block_.slots != 0 ? add_move(block_.slots) : add_tail();
   }
@@ -54,83 +56,6 @@ class Resolver {
   }
   bool wrong(std::string detail) {
     return wrong(ErrorCode::BlockFormatIncorrect, std::move(detail));
-  }
-
-  /// Nothing stands beside N, what is in `groups` and the one thing the block is about.
-  bool is_alone(unsigned groups) const {
-    return (block_.groups & ~groups) == 0 && block_.slots == 0 && block_.m == IsoBlock::kNone &&
-           block_.tool == IsoBlock::kNone && !block_.spindle.is_programmed() &&
-           !block_.feed.is_programmed() && block_.last_distance == Distance::AsBefore;
-  }
-
-  bool resolve_program(bool is_first) {
-    const bool has_unit = block_.has(IsoGroup::Unit);
-    if (!is_alone(bit(IsoGroup::Unit) | bit(IsoGroup::Protection)) || block_.parameters != 0 ||
-        block_.function != IsoBlock::kNone || block_.label != IsoBlock::kNone) {
-      return wrong("% stands alone in its block");
-    }
-    if (!has_unit && is_first) return wrong("% has no G70 or G71");
-    const bool is_end = !is_first && (has_unit || block_.program == state_.program.number);
-    Block& part = parts_.add(has_unit && is_first ? BlockKind::Begin
-                             : is_end             ? BlockKind::End
-                                                  : BlockKind::ProgramCall);
-    part.target = block_.program;
-    if (part.kind == BlockKind::ProgramCall) return true;
-    part.is_protected = block_.has(IsoGroup::Protection);
-    part.units = !has_unit                           ? state_.program.units
-                 : block_.code(IsoGroup::Unit) == 70 ? Units::Inch
-                                                     : Units::Millimetre;
-    if (part.kind == BlockKind::Begin) {
-      state_.program.units = part.units;
-      state_.program.number = part.target;
-    }
-    return true;
-  }
-
-  bool resolve_function() {
-    if (!is_alone(0) || block_.label != IsoBlock::kNone) {
-      return wrong("a D function stands alone in its block");
-    }
-    Block& part = parts_.add(BlockKind::Function);
-    part.function = static_cast<std::uint8_t>(block_.function);
-    const bool is_jump = part.function >= 9;
-    const bool has_two =
-        is_jump || (part.function >= 1 && part.function <= 4) || part.function == 8;
-    const unsigned needed = is_jump ? 0b1110u : has_two ? 0b0110u : 0b0010u;
-    if (block_.parameters != needed) {
-      return wrong(fmt::format("D{:02} has other operands", part.function));
-    }
-    if (is_jump == (block_.parameter != IsoBlock::kNone)) {
-      return wrong(is_jump ? "a jump has no result" : "Q of the result is missing");
-    }
-    for (std::size_t p = 1; p < 4; ++p) {
-      if (block_.has_parameter(p) &&
-          (block_.cycle[p].axis || !block_.cycle[p].value.is_programmed())) {
-        return wrong(fmt::format("P{:02} has no value", p));
-      }
-    }
-    part.first = block_.cycle[1].value;
-    if (has_two) part.second = block_.cycle[2].value;
-    part.target = block_.parameter;
-    return is_jump ? take_jump_label(part) : true;
-  }
-
-  bool take_jump_label(Block& part) {
-    const Value& label = block_.cycle[3].value;
-    if (label.kind != Value::Kind::Number || label.number % Value::kStepsPerUnit != 0 ||
-        label.number < 0 || label.number > kMostLabel * Value::kStepsPerUnit) {
-      return wrong("P03 is a label from 1 to 254");
-    }
-    part.target = label.number / Value::kStepsPerUnit;
-    return part.target != 0 ? true : wrong(ErrorCode::JumpToLabelZero, "P03 0");
-  }
-
-  bool resolve_call() {
-    if (!is_alone(0)) return wrong("a label call stands alone in its block");
-    Block& part = parts_.add(BlockKind::LabelCall);
-    part.target = block_.label;
-    part.repeats = part.repeats_left = block_.repeats;
-    return true;
   }
 
   /// Which slots are incremental, and what is in force behind the block: the distance of the last
@@ -171,10 +96,6 @@ class Resolver {
   }
 
   bool resolve_functions() {
-    if (block_.has(IsoGroup::Unit) || block_.has(IsoGroup::Protection)) {
-      return wrong("G50, G70 and G71 stand in the % block");
-    }
-    if (block_.parameter != IsoBlock::kNone) return wrong("Q stands without a D function");
     if (std::popcount(block_.groups &
                       (bit(IsoGroup::Cycle) | bit(IsoGroup::Blank) | bit(IsoGroup::Probe))) > 1) {
       return wrong("two definitions in one block");
