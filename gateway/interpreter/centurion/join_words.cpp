@@ -121,8 +121,8 @@ bool check_join_words(Run& run) {
   const JoinWords& words = run.block.joins;
   const bool is_move = run.action() == GAction::None &&
                        run.block.words.has_any(kEndWords | kPolarWords) && !run.block.parts.probe;
-  if (run.block.parts.thread_code != 0) {
-    return run.fail(ErrorCode::NotSupported, words.column, "corners and BACK at a thread");
+  if (run.block.parts.thread_code != 0 && (words.round || words.chamfer)) {
+    return run.fail(ErrorCode::NotSupported, words.column, "a corner at the end of a thread");
   }
   const bool is_line = run.state.modes.motion == MotionMode::Line;
   if (is_move && (!words.back || is_line)) return true;
@@ -147,10 +147,14 @@ void announce_line(Run& run) {
   if (has_trig_help(run)) run.joiner.estimate_next(run.length(arc_tolerance(run)));
   if (!run.block.parts.has_joins) [[likely]]
     return;
-  const JoinWords& words = run.block.joins;
   announce_corner(run);
-  if (words.back)
-    run.joiner.lead_next_back(transformed_slope(run, words.back->slope), words.back->which);
+  announce_back(run);
+}
+
+void announce_back(Run& run) {
+  if (!run.block.leads_back()) return;
+  const JoinWords::Back& back = *run.block.joins.back;
+  run.joiner.lead_next_back(transformed_slope(run, back.slope), back.which);
 }
 
 void announce_arc(Run& run, std::optional<double> radius) {

@@ -23,6 +23,8 @@ double arc_tolerance(const Run& run);
 
 /// Before the event of the block's feed move.
 void announce_line(Run& run);
+/// Before a thread that BACK leads back to the feed move in front of it.
+void announce_back(Run& run);
 /// With `radius`, in program units, of an arc whose centre and radius are exact.
 void announce_arc(Run& run, std::optional<double> radius);
 

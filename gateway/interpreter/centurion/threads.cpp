@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/centurion/arcs.hpp"
+#include "gateway/interpreter/centurion/join_words.hpp"
 #include "gateway/interpreter/centurion/thread_words.hpp"
 #include "gateway/interpreter/language/expression.hpp"
 
@@ -174,6 +175,7 @@ bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& a
   }
   event.to = event_position(run, target.to, target.named);
   if (arc) run.state.moved_axes = 3;
+  announce_back(run);
   run.events().on_thread(event);
   arrive(run, target.to);
   return true;

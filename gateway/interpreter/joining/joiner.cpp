@@ -280,6 +280,19 @@ void Joiner::join(Element& next) {
   fault_->next_is_arc = next.is_arc;
 }
 
+void Joiner::lead_back(const Thread& thread) {
+  if (!state_.has_element) return refuse(FaultKind::NoElement, thread.origin, thread.origin);
+  const PlaneAxes axes = axes_of(state_.plane);
+  Element& element = state_.spare();
+  element.is_arc = element.is_rapid = false;
+  element.line = {thread.origin, thread.to, {}, false};
+  element.from = in_plane(state_.programmed, axes);
+  element.end = in_plane(thread.to, axes);
+  element.sweep = 0;
+  element.announced = state_.next;
+  join(element);
+}
+
 /// The end of the element that waits is decided.
 void Joiner::finish(const Corner* corner) {
   PathWriter writer(*sink_, state_);

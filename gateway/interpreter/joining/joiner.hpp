@@ -57,8 +57,8 @@ class Joiner final : public EventSink {
   /// line that misses its arc is turned about its other end until it touches. A point within
   /// `tolerance` of an arc is on it.
   void estimate_next(Length tolerance, Length radius = {});
-  /// The next move, a line, has this slope (in the plane, from its first axis) and begins where it
-  /// meets the move before it, which ends there.
+  /// The next move, a line or a straight thread, has this slope (in the plane, from its first axis)
+  /// and begins where it meets the move before it, which ends there.
   void lead_next_back(Angle slope, Back which);
 
   /// What stands behind from here on; what waits goes there too.
@@ -130,6 +130,7 @@ class Joiner final : public EventSink {
   void take(impl::Element& element);
   void begin_alone(const impl::Element& element);
   void join(impl::Element& next);
+  void lead_back(const Thread& thread);
   void finish(const impl::Corner* corner);
   void follow(const Position& to);
   void announce(impl::CornerShape::Kind kind, Length size, std::optional<Feed> feed);

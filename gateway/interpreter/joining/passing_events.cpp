@@ -180,9 +180,15 @@ void Joiner::end_uncounted_block(const Origin& event) {
   hold_or_pass(UncountedEnd{event}, event);
 }
 
+/// A thread is no element that waits, but as a line it may be led back to one.
 void Joiner::on_thread(const Thread& event) {
-  settle();
+  if (state_.next.back && !fault_) {
+    lead_back(event);
+  } else {
+    settle();
+  }
   if (fault_) return;
+  state_.next = {};
   follow(event.to);
   sink_->on_thread(event);
 }
