@@ -24,6 +24,8 @@ void add_forecast_command(CLI::App& app, Context& context);
 void add_graphics_command(CLI::App& app, Context& context);
 void add_touch_command(CLI::App& app, Context& context);
 void add_convert_command(CLI::App& app, Context& context);
+void add_chart_command(CLI::App& app, Context& context);
+void add_extract_command(CLI::App& app, Context& context);
 void add_conversational_commands(CLI::App& app, Context& context);
 
 }  // namespace dripline::cli

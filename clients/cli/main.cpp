@@ -98,6 +98,8 @@ int run(int argc, char** argv) {
   add_approximate_command(app, context);
   add_convert_command(app, context);
   add_conversational_commands(app, context);
+  add_chart_command(app, context);
+  add_extract_command(app, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   try {

@@ -136,8 +136,10 @@ void add_start(CLI::App& group, Context& context) {
       ->required();
   command->add_option("--revision", options->request.revision,
                       "Which revision (default: the latest)");
-  command->add_option("--from", options->request.from,
-                      "Begin at a block (N120), a line (L7) or a byte (B4096); serial lines only");
+  command->add_option(
+      "--from", options->request.from,
+      "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or behind blocks "
+      "(+25)");
   auto* follow = command->add_flag("--follow", options->follows, "Watch it to its end");
   command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
       ->excludes(follow);

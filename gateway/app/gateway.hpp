@@ -73,6 +73,7 @@ class Gateway {
   struct StartedBy {
     std::string order;  ///< what is answered; empty: nobody
     std::string setup;  ///< what the server knows of tools, offsets and variables, TOML
+    std::string from;   ///< where it begins ("N120"); empty: at the beginning
   };
   Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                          const StartedBy& started_by);

@@ -117,7 +117,7 @@ Gateway::Reply Gateway::start(const dds::Order& order) {
         return parts_.endpoint.write(request).has_value();
       });
   const auto done = begin_run({order.run, order.program, order.revision, order.control, order.size},
-                              std::move(feed), {order.id, order.setup});
+                              std::move(feed), {order.id, order.setup, order.argument});
   return done ? Reply{} : refuse(done.error().what);
 }
 
@@ -138,6 +138,7 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   if (!known) return fail(known.error().code, "the server's setup: {}", known.error().what);
   interpreter::Setup setup = *std::move(known);
   setup.switches.block_skip = machine_.panel().block_skip;
+  if (!started_by.from.empty()) setup.control.set("start_at", {started_by.from, 0});
   auto session = RunSession::make({.run = run,
                                    .feed = std::move(feed),
                                    .machine = machine_,

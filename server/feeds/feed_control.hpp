@@ -20,12 +20,16 @@ struct MachineView {
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
 };
 
-/// Where a run begins when it does not begin at the program's first byte. Over a serial line only:
-/// what the control must have in force by then is its operator's business. At most one is given.
+/// Where a run begins when it does not begin at the program's first byte. At most one is given. Over
+/// a serial line what the control must have in force by then is its operator's business, and `tool`
+/// and `skipped` are Unsupported. A gateway looks through the program up to there; a control whose
+/// interpreter can not do that refuses.
 struct StartPoint {
   std::optional<std::uint64_t> byte;      ///< offset; the rest of its block is sent first
   std::optional<std::uint64_t> line;      ///< 1-based
   std::optional<std::uint64_t> sequence;  ///< the first block with this N number
+  std::optional<std::uint64_t> tool;      ///< the first block with this tool
+  std::optional<std::uint64_t> skipped;   ///< behind so many blocks
 };
 
 struct StartRequest {
@@ -33,7 +37,7 @@ struct StartRequest {
   std::string program;
   std::optional<std::uint64_t> revision;  ///< absent: the latest
   std::string author;
-  StartPoint from = {};  ///< over DDS: Unsupported
+  StartPoint from = {};
 };
 
 struct OrderRequest {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "server/feeds/identifiers.hpp"
+#include "server/feeds/start_point.hpp"
 
 namespace dripline::feeds {
 namespace {
@@ -173,10 +174,6 @@ Result<std::optional<storage::SetupRevision>> FeedService::setup_of(const storag
 Result<storage::Run> FeedService::start(const StartRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
-  if (request.from.byte || request.from.line || request.from.sequence) {
-    return fail(Errc::Unsupported, "machine '{}' pulls its program: it begins at the beginning",
-                request.machine);
-  }
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
   if (view->is_contested) {
@@ -202,6 +199,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   order.size = run->size;
   order.control = run->control;
   order.session = view->session;
+  order.argument = start_text(request.from);
   if (*setup) order.setup = (*setup)->text;
   return conclude_start(*run, parts->orders.carry_out(std::move(order)));
 }

@@ -1,5 +1,6 @@
 #include "server/feeds/start_point.hpp"
 
+#include <fmt/format.h>
 #include <charconv>
 
 namespace dripline::feeds {
@@ -21,10 +22,25 @@ Result<StartPoint> parse_start_point(std::string_view text) {
     point.line = value;
   } else if (is_whole && letter == 'B') {
     point.byte = value;
+  } else if (is_whole && letter == 'T') {
+    point.tool = value;
+  } else if (is_whole && text.front() == '+') {
+    point.skipped = value;
   } else {
-    return fail(Errc::Syntax, "'{}' names no block: N120, L7 (line) or B4096 (byte)", text);
+    return fail(Errc::Syntax,
+                "'{}' names no block: N120, L7 (line), B4096 (byte), T3 (tool) or +25 (skipped)",
+                text);
   }
   return point;
+}
+
+std::string start_text(const StartPoint& point) {
+  if (point.sequence) return fmt::format("N{}", *point.sequence);
+  if (point.line) return fmt::format("L{}", *point.line);
+  if (point.byte) return fmt::format("B{}", *point.byte);
+  if (point.tool) return fmt::format("T{}", *point.tool);
+  if (point.skipped) return fmt::format("+{}", *point.skipped);
+  return {};
 }
 
 }  // namespace dripline::feeds

@@ -7,7 +7,9 @@
 namespace dripline::feeds {
 
 /// Where a run is to begin, as people write it: `N120` or `120` the block with that N number, `L7`
-/// the seventh line, `B4096` a byte. Errors: Syntax.
+/// the seventh line, `B4096` a byte, `T3` a tool, `+25` as many blocks skipped. Errors: Syntax.
 Result<StartPoint> parse_start_point(std::string_view text);
+/// As a gateway takes it: one of the above; empty for the program's beginning.
+std::string start_text(const StartPoint& point);
 
 }  // namespace dripline::feeds

@@ -63,6 +63,9 @@ std::string wanted(const feeds::StartPoint& from) {
 
 Result<ProgramPlace> find_start(storage::Store& store, const storage::Run& run,
                                 const feeds::StartPoint& from) {
+  if (from.tool || from.skipped) {
+    return fail(Errc::Unsupported, "over a serial line a run begins at a block, a line or a byte");
+  }
   if (!from.byte && !from.line && !from.sequence) return ProgramPlace{};
   Finder finder(from);
   bool ends_in_block = false;

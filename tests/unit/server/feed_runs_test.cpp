@@ -54,6 +54,20 @@ TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
   EXPECT_GT(order.expires, clock_.now());
 }
 
+TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
+  push("O0100", "N5 M30\n");
+  start_service();
+  announce();
+  answer_orders(true);
+  feeds::StartRequest elsewhere;
+  elsewhere.machine = "lathe-1";
+  elsewhere.program = "O0100";
+  elsewhere.author = "cam";
+  elsewhere.from.tool = 12;
+  ASSERT_TRUE(service_->start(elsewhere));
+  EXPECT_EQ(written_->orders.at(0).argument, "T12");
+}
+
 TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
   push("O0100", "M30\n");
   start_service();

@@ -137,6 +137,11 @@ TEST(Rules, NameBlocksToBeginAt) {
   EXPECT_EQ(feeds::parse_start_point("N120")->sequence, 120u);
   EXPECT_EQ(feeds::parse_start_point("l7")->line, 7u);
   EXPECT_EQ(feeds::parse_start_point("B4096")->byte, 4096u);
+  EXPECT_EQ(feeds::parse_start_point("t3")->tool, 3u);
+  EXPECT_EQ(feeds::parse_start_point("+25")->skipped, 25u);
+  for (const char* text : {"N120", "L7", "B4096", "T3", "+25"}) {
+    EXPECT_EQ(feeds::start_text(*feeds::parse_start_point(text)), text);
+  }
   for (const char* bad : {"", "N", "X5", "12a", "N-1"})
     EXPECT_FALSE(feeds::parse_start_point(bad)) << bad;
 }
