@@ -25,10 +25,9 @@ bool take_minimum(Run& run, const Block& block) {
 
 bool check_side(Run& run, Axis axis, double side) {
   if (side > 0 && side <= kLongestSide) return true;
-  return run.fail(
-      ErrorCode::BlankFormIncorrect,
-      fmt::format("side {} is {} mm long; more than 0 and at most {}", letter(axis), side,
-                  kLongestSide));
+  return run.fail(ErrorCode::BlankFormIncorrect,
+                  fmt::format("side {} is {} mm long; more than 0 and at most {}", letter(axis),
+                              side, kLongestSide));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/tnc155/block_reader.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 #include <algorithm>
 
@@ -36,7 +37,9 @@ BlockReader::BlockReader(ProgramSource& source, ReaderOptions options)
     : source_(&source), options_(options), window_(source, kLongestBlock) {}
 
 ReadState BlockReader::next(ReadingState& state, BlockParts& parts) {
-  if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
+  if (!std::exchange(is_peeked_, false)) {
+    if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
+  }
   if (!read(state, parts)) return complain();
   move_on();
   return ReadState::Ready;
@@ -45,7 +48,8 @@ ReadState BlockReader::next(ReadingState& state, BlockParts& parts) {
 ReadState BlockReader::peek(const ReadingState& state, std::string_view& next) {
   ReadingState tried = state;
   const ReadState loaded = load(tried);
-  next = loaded == ReadState::Ready ? text() : std::string_view();
+  is_peeked_ = loaded == ReadState::Ready;
+  next = is_peeked_ ? text() : std::string_view();
   return loaded;
 }
 
@@ -163,7 +167,7 @@ void BlockReader::move_on() {
 
 ProgramLookup BlockReader::find(std::string_view name) {
   const std::string kept(name);  // it may lie in the window
-  window_.forget();
+  forget_window();
   return source_->find(kept);
 }
 

@@ -57,9 +57,15 @@ class BlockReader {
   /// Its text, continuation lines included; valid until the next call on the reader or the source.
   std::string_view text() const { return {text_, text_end_}; }
   /// Goes on from there: the beginning of a block.
-  void seek(const TextPlace& place) { place_ = place; }
+  void seek(const TextPlace& place) {
+    place_ = place;
+    is_peeked_ = false;
+  }
   ProgramLookup find(std::string_view name);
-  void forget_window() { window_.forget(); }
+  void forget_window() {
+    window_.forget();
+    is_peeked_ = false;
+  }
 
   const Fault& fault() const { return fault_; }
   /// The line of the text the fault is in; its column counts from there.
@@ -80,6 +86,7 @@ class BlockReader {
   ProgramSource* source_;
   ReaderOptions options_;
   language::LineWindow window_;
+  bool is_peeked_ = false;  ///< the block at place_ is shown already
   TextPlace place_;
   TextPlace block_place_;
   const char* text_ = nullptr;

@@ -13,8 +13,7 @@ using compensation::OutsideCorner;
 compensation::Cutter cutter_of(const State& state, Compensation side) {
   compensation::Cutter cutter;
   cutter.plane = state.plane;
-  const bool is_left =
-      (side == Compensation::Left) != state.transformation.turns_over(state.plane);
+  const bool is_left = (side == Compensation::Left) != state.transformation.turns_over(state.plane);
   cutter.side = is_left ? compensation::Side::Left : compensation::Side::Right;
   cutter.radius = Length::mm(state.tool.data.radius);
   return cutter;
@@ -48,8 +47,7 @@ bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutt
                     fmt::format("{:.4f} mm to the first point", distance));
   }
   const double along = std::sqrt(distance * distance - offset * offset);
-  const PlaneVector direction =
-      (1 / (distance * distance)) * (along * way + offset * left_of(way));
+  const PlaneVector direction = (1 / (distance * distance)) * (along * way + offset * left_of(way));
   run.compensator.begin_contour(cutter, tool - offset * left_of(direction));
   return true;
 }
@@ -183,6 +181,7 @@ void warn_of_quadrant(Run& run, const PlaneMove& move) {
 }  // namespace
 
 bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
+  run.starts_contour = false;
   if (is_plain(run.state, block)) [[likely]] {
     if (!run.joint_follows) return true;
   }
@@ -193,8 +192,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   if (!change_compensation(run, block, move)) return false;
   if (block.m == 97 && !state.joins) shape_corner(run);
   // RND behind the first compensated block is a run-on, which is the compensation's
-  const bool starts = state.is_compensating() && run.compensator.is_starting();
-  if (run.joint_follows && !starts) run.begin_joining();
+  run.starts_contour = state.is_compensating() && run.compensator.is_starting() && move.has_way;
+  if (run.joint_follows && !run.starts_contour) run.begin_joining();
   return true;
 }
 
@@ -212,7 +211,7 @@ bool finish_move(Run& run, const Block& block, const PlaneMove& move) {
   last.has_both = move.has_both;
   last.has_third = move.has_third;
   last.is_single_offset = false;
-  last.starts_contour = state.is_compensating() && run.compensator.is_start_waiting();
+  last.starts_contour = run.starts_contour;
   last.from = move.from;
   last.to = move.to;
   last.centre = move.centre;
@@ -254,7 +253,9 @@ bool make_joint(Run& run, const Block& block) {
   }
   switch (joint.kind) {
     case JointKind::RunOn:
-      run.compensator.approach_by_arc(run.origin, size);
+      if (!run.compensator.approach_by_arc(run.origin, size)) {
+        return run.fail(ErrorCode::PlaneWronglyDefined, "no first compensated block before G26");
+      }
       break;
     case JointKind::Round:
       run.joiner.round_corner(run.origin, size);

@@ -100,11 +100,8 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kTnc155Dialect{"tnc155",
-                             "HEIDENHAIN TNC 151/155 (plain language and ISO)",
-                             &likelihood,
-                             &make,
-                             Units::Millimetre,
-                             MachineKind::Mill};
+const Dialect kTnc155Dialect{"tnc155",          "HEIDENHAIN TNC 151/155 (plain language and ISO)",
+                             &likelihood,       &make,
+                             Units::Millimetre, MachineKind::Mill};
 
 }  // namespace dripline::interpreter

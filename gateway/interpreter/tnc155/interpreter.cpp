@@ -27,7 +27,6 @@ StepState TncInterpreter::step(std::uint64_t max_blocks) {
   if (!run_.is_in_block) run_.reader.forget_window();  // the owner may have used the source
   for (std::uint64_t left = max_blocks; left > 0; --left) {
     if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
-      place_origin(run_.state.at);
       const JumpOutcome outcome = take_jump(run_, search_);
       run_.reader.forget_window();
       if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;

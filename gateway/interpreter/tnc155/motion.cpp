@@ -118,7 +118,8 @@ bool has_pole(Run& run) {
 bool check_radii(Run& run, PlaneVector start, PlaneVector end) {
   const double from = length(start);
   const double to = length(end);
-  if (std::fabs(from - to) <= run.options.circle_tolerance) return true;
+  constexpr double kRounding = 1e-9;
+  if (std::fabs(from - to) <= run.options.circle_tolerance + kRounding) return true;
   return run.fail(ErrorCode::CircleEndIncorrect,
                   fmt::format("radius {:.4f} at the start, {:.4f} at the end", from, to));
 }
@@ -233,8 +234,8 @@ bool run_single_axis(Run& run, const Block& block) {
   Target target = here(state);
   read_coordinates(run, block, target);
   const double wanted = target.at[static_cast<std::size_t>(axis)];
-  const Compensation how = block.compensation == Compensation::NotProgrammed ? state.compensation
-                                                                             : block.compensation;
+  const Compensation how =
+      block.compensation == Compensation::NotProgrammed ? state.compensation : block.compensation;
   if (state.is_compensating() && block.compensation != Compensation::Off &&
       axis != axes_of(state.plane).normal && !is_rotary(axis)) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,

@@ -1,5 +1,6 @@
 #include "gateway/interpreter/tnc155/path.hpp"
 
+#include <bit>
 #include <cmath>
 
 namespace dripline::interpreter::tnc155 {
@@ -50,11 +51,10 @@ void put_out(Run& run, const Position& to, Pace pace) {
 
 void apply(const State& state, Position& to, const Target& target) {
   if (!state.transformation.is_special) [[likely]] {
-    for (std::size_t i = 0; i < kAxisCount; ++i) {
+    for (unsigned left = target.named; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const auto axis = static_cast<Axis>(i);
-      if ((target.named & bit(axis)) != 0) {
-        to.set_raw(axis, state.transformation.to_machine(axis, target.at[i]));
-      }
+      to.set_raw(axis, state.transformation.to_machine(axis, target.at[i]));
     }
     return;
   }

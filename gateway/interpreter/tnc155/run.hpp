@@ -81,9 +81,10 @@ struct Run {
   State state;
   std::vector<ToolDefinition> tools;  ///< of the setup: the central tool file
 
-  BlockParts parts;            ///< of the block in hand
-  bool is_in_block = false;    ///< read, and not finished
-  bool joint_follows = false;  ///< RND or a chamfer stands behind the part in hand
+  BlockParts parts;             ///< of the block in hand
+  bool is_in_block = false;     ///< read, and not finished
+  bool joint_follows = false;   ///< RND or a chamfer stands behind the part in hand
+  bool starts_contour = false;  ///< the part in hand is the first with RL or RR
   Origin origin;
   std::optional<Answer> answer;  ///< to the question of the part in hand
   Question question;

@@ -138,8 +138,8 @@ void visit_contour(Archive& archive, State& state) {
   visit(archive, joint.size);
   visit(archive, joint.origin);
   LastMove& last = state.last;
-  visit_all(archive, last.exists, last.is_arc, last.has_both, last.has_third,
-            last.is_single_offset, last.starts_contour);
+  visit_all(archive, last.exists, last.is_arc, last.has_both, last.has_third, last.is_single_offset,
+            last.starts_contour);
   visit(archive, last.from);
   visit(archive, last.to);
   visit(archive, last.centre);

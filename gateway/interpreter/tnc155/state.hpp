@@ -16,7 +16,7 @@ namespace dripline::interpreter::tnc155 {
 
 enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
-inline constexpr int kParameterCount = 100;         ///< Q0 to Q99
+inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
 inline constexpr int kLastTool = 254;
 inline constexpr int kLastLabel = 254;
 inline constexpr std::size_t kMostLabelLevels = 8;  ///< subprograms and repeats together
@@ -52,10 +52,10 @@ struct CoolantModes {
 struct LabelFrame {
   bool is_repeat = false;
   std::uint8_t label = 0;
-  std::uint32_t left = 0;      ///< of a repeat: passes still to come
-  TextPlace call;              ///< the calling block
-  TextPlace back;              ///< behind it
-  std::uint64_t from = 0;      ///< of a repeat: offset of its label
+  std::uint32_t left = 0;  ///< of a repeat: passes still to come
+  TextPlace call;          ///< the calling block
+  TextPlace back;          ///< behind it
+  std::uint64_t from = 0;  ///< of a repeat: offset of its label
 };
 /// CALL PGM, cycle 12.
 struct ProgramFrame {
@@ -82,11 +82,11 @@ struct Jump {
 struct LastMove {
   bool exists = false;
   bool is_arc = false;
-  bool has_both = false;        ///< both coordinates of the plane
-  bool has_third = false;       ///< and one besides
+  bool has_both = false;          ///< both coordinates of the plane
+  bool has_third = false;         ///< and one besides
   bool is_single_offset = false;  ///< R+ or R-
-  bool starts_contour = false;  ///< the first with RL or RR
-  PlaneVector from, to;         ///< nominal, program coordinates
+  bool starts_contour = false;    ///< the first with RL or RR
+  PlaneVector from, to;           ///< nominal, program coordinates
   PlaneVector centre;
   Turn turn = Turn::CounterClockwise;
 };
@@ -135,9 +135,9 @@ struct State {
   double feed = 0;  ///< millimetres or degrees per minute; 0: none yet
 
   Compensation compensation = Compensation::Off;
-  bool uses_stages = false;  ///< from the first RL, RR, RND or chamfer on
-  bool joins = false;        ///< moves pass the corner stage: one waits there
-  bool is_parallel = false;  ///< after M98: compensation has to be programmed anew
+  bool uses_stages = false;      ///< from the first RL, RR, RND or chamfer on
+  bool joins = false;            ///< moves pass the corner stage: one waits there
+  bool is_parallel = false;      ///< after M98: compensation has to be programmed anew
   bool has_compensated = false;  ///< a contour was started in this run
   Joint joint;
   LastMove last;

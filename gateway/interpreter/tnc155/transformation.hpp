@@ -12,15 +12,15 @@ namespace dripline::interpreter::tnc155 {
 struct Transformation {
   using Values = std::array<double, kAxisCount>;
 
-  Values datum{};  ///< set by hand or by the probe
+  Values datum{};             ///< set by hand or by the probe
   double basic_rotation = 0;  ///< of the probe: degrees, about the datum, in its plane
   Plane basic_plane = Plane::XY;
 
-  Values shift{};  ///< cycle 7
+  Values shift{};                  ///< cycle 7
   std::array<bool, 3> mirrored{};  ///< cycle 8: X, Y, Z
-  double rotation = 0;  ///< cycle 10: degrees
+  double rotation = 0;             ///< cycle 10: degrees
   Plane rotation_plane = Plane::XY;
-  double scale = 1;  ///< cycle 11
+  double scale = 1;              ///< cycle 11
   std::array<bool, 3> scaled{};  ///< X, Y, Z
 
   /// More than a shift. Derived: call `update` after every change.

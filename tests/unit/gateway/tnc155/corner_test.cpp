@@ -1,0 +1,113 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/tnc155/path_run.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> path(const std::string& radius, std::vector<std::string> blocks) {
+  blocks.insert(blocks.begin(), {"TOOL DEF 1 L+0 R" + radius, "TOOL CALL 1 Z S100"});
+  return moves_of(blocks);
+}
+
+// HD-105: line and line; the corner itself is not reached.
+TEST(TncCorner, ARoundingTouchesBothLines) {
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+0 Y+0", "L X+40 Y+0", "RND R5", "L X+40 Y+30"}),
+              ElementsAre("L X0 Y10 F100", "L X0 Y0 F100", "L X35 Y0 F100",
+                          "A X40 Y5 c35,5 ccw90 F100", "L X40 Y30 F100"));
+}
+
+// HD-105: line and arc. The line y = 0 ends at (20, 0) on the circle of 20 about (20, 20), which it
+// touches; the second line leaves the arc at (40, 20) along -X: a corner of 90 degrees. R 4: the
+// centre is 4 below y = 20 and 16 from (20, 20): (20 + sqrt(240), 16).
+TEST(TncCorner, ARoundingTouchesAnArcAndALine) {
+  const auto moves = moves_of({"L X+0 Y+0 R0 F100", "L X+20 Y+0", "CC X+20 Y+20",
+                               "C X+40 Y+20 DR+", "RND R4", "L X+0 Y+20"});
+  ASSERT_EQ(moves.size(), 4u);
+  EXPECT_EQ(moves[0], "L X20 Y0 F100");
+  EXPECT_EQ(moves[1].substr(0, 20), "A X39.365 Y15 c20,20");
+  EXPECT_EQ(moves[2].substr(0, 25), "A X35.492 Y20 c35.492,16 ");
+  EXPECT_EQ(moves[3], "L X0 Y20 F100");
+}
+
+// HD-105, HD-106: in a compensated contour inner arcs get R - r, outer ones R + r; with R below r
+// the tool does not fit.
+TEST(TncCorner, RoundingsAreCompensatedAsArcs) {
+  EXPECT_THAT(path("+4", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R10",
+                          "L X+40 Y+30", "L X+20 Y+30 R0"}),
+              ElementsAre("L X0 Y20 F100", "L X0 Y4 F100", "L X30 Y4 F100",
+                          "A X36 Y10 c30,10 ccw90 F100", "L X36 Y30 F100", "L X20 Y30 F100"));
+  EXPECT_THAT(path("+4", {"L X+0 Y-20 R0 F100", "L X+0 Y+0 RR", "L X+40 Y+0", "RND R10",
+                          "L X+40 Y+30", "L X+60 Y+30 R0"}),
+              ElementsAre("L X0 Y-20 F100", "L X0 Y-4 F100", "L X30 Y-4 F100",
+                          "A X44 Y10 c30,10 ccw90 F100", "L X44 Y30 F100", "L X60 Y30 F100"));
+  EXPECT_THAT(path("+4", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R3",
+                          "L X+40 Y+30", "L X+20 Y+30 R0"})
+                  .back(),
+              "! TOOL RADIUS TOO LARGE");
+}
+
+// HD-106
+TEST(TncCorner, ARoundingNeedsRoomAndThePlane) {
+  EXPECT_THAT(moves_of({"L X+0 Y+0 R0 F100", "L X+4 Y+0", "RND R5", "L X+4 Y+30"}).back(),
+              "! ROUNDING RADIUS TOO LARGE");
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+40", "RND R5", "L X+40 Y+30"}).back(),
+              "! PLANE WRONGLY DEFINED");
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+40 Y+0 Z+1", "RND R5", "L X+40 Y+30"}).back(),
+              "! PLANE WRONGLY DEFINED");
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+40 Y+0", "RND R5", "L Y+30"}).back(),
+              "! PLANE WRONGLY DEFINED");
+  EXPECT_THAT(moves_of({"RND R5", "L X+40 Y+0 R0 F100"}).back(), "! PLANE WRONGLY DEFINED");
+}
+
+// HD-107: both legs measured from the corner.
+TEST(TncCorner, AChamferCutsBothLegs) {
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+0 Y+0", "L X+40 Y+0", "L 4,000", "L X+40 Y+30"}),
+              ElementsAre("L X0 Y10 F100", "L X0 Y0 F100", "L X36 Y0 F100", "L X40 Y4 F100",
+                          "L X40 Y30 F100"));
+  EXPECT_THAT(moves_of({"L X+0 Y+0 R0 F100", "L X+3 Y+0", "L 4", "L X+3 Y+30"}).back(),
+              "! ROUNDING RADIUS TOO LARGE");
+  EXPECT_THAT(moves_of({"L X+0 Y+1 R0 F100", "L X+3", "L 2", "L X+3 Y+30"}).back(),
+              "! PLANE WRONGLY DEFINED");
+}
+
+// HD-108: P1' (0, 4), centre (0, 12); the tangent from (-30, 40) touches at (-6.494, 7.328).
+TEST(TncCorner, ARoundingBehindTheFirstPointIsARunOn) {
+  EXPECT_THAT(path("+4", {"L X-30 Y+40 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0",
+                          "L X+40 Y+30 R0"}),
+              ElementsAre("L X-30 Y40 F100", "L X-6.494 Y7.328 F100",
+                          "A X0 Y4 c0,12 ccw54.267 F100", "L X40 Y4 F100", "L X40 Y30 F100"));
+}
+
+// HD-109: the mirror image of the run-on about x = 20.
+TEST(TncCorner, ARoundingBeforeTheEndIsARunOff) {
+  EXPECT_THAT(path("+4", {"L X+0 Y+40 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R8",
+                          "L X+70 Y+40 R0"}),
+              ElementsAre("L X0 Y40 F100", "L X0 Y4 F100", "L X40 Y4 F100",
+                          "A X46.494 Y7.328 c40,12 ccw54.267 F100", "L X70 Y40 F100"));
+}
+
+// HD-108: the tool stands within the circle.
+TEST(TncCorner, ARunOnArcMustNotReachTheStart) {
+  EXPECT_THAT(path("+4", {"L X+0 Y+10 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0"}).back(),
+              "! ROUNDING RADIUS TOO LARGE");
+}
+
+// HD-110: from in front and the other side the arc would cut into the part.
+TEST(TncCorner, QuadrantFourIsWarnedOf) {
+  const auto warned = [](const std::string& start) {
+    const auto run = run_blocks({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S100", start,
+                                 "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0", "L X+40 Y+30 R0"});
+    return std::count(run.events.begin(), run.events.end(), "warning TNC-QUADRANT");
+  };
+  EXPECT_EQ(warned("L X+30 Y-40 R0 F100"), 1);
+  EXPECT_EQ(warned("L X-30 Y-40 R0 F100"), 0);
+  EXPECT_EQ(warned("L X+30 Y+40 R0 F100"), 0);
+  EXPECT_EQ(warned("L X-30 Y+40 R0 F100"), 0);
+}
+
+}  // namespace
+}  // namespace dripline::interpreter

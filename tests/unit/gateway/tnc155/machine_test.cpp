@@ -1,0 +1,105 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/tnc155/path_run.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> events_of(const std::vector<std::string>& blocks,
+                                   const std::string& control = "") {
+  PathSetup setup;
+  if (!control.empty()) setup.setup = "[control]\n" + control;
+  auto events = run_blocks(blocks, setup).events;
+  if (!events.empty() && events.back().starts_with("end")) events.pop_back();
+  return events;
+}
+
+// HD-134, HD-136: on before the motion, off behind it.
+TEST(TncMachine, SpindleAndCoolantSwitchAtTheirEndOfTheBlock) {
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S800", "L X+1 R0 F MAX M03", "L X+2 F MAX M08",
+                         "L X+3 F MAX M05", "L X+4 F MAX M09", "L X+5 F MAX M14",
+                         "TOOL CALL S900", "L X+6 F MAX M13", "L X+7 F MAX M04"}),
+              ElementsAre("T0 L0 R0", "S cw 800", "R X1", "coolant on", "R X2", "R X3", "S off 0",
+                          "R X4", "coolant off", "S ccw 800", "coolant on", "R X5", "S ccw 900",
+                          "S cw 900", "coolant on", "R X6", "S ccw 900", "R X7"));
+}
+
+// HD-133, HD-140
+TEST(TncMachine, StopsAndEnds) {
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S800", "L X+1 R0 F MAX M13", "L X+2 F MAX M00", "STOP",
+                         "STOP M08"}),
+              ElementsAre("T0 L0 R0", "S cw 800", "coolant on", "R X1", "R X2", "S off 0",
+                          "coolant off", "stop", "stop", "coolant on", "stop"));
+  for (const char* m : {"M02", "M30"}) {
+    const auto run = run_blocks({"L X+1 R0 F MAX M08", std::string("L X+2 F MAX ") + m,
+                                 "L X+3 F MAX"});
+    EXPECT_THAT(run.events,
+                ElementsAre("coolant on", "R X1", "R X2", "coolant off", "end 3 rewind"));
+  }
+}
+
+// HD-135: M06 stops the program where the machine is set up so.
+TEST(TncMachine, ToolChangesStopWhereTheMachineSaysSo) {
+  EXPECT_THAT(events_of({"L X+1 R0 F MAX M06"}), ElementsAre("R X1", "M6"));
+  EXPECT_THAT(events_of({"L X+1 R0 F MAX M08", "L X+2 F MAX M06"}, "m06_stop = true"),
+              ElementsAre("coolant on", "R X1", "R X2", "coolant off", "M6", "stop tool"));
+}
+
+// HD-139, HD-137: free functions at the beginning or the end; M89 as a free one.
+TEST(TncMachine, FreeFunctionsHaveTheirPlace) {
+  EXPECT_THAT(events_of({"L X+1 R0 F MAX M07", "L X+2 F MAX M32", "L X+3 F MAX M61",
+                         "L X+4 F MAX M63"}),
+              ElementsAre("M7", "R X1", "R X2", "M32", "M61", "R X3", "R X4", "M63"));
+  EXPECT_THAT(events_of({"L X+1 R0 F MAX M89"}, "m89_modal = false"), ElementsAre("M89", "R X1"));
+}
+
+// HD-118: M90 changes nothing that a path shows.
+TEST(TncMachine, M90IsNoOutput) {
+  EXPECT_THAT(events_of({"L X+1 R0 F MAX M90"}), ElementsAre("R X1"));
+}
+
+// HD-141: the next preferred number; HD-142, HD-143
+TEST(TncMachine, SpeedsAreCodedOrLimited) {
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S130", "STOP M03"}, "spindle = \"coded\""),
+              ElementsAre("T0 L0 R0", "S cw 140", "stop"));
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S140", "STOP M03"}, "spindle = \"coded\""),
+              ElementsAre("T0 L0 R0", "S cw 140", "stop"));
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S9500"}, "spindle = \"coded\"").back(),
+              testing::StartsWith("! WRONG RPM"));
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S3000,5", "STOP M03"}, "spindle_maximum = 3000").back(),
+              testing::StartsWith("! WRONG RPM"));
+  EXPECT_THAT(events_of({"TOOL CALL 0 Z S29999,5", "STOP M03"}),
+              ElementsAre("T0 L0 R0", "S cw 29999.5", "stop"));
+}
+
+// HD-129, HD-130, HD-006, HD-007: TOOL CALL takes length and radius of its TOOL DEF; 0 is none.
+TEST(TncMachine, ToolsAreDefinedAndCalled) {
+  EXPECT_THAT(events_of({"FN 0: Q1 = +12,5", "TOOL DEF 3 L-Q1 R+4", "TOOL CALL 3 Z S100",
+                         "TOOL CALL 0"}),
+              ElementsAre("T3 L-12.5 R4", "T0 L0 R0"));
+  EXPECT_THAT(events_of({"TOOL CALL 9 Z S100"}).back(), testing::StartsWith("! TOOL DEF MISSING"));
+}
+
+// HD-067, HD-070: the central tool file, and the next tool.
+TEST(TncMachine, TheCentralToolFileGoesBeforeDefinitions) {
+  const PathSetup store{
+      "[[tool]]\nnumber = 3\nlength = 50\nradius = 6\n[control]\ncentral_tool_file = true", {}};
+  const auto run = run_blocks({"TOOL DEF 4", "TOOL CALL 3 Z S100"}, store);
+  EXPECT_THAT(run.events, ElementsAre("next T4", "T3 L50 R6", testing::StartsWith("end")));
+}
+
+// HD-023, HD-199: the MAX corner may count from the MIN corner.
+TEST(TncMachine, TheBlankIsTold) {
+  EXPECT_THAT(events_of({"BLK FORM 0.1 Z X+1 Y+2 Z-20", "BLK FORM 0.2 IX+99 IY+98 IZ+20"}),
+              ElementsAre("blank Z X1 Y2 Z-20 to X100 Y100 Z0"));
+  EXPECT_THAT(events_of({"BLK FORM 0.1 Z X+1 Y+2 Z-20", "BLK FORM 0.2 X+0 Y+98 Z+0"}).back(),
+              testing::StartsWith("! BLK FORM DEFINITION INCORRECT"));
+  EXPECT_THAT(events_of({"BLK FORM 0.2 X+0 Y+98 Z+0"}).back(),
+              testing::StartsWith("! BLK FORM DEFINITION INCORRECT"));
+}
+
+}  // namespace
+}  // namespace dripline::interpreter

@@ -1,0 +1,86 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/registry.hpp"
+#include "tests/unit/gateway/tnc155/path_run.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using testing::ElementsAre;
+
+const std::string kProgram =
+    "0 BEGIN PGM 5 MM\n1 L X+1 Y+1 R0 F100\n2 L IX+1\n3 L X+3 Y+3\n4 L Y+9\n5 END PGM 5 MM\n";
+
+PathRun from_block(int block, const std::string& text = kProgram) {
+  return run_text(text, {"[control]\nstart_block = " + std::to_string(block), {}});
+}
+
+// HD-063, HD-194, HD-228: GOTO before the start; the first block must say where it goes.
+TEST(TncRun, BeginsAtABlock) {
+  EXPECT_THAT(from_block(3, "0 BEGIN PGM 5 MM\n3 L X+3 Y+3 R0 F100\n4 L Y+9\n5 END PGM 5 MM\n").events,
+              ElementsAre("L X3 Y3 F100", "L X3 Y9 F100", "end 3"));
+  EXPECT_EQ(from_block(2).alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(from_block(4).alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(from_block(77).alarm_id, "TNC-NOT-ADDRESSED");
+}
+
+// HD-190: one block a step, whatever it is.
+TEST(TncRun, StepsBlockByBlock) {
+  MemorySource source(kProgram);
+  EventSink sink;
+  auto interpreter = (*find_dialect("tnc155"))->make({}, source, sink);
+  ASSERT_TRUE(interpreter);
+  for (std::uint64_t block = 1; block <= 5; ++block) {
+    EXPECT_EQ((*interpreter)->step(1), StepState::Ran);
+    EXPECT_EQ((*interpreter)->blocks(), block);
+    EXPECT_EQ((*interpreter)->origin().sequence, static_cast<std::int64_t>(block - 1));
+  }
+  EXPECT_EQ((*interpreter)->step(1), StepState::Ended);
+}
+
+// HD-192: what a stop leaves, a later run of the same state finds: repeats and returns included.
+TEST(TncRun, ASnapshotKeepsRepeatsAndReturns) {
+  const std::string text =
+      "0 BEGIN PGM 5 MM\n1 LBL 1\n2 CALL LBL 2 REP\n3 CALL LBL 1 REP 2/2\n4 STOP M02\n"
+      "5 LBL 2\n6 L IX+1 R0 F MAX\n7 LBL 0\n8 END PGM 5 MM\n";
+  MemorySource source(text);
+  EventSink sink;
+  const Dialect& dialect = **find_dialect("tnc155");
+  auto first = *dialect.make({}, source, sink);
+  first->step(9);  // within the second pass
+  auto second = *dialect.make({}, source, sink);
+  ASSERT_TRUE(second->restore(first->snapshot()));
+  while (first->step(1) == StepState::Ran) {
+    second->step(1);
+    EXPECT_EQ(first->snapshot().digest(), second->snapshot().digest());
+  }
+  EXPECT_EQ(second->step(1), StepState::Ended);
+}
+
+// HD-027, HD-097: the same contour in ISO.
+TEST(TncRun, RunsIso) {
+  EXPECT_THAT(run_text("%5 G71 *\nN10 G99 T1 L+0 R+5 *\nN20 T1 G17 S100 *\n"
+                       "N30 G00 G40 G90 X+0 Y-20 *\nN40 G01 G42 X+0 Y+0 F100 *\nN50 X+40 *\n"
+                       "N60 Y+30 *\nN70 G40 X+60 *\nN9999 %5 G71 *\n")
+                  .events,
+              ElementsAre("T1 L0 R5", "R X0 Y-20", "L X0 Y-5 F100", "L X40 Y-5 F100",
+                          "A X45 Y0 c40,0 ccw90 F100", "L X45 Y30 F100", "L X60 Y30 F100",
+                          testing::StartsWith("end")));
+}
+
+// HD-105, HD-032: G25 in the block of the corner, and in a block of its own.
+TEST(TncRun, RoundsInIso) {
+  for (const char* corner : {"N40 X+40 Y+0 G25 R5 *\n", "N40 X+40 Y+0 *\nN45 G25 R5 *\n"}) {
+    EXPECT_THAT(run_text(std::string("%5 G71 *\nN20 T0 G17 S100 *\n"
+                                     "N30 G01 G40 G90 X+0 Y+0 F100 *\n") +
+                         corner + "N60 X+40 Y+30 *\nN9999 %5 G71 *\n")
+                    .events,
+                ElementsAre("T0 L0 R0", "L X35 Y0 F100", "A X40 Y5 c35,5 ccw90 F100",
+                            "L X40 Y30 F100", testing::StartsWith("end")));
+  }
+}
+
+}  // namespace
+}  // namespace dripline::interpreter
