@@ -101,20 +101,19 @@ bool start_again(Run& run, const Block& block) {
   return true;
 }
 
+/// R0 behind a rounding leaves by an arc; other corners come before the end.
 void finish_contour(Run& run) {
   State& state = run.state;
   Joint& joint = state.joint;
   const bool by_arc =
       joint.kind == JointKind::RunOff || (joint.kind == JointKind::Round && !joint.is_stated);
-  if (joint.kind == JointKind::Round && by_arc) run.joiner.drop_corner();
-  release_corner(run);
-  if (by_arc) {
-    run.compensator.turn_off_by_arc(joint.origin, Length::mm(joint.size));
-    joint = Joint{};
-  } else {
-    run.compensator.turn_off();
-  }
   state.compensation = Compensation::Off;
+  if (!by_arc && joint.kind != JointKind::None) return run.joiner.turn_off();
+  if (joint.kind == JointKind::Round) run.joiner.drop_corner();
+  release_corner(run);
+  if (!by_arc) return run.compensator.turn_off();
+  run.compensator.turn_off_by_arc(joint.origin, Length::mm(joint.size));
+  joint = Joint{};
 }
 
 bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
@@ -134,8 +133,11 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
     return true;
   }
   if (side != state.compensation) {
-    release_corner(run);
-    run.compensator.turn_on(cutter_of(state, side));
+    if (state.joins) {
+      run.joiner.turn_on(cutter_of(state, side));
+    } else {
+      run.compensator.turn_on(cutter_of(state, side));
+    }
     state.compensation = side;
   }
   return start_again(run, block);

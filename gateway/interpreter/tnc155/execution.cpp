@@ -71,7 +71,9 @@ bool positioning(Run& run, const Block& block) {
   if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
     return move(run, block);
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
-  return move(run, block) && finish_m(run, block.m, block.coordinate_count != 0);
+  const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
+                     block.kind == BlockKind::PolarArc;
+  return move(run, block) && finish_m(run, block.m, moves);
 }
 
 bool stop_block(Run& run, const Block& block) {
@@ -141,6 +143,9 @@ bool execute(Run& run, const Block& block) {
     case BlockKind::Function:
       return function(run, block);
     case BlockKind::CycleDefinition:
+      if (run.state.is_restart && block.part > 0) {
+        return run.fail(ErrorCode::ProgramStartUndefined, "GOTO into a cycle definition");
+      }
       return define_cycle(run, block);
     case BlockKind::CycleCall:
       return cycle_call(run, block);

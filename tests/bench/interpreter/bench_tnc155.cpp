@@ -55,8 +55,8 @@ const std::string& ngc_text() {
   static const std::string kText = blocks_text(
       "G21 G17 G90\nG94 F1000\nG1\n",
       [](std::int64_t i) {
-        return fmt::format("X{}.{:03} Y-{}.{:03}\n", x_of(i) / 1000, x_of(i) % 1000,
-                           y_of(i) / 1000, y_of(i) % 1000);
+        return fmt::format("X{}.{:03} Y-{}.{:03}\n", x_of(i) / 1000, x_of(i) % 1000, y_of(i) / 1000,
+                           y_of(i) % 1000);
       },
       "M2\n");
   return kText;

@@ -10,9 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_iso = (data[0] & 0x20) != 0;
   std::string text;
   if ((data[0] & 0x40) != 0) {
-    text = is_iso ? "%1 G71 *\nN1 G99 T1 L+0 R+2 *\nN2 T1 G17 S100 *\nN3 G01 G40 G90 X+0 Y+0 F100 *\n"
-                  : "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+2\n2 TOOL CALL 1 Z S100\n"
-                    "3 L X+0 Y+0 R0 F100\n";
+    text = is_iso
+               ? "%1 G71 *\nN1 G99 T1 L+0 R+2 *\nN2 T1 G17 S100 *\nN3 G01 G40 G90 X+0 Y+0 F100 *\n"
+               : "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+2\n2 TOOL CALL 1 Z S100\n"
+                 "3 L X+0 Y+0 R0 F100\n";
   }
   text.append(reinterpret_cast<const char*>(data) + 1, size - 1);
   const auto whole = run_in_windows(dialect, text, ProgramSource::kMaxWindow);

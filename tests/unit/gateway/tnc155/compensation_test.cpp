@@ -59,12 +59,11 @@ TEST(TncCompensation, M97TakesTheIntersectionAtAnOutsideCorner) {
 // corner of the tangents. Arc about (20, 0) from (0, 0) to (20, 20), clockwise; RL, 5: ends at
 // (20, 25) along +X, then down: x = 25.
 TEST(TncCompensation, ALineOfNoLengthGivesM97ATangent) {
-  EXPECT_THAT(path("+5", {"L X+0 Y-40 R0 F100", "L X+0 Y-20 RL", "L X+0 Y+0", "CC X+20 Y+0",
-                          "C X+20 Y+20 DR-", "L IX+0,000 IY+0,000 M97", "L X+20 Y-10",
-                          "L X+60 Y-10 R0"}),
-              ElementsAre("L X0 Y-40 F100", "L X-5 Y-20 F100", "L X-5 Y0 F100",
-                          "A X20 Y25 c20,0 cw90 F100", "L X25 Y25 F100", "L X25 Y-10 F100",
-                          "L X60 Y-10 F100"));
+  EXPECT_THAT(
+      path("+5", {"L X+0 Y-40 R0 F100", "L X+0 Y-20 RL", "L X+0 Y+0", "CC X+20 Y+0",
+                  "C X+20 Y+20 DR-", "L IX+0,000 IY+0,000 M97", "L X+20 Y-10", "L X+60 Y-10 R0"}),
+      ElementsAre("L X0 Y-40 F100", "L X-5 Y-20 F100", "L X-5 Y0 F100", "A X20 Y25 c20,0 cw90 F100",
+                  "L X25 Y25 F100", "L X25 Y-10 F100", "L X60 Y-10 F100"));
 }
 
 // HD-125: an arc of 4 can not be run on its inside with a radius of 5.
@@ -97,10 +96,10 @@ TEST(TncCompensation, ApproachWithCompensationDependsOnTheAngle) {
 // HD-115: with M96 PS counts as a point of the offset path: the tool touches the circle about P1 at
 // 4 * (-0.6, 0.8) and goes round it.
 TEST(TncCompensation, M96TakesTheStartAsCompensated) {
-  EXPECT_THAT(path("+4", {"L X-20 Y-10 R0 F100", "L X+0 Y+0 RL M96", "L X+40 Y+0",
-                          "L X+40 Y+20 R0"}),
-              ElementsAre("L X-20 Y-10 F100", "L X-2.4 Y3.2 F100", "A X0 Y4 c0,0 cw36.87 F100",
-                          "L X40 Y4 F100", "L X40 Y20 F100"));
+  EXPECT_THAT(
+      path("+4", {"L X-20 Y-10 R0 F100", "L X+0 Y+0 RL M96", "L X+40 Y+0", "L X+40 Y+20 R0"}),
+      ElementsAre("L X-20 Y-10 F100", "L X-2.4 Y3.2 F100", "A X0 Y4 c0,0 cw36.87 F100",
+                  "L X40 Y4 F100", "L X40 Y20 F100"));
   // without it straight to P1k
   EXPECT_THAT(path("+4", {"L X-20 Y-10 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L X+40 Y+20 R0"}),
               ElementsAre("L X-20 Y-10 F100", "L X0 Y4 F100", "L X40 Y4 F100", "L X40 Y20 F100"));
@@ -112,16 +111,16 @@ TEST(TncCompensation, M95GoesStraightToTheFirstPoint) {
                           "L X+40 Y+20 R0"}),
               ElementsAre("L X-40 Y10 F100", "L X-20 Y10 F100", "L X0 Y4 F100", "L X40 Y4 F100",
                           "L X40 Y20 F100"));
-  EXPECT_THAT(path("+4", {"L X-40 Y+10 R0 F100", "L X-20 Y+10 RL", "L X+0 Y+0", "L X+40 Y+0 M95"})
-                  .back(),
-              "! PATH OFFSET WRONGLY STARTED");
+  EXPECT_THAT(
+      path("+4", {"L X-40 Y+10 R0 F100", "L X-20 Y+10 RL", "L X+0 Y+0", "L X+40 Y+0 M95"}).back(),
+      "! PATH OFFSET WRONGLY STARTED");
 }
 
 // HD-116: the element ends complete, the next block keeps the offset (0, 4), and the contour that
 // it begins starts with its own direction.
 TEST(TncCompensation, M98EndsAContourCompletely) {
-  EXPECT_THAT(path("+4", {"L X+0 Y+30 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0 M98",
-                          "L X+80 Y+20 RL", "L X+80 Y+60", "L X+100 Y+60 R0"}),
+  EXPECT_THAT(path("+4", {"L X+0 Y+30 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0 M98", "L X+80 Y+20 RL",
+                          "L X+80 Y+60", "L X+100 Y+60 R0"}),
               ElementsAre("L X0 Y30 F100", "L X0 Y4 F100", "L X50 Y4 F100", "L X80 Y24 F100",
                           "L X76 Y20 F100", "L X76 Y60 F100", "L X100 Y60 F100"));
 }
@@ -141,14 +140,24 @@ TEST(TncCompensation, AToolCallEndsTheContour) {
               ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100", "L X40 Y30 F100"));
 }
 
+// HD-126: a datum shift ends it as M98 does: the next block keeps the offset of (0, 5), and behind
+// it the tool is where the program says.
+TEST(TncCompensation, ATransformationEndsTheContour) {
+  EXPECT_THAT(
+      path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "CYCL DEF 7.0 DATUM SHIFT",
+                  "CYCL DEF 7.1 X+10", "L X+40 Y+30", "L X+60 Y+30"}),
+      ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X40 Y5 F100", "L X50 Y35 F100",
+                  "L X70 Y30 F100"));
+}
+
 // HD-127: Z moves, calculations and labels between two elements; the next one may be in a
 // subprogram. The Z move is made where the corner is.
 TEST(TncCompensation, LookAheadGoesThroughOtherBlocks) {
-  EXPECT_THAT(path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L Z-5",
-                          "FN 0: Q1 = +30", "CALL LBL 7 REP", "L X+20 Y+30 R0", "STOP M02",
-                          "LBL 7", "L X+40 Y+Q1", "LBL 0"}),
-              ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X35 Y5 F100", "L X35 Y5 Z-5 F100",
-                          "L X35 Y30 Z-5 F100", "L X20 Y30 Z-5 F100"));
+  EXPECT_THAT(
+      path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L Z-5", "FN 0: Q1 = +30",
+                  "CALL LBL 7 REP", "L X+20 Y+30 R0", "STOP M02", "LBL 7", "L X+40 Y+Q1", "LBL 0"}),
+      ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X35 Y5 F100", "L X35 Y5 Z-5 F100",
+                  "L X35 Y30 Z-5 F100", "L X20 Y30 Z-5 F100"));
 }
 
 // HD-131: a negative radius goes to the other side.

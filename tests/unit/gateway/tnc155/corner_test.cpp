@@ -24,8 +24,8 @@ TEST(TncCorner, ARoundingTouchesBothLines) {
 // touches; the second line leaves the arc at (40, 20) along -X: a corner of 90 degrees. R 4: the
 // centre is 4 below y = 20 and 16 from (20, 20): (20 + sqrt(240), 16).
 TEST(TncCorner, ARoundingTouchesAnArcAndALine) {
-  const auto moves = moves_of({"L X+0 Y+0 R0 F100", "L X+20 Y+0", "CC X+20 Y+20",
-                               "C X+40 Y+20 DR+", "RND R4", "L X+0 Y+20"});
+  const auto moves = moves_of({"L X+0 Y+0 R0 F100", "L X+20 Y+0", "CC X+20 Y+20", "C X+40 Y+20 DR+",
+                               "RND R4", "L X+0 Y+20"});
   ASSERT_EQ(moves.size(), 4u);
   EXPECT_EQ(moves[0], "L X20 Y0 F100");
   EXPECT_EQ(moves[1].substr(0, 20), "A X39.365 Y15 c20,20");
@@ -74,20 +74,29 @@ TEST(TncCorner, AChamferCutsBothLegs) {
               "! PLANE WRONGLY DEFINED");
 }
 
+// HD-107: the chamfer belongs to the contour that ends behind it: offset by 5, from y = 5 to its
+// own end at (40, 4) + 5 * (-1, 1) / sqrt(2).
+TEST(TncCorner, AChamferBeforeTheEndIsCompensated) {
+  EXPECT_THAT(
+      path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L 4", "L X+40 Y+30 R0"}),
+      ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X33.929 Y5 F100", "L X36.464 Y7.536 F100",
+                  "L X40 Y30 F100"));
+}
+
 // HD-108: P1' (0, 4), centre (0, 12); the tangent from (-30, 40) touches at (-6.494, 7.328).
 TEST(TncCorner, ARoundingBehindTheFirstPointIsARunOn) {
-  EXPECT_THAT(path("+4", {"L X-30 Y+40 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0",
-                          "L X+40 Y+30 R0"}),
-              ElementsAre("L X-30 Y40 F100", "L X-6.494 Y7.328 F100",
-                          "A X0 Y4 c0,12 ccw54.267 F100", "L X40 Y4 F100", "L X40 Y30 F100"));
+  EXPECT_THAT(
+      path("+4", {"L X-30 Y+40 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0", "L X+40 Y+30 R0"}),
+      ElementsAre("L X-30 Y40 F100", "L X-6.494 Y7.328 F100", "A X0 Y4 c0,12 ccw54.267 F100",
+                  "L X40 Y4 F100", "L X40 Y30 F100"));
 }
 
 // HD-109: the mirror image of the run-on about x = 20.
 TEST(TncCorner, ARoundingBeforeTheEndIsARunOff) {
-  EXPECT_THAT(path("+4", {"L X+0 Y+40 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R8",
-                          "L X+70 Y+40 R0"}),
-              ElementsAre("L X0 Y40 F100", "L X0 Y4 F100", "L X40 Y4 F100",
-                          "A X46.494 Y7.328 c40,12 ccw54.267 F100", "L X70 Y40 F100"));
+  EXPECT_THAT(
+      path("+4", {"L X+0 Y+40 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R8", "L X+70 Y+40 R0"}),
+      ElementsAre("L X0 Y40 F100", "L X0 Y4 F100", "L X40 Y4 F100",
+                  "A X46.494 Y7.328 c40,12 ccw54.267 F100", "L X70 Y40 F100"));
 }
 
 // HD-108: the tool stands within the circle.
@@ -99,8 +108,8 @@ TEST(TncCorner, ARunOnArcMustNotReachTheStart) {
 // HD-110: from in front and the other side the arc would cut into the part.
 TEST(TncCorner, QuadrantFourIsWarnedOf) {
   const auto warned = [](const std::string& start) {
-    const auto run = run_blocks({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S100", start,
-                                 "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0", "L X+40 Y+30 R0"});
+    const auto run = run_blocks({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S100", start, "L X+0 Y+0 RL",
+                                 "RND R8", "L X+40 Y+0", "L X+40 Y+30 R0"});
     return std::count(run.events.begin(), run.events.end(), "warning TNC-QUADRANT");
   };
   EXPECT_EQ(warned("L X+30 Y-40 R0 F100"), 1);

@@ -27,11 +27,11 @@ TEST(TncFlow, RepeatsNest) {
 
 // HD-145, HD-152: to LBL 0 and back; a repeat of the call runs it three times.
 TEST(TncFlow, SubprogramsComeBack) {
-  EXPECT_THAT(moves_of({"LBL 2", "CALL LBL 5 REP", "CALL LBL 2 REP 2/2", "L Y+1 R0 F MAX",
-                        "STOP M02", "LBL 5", "L IX+1 R0 F MAX", "CALL LBL 6 REP", "LBL 0",
-                        "LBL 6", "L IZ+1 R0 F MAX", "LBL 0"}),
-              ElementsAre("R X1", "R X1 Z1", "R X2 Z1", "R X2 Z2", "R X3 Z2", "R X3 Z3",
-                          "R X3 Y1 Z3"));
+  EXPECT_THAT(
+      moves_of({"LBL 2", "CALL LBL 5 REP", "CALL LBL 2 REP 2/2", "L Y+1 R0 F MAX", "STOP M02",
+                "LBL 5", "L IX+1 R0 F MAX", "CALL LBL 6 REP", "LBL 0", "LBL 6", "L IZ+1 R0 F MAX",
+                "LBL 0"}),
+      ElementsAre("R X1", "R X1 Z1", "R X2 Z1", "R X2 Z2", "R X3 Z2", "R X3 Z3", "R X3 Y1 Z3"));
 }
 
 // HD-145: met without a call it is run through.
@@ -77,11 +77,11 @@ TEST(TncFlow, LabelsAreSetOnceAndFound) {
 // HD-149: labels are those of the called program; M02 in it goes back; parameters are shared.
 TEST(TncFlow, ProgramsAreCalled) {
   PathSetup library;
-  library.programs = {{"7", "0 BEGIN PGM 7 MM\n1 LBL 1\n2 L IX+Q1 R0 F MAX\n"
-                            "3 CALL LBL 1 REP 1/1\n4 STOP M02\n5 L X+99 F MAX\n6 END PGM 7 MM\n"}};
-  const auto run = run_blocks({"FN 0: Q1 = +2", "LBL 1", "L IY+1 R0 F MAX", "CALL PGM 7",
-                               "L IY+1 F MAX"},
-                              library);
+  library.programs = {{"7",
+                       "0 BEGIN PGM 7 MM\n1 LBL 1\n2 L IX+Q1 R0 F MAX\n"
+                       "3 CALL LBL 1 REP 1/1\n4 STOP M02\n5 L X+99 F MAX\n6 END PGM 7 MM\n"}};
+  const auto run = run_blocks(
+      {"FN 0: Q1 = +2", "LBL 1", "L IY+1 R0 F MAX", "CALL PGM 7", "L IY+1 F MAX"}, library);
   EXPECT_THAT(run.events,
               ElementsAre("R Y1", "R X2 Y1", "R X4 Y1", "R X4 Y2", testing::StartsWith("end ")));
 }

@@ -20,8 +20,8 @@ std::vector<std::string> events_of(const std::vector<std::string>& blocks,
 // HD-134, HD-136: on before the motion, off behind it.
 TEST(TncMachine, SpindleAndCoolantSwitchAtTheirEndOfTheBlock) {
   EXPECT_THAT(events_of({"TOOL CALL 0 Z S800", "L X+1 R0 F MAX M03", "L X+2 F MAX M08",
-                         "L X+3 F MAX M05", "L X+4 F MAX M09", "L X+5 F MAX M14",
-                         "TOOL CALL S900", "L X+6 F MAX M13", "L X+7 F MAX M04"}),
+                         "L X+3 F MAX M05", "L X+4 F MAX M09", "L X+5 F MAX M14", "TOOL CALL S900",
+                         "L X+6 F MAX M13", "L X+7 F MAX M04"}),
               ElementsAre("T0 L0 R0", "S cw 800", "R X1", "coolant on", "R X2", "R X3", "S off 0",
                           "R X4", "coolant off", "S ccw 800", "coolant on", "R X5", "S ccw 900",
                           "S cw 900", "coolant on", "R X6", "S ccw 900", "R X7"));
@@ -34,8 +34,8 @@ TEST(TncMachine, StopsAndEnds) {
               ElementsAre("T0 L0 R0", "S cw 800", "coolant on", "R X1", "R X2", "S off 0",
                           "coolant off", "stop", "stop", "coolant on", "stop"));
   for (const char* m : {"M02", "M30"}) {
-    const auto run = run_blocks({"L X+1 R0 F MAX M08", std::string("L X+2 F MAX ") + m,
-                                 "L X+3 F MAX"});
+    const auto run =
+        run_blocks({"L X+1 R0 F MAX M08", std::string("L X+2 F MAX ") + m, "L X+3 F MAX"});
     EXPECT_THAT(run.events,
                 ElementsAre("coolant on", "R X1", "R X2", "coolant off", "end 3 rewind"));
   }
@@ -50,9 +50,9 @@ TEST(TncMachine, ToolChangesStopWhereTheMachineSaysSo) {
 
 // HD-139, HD-137: free functions at the beginning or the end; M89 as a free one.
 TEST(TncMachine, FreeFunctionsHaveTheirPlace) {
-  EXPECT_THAT(events_of({"L X+1 R0 F MAX M07", "L X+2 F MAX M32", "L X+3 F MAX M61",
-                         "L X+4 F MAX M63"}),
-              ElementsAre("M7", "R X1", "R X2", "M32", "M61", "R X3", "R X4", "M63"));
+  EXPECT_THAT(
+      events_of({"L X+1 R0 F MAX M07", "L X+2 F MAX M32", "L X+3 F MAX M61", "L X+4 F MAX M63"}),
+      ElementsAre("M7", "R X1", "R X2", "M32", "M61", "R X3", "R X4", "M63"));
   EXPECT_THAT(events_of({"L X+1 R0 F MAX M89"}, "m89_modal = false"), ElementsAre("M89", "R X1"));
 }
 
@@ -77,9 +77,9 @@ TEST(TncMachine, SpeedsAreCodedOrLimited) {
 
 // HD-129, HD-130, HD-006, HD-007: TOOL CALL takes length and radius of its TOOL DEF; 0 is none.
 TEST(TncMachine, ToolsAreDefinedAndCalled) {
-  EXPECT_THAT(events_of({"FN 0: Q1 = +12,5", "TOOL DEF 3 L-Q1 R+4", "TOOL CALL 3 Z S100",
-                         "TOOL CALL 0"}),
-              ElementsAre("T3 L-12.5 R4", "T0 L0 R0"));
+  EXPECT_THAT(
+      events_of({"FN 0: Q1 = +12,5", "TOOL DEF 3 L-Q1 R+4", "TOOL CALL 3 Z S100", "TOOL CALL 0"}),
+      ElementsAre("T3 L-12.5 R4", "T0 L0 R0"));
   EXPECT_THAT(events_of({"TOOL CALL 9 Z S100"}).back(), testing::StartsWith("! TOOL DEF MISSING"));
 }
 

@@ -64,9 +64,9 @@ TEST(TncMotion, SingleAxisBlocksAddTheRadiusAlongTheTravel) {
 TEST(TncMotion, SingleAxisRadiusDoesNotMeetAContour) {
   EXPECT_THAT(moves_of(with_tool5({"X+40 R+ F100", "L X+50 Y+5 RL"})),
               ElementsAre("L X45 F100", "! PATH OFFSET WRONGLY STARTED"));
-  EXPECT_THAT(moves_of(with_tool5({"L X+0 Y-20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "X+60 R+"}))
-                  .back(),
-              "! PATH OFFSET WRONGLY STARTED");
+  EXPECT_THAT(
+      moves_of(with_tool5({"L X+0 Y-20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "X+60 R+"})).back(),
+      "! PATH OFFSET WRONGLY STARTED");
 }
 
 // HD-094, HD-096: (10 + 20 cos 30, 10 + 20 sin 30), then 25 at 90 degrees.
@@ -110,23 +110,21 @@ TEST(TncMotion, ArcsTurnAboutTheirCentre) {
 
 // HD-097: in the other planes. Y tools work in ZX: from +Z (second 0) to +X.
 TEST(TncMotion, ArcsLieInThePlaneOfTheTool) {
-  EXPECT_THAT(moves_of({"TOOL CALL 0 Y S100", "L X+0 Z+10 R0 F100", "CC X+0 Z+0",
-                        "C X+10 Z+0 DR+"}),
-              ElementsAre("L X0 Z10 F100", "A X10 Z0 c0,0 ccw90 F100"));
+  EXPECT_THAT(
+      moves_of({"TOOL CALL 0 Y S100", "L X+0 Z+10 R0 F100", "CC X+0 Z+0", "C X+10 Z+0 DR+"}),
+      ElementsAre("L X0 Z10 F100", "A X10 Z0 c0,0 ccw90 F100"));
 }
 
 // HD-098, HD-100: with a sign against DR the angle only says where it ends.
 TEST(TncMotion, PolarArcsKeepTheirRadius) {
   const std::string start = "L X+10 Y+0 R0 F100";
-  EXPECT_THAT(moves_of({start, "CC X+0 Y+0", "CP PA+90 DR+", "CP IPA+90 DR+"}),
-              ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100",
-                          "A X-10 Y0 c0,0 ccw90 F100"));
+  EXPECT_THAT(
+      moves_of({start, "CC X+0 Y+0", "CP PA+90 DR+", "CP IPA+90 DR+"}),
+      ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100", "A X-10 Y0 c0,0 ccw90 F100"));
   EXPECT_THAT(moves_of({start, "CC X+0 Y+0", "CP IPA-90 DR+"}).back(),
               "A X0 Y-10 c0,0 ccw270 F100");
-  EXPECT_THAT(moves_of({start, "CC X+0 Y+0", "CP PA+0 DR-"}).back(),
-              "A X10 Y0 c0,0 cw360 F100");
-  EXPECT_THAT(moves_of({start, "CC X+10 Y+0", "CP PA+90 DR+"}).back(),
-              "! ANGLE REFERENCE MISSING");
+  EXPECT_THAT(moves_of({start, "CC X+0 Y+0", "CP PA+0 DR-"}).back(), "A X10 Y0 c0,0 cw360 F100");
+  EXPECT_THAT(moves_of({start, "CC X+10 Y+0", "CP PA+90 DR+"}).back(), "! ANGLE REFERENCE MISSING");
 }
 
 // HD-103, HD-014: two and a half turns, 2 mm a turn.
@@ -139,12 +137,11 @@ TEST(TncMotion, AHelixIsAPolarArcThatRises) {
 TEST(TncMotion, TangentialArcsGoOnWhereTheElementBeforeEnds) {
   EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "CT X+10 Y+10"}),
               ElementsAre("L X-10 Y0 F100", "L X0 Y0 F100", "A X10 Y10 c0,10 ccw90 F100"));
-  EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "C X+0 Y+10 DR+", "CT X-10 Y+20"}),
-              ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100",
-                          "A X-10 Y20 c0,20 cw90 F100"));
+  EXPECT_THAT(
+      moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "C X+0 Y+10 DR+", "CT X-10 Y+20"}),
+      ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100", "A X-10 Y20 c0,20 cw90 F100"));
   // ahead on the tangent: straight
-  EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "CT X+10 Y+0"}).back(),
-              "L X10 Y0 F100");
+  EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "CT X+10 Y+0"}).back(), "L X10 Y0 F100");
 }
 
 // HD-102
@@ -157,12 +154,13 @@ TEST(TncMotion, TangentialArcsNeedAnElementBeforeThem) {
 
 // HD-119: M91 counts from the reference point, M92 from a point of the machine builder's.
 TEST(TncMotion, MachineCoordinatesLeaveTheDatumOut) {
-  const PathSetup datum{"[[offset]]\nname = \"datum\"\nX = 100\nZ = 20\n"
-                        "[control]\nm92_position = { Z = 300 }",
-                        {}};
-  EXPECT_THAT(moves_of({"L X+5 Z+1 R0 F100", "L Z+7 F MAX M91", "L Z+7 F MAX M92", "L IZ-7"},
-                       datum),
-              ElementsAre("L X105 Z21 F100", "R X105 Z7", "R X105 Z307", "L X105 Z300 F100"));
+  const PathSetup datum{
+      "[[offset]]\nname = \"datum\"\nX = 100\nZ = 20\n"
+      "[control]\nm92_position = { Z = 300 }",
+      {}};
+  EXPECT_THAT(
+      moves_of({"L X+5 Z+1 R0 F100", "L Z+7 F MAX M91", "L Z+7 F MAX M92", "L IZ-7"}, datum),
+      ElementsAre("L X105 Z21 F100", "R X105 Z7", "R X105 Z307", "L X105 Z300 F100"));
 }
 
 // HD-120: whole turns are taken off before the block moves.
@@ -173,9 +171,8 @@ TEST(TncMotion, M94TakesWholeTurnsOffARotaryAxis) {
 
 // HD-161: Q in coordinates, feeds, radii and angles; HD-160: with its sign.
 TEST(TncMotion, ParametersStandForNumbers) {
-  EXPECT_THAT(moves_of({"FN 0: Q1 = +40", "FN 0: Q2 = +19", "FN 0: Q3 = +150",
-                        "L X+Q1 Y-Q2 R0 FQ3", "CC X+0 Y+0", "FN 0: Q4 = +90",
-                        "LP PR+Q2 PA-Q4"}),
+  EXPECT_THAT(moves_of({"FN 0: Q1 = +40", "FN 0: Q2 = +19", "FN 0: Q3 = +150", "L X+Q1 Y-Q2 R0 FQ3",
+                        "CC X+0 Y+0", "FN 0: Q4 = +90", "LP PR+Q2 PA-Q4"}),
               ElementsAre("L X40 Y-19 F150", "L X0 Y-19 F150"));
 }
 

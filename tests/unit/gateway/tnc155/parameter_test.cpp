@@ -61,11 +61,11 @@ TEST(TncParameters, JumpsCompare) {
 
 // HD-162: a quarter of an ellipse of 40 by 20 in steps of 30 degrees.
 TEST(TncParameters, AnEllipseByALoop) {
-  EXPECT_THAT(moves_of({"FN 0: Q1 = +0", "LBL 1", "FN 7: Q2 = COS +Q1", "FN 3: Q2 = +Q2 * +40",
-                        "FN 6: Q3 = SIN +Q1", "FN 3: Q3 = +Q3 * +20", "L X+Q2 Y+Q3 R0 F500",
-                        "FN 1: Q1 = +Q1 + +30", "FN 12: IF +Q1 LT +90,1 GOTO LBL 1"}),
-              ElementsAre("L X40 Y0 F500", "L X34.641 Y10 F500", "L X20 Y17.321 F500",
-                          "L X0 Y20 F500"));
+  EXPECT_THAT(
+      moves_of({"FN 0: Q1 = +0", "LBL 1", "FN 7: Q2 = COS +Q1", "FN 3: Q2 = +Q2 * +40",
+                "FN 6: Q3 = SIN +Q1", "FN 3: Q3 = +Q3 * +20", "L X+Q2 Y+Q3 R0 F500",
+                "FN 1: Q1 = +Q1 + +30", "FN 12: IF +Q1 LT +90,1 GOTO LBL 1"}),
+      ElementsAre("L X40 Y0 F500", "L X34.641 Y10 F500", "L X20 Y17.321 F500", "L X0 Y20 F500"));
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ class PathSink final : public EventSink {
   void on_tool(const ToolChange& tool) override {
     std::string text = fmt::format("{}T{}", tool.is_preselection ? "next " : "", tool.number);
     if (tool.shape) {
-      text += fmt::format(" L{} R{}", number(tool.shape->length.mm()),
-                          number(tool.shape->radius.mm()));
+      text +=
+          fmt::format(" L{} R{}", number(tool.shape->length.mm()), number(tool.shape->radius.mm()));
     }
     add(text);
   }

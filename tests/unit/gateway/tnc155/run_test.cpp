@@ -17,13 +17,19 @@ PathRun from_block(int block, const std::string& text = kProgram) {
   return run_text(text, {"[control]\nstart_block = " + std::to_string(block), {}});
 }
 
-// HD-063, HD-194, HD-228: GOTO before the start; the first block must say where it goes.
+// HD-063, HD-193, HD-194, HD-228: GOTO before the start; the first block must say where it goes.
 TEST(TncRun, BeginsAtABlock) {
-  EXPECT_THAT(from_block(3, "0 BEGIN PGM 5 MM\n3 L X+3 Y+3 R0 F100\n4 L Y+9\n5 END PGM 5 MM\n").events,
-              ElementsAre("L X3 Y3 F100", "L X3 Y9 F100", "end 3"));
+  EXPECT_THAT(
+      from_block(3, "0 BEGIN PGM 5 MM\n3 L X+3 Y+3 R0 F100\n4 L Y+9\n5 END PGM 5 MM\n").events,
+      ElementsAre("L X3 Y3 F100", "L X3 Y9 F100", "end 3"));
   EXPECT_EQ(from_block(2).alarm_id, "TNC-START-UNDEFINED");
   EXPECT_EQ(from_block(4).alarm_id, "TNC-START-UNDEFINED");
   EXPECT_EQ(from_block(77).alarm_id, "TNC-NOT-ADDRESSED");
+  EXPECT_EQ(from_block(2,
+                       "0 BEGIN PGM 5 MM\n1 CYCL DEF 9.0 DWELL TIME\n2 CYCL DEF 9.1 DWELL 2\n"
+                       "3 END PGM 5 MM\n")
+                .alarm_id,
+            "TNC-START-UNDEFINED");
 }
 
 // HD-190: one block a step, whatever it is.
