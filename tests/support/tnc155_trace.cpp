@@ -19,7 +19,7 @@ void erase_member(std::string& line, std::string_view name) {
 
 std::string without_places(std::string line) {
   if (line.starts_with("{\"event\":\"alarm\"") || line.starts_with("{\"event\":\"warning\"")) {
-    const auto id = line.find("\"id\":");
+    const auto id = line.find("\"code\":");
     return line.substr(id == std::string::npos ? 0 : id, line.find(',', id) - id);
   }
   erase_member(line, "\"line\":");
