@@ -24,5 +24,19 @@ TEST(Examples, TheCenturionsPagesAreTaken) {  // CEN-214, CEN-215, CEN-216, CEN-
   EXPECT_EQ(moves_of("G28 X4\n", setup), "rapid X4 Z0\nrapid X10 Z0\n");
 }
 
+TEST(Examples, ThePinIsCut) {  // CEN-210, CEN-232, CEN-236, CEN-237
+  const auto events = read_events(text_of("pin.toml"));
+  ASSERT_TRUE(events) << events.error().what;
+  const auto program = post(*events);
+  ASSERT_TRUE(program) << program.error().what;
+  const std::string moves = moves_of(*program, text_of("centurion.toml"));
+  EXPECT_EQ(moves.find("alarm"), std::string::npos) << moves;
+  // The finished shape, the groove, the thread, the hole, and home.
+  for (const std::string move : {"line X.625 Z-11", "line X.5 Z-11", "thread X.5135 Z-10.95",
+                                 "line X0 Z-10.75", "rapid X0 Z0"}) {
+    EXPECT_NE(moves.find(move), std::string::npos) << move << "\n" << moves;
+  }
+}
+
 }  // namespace
 }  // namespace dripline::conversational

@@ -37,6 +37,44 @@ TEST(PostedRun, CutsBoxesByCyclesAAndB) {  // CEN-238
             kOn + "rapid X3 Z.1\nrapid X3 Z-.1\nline X1 Z-.1\nline X1 Z.1\nrapid X3 Z.1\n");
 }
 
+/// A step of X1 by 1 long in a bar of X2.
+std::string step_pattern(const std::string& cycle, const std::string& fields) {
+  return event(cycle, "start_x = 2.1\nstart_z = 0.1\npattern = 3\n" + fields) +
+         event("line", "feed = \"rapid\"\nx = 1") + event("line", "feed = 6\nz = -1") +
+         event("line", "x = 2.1") + event("end_cycle", "");
+}
+
+TEST(PostedRun, RoughsAndFinishesAPattern) {  // CEN-236, CEN-237
+  // .05 are left at first, so the profile is at radius .55. Cuts at 1.05 + .05 - .2 = .9 and .7,
+  // out along the shoulder to the cut before and .02 further; then the pattern, then back to the
+  // start.
+  EXPECT_EQ(run_of(kTool +
+                   step_pattern("rough_turning",
+                                "x_rough_stock = 0.05\nz_rough_stock = 0\n"
+                                "cut_increment = 0.2\nclearance = 0.02") +
+                   event("finish_turning", "pattern = 3\nstart_x = 2.2\nstart_z = 0.2")),
+            kOn +
+                "rapid X2.1 Z.1\n"
+                "rapid X1.8 Z.1\nline X1.8 Z-1\nline X2.1 Z-1\nrapid X2.14 Z-1\nrapid X2.14 Z.1\n"
+                "rapid X1.4 Z.1\nline X1.4 Z-1\nline X1.8 Z-1\nrapid X1.84 Z-1\nrapid X1.84 Z.1\n"
+                "rapid X1 Z.1\nline X1 Z-1\nline X2.1 Z-1\nrapid X2.1 Z.1\n"
+                "rapid X2.2 Z.2\nrapid X1 Z.2\nline X1 Z-1\nline X2.1 Z-1\n"
+                "rapid X2.2 Z-1\nrapid X2.2 Z.2\n");
+}
+
+TEST(PostedRun, RepeatsAPatternAndFinishesAFace) {  // CEN-236, CEN-237
+  // Two passes take .1: the first is .05 off in radius. The finish retracts Z first, then X.
+  EXPECT_EQ(
+      run_of(kTool + step_pattern("pattern_repeat_facing", "x_rough_stock = 0.1\npasses = 2") +
+             event("finish_facing", "pattern = 3\nstart_x = 2.2\nstart_z = 0.2")),
+      kOn +
+          "rapid X2.1 Z.1\n"
+          "rapid X1.1 Z.1\nline X1.1 Z-1\nline X2.2 Z-1\nrapid X2.1 Z.1\n"
+          "rapid X1 Z.1\nline X1 Z-1\nline X2.1 Z-1\nrapid X2.1 Z.1\n"
+          "rapid X2.2 Z.2\nrapid X1 Z.2\nline X1 Z-1\nline X2.1 Z-1\n"
+          "rapid X2.1 Z.2\nrapid X2.2 Z.2\n");
+}
+
 TEST(PostedRun, ThreadsByCycleOneAndByThreadLine) {  // CEN-238, CEN-240
   EXPECT_EQ(run_of(kTool + event("cycle_1",
                                  "start_x = 1.5\nstart_z = 0.25\nx = 1.2\nz = -0.75\n"
