@@ -45,8 +45,10 @@ void PathWriter::lead_in(const Element& element, Feed feed) {
   for (std::uint8_t i = 0; i < element.lead_in.count; ++i) {
     const Piece& piece = element.lead_in.pieces[i];
     const double size = length_of(piece, nose());
-    const Feed own =
+    Feed own =
         feed.per() == Feed::Per::Move ? Feed::inverse_time(feed.moves_per_minute() / size) : feed;
+    // an arc that leads away belongs to the contour, not to the move behind it
+    if (element.role == Role::Cancel && piece.origin) own = state_.waiting().feed;
     const Company with{state_.tool, own};
     if (piece.is_arc) {
       arc(element, piece, with);

@@ -99,6 +99,14 @@ TEST(TncCorner, ARoundingBeforeTheEndIsARunOff) {
                   "A X46.494 Y7.328 c40,12 ccw54.267 F100", "L X70 Y40 F100"));
 }
 
+// HD-109: the arc keeps the feed of the contour, however fast the block behind it is.
+TEST(TncCorner, ARunOffArcKeepsTheFeedOfTheContour) {
+  EXPECT_THAT(path("+4", {"L X+0 Y+40 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R8",
+                          "L X+70 Y+40 R0 F MAX"}),
+              ElementsAre("L X0 Y40 F100", "L X0 Y4 F100", "L X40 Y4 F100",
+                          "A X46.494 Y7.328 c40,12 ccw54.267 F100", "R X70 Y40"));
+}
+
 // HD-108: the tool stands within the circle.
 TEST(TncCorner, ARunOnArcMustNotReachTheStart) {
   EXPECT_THAT(path("+4", {"L X+0 Y+10 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0"}).back(),
