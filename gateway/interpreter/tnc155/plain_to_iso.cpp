@@ -67,6 +67,7 @@ class PlainToIso {
     switch (block.kind) {
       case BlockKind::Begin:
       case BlockKind::End:
+        if (block.kind == BlockKind::Begin && at_ != 0) return refuse("BEGIN PGM within a program");
         iso_.program = block.target;
         iso_.set(IsoGroup::Unit, block.units == Units::Inch ? 70 : 71);
         if (block.is_protected) iso_.set(IsoGroup::Protection, 50);

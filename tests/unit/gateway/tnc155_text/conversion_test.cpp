@@ -146,6 +146,8 @@ TEST(Tnc155ConversionOfDirections, AreResolved) {
 
 TEST(Tnc155ConversionRefuses, WhatHasNoCounterpart) {
   const std::string plain = "0 BEGIN PGM 7 MM\n1 TOOL CALL 1 Z\n";
+  EXPECT_EQ(converted(plain + "2 BEGIN PGM 8 MM", Form::Iso),
+            "! line 3: BEGIN PGM within a program");
   EXPECT_EQ(converted(plain + "2 C X1 Y2 DR+ R0 F MAX M", Form::Iso),
             "! line 3: F MAX of this block has no counterpart in ISO");
   EXPECT_EQ(converted(plain + "2 TOOL CALL 1 U", Form::Iso),
