@@ -58,13 +58,21 @@ bool shift_datum(Run& run, const Block& block) {
 }
 
 bool mirror(Run& run, const Block& block) {
+  // In whichever order the axes stand, the same one is complained about.
+  const ActiveTool& tool = run.state.tool;
+  const auto names = [&](Axis axis) {
+    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+      if (block.coordinates[i].axis == axis) return true;
+    }
+    return false;
+  };
+  if (tool.is_called && names(tool.axis)) {
+    return run.fail(ErrorCode::MirrorOnToolAxis, std::string(1, letter(tool.axis)));
+  }
   Transformation changed = run.state.transformation;
   changed.mirrored = {};
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Axis axis = block.coordinates[i].axis;
-    if (run.state.tool.is_called && axis == run.state.tool.axis) {
-      return run.fail(ErrorCode::MirrorOnToolAxis, std::string(1, letter(axis)));
-    }
+  for (const Axis axis : kAllAxes) {
+    if (!names(axis)) continue;
     if (axis > Axis::Z) {
       return run.fail(ErrorCode::WrongAxis, fmt::format("{} is not mirrored", letter(axis)));
     }

@@ -88,6 +88,13 @@ LineHead read_head(std::string_view line) {
   return head;
 }
 
+/// As the reader cuts blocks: behind a block without a number every line does that is not indented.
+bool TextSearch::begins_block(const Index& index, std::string_view line, const LineHead& head) {
+  if (head.begins_block || index.after_end) return true;
+  const bool is_indented = line.empty() || line.front() == ' ' || line.front() == '\t';
+  return !index.is_numbered && !is_indented;
+}
+
 TextSearch::TextSearch(ProgramSource& source)
     : lines_(source, LineRules{.max_bytes = 4096, .skip_percent = false}) {}
 
@@ -144,7 +151,10 @@ TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t l
     if (read == Outcome::Missing) continue;
     if (read != Outcome::Found) return read;
     const LineHead head = read_head(line.text);
-    if (head.begins_block || index.after_end) index.block = line.place;
+    if (begins_block(index, line.text, head)) {
+      index.block = line.place;
+      index.is_numbered = head.begins_block;
+    }
     index.after_end = head.ends_block;
     if (head.label >= 0 && static_cast<std::size_t>(head.label) < kLabels) {
       auto& place = index.labels[static_cast<std::size_t>(head.label)];

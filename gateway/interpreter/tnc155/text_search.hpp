@@ -45,13 +45,15 @@ class TextSearch {
   struct Index {
     bool is_used = false;
     bool is_complete = false;
-    bool after_end = true;  ///< the line before ended its block
+    bool after_end = true;     ///< the line before ended its block
+    bool is_numbered = false;  ///< `block` has a number
     std::uint64_t last_use = 0;
     TextPlace next;
     TextPlace block;  ///< the block that the next line may go on with
     std::array<std::optional<TextPlace>, kLabels> labels;
   };
 
+  static bool begins_block(const Index& index, std::string_view line, const LineHead& head);
   Index& index_of(ProgramIndex program);
   Outcome next_line(TextPlace& next, SourceLine& line);
 
