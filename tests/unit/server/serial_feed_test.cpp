@@ -101,22 +101,33 @@ TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
   EXPECT_TRUE(start("O1"));
 }
 
+feeds::StartPoint at_sequence(std::uint64_t number) {
+  feeds::StartPoint point;
+  point.sequence = number;
+  return point;
+}
+feeds::StartPoint at_line(std::uint64_t number) {
+  feeds::StartPoint point;
+  point.line = number;
+  return point;
+}
+
 TEST_F(SerialTest, BeginsWhereItIsTold) {
   start_ports();
   add_port(mill());
   const std::string text = blocks(30);
   push("O1", text);
-  const auto from_block = start("O1", {.byte = {}, .line = {}, .sequence = 290});
+  const auto from_block = start("O1", at_sequence(290));
   ASSERT_TRUE(from_block) << from_block.error().what;
   EXPECT_EQ(line().read_until("N300 G1 X30.5 Y-30.25\n"),
             "N290 G1 X29.5 Y-29.25\nN300 G1 X30.5 Y-30.25\n");
   ASSERT_TRUE(wait_state(from_block->id, RunState::Completed));
   EXPECT_EQ(store_->run(from_block->id)->counters.sent, 44u);
-  const auto from_line = start("O1", {.byte = {}, .line = 30, .sequence = {}});
+  const auto from_line = start("O1", at_line(30));
   ASSERT_TRUE(from_line);
   EXPECT_EQ(line().read_until("25\n"), "N300 G1 X30.5 Y-30.25\n");
   ASSERT_TRUE(wait_state(from_line->id, RunState::Completed));
-  const auto nowhere = start("O1", {.byte = {}, .line = {}, .sequence = 7});
+  const auto nowhere = start("O1", at_sequence(7));
   ASSERT_FALSE(nowhere);
   EXPECT_EQ(nowhere.error().code, Errc::NotFound);
   EXPECT_NE(nowhere.error().what.find("N7"), std::string::npos);
