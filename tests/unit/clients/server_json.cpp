@@ -69,7 +69,8 @@ json run_json(const std::string& id, const std::string& state) {
           {"created", "2026-11-21T07:40:00Z"},
           {"started", "2026-11-21T07:40:01Z"},
           {"ended", state == "completed" ? json("2026-11-21T07:41:06Z") : json(nullptr)},
-          {"outputs", 3}};
+          {"outputs", 3},
+          {"setup", nullptr}};
 }
 
 }  // namespace dripline::test_support
