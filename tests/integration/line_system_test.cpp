@@ -142,7 +142,10 @@ TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
       << "sent " << sent << ", held by the control " << ending.content_length;
   const auto held = std::string_view(text).substr(0, ending.content_length);
   EXPECT_EQ(ending.content_sha256, sha256(held).hex());
-  EXPECT_EQ(ending.executed, blocks_of(held));
+  EXPECT_EQ(ending.accepted, blocks_of(held));
+  // The lathe looks one block ahead: the last one is executed when the next has come.
+  EXPECT_LE(ending.executed, ending.accepted);
+  EXPECT_GE(ending.executed + 1, ending.accepted);
   EXPECT_EQ(run.value("executed", std::uint64_t{9}), 0U) << "a line does not tell what is executed";
 }
 
