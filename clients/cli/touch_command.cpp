@@ -65,11 +65,6 @@ Result<tnc::Touch> parse_touch(const std::string& text) {
   return touch;
 }
 
-Plane plane_across(Axis tool) {
-  if (tool == Axis::X) return Plane::YZ;
-  return tool == Axis::Y ? Plane::ZX : Plane::XY;
-}
-
 double value_at(const TouchCommand& command, std::size_t i) {
   return i < command.values.size() ? command.values[i] : 0;
 }
@@ -119,7 +114,7 @@ Measured measure_circle(const TouchCommand& command, std::span<const Position, 4
 Result<Measured> measure(const TouchCommand& command, const std::vector<tnc::Touch>& touches,
                          const std::vector<Position>& at) {
   const Axis tool = *interpreter::axis_of(command.tool_axis.front());
-  const Plane plane = plane_across(tool);
+  const Plane plane = interpreter::plane_across(tool);
   if (command.function == "length") {
     const double length = tnc::calibrated_length(at[0], tool, value_at(command, 0));
     return Measured{{{"effective length", length}}, ""};

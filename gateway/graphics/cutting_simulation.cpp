@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/geometry/plane_axes.hpp"
+
 namespace dripline::graphics {
 namespace {
 
@@ -19,26 +21,11 @@ int chords_of(double radius, double sweep_radians, double cell) {
   return static_cast<int>(std::clamp(std::ceil(sweep_radians / step), 1.0, double{kMostChords}));
 }
 
-struct PlaneAxes {
-  Axis first, second, third;
-};
-PlaneAxes axes_of(interpreter::Plane plane) {
-  switch (plane) {
-    case interpreter::Plane::ZX:
-      return {Axis::Z, Axis::X, Axis::Y};
-    case interpreter::Plane::YZ:
-      return {Axis::Y, Axis::Z, Axis::X};
-    default:
-      return {Axis::X, Axis::Y, Axis::Z};
-  }
-}
-
 }  // namespace
 
 WorkFrame WorkFrame::of(Axis spindle) {
-  if (spindle == Axis::X) return {Axis::Y, Axis::Z, Axis::X};
-  if (spindle == Axis::Y) return {Axis::Z, Axis::X, Axis::Y};
-  return {};
+  const interpreter::PlaneAxes axes = axes_of(interpreter::plane_across(spindle));
+  return {axes.first, axes.second, axes.normal};
 }
 
 FramePoint WorkFrame::point(const interpreter::Position& position) const {
@@ -105,8 +92,8 @@ void CuttingSimulation::move(const interpreter::Origin& origin, const interprete
 }
 
 void CuttingSimulation::on_arc(const interpreter::Arc& event) {
-  const PlaneAxes axes = axes_of(event.plane);
-  const double height = event.to.raw(axes.third) - at_.raw(axes.third);
+  const interpreter::PlaneAxes axes = axes_of(event.plane);
+  const double height = event.to.raw(axes.normal) - at_.raw(axes.normal);
   const bool is_helix = height != 0;
   if (!can_show(event.origin, event.to)) {
     at_ = event.to;
@@ -132,7 +119,7 @@ void CuttingSimulation::on_arc(const interpreter::Arc& event) {
       const double angle = begin + turn * sweep * part;
       to.set_raw(axes.first, center[0] + radius * std::cos(angle));
       to.set_raw(axes.second, center[1] + radius * std::sin(angle));
-      to.set_raw(axes.third, at_.raw(axes.third) + height * part);
+      to.set_raw(axes.normal, at_.raw(axes.normal) + height * part);
     }
     cut(frame_.point(from), frame_.point(to));
     from = to;

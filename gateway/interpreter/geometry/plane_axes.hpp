@@ -22,4 +22,10 @@ constexpr PlaneAxes axes_of(Plane plane) {
   return {Axis::X, Axis::Y, Axis::Z};
 }
 
+/// The plane across X, Y or Z.
+constexpr Plane plane_across(Axis normal) {
+  if (normal == Axis::X) return Plane::YZ;
+  return normal == Axis::Y ? Plane::ZX : Plane::XY;
+}
+
 }  // namespace dripline::interpreter
