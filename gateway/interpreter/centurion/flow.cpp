@@ -320,6 +320,22 @@ bool leave_block(Run& run) {
   return request_jump(run, head);
 }
 
+JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome) {
+  switch (outcome) {
+    case TextSearch::Outcome::NotYet:
+      return JumpOutcome::NeedsText;
+    case TextSearch::Outcome::More:
+      return JumpOutcome::More;
+    case TextSearch::Outcome::TooLong:
+      run.fail(ErrorCode::BlockTooLong, 0, "met in a search");
+      break;
+    default:
+      run.fail(ErrorCode::TextFailed, 0, run.text.failure());
+      break;
+  }
+  return JumpOutcome::Failed;
+}
+
 JumpOutcome take_jump(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   Jump& jump = state.jump;
@@ -337,22 +353,14 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
     outcome = search.find_label(state.at, jump.number, found);
   }
   switch (outcome) {
-    case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
-    case TextSearch::Outcome::More:
-      return JumpOutcome::More;
-    case TextSearch::Outcome::TooLong:
-      run.fail(ErrorCode::BlockTooLong, 0, "met in a search");
-      break;
-    case TextSearch::Outcome::Failed:
-      run.fail(ErrorCode::TextFailed, 0, run.text.failure());
-      break;
     case TextSearch::Outcome::Missing:
       result = jump.kind == JumpKind::Call ? call_library(run) : refuse_missing(run);
       break;
     case TextSearch::Outcome::Found:
       result = arrive_at(run, found, loop);
       break;
+    default:
+      return refuse_search(run, outcome);
   }
   if (result == JumpOutcome::Taken) jump = Jump{};
   return result;

@@ -18,6 +18,9 @@ enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
 /// Takes the jump of `state.jump`.
 JumpOutcome take_jump(Run& run, TextSearch& search);
 
+/// Why a search has not found its place; not for Found or Missing, which each caller knows best.
+JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome);
+
 /// The text of the program that is running has ended without an end code.
 bool run_off_end(Run& run);
 

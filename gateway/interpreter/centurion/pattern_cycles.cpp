@@ -19,22 +19,9 @@ bool refuse(Run& run, const Origin& at, const char* why) {
   return run.fail(ErrorCode::IllegalStatement, 0, why);
 }
 
-JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome, std::uint32_t label) {
-  switch (outcome) {
-    case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
-    case TextSearch::Outcome::More:
-      return JumpOutcome::More;
-    case TextSearch::Outcome::TooLong:
-      run.fail(ErrorCode::BlockTooLong, 0, "met in a search");
-      break;
-    case TextSearch::Outcome::Failed:
-      run.fail(ErrorCode::TextFailed, 0, run.text.failure());
-      break;
-    default:
-      run.fail(ErrorCode::UnresolvedLabel, 0, fmt::format("N{} of the pattern", label));
-      break;
-  }
+JumpOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t label) {
+  if (outcome != TextSearch::Outcome::Missing) return refuse_search(run, outcome);
+  run.fail(ErrorCode::UnresolvedLabel, 0, fmt::format("N{} of the pattern", label));
   return JumpOutcome::Failed;
 }
 
@@ -218,10 +205,10 @@ JumpOutcome enter_pattern(Run& run, TextSearch& search) {
   TextPosition last;
   TextSearch::Outcome outcome = search.find_label(state.at, state.jump.number, first);
   if (outcome != TextSearch::Outcome::Found) {
-    return refuse_search(run, outcome, state.jump.number);
+    return refuse_label(run, outcome, state.jump.number);
   }
   outcome = search.find_label(state.at, cycle.last_label, last);
-  if (outcome != TextSearch::Outcome::Found) return refuse_search(run, outcome, cycle.last_label);
+  if (outcome != TextSearch::Outcome::Found) return refuse_label(run, outcome, cycle.last_label);
   if (last.offset < first.offset) {
     refuse(run, cycle.origin, "the pattern's last block stands before its first");
     return JumpOutcome::Failed;
