@@ -25,23 +25,27 @@ server/api: protocol storage gateway/interpreter server/library server/feeds ser
 server/app: protocol storage server
 clients: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/graphics clients
 '
-folder_of() {  # the longest row that $1 lies under
-  local best=""
-  while IFS=: read -r row _; do
-    [[ -n $row && $1 == "$row"/* && ${#row} -gt ${#best} ]] && best=$row
-  done <<<"$table"
-  printf %s "$best"
+declare -A allowed_by
+while IFS=: read -r row folders; do
+  [[ -n $row ]] && allowed_by[$row]=$folders
+done <<<"$table"
+
+folder_of() {  # sets `folder` to the longest row that $1 lies under
+  folder=""
+  for row in "${!allowed_by[@]}"; do
+    if [[ $1 == "$row"/* && ${#row} -gt ${#folder} ]]; then folder=$row; fi
+  done
 }
 
 bad=0 checked=0
 while IFS=: read -r file line include; do
   target=${include#*\"}; target=${target%%\"*}
-  folder=$(folder_of "$file")
+  [[ $file == "${last_file-}" ]] || folder_of "$file"
+  last_file=$file
   checked=$((checked + 1))
   if [[ -z $folder ]]; then echo "$file:$line: no row for this folder in the table"; bad=1; continue; fi
-  allowed=$(grep "^$folder:" <<<"$table" | cut -d: -f2-)
   ok=no
-  for row in $allowed; do [[ $target == "$row"/* ]] && ok=yes; done
+  for row in ${allowed_by[$folder]}; do [[ $target == "$row"/* ]] && ok=yes; done
   if [[ $target == */impl/* && ${target%%/impl/*} != "${file%/*}" && ${target%%/impl/*} != "${file%%/impl/*}" ]]; then ok=impl; fi
   [[ $target == *dripline.h ]] && ok=yes  # generated from the IDL, inside protocol/dds
   case $ok in
