@@ -25,6 +25,7 @@ struct ConvertCommand {
   bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
   bool has_decimal_point = false;
   std::int32_t increment = 10;
+  std::string setup;
 };
 
 constexpr std::size_t kPiece = 64 * 1024;
@@ -219,7 +220,8 @@ int convert_between_forms(Context& context, const ConvertCommand& command,
                                   command.to == "plain",
                                   command.has_decimal_point,
                                   command.end_of_block == "lf",
-                                  command.increment};
+                                  command.increment,
+                                  command.setup};
   return convert_form(context, conversion, file);
 }
 
@@ -277,6 +279,9 @@ void add_options(CLI::App& command, ConvertCommand& options) {
   command
       .add_option("--increment", options.increment, "TNC programs: of ISO block numbers; 0: none")
       ->check(CLI::Range(0, 99));
+  command.add_option("--setup", options.setup,
+                     "TNC programs: TOML file with the options of the control (decimal_sign, "
+                     "iso_continuation)");
   command.add_flag("--strict-blanks", options.is_strict,
                    "Blank tape inside an EIA block is an error");
 }

@@ -1,6 +1,7 @@
 #include "clients/cli/form_conversion.hpp"
 
 #include "clients/cli/exit_status.hpp"
+#include "clients/cli/mapped_file.hpp"
 #include "clients/cli/standard_output.hpp"
 #include "clients/lib/output_file.hpp"
 #include "gateway/interpreter/tnc155/conversion.hpp"
@@ -10,10 +11,24 @@ namespace {
 
 namespace tnc155 = interpreter::tnc155;
 
+/// What the control's own options say of written programs.
+Result<tnc155::ConversionOptions> options_of(const std::string& file) {
+  if (file.empty()) return tnc155::ConversionOptions{};
+  const auto mapped = MappedFile::open(file);
+  if (!mapped) return fail(mapped.error());
+  const auto setup = interpreter::parse_setup(mapped->text());
+  if (!setup) return fail(setup.error().code, "setup file {}: {}", file, setup.error().what);
+  const auto control = tnc155::read_options(*setup);
+  if (!control) return fail(control.error().code, "{}: {}", file, control.error().what);
+  return tnc155::conversion_options(*control);
+}
+
 Result<std::string> converted(const FormConversion& command, client::FileSource& file) {
   std::string text(file.size(), '\0');
   if (auto read = file.read(0, text); !read) return fail(std::move(read.error()));
-  tnc155::ConversionOptions options;
+  auto known = options_of(command.setup);
+  if (!known) return fail(known.error());
+  tnc155::ConversionOptions options = *known;
   if (command.has_decimal_point) options.layout.decimal_sign = '.';
   if (command.has_lf) options.layout.line_end = "\n";
   options.increment = command.increment;

@@ -16,6 +16,7 @@ struct FormConversion {
   bool has_decimal_point = false;
   bool has_lf = false;  ///< LF at line ends; else CR LF as the control writes it
   std::int32_t increment = 10;
+  std::string setup;  ///< file with the control's options; empty: none
 };
 
 /// True when `head`, the first bytes of a file, begins a program in the control's plain language.

@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/options.hpp"
 
 namespace dripline::cli {
 
 std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
   std::string text = "units = \"mm\"\n";
   for (const auto& tool : tools) {
-    text += fmt::format("\n[[tool]]\nnumber = {}\nlength = {:.12g}\nradius = {:.12g}\n", tool.number,
-                        tool.length.linear(interpreter::Axis::Z).mm(), tool.radius.mm());
+    text +=
+        fmt::format("\n[[tool]]\nnumber = {}\nlength = {:.12g}\nradius = {:.12g}\n", tool.number,
+                    tool.length.linear(interpreter::Axis::Z).mm(), tool.radius.mm());
     if (tool.pocket) text += fmt::format("pocket = {}\n", *tool.pocket);
     if (tool.is_special) text += "special = true\n";
   }
@@ -20,8 +22,10 @@ std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
 Result<std::string> tool_store_of(std::string_view toml) {
   const auto data = interpreter::parse_control_data(toml);
   if (!data) return fail(data.error());
+  const auto sign = interpreter::tnc155::decimal_sign_of(data->control);
+  if (!sign) return fail(sign.error());
   return interpreter::tnc155::write_tool_store(
-      data->tools, data->units.value_or(interpreter::Units::Millimetre));
+      data->tools, data->units.value_or(interpreter::Units::Millimetre), *sign);
 }
 
 }  // namespace dripline::cli

@@ -127,6 +127,12 @@ ReadState BlockReader::next_words(ReadingState& state) {
   return ReadState::Ready;
 }
 
+bool BlockReader::skip_wrong() {
+  if (fault_.code == ErrorCode::BlockTooLong) return false;
+  move_on();
+  return true;
+}
+
 bool BlockReader::read(ReadingState& state, BlockParts& parts) {
   find_place();
   if (state.program.form == Form::Iso) {

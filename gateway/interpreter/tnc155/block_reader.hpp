@@ -50,6 +50,9 @@ class BlockReader {
   /// program changes, and only by its % block.
   ReadState next_words(ReadingState& state);
 
+  /// Moves behind the block that was Wrong. False: where it ends is not known.
+  bool skip_wrong();
+
   /// Where the next block begins.
   const TextPlace& place() const { return place_; }
   /// Where the block read last begins.

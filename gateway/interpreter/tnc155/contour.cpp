@@ -132,6 +132,9 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
     state.compensation = side;
     return true;
   }
+  if (state.joint.kind == JointKind::RunOff) {
+    return refuse_start(run, "G27 is followed by the block with G40 that leaves the contour");
+  }
   if (side != state.compensation) {
     if (state.joins) {
       run.joiner.turn_on(cutter_of(state, side));
@@ -155,9 +158,16 @@ void shape_corner(Run& run) {
   run.compensator.shape_next_corner(OutsideCorner::IntersectCurves);
 }
 
-/// The second side of a corner must lie in the plane as the first one does.
+/// The second side of a corner must lie in the plane as the first one does, and in its contour.
 bool check_joint(Run& run, const PlaneMove& move) {
-  if (run.state.joint.kind == JointKind::None || (move.has_both && !move.has_third)) return true;
+  const Joint& joint = run.state.joint;
+  if (joint.kind == JointKind::None) return true;
+  if (joint.is_lost) {
+    return run.fail(
+        ErrorCode::PlaneWronglyDefined,
+        fmt::format("the contour ended behind RND or the chamfer of line {}", joint.origin.line));
+  }
+  if (move.has_both && !move.has_third) return true;
   return run.fail(ErrorCode::PlaneWronglyDefined,
                   "the block behind RND or a chamfer needs both coordinates of the plane only");
 }
@@ -191,10 +201,12 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   if (!check_joint(run, move)) return false;
   if (state.joint.kind == JointKind::RunOn) warn_of_quadrant(run, move);
   if (state.joint.kind == JointKind::None) release_corner(run);
+  const bool was_on = state.is_compensating();
   if (!change_compensation(run, block, move)) return false;
+  if (!was_on) state.awaits_contour = state.is_compensating();
   if (block.m == 97 && !state.joins) shape_corner(run);
   // RND behind the first compensated block is a run-on, which is the compensation's
-  run.starts_contour = state.is_compensating() && run.compensator.is_starting() && move.has_way;
+  run.starts_contour = state.is_compensating() && state.awaits_contour && move.has_any;
   if (run.joint_follows && !run.starts_contour) run.begin_joining();
   return true;
 }
@@ -203,6 +215,7 @@ bool finish_move(Run& run, const Block& block, const PlaneMove& move) {
   State& state = run.state;
   LastMove& last = state.last;
   state.joint = Joint{};
+  if (move.has_any) state.awaits_contour = false;
   if (block.m == 97 && state.joins) shape_corner(run);
   if (state.joins && !run.joint_follows) {
     run.joiner.settle();
@@ -233,16 +246,22 @@ bool make_joint(Run& run, const Block& block) {
   joint.origin = run.origin;
   joint.size = run.length(block.radius);
   joint.kind = block.kind == BlockKind::Chamfer ? JointKind::Chamfer : JointKind::Round;
-  if (joint.kind == JointKind::Round && state.is_compensating() && last.starts_contour &&
-      (block.rounding == RoundingUse::Unstated || block.rounding == RoundingUse::RunOn)) {
+  const bool is_first = state.is_compensating() && last.starts_contour;
+  if (block.rounding == RoundingUse::RunOff) joint.kind = JointKind::RunOff;
+  if (block.rounding == RoundingUse::RunOn ||
+      (joint.kind == JointKind::Round && block.rounding == RoundingUse::Unstated && is_first)) {
     joint.kind = JointKind::RunOn;
-  } else if (block.rounding == RoundingUse::RunOff) {
-    joint.kind = JointKind::RunOff;
   }
   joint.is_stated = block.rounding != RoundingUse::Unstated;
   if (!last.exists || !last.has_both || last.has_third) {
     return run.fail(ErrorCode::PlaneWronglyDefined,
                     "the block before RND or a chamfer needs both coordinates of the plane only");
+  }
+  if (joint.kind == JointKind::RunOn && !is_first) {
+    return refuse_start(run, "G26 is for the first compensated block");
+  }
+  if (joint.kind == JointKind::RunOff && !state.is_compensating()) {
+    return refuse_start(run, "G27 leaves a contour, and there is none");
   }
   if (joint.size < 0) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("R {} is less than 0", joint.size));
@@ -256,7 +275,7 @@ bool make_joint(Run& run, const Block& block) {
   switch (joint.kind) {
     case JointKind::RunOn:
       if (!run.compensator.approach_by_arc(run.origin, size)) {
-        return run.fail(ErrorCode::PlaneWronglyDefined, "no first compensated block before G26");
+        return refuse_start(run, "no way to the first point before the arc that approaches it");
       }
       break;
     case JointKind::Round:
@@ -276,7 +295,7 @@ void end_contour(Run& run, bool keeps_distance) {
   State& state = run.state;
   if (!state.uses_stages) return;
   release_corner(run);
-  state.joint = Joint{};
+  state.joint.is_lost = true;
   if (!state.is_compensating() && !state.is_parallel) return;
   state.compensation = Compensation::Off;
   state.is_parallel = keeps_distance;
@@ -291,7 +310,7 @@ void interrupt_contour(Run& run) {
   State& state = run.state;
   if (!state.uses_stages) return;
   release_corner(run);
-  state.joint = Joint{};
+  state.joint.is_lost = true;
   run.compensator.leave();
   state.is_parallel = false;
 }

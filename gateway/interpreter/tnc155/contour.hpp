@@ -9,7 +9,8 @@ namespace dripline::interpreter::tnc155 {
 /// What a positioning block says of its way in the plane, before it moves.
 struct PlaneMove {
   bool is_arc = false;
-  bool has_both = false;   ///< names both coordinates of the plane
+  bool has_any = false;    ///< names a coordinate of the plane
+  bool has_both = false;   ///< names both of them
   bool has_third = false;  ///< and one outside it
   bool has_way = false;    ///< goes anywhere in the plane
   PlaneVector from, to;    ///< nominal

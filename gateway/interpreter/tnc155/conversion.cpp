@@ -35,6 +35,13 @@ Result<std::string> rewrite_plain(std::string_view text, const ConversionOptions
 
 }  // namespace
 
+ConversionOptions conversion_options(const ControlOptions& control) {
+  ConversionOptions options;
+  options.layout.decimal_sign = control.decimal_sign;
+  options.iso_continuation = control.iso_continuation;
+  return options;
+}
+
 Result<std::string> rewrite_program(std::string_view text, const ConversionOptions& options) {
   const auto form = form_of(text);
   if (!form) return fail(form.error());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gateway/interpreter/tnc155/block_reader.hpp"
+#include "gateway/interpreter/tnc155/options.hpp"
 #include "gateway/interpreter/tnc155/text_layout.hpp"
 #include "protocol/base/result.hpp"
 
@@ -17,6 +18,9 @@ struct ConversionOptions {
   std::int32_t increment = 10;  ///< of ISO block numbers; 0: blocks without numbers
   bool iso_continuation = true;
 };
+
+/// As the options of a control say it: the decimal sign, and lines that go on with a block.
+ConversionOptions conversion_options(const ControlOptions& control);
 
 /// The program in the control's own layout, in the form it is in. Errors: Syntax, with line, column
 /// and the control's words.

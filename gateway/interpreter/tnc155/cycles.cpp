@@ -129,7 +129,7 @@ bool check_machining(Run& run, const MachiningCycle& cycle) {
 bool call_cycle(Run& run) {
   const MachiningCycle& cycle = run.state.cycle.machining;
   if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
-  if (cycle.number == kProgram) return call_program(run, cycle.program);
+  if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
   if (!check_machining(run, cycle)) return false;
   run_machining(run, cycle);
   return true;

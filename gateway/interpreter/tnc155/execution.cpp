@@ -76,8 +76,16 @@ bool positioning(Run& run, const Block& block) {
   return move(run, block) && finish_m(run, block.m, moves);
 }
 
+/// M91 and M92 say what coordinates refer to.
+bool check_no_coordinates(Run& run, int m) {
+  if (m != 91 && m != 92) return true;
+  return run.fail(ErrorCode::BlockFormatIncorrect,
+                  fmt::format("M{} refers to coordinates, and there are none", m));
+}
+
 bool stop_block(Run& run, const Block& block) {
   const int m = block.m;
+  if (!check_no_coordinates(run, m)) return false;
   if (m != Block::kNone && !begin_m(run, m)) return false;
   if (m == 0) return end_m(run, m);  // M00 stops by itself
   if (m == 2 || m == 30) {
@@ -90,6 +98,7 @@ bool stop_block(Run& run, const Block& block) {
 }
 
 bool cycle_call(Run& run, const Block& block) {
+  if (!check_no_coordinates(run, block.m)) return false;
   if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
   run.state.cycle.is_modal_call = false;
   if (!call_cycle(run)) return false;

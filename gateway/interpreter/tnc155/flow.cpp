@@ -61,6 +61,7 @@ const LabelPlace* known_label(const State& state, ProgramIndex program, std::uin
 
 void go_to(Run& run, const TextPlace& place) {
   run.state.at = place;
+  run.state.number_due = Block::kNone;
   run.reader.seek(place);
 }
 
@@ -134,12 +135,14 @@ JumpOutcome find_program(Run& run) {
   const ProgramLookup lookup = run.reader.find(fmt::format("{}", state.jump.number));
   if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
-    run.fail_as(ErrorCode::ProgramUnavailable,
-                fmt::format("PGM {} UNAVAILABLE", state.jump.number));
+    fail_unavailable(run, state.jump.number);
     return JumpOutcome::Failed;
   }
-  state.programs.push_back(
-      {state.at, state.reading.program, static_cast<std::uint8_t>(state.labels.size())});
+  const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
+  state.programs.push_back({state.at, state.reading.program,
+                            static_cast<std::uint8_t>(state.labels.size()),
+                            is_cycle && state.cycle.is_modal_call});
+  if (is_cycle) state.cycle.is_modal_call = false;
   state.reading.program = ProgramForm{};
   TextPlace entry;
   entry.program = lookup.program;
@@ -221,6 +224,16 @@ bool call_program(Run& run, std::int32_t number) {
   return true;
 }
 
+bool call_cycle_program(Run& run, std::int32_t number) {
+  if (!refuse_in_transfer(run, "CALL PGM")) return false;
+  request(run, JumpKind::CycleProgram, number);
+  return true;
+}
+
+bool fail_unavailable(Run& run, std::int64_t number) {
+  return run.fail_as(ErrorCode::ProgramUnavailable, fmt::format("PGM {} UNAVAILABLE", number));
+}
+
 void end_program(Run& run, bool rewinds) {
   State& state = run.state;
   if (!state.programs.empty()) {
@@ -233,6 +246,7 @@ void end_program(Run& run, bool rewinds) {
       run.events().on_units({run.origin, state.units});
     }
     go_to(run, frame.back);
+    state.cycle.is_modal_call |= frame.resumes_modal_call;
     state.programs.pop_back();
     return;
   }
@@ -248,6 +262,7 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
     case JumpKind::None:
       break;
     case JumpKind::Program:
+    case JumpKind::CycleProgram:
       outcome = find_program(run);
       break;
     case JumpKind::Start:

@@ -11,8 +11,12 @@ bool meet_label(Run& run, const Block& block);
 bool call_label(Run& run, const Block& block);
 /// FN 9 to FN 12, when the condition holds.
 bool jump_to_label(Run& run, std::int32_t label);
-/// CALL PGM, %, and what cycle 12 calls.
+/// CALL PGM, %.
 bool call_program(Run& run, std::int32_t number);
+/// The call of cycle 12: M89 rests until the program is over.
+bool call_cycle_program(Run& run, std::int32_t number);
+/// PGM n UNAVAILABLE. False.
+bool fail_unavailable(Run& run, std::int64_t number);
 /// END PGM, M02, M30 and the end of the text: back to the caller, or the run is over.
 void end_program(Run& run, bool rewinds);
 

@@ -8,13 +8,17 @@
 #include "gateway/interpreter/tnc155/flow.hpp"
 #include "gateway/interpreter/tnc155/joint_ahead.hpp"
 #include "gateway/interpreter/tnc155/snapshot.hpp"
+#include "gateway/interpreter/tnc155/tools.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::tnc155 {
 TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                std::vector<ToolDefinition> tools, ProgramSource& source,
                                EventSink& sink)
-    : run_(std::move(options), source, sink), search_(source) {
+    : run_(std::move(options), source, sink),
+      search_(source),
+      calls_ahead_(source, {run_.options.iso_continuation}),
+      definitions_ahead_(source, {run_.options.iso_continuation}) {
   run_.state = std::move(state);
   run_.tools = std::move(tools);
   run_.reset_stages();
@@ -25,6 +29,11 @@ StepState TncInterpreter::step(std::uint64_t max_blocks) {
   if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
   if (is_asking_) return StepState::NeedsAnswer;
   if (!run_.is_in_block) run_.reader.forget_window();  // the owner may have used the source
+  if (!run_.state.are_calls_checked) [[unlikely]] {
+    const BlockOutcome outcome = check_calls();
+    if (outcome == BlockOutcome::NeedsText) return StepState::NeedsText;
+    if (outcome == BlockOutcome::Paused) return paused();
+  }
   for (std::uint64_t left = max_blocks; left > 0; --left) {
     if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
       const JumpOutcome outcome = take_jump(run_, search_);
@@ -38,6 +47,8 @@ StepState TncInterpreter::step(std::uint64_t max_blocks) {
         break;
       case BlockOutcome::NeedsText:
         return StepState::NeedsText;
+      case BlockOutcome::More:
+        return StepState::Ran;
       case BlockOutcome::Paused:
         return paused();
     }
@@ -70,16 +81,54 @@ TncInterpreter::BlockOutcome TncInterpreter::run_block() {
   return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }
 
-/// A corner is known from the block behind it: that block is looked at first.
-bool TncInterpreter::look_ahead() {
+/// A program that is called and not there is complained of when the run begins.
+TncInterpreter::BlockOutcome TncInterpreter::check_calls() {
+  const bool is_wanted = run_.options.checks_calls && !run_.options.blockwise_restrictions;
+  const auto outcome =
+      is_wanted ? calls_ahead_.find_missing_program() : AheadSearch::Outcome::Missing;
+  run_.reader.forget_window();
+  if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+  run_.state.are_calls_checked = true;
+  if (outcome != AheadSearch::Outcome::Found) return BlockOutcome::Finished;
+  run_.state.program_number = calls_ahead_.program().number;
+  run_.state.units = calls_ahead_.program().units;
+  place_origin(calls_ahead_.place());
+  run_.origin.sequence = calls_ahead_.block_number();
+  fail_unavailable(run_, calls_ahead_.missing_program());
+  return BlockOutcome::Paused;
+}
+
+/// A tool may be defined behind its call.
+TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
+  for (const Block& part : run_.parts) {
+    if (!needs_definition_ahead(run_, part)) continue;
+    const auto outcome = definitions_ahead_.find_tool(part.target);
+    run_.reader.forget_window();
+    if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+    if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+    if (outcome == AheadSearch::Outcome::Found) {
+      run_.definition_ahead = {definitions_ahead_.definition(), definitions_ahead_.units()};
+    }
+  }
+  return BlockOutcome::Finished;
+}
+
+/// What the block needs of the text that the run has not come to.
+TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
   peeked_joint_ = false;
   const BlockParts& parts = run_.parts;
-  if (parts.count == 0 || !is_positioning(parts.blocks[parts.count - 1])) return true;
+  if (parts.count == 0) return BlockOutcome::Finished;
+  const bool is_move = is_positioning(parts.blocks[parts.count - 1]);
+  if (!is_move || parts.count > 1) {
+    const BlockOutcome outcome = find_definition();
+    if (outcome != BlockOutcome::Finished || !is_move) return outcome;
+  }
+  // A corner is known from the block behind it: that block is looked at first.
   std::string_view next;
   const ReadState state = run_.reader.peek(run_.state.reading, next);
-  if (state == ReadState::NotYet) return false;
+  if (state == ReadState::NotYet) return BlockOutcome::NeedsText;
   peeked_joint_ = state == ReadState::Ready && is_joint(next, run_.state.reading.program.form);
-  return true;
+  return BlockOutcome::Finished;
 }
 
 /// A block whose successor has not arrived is kept, and the run stays in front of it.
@@ -105,17 +154,31 @@ TncInterpreter::BlockOutcome TncInterpreter::read() {
       run_.alarm.column = run_.reader.fault().column;
       return BlockOutcome::Paused;
   }
-  if (!look_ahead()) {
+  if (const BlockOutcome ahead = look_ahead(); ahead != BlockOutcome::Finished) {
     behind_kept_block_ = std::exchange(run_.state.reading, before);
     has_kept_block_ = true;
-    return BlockOutcome::NeedsText;
+    return ahead;
   }
+  if (run_.options.strict_numbers && !check_number()) return BlockOutcome::Paused;
   place_origin(run_.reader.block_place());
   if (run_.parts.count != 0) run_.origin.sequence = run_.parts.blocks[0].number;
   run_.state.at = run_.reader.place();
   run_.is_in_block = true;
   part_ = 0;
   return BlockOutcome::Finished;
+}
+
+/// Blocks of plain language that follow one another are numbered so.
+bool TncInterpreter::check_number() {
+  std::int32_t& due = run_.state.number_due;
+  if (run_.state.reading.program.form != Form::Plain) return true;
+  const std::int32_t number = run_.parts.blocks[0].number;
+  const std::int32_t wanted = std::exchange(due, number == Block::kNone ? 1 : number + 1);
+  if (wanted == Block::kNone || number == wanted) return true;
+  place_origin(run_.reader.block_place());
+  return run_.fail(ErrorCode::BlockNumberOrder,
+                   number == Block::kNone ? fmt::format("no number where {} was due", wanted)
+                                          : fmt::format("{} where {} was due", number, wanted));
 }
 
 /// The text ends without END PGM: as if it were there.
@@ -182,6 +245,7 @@ Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
   run_.reader.seek(run_.state.at);
   run_.is_in_block = false;
   has_kept_block_ = false;
+  run_.definition_ahead.reset();
   run_.answer.reset();
   run_.pause = Pause::None;
   is_asking_ = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gateway/interpreter/tnc155/ahead_search.hpp"
 #include "gateway/interpreter/tnc155/run.hpp"
 #include "gateway/interpreter/tnc155/text_search.hpp"
 
@@ -20,11 +21,14 @@ class TncInterpreter final : public Interpreter {
   Result<void> restore(const Snapshot& snapshot) override;
 
  private:
-  enum class BlockOutcome : std::uint8_t { Finished, NeedsText, Paused };
+  enum class BlockOutcome : std::uint8_t { Finished, NeedsText, More, Paused };
 
+  BlockOutcome check_calls();
   BlockOutcome run_block();
   BlockOutcome read();
-  bool look_ahead();
+  bool check_number();
+  BlockOutcome look_ahead();
+  BlockOutcome find_definition();
   BlockOutcome meet_end();
   bool execute_parts();
   bool finish_block();
@@ -33,6 +37,8 @@ class TncInterpreter final : public Interpreter {
 
   Run run_;
   TextSearch search_;
+  AheadSearch calls_ahead_;
+  AheadSearch definitions_ahead_;
   std::size_t part_ = 0;  ///< of the block in hand, to be done next
   bool peeked_joint_ = false;
   bool has_kept_block_ = false;  ///< read, but its successor has not arrived

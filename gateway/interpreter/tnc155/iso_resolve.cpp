@@ -100,6 +100,11 @@ class Resolver {
                       (bit(IsoGroup::Cycle) | bit(IsoGroup::Blank) | bit(IsoGroup::Probe))) > 1) {
       return wrong("two definitions in one block");
     }
+    if ((block_.m == 91 || block_.m == 92) &&
+        (block_.has(IsoGroup::Blank) || block_.has(IsoGroup::Probe) ||
+         (block_.slots & kCentreSlots) != 0)) {
+      return wrong(fmt::format("M{} is for the coordinates of a move", block_.m));
+    }
     unsigned slots = block_.slots;
     const bool has_call = has_tool_call();
     const bool has_early_m = has_call && block_.m != IsoBlock::kNone && is_at_begin(block_.m);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <bitset>
+#include <cmath>
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -32,6 +33,18 @@ const CodeSet& at_end() {
 void switch_coolant(Run& run, bool on) {
   run.state.coolant.flood = on;
   run.events().on_coolant({run.origin, on, false});
+}
+
+/// M94: whole turns are taken off what a rotary axis shows. The axis stands where it stood, so the
+/// datum moves by them.
+void reduce_rotary_axes(State& state) {
+  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double turns = std::trunc(state.nominal[i] / 360) * 360;
+    state.nominal[i] -= turns;
+    state.transformation.datum[i] += turns;
+  }
+  state.transformation.update();
 }
 
 /// Coded speeds: the next of the table.
@@ -102,6 +115,9 @@ bool begin_m(Run& run, int m) {
     case 14:
       turn_spindle(run, SpindleState::CounterClockwise);
       switch_coolant(run, true);
+      return true;
+    case 94:
+      reduce_rotary_axes(run.state);
       return true;
     case 89:
       if (!run.options.m89_modal) run.events().on_miscellaneous({run.origin, m});

@@ -9,11 +9,11 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-std::string length_text(Length length, Units units) {
+std::string length_text(Length length, Units units, char decimal_sign) {
   const bool is_inch = units == Units::Inch;
   std::string text =
       is_inch ? fmt::format("{:+.4f}", length.inch()) : fmt::format("{:+.3f}", length.mm());
-  std::ranges::replace(text, '.', ',');
+  std::ranges::replace(text, '.', decimal_sign);
   return text;
 }
 
@@ -109,7 +109,8 @@ Result<ToolRecord> read_tool(std::string_view line, Units units) {
 
 }  // namespace
 
-Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units) {
+Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units,
+                                     char decimal_sign) {
   if (tools.size() > kMostStoredTools) {
     return fail(Errc::LimitExceeded, "{} tools: the store has {}", tools.size(), kMostStoredTools);
   }
@@ -122,8 +123,8 @@ Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units
     }
     text += fmt::format("T{} {}P{} L{} R{}\r\n", tool.number, tool.is_special ? "S" : "",
                         tool.pocket ? std::to_string(*tool.pocket) : "",
-                        length_text(tool.length.linear(Axis::Z), units),
-                        length_text(tool.radius, units));
+                        length_text(tool.length.linear(Axis::Z), units, decimal_sign),
+                        length_text(tool.radius, units, decimal_sign));
   }
   return text + fmt::format("{} END PGM 0 {}\r\n", tools.size() + 1, unit);
 }
@@ -150,8 +151,7 @@ Result<std::vector<ToolRecord>> read_tool_store(std::string_view text) {
 
 std::string write_machine_parameters(const MachineParameters& parameters) {
   std::string text;
-  for (const auto& [number, value] : parameters)
-    text += fmt::format("MP{}: {}\r\n", number, value);
+  for (const auto& [number, value] : parameters) text += fmt::format("MP{}: {}\r\n", number, value);
   return text;
 }
 

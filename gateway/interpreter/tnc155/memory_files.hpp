@@ -17,7 +17,8 @@ inline constexpr int kLastMachineParameter = 236;
 
 /// BEGIN PGM 0, a line a tool (T, pocket P, an S before it for a special tool, L, R), END PGM 0.
 /// Errors: LimitExceeded (more than 99 tools, a number that is not 1 to 99).
-Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units);
+Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units,
+                                     char decimal_sign = ',');
 /// Errors: Syntax, LimitExceeded; with the line.
 Result<std::vector<ToolRecord>> read_tool_store(std::string_view text);
 

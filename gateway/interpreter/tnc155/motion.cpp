@@ -13,9 +13,8 @@ bool is_machine_block(const Block& block) {
   return block.m == 91 || block.m == 92;
 }
 
-/// M91, M92: the block's words are machine coordinates, and nothing else changes them.
-bool run_machine_block(Run& run, const Block& block) {
-  if (!read_feed(run, block)) return false;
+/// Where the words of such a block lead: machine coordinates.
+Target machine_target(const Run& run, const Block& block) {
   Target target;
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     const Coordinate& word = block.coordinates[i];
@@ -27,6 +26,22 @@ bool run_machine_block(Run& run, const Block& block) {
     }
     target.set(word.axis, value);
   }
+  return target;
+}
+
+/// M91, M92: the block's words are machine coordinates, and nothing else changes them.
+bool run_machine_block(Run& run, const Block& block) {
+  const State& state = run.state;
+  if (block.coordinate_count == 0) {
+    return run.fail(ErrorCode::BlockFormatIncorrect,
+                    fmt::format("M{} refers to coordinates, and there are none", block.m));
+  }
+  if (block.compensation > Compensation::Off && block.compensation != state.compensation) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                    fmt::format("M{} moves without radius compensation", block.m));
+  }
+  if (!read_feed(run, block)) return false;
+  const Target target = machine_target(run, block);
   Pace pace;
   if (!pace_of(run, block, pace)) return false;
   if (block.compensation == Compensation::Off) {
@@ -41,17 +56,39 @@ bool run_machine_block(Run& run, const Block& block) {
   return true;
 }
 
-/// M94: whole turns are taken off what a rotary axis shows.
-void reduce_rotary_axes(State& state) {
-  for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
-    const auto i = static_cast<std::size_t>(axis);
-    const double turns = std::trunc(state.nominal[i] / 360) * 360;
-    if (turns == 0) continue;
-    state.nominal[i] -= turns;
-    const bool has = state.machine.has(axis);
-    state.machine.set_raw(axis, state.machine.raw(axis) - turns);
-    if (!has) state.machine.unmark(axis);
+/// PR and PA count from CC, which is no machine coordinate.
+bool refuse_machine_block(Run& run, const Block& block) {
+  if (!is_machine_block(block)) [[likely]]
+    return true;
+  return run.fail(ErrorCode::BlockFormatIncorrect,
+                  fmt::format("M{} is for Cartesian coordinates", block.m));
+}
+
+/// The end of an arc: its words are program coordinates, or machine coordinates brought there.
+bool read_arc_end(Run& run, const Block& block, Target& target) {
+  if (!is_machine_block(block)) [[likely]] {
+    read_coordinates(run, block, target);
+    return true;
   }
+  const State& state = run.state;
+  if (state.is_compensating() || state.is_parallel || block.compensation > Compensation::Off) {
+    return run.fail(ErrorCode::PathOffsetWronglyStarted,
+                    fmt::format("M{} moves without radius compensation, and a contour neither "
+                                "begins nor ends with an arc",
+                                block.m));
+  }
+  const Target wanted = machine_target(run, block);
+  AxisValues machine{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const bool is_named = (wanted.named >> i & 1u) != 0;
+    machine[i] = is_named ? wanted.at[i] : state.machine.raw(static_cast<Axis>(i));
+  }
+  const AxisValues program = state.transformation.to_program(machine);
+  target.named = wanted.named;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (state.transformation.is_special || (wanted.named >> i & 1u) != 0) target.at[i] = program[i];
+  }
+  return true;
 }
 
 /// After GOTO the first positioning has to be told by itself alone.
@@ -72,13 +109,23 @@ bool check_restart(Run& run, const Block& block, const Target& target) {
 
 bool go_straight(Run& run, const Block& block, const Target& target) {
   State& state = run.state;
-  if (!check_restart(run, block, target) || !read_feed(run, block)) return false;
+  if (target.named != 0 && !check_restart(run, block, target)) return false;
+  if (!read_feed(run, block)) return false;
   const PlaneMove move = plane_move(state, target);
   Pace pace;
   if (target.named != 0 && !pace_of(run, block, pace)) return false;
   if (!begin_move(run, block, move)) return false;
   line_to(run, target, pace);
   return finish_move(run, block, move);
+}
+
+/// A block without coordinates: its compensation, its feed and its M; no element of a contour.
+bool run_tail(Run& run, const Block& block, const Target& target) {
+  LastMove last = run.state.last;
+  if (!go_straight(run, block, target)) return false;
+  last.is_single_offset = false;
+  run.state.last = last;
+  return true;
 }
 
 /// Angle in degrees from `from` to `to` the way `turn` goes, in (0, 360].
@@ -129,16 +176,17 @@ bool check_radii(Run& run, PlaneVector start, PlaneVector end) {
 bool run_line(Run& run, const Block& block) {
   if (is_machine_block(block)) [[unlikely]]
     return run_machine_block(run, block);
-  if (block.m == 94) [[unlikely]]
-    reduce_rotary_axes(run.state);
   Target target = here(run.state);
   read_coordinates(run, block, target);
+  if (block.coordinate_count == 0) [[unlikely]]
+    return run_tail(run, block, target);
   run.state.polar.is_current = false;
   return go_straight(run, block, target);
 }
 
 bool run_polar_line(Run& run, const Block& block) {
   Target target = here(run.state);
+  if (!refuse_machine_block(run, block)) return false;
   if (!has_pole(run) || !read_polar(run, block, target)) return false;
   return go_straight(run, block, target);
 }
@@ -149,7 +197,7 @@ bool run_arc(Run& run, const Block& block) {
   if (!has_pole(run)) return false;
   ArcTarget arc;
   arc.to = here(state);
-  read_coordinates(run, block, arc.to);
+  if (!read_arc_end(run, block, arc.to)) return false;
   const bool has_both = names_plane(state, arc.to);
   name_plane(state, arc.to);
   arc.centre = pole_in_plane(state);
@@ -165,7 +213,7 @@ bool run_arc(Run& run, const Block& block) {
 
 bool run_polar_arc(Run& run, const Block& block) {
   State& state = run.state;
-  if (!has_pole(run)) return false;
+  if (!refuse_machine_block(run, block) || !has_pole(run)) return false;
   ArcTarget arc;
   arc.to = here(state);
   read_coordinates(run, block, arc.to);
@@ -196,7 +244,7 @@ bool run_tangent_arc(Run& run, const Block& block) {
   const LastMove& last = state.last;
   ArcTarget arc;
   arc.to = here(state);
-  read_coordinates(run, block, arc.to);
+  if (!read_arc_end(run, block, arc.to)) return false;
   if (!last.exists) {
     return run.fail(ErrorCode::CircleEndIncorrect, "no element before CT");
   }
@@ -228,7 +276,6 @@ bool run_tangent_arc(Run& run, const Block& block) {
 bool run_single_axis(Run& run, const Block& block) {
   if (is_machine_block(block)) return run_machine_block(run, block);
   State& state = run.state;
-  if (block.m == 94) reduce_rotary_axes(state);
   if (block.coordinate_count == 0) return read_feed(run, block);
   const Axis axis = block.coordinates[0].axis;
   Target target = here(state);

@@ -78,6 +78,12 @@ Result<std::vector<double>> read_speeds(const Options& options) {
 
 }  // namespace
 
+Result<char> decimal_sign_of(const Options& options) {
+  const auto choice = options.choice("decimal_sign", {"comma", "point"}, 0);
+  if (!choice) return fail(choice.error());
+  return *choice == 0 ? ',' : '.';
+}
+
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   auto known = options.check_known({"probe_clearance",  "probe_travel",
@@ -92,7 +98,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "spindle_maximum",  "rotary_feed",
                                     "circle_tolerance", "fourth_axis",
                                     "limit_low",        "limit_high",
-                                    "m92_position",     "start_block"});
+                                    "m92_position",     "start_block",
+                                    "program_check"});
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
@@ -108,10 +115,12 @@ Result<ControlOptions> read_options(const Setup& setup) {
   reader.flag("blockwise_restrictions", read.blockwise_restrictions);
   reader.flag("cancel_transformations", read.cancels_transformations);
   reader.flag("scale_three_axes", read.scales_three_axes);
-  reader.choice("decimal_sign", {"comma", "point"}, 0);  // of written programs: the converter's
-  reader.choice("heading_letter", {"%", "H"}, 0);        // of the line's protocol
-  bool strict_numbers = false;
-  reader.flag("strict_numbers", strict_numbers);
+  reader.choice("heading_letter", {"%", "H"}, 0);  // the line's: its setting `heading` says it
+  reader.flag("strict_numbers", read.strict_numbers);
+  const auto sign = decimal_sign_of(options);
+  if (!sign) return fail(sign.error());
+  read.decimal_sign = *sign;
+  read.checks_calls = reader.choice("program_check", {"start", "call"}, 0) == 0;
   read.spindle_coded = reader.choice("spindle", {"analogue", "coded"}, 0) == 1;
   reader.number("spindle_minimum", read.spindle_minimum);
   reader.number("spindle_maximum", read.spindle_maximum);

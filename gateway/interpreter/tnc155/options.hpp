@@ -21,7 +21,10 @@ struct ControlOptions {
   bool m06_stop = false;      ///< M06 stops the program
   bool central_tool_file = false;
   bool iso_continuation = true;
-  bool blockwise_restrictions = false;  ///< no calls, repeats and jumps
+  bool blockwise_restrictions = false;  ///< no calls, repeats and jumps, no tool but the last one
+  bool checks_calls = true;             ///< programs that are called must be there at the start
+  bool strict_numbers = false;          ///< blocks of plain language are numbered without gaps
+  char decimal_sign = ',';              ///< of texts that are written
   bool cancels_transformations = true;  ///< M02, M30 and END PGM do (MP 173)
   bool scales_three_axes = true;        ///< cycle 11: all main axes, else those of the plane
 
@@ -43,5 +46,8 @@ struct ControlOptions {
 
 /// Errors: Syntax, Unsupported; naming the option.
 Result<ControlOptions> read_options(const Setup& setup);
+
+/// `decimal_sign` alone, of options that may be another control's besides. Errors: Syntax.
+Result<char> decimal_sign_of(const Options& options);
 
 }  // namespace dripline::interpreter::tnc155

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include "gateway/interpreter/tnc155/conversion_parts.hpp"
-#include "gateway/interpreter/tnc155/cycle_names.hpp"
-#include "gateway/interpreter/tnc155/iso_axes.hpp"
-#include "gateway/interpreter/tnc155/iso_cycles.hpp"
+#include "gateway/interpreter/tnc155/cycle_to_iso.hpp"
+#include "gateway/interpreter/tnc155/iso_words.hpp"
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -14,10 +13,6 @@ struct KnownModes {
   int motion = IsoBlock::kNone;
   Distance distance = Distance::AsBefore;
 };
-
-Value whole(std::int32_t number) {
-  return Value::steps(number * Value::kStepsPerUnit);
-}
 
 class PlainToIso {
  public:
@@ -64,6 +59,8 @@ class PlainToIso {
 
   Result<void> convert(const Block& block, const CompensationTrack& track) {
     if (is_flow(block) || is_move(block)) make_start_complete(block);
+    has_flow_ |= is_flow(block);
+    if (auto checked = check_tool_call(block); !checked) return checked;
     switch (block.kind) {
       case BlockKind::Begin:
       case BlockKind::End:
@@ -112,8 +109,8 @@ class PlainToIso {
     return is_path(block) || block.kind == BlockKind::SingleAxis;
   }
 
-  /// ISO presets nothing: the plane comes from the first tool call or blank form, and what runs
-  /// first has a compensation.
+  /// ISO presets nothing: what runs first has a plane, the one that plain language begins in, and a
+  /// compensation.
   void make_start_complete(const Block& block) {
     if (has_start_) return;
     has_start_ = true;
@@ -121,20 +118,19 @@ class PlainToIso {
         is_flow(block) || block.compensation == Compensation::NotProgrammed;
     if (has_plane_ && !needs_compensation) return;
     IsoBlock start;
-    if (!has_plane_) start.set(IsoGroup::Plane, first_plane());
+    has_own_plane_ = has_plane_;
+    if (!has_plane_) start.set(IsoGroup::Plane, kFirstPlane);
     if (needs_compensation) start.set(IsoGroup::Compensation, 40);
     if (increment_ > 0) start.number = number_ += increment_;
     write_iso_block(start, options_.layout, text_);
   }
-  std::uint8_t first_plane() const {
-    for (const Block& block : blocks_) {
-      const bool names_axis =
-          block.kind == BlockKind::ToolCall || block.kind == BlockKind::BlankForm;
-      if (names_axis && block.axis && plane_of_axis(*block.axis))
-        return *plane_of_axis(*block.axis);
-      if (names_axis && block.is_fourth_axis) return 20;
-    }
-    return 17;
+  /// The plane we say counts as a tool call in ISO, and there is none in the program.
+  Result<void> check_tool_call(const Block& block) const {
+    const bool is_call = block.kind == BlockKind::CycleCall || block.m == 99 || block.m == 89;
+    const bool is_mirror = block.kind == BlockKind::CycleDefinition && block.cycle == 8;
+    if (has_own_plane_ || !(is_call || is_mirror || block.kind == BlockKind::Probe)) return {};
+    return refuse(
+        "this needs a TOOL CALL with the spindle axis before all moves, labels and calls");
   }
 
   Result<void> convert_tool_definition(const Block& block) {
@@ -160,6 +156,7 @@ class PlainToIso {
       iso_.set(IsoGroup::Plane, *plane);
     }
     has_plane_ |= iso_.has(IsoGroup::Plane);
+    has_own_plane_ |= iso_.has(IsoGroup::Plane) && !has_flow_;
     return put();
   }
 
@@ -184,7 +181,8 @@ class PlainToIso {
     for (std::size_t i = 0; i < block.coordinate_count; ++i) {
       const Coordinate& coordinate = block.coordinates[i];
       if (coordinate.axis > Axis::Z) return refuse("CC with this axis has no counterpart in ISO");
-      set_slot(static_cast<IsoSlot>(coordinate.axis), coordinate.value, coordinate.is_incremental);
+      set_slot(iso_, static_cast<IsoSlot>(coordinate.axis), coordinate.value,
+               coordinate.is_incremental);
     }
     sort_distances();
     return put();
@@ -206,94 +204,27 @@ class PlainToIso {
     return blocks_.front().kind == BlockKind::Begin ? blocks_.front().target : Block::kNone;
   }
 
-  void set_parameter(std::size_t number, const IsoParameter& parameter) {
-    iso_.parameters = static_cast<std::uint8_t>(iso_.parameters | 1u << number);
-    iso_.cycle[number] = parameter;
-  }
-
   Result<void> convert_function(const Block& block) {
     const bool is_jump = block.function >= 9;
     iso_.function = static_cast<std::int8_t>(block.function);
     if (!is_jump) iso_.parameter = block.target;
-    set_parameter(1, {block.first, {}, {}});
-    if (block.second.is_programmed()) set_parameter(2, {block.second, {}, {}});
-    if (is_jump) set_parameter(3, {whole(block.target), {}, {}});
+    set_parameter(iso_, 1, {block.first, {}, {}});
+    if (block.second.is_programmed()) set_parameter(iso_, 2, {block.second, {}, {}});
+    if (is_jump) set_parameter(iso_, 3, {whole(block.target), {}, {}});
     return put();
   }
 
   /// The sub-blocks that follow one another, as one block.
   Result<void> convert_cycle(const Block& first) {
-    const auto rows = cycle_parts(first.cycle);
-    std::size_t count = 0;
-    while (at_ + count < blocks_.size() && count < rows.size()) {
-      const Block& part = blocks_[at_ + count];
-      if (part.kind != BlockKind::CycleDefinition || part.cycle != first.cycle ||
-          part.part != count) {
-        break;
-      }
-      ++count;
+    const auto rest = std::span(blocks_).subspan(at_);
+    const std::size_t count = definition_length(rest);
+    if (count == 0) return refuse("CYCL INCOMPLETE: the sub-blocks of the cycle are not complete");
+    if (!add_definition_words(rest.first(count), iso_)) {
+      return refuse("CYCL DEF 7 names an axis twice");
     }
-    const std::size_t least = first.cycle == 7 ? 2 : rows.size();
-    if (count < least)
-      return refuse("CYCL INCOMPLETE: the sub-blocks of the cycle are not complete");
-    std::optional<Turn> turn;
-    next_parameter_ = 1;
-    for (std::size_t i = 1; i < count; ++i) {
-      const Block& part = blocks_[at_ + i];
-      if (part.turn) turn = part.turn;
-      take_cycle_part(part, rows[i].field);
-    }
-    const int code = code_of_cycle(first.cycle, turn);
-    iso_.set(IsoGroup::Cycle, static_cast<std::uint8_t>(code));
     calls_programs_ |= first.cycle == 12;
     sort_distances();
-    return check_shift() ? put(count) : refuse("CYCL DEF 7 names an axis twice");
-  }
-
-  bool check_shift() const { return !is_slot_twice_; }
-
-  void add_parameter(const Value& value, std::optional<Axis> axis = {}) {
-    set_parameter(next_parameter_++, {value, axis, {}});
-  }
-
-  void take_cycle_part(const Block& part, CycleField field) {
-    switch (field) {
-      case CycleField::Length:
-        return add_parameter(part.first);
-      case CycleField::Dwell:
-        if (part.cycle == 9) {
-          iso_.feed = part.first;
-          return;
-        }
-        return add_parameter(part.first);
-      case CycleField::Feed:
-      case CycleField::FeedTurn:
-        return add_parameter(part.feed);
-      case CycleField::Peck:
-        add_parameter(part.first);
-        return add_parameter(part.feed);
-      case CycleField::Radius:
-        return add_parameter(part.radius);
-      case CycleField::Side:
-        return add_parameter(part.coordinates[0].value, part.coordinates[0].axis);
-      case CycleField::Program:
-        return add_parameter(whole(part.target));
-      case CycleField::Shift:
-        return set_slot(slot_of_axis(part.coordinates[0].axis), part.coordinates[0].value,
-                        part.coordinates[0].is_incremental);
-      case CycleField::Axes:
-        for (std::size_t i = 0; i < part.coordinate_count; ++i) {
-          iso_.set(slot_of_axis(part.coordinates[i].axis), {}, Distance::AsBefore);
-        }
-        return;
-      case CycleField::Rotation:
-        return set_slot(IsoSlot::H, part.angle, part.is_angle_incremental);
-      case CycleField::Scale:
-        iso_.factor = part.factor;
-        return;
-      case CycleField::Name:
-        return;
-    }
+    return put(count);
   }
 
   Result<void> convert_blank(const Block& block) {
@@ -303,7 +234,7 @@ class PlainToIso {
       if (!plane_of_axis(axis)) return refuse("BLK FORM with this axis has no counterpart in ISO");
       iso_.set(IsoGroup::Plane, *plane_of_axis(axis));
     }
-    set_coordinates(block);
+    set_coordinates(iso_, block);
     sort_distances();
     return put();
   }
@@ -314,10 +245,10 @@ class PlainToIso {
     if (block.part != 0 || !has_point)
       return refuse("TCH PROBE 0.0 and 0.1 do not follow one another");
     iso_.set(IsoGroup::Probe, 55);
-    set_parameter(1, {whole(block.target), {}, {}});
-    set_parameter(2, {{}, block.axis, block.direction});
-    set_parameter(3, {});
-    set_coordinates(blocks_[at_ + 1]);
+    set_parameter(iso_, 1, {whole(block.target), {}, {}});
+    set_parameter(iso_, 2, {{}, block.axis, block.direction});
+    set_parameter(iso_, 3, {});
+    set_coordinates(iso_, blocks_[at_ + 1]);
     sort_distances();
     return put(2);
   }
@@ -338,11 +269,12 @@ class PlainToIso {
       iso_.set(IsoGroup::Compensation,
                static_cast<std::uint8_t>(static_cast<int>(block.compensation) + 39));
     }
-    set_coordinates(block);
+    set_coordinates(iso_, block);
     if (block.radius.is_programmed()) {
-      set_slot(IsoSlot::R, block.radius, block.is_radius_incremental);
+      set_slot(iso_, IsoSlot::R, block.radius, block.is_radius_incremental);
     }
-    if (block.angle.is_programmed()) set_slot(IsoSlot::H, block.angle, block.is_angle_incremental);
+    if (block.angle.is_programmed())
+      set_slot(iso_, IsoSlot::H, block.angle, block.is_angle_incremental);
     iso_.feed = block.feed;
     iso_.m = block.m;
     sort_distances();
@@ -369,17 +301,6 @@ class PlainToIso {
     }
   }
 
-  void set_coordinates(const Block& block) {
-    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-      const Coordinate& coordinate = block.coordinates[i];
-      set_slot(slot_of_axis(coordinate.axis), coordinate.value, coordinate.is_incremental);
-    }
-  }
-  void set_slot(IsoSlot slot, const Value& value, bool is_incremental) {
-    is_slot_twice_ |= iso_.has(slot);
-    iso_.set(slot, value, is_incremental ? Distance::Incremental : Distance::Absolute);
-  }
-
   /// G90 and G91 only where they change something. Words of what is in force come first in the
   /// block, so the rest must say theirs.
   void sort_distances() {
@@ -397,6 +318,7 @@ class PlainToIso {
   }
 
   static constexpr std::int32_t kLastNumber = 9'999;
+  static constexpr std::uint8_t kFirstPlane = 17;
   static constexpr std::size_t kMostNumber = 65'000;
   const PlainProgram& program_;
   const std::vector<Block>& blocks_;
@@ -405,11 +327,11 @@ class PlainToIso {
   std::int32_t number_ = 0;
   std::size_t at_ = 0;
   std::size_t begin_pass_ = 0;
-  std::size_t next_parameter_ = 1;
   bool has_start_ = false;
   bool has_plane_ = false;
+  bool has_own_plane_ = true;  ///< the program's; else the one we said
+  bool has_flow_ = false;
   bool calls_programs_ = false;
-  bool is_slot_twice_ = false;
   KnownModes known_;
   IsoBlock iso_;
   std::string text_;

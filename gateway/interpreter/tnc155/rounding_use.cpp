@@ -1,6 +1,33 @@
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
 
 namespace dripline::interpreter::tnc155 {
+namespace {
+
+/// Cycles 7, 8, 10 and 11 end a contour with their second sub-block.
+bool is_transformation(const Block& block) {
+  const bool is_one =
+      block.cycle == 7 || block.cycle == 8 || block.cycle == 10 || block.cycle == 11;
+  return is_one && block.part > 0;
+}
+
+/// The axis across the plane that tools of the called axis work in.
+std::optional<Axis> normal_of(const Block& call) {
+  if (call.is_fourth_axis) return std::nullopt;
+  switch (*call.axis) {
+    case Axis::X:
+    case Axis::U:
+    case Axis::A:
+      return Axis::X;
+    case Axis::Y:
+    case Axis::V:
+    case Axis::B:
+      return Axis::Y;
+    default:
+      return Axis::Z;
+  }
+}
+
+}  // namespace
 
 bool is_path(const Block& block) {
   switch (block.kind) {
@@ -24,23 +51,65 @@ bool is_flow(const Block& block) {
 
 void CompensationTrack::pass(const Block& block) {
   if (is_flow(block)) {
-    state_ = State::Unknown;
+    is_on_ = is_begun_ = is_first_ = Answer::Unknown;
     return;
   }
-  if (block.kind == BlockKind::ToolCall || block.kind == BlockKind::Begin) state_ = State::Off;
-  if (!is_path(block) && block.kind != BlockKind::Line) return;
-  before_last_move_ = state_;
-  if (block.compensation == Compensation::Off) state_ = State::Off;
-  if (block.compensation == Compensation::Left || block.compensation == Compensation::Right) {
-    state_ = State::On;
+  switch (block.kind) {
+    case BlockKind::Begin:
+      return end();
+    case BlockKind::ToolCall:
+      if (block.axis || block.is_fourth_axis) normal_ = normal_of(block);
+      if (block.axis || block.is_fourth_axis || block.target != Block::kNone) end();
+      return;
+    case BlockKind::CycleDefinition:
+      if (is_transformation(block)) end();
+      return;
+    case BlockKind::SingleAxis:
+      if (block.compensation != Compensation::NotProgrammed) end();
+      return;
+    default:
+      break;
   }
-  if (block.m == 98) state_ = State::Off;
+  if (is_path(block) || block.kind == BlockKind::Line) pass_move(block);
+}
+
+void CompensationTrack::end() {
+  is_on_ = is_begun_ = is_first_ = Answer::No;
+}
+
+void CompensationTrack::pass_move(const Block& block) {
+  if (block.compensation == Compensation::Off) end();
+  if (block.m == 91 || block.m == 92) return;  // moves without compensation
+  if (block.compensation == Compensation::Left || block.compensation == Compensation::Right) {
+    if (is_on_ == Answer::No) is_begun_ = Answer::Yes;
+    is_on_ = Answer::Yes;
+  }
+  const Answer names = names_plane(block);
+  is_first_ = names == Answer::Yes ? is_begun_ : Answer::No;
+  if (names == Answer::Yes) is_begun_ = Answer::No;
+  if (names == Answer::Unknown && is_begun_ == Answer::Yes) {
+    is_first_ = is_begun_ = Answer::Unknown;
+  }
+  if (block.m == 98) end();
+}
+
+CompensationTrack::Answer CompensationTrack::names_plane(const Block& block) const {
+  if (block.kind != BlockKind::Line) return Answer::Yes;
+  int known = 0;
+  int all = 0;
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    const Axis axis = block.coordinates[i].axis;
+    all += axis <= Axis::Z ? 1 : 0;
+    known += axis <= Axis::Z && axis != normal_ ? 1 : 0;
+  }
+  if (normal_) return known > 0 ? Answer::Yes : Answer::No;
+  return all == 0 ? Answer::No : all == 1 ? Answer::Unknown : Answer::Yes;
 }
 
 RoundingUse CompensationTrack::use_of(std::span<const Block> blocks, std::size_t at) const {
-  if (state_ == State::Off) return RoundingUse::Corner;
-  if (state_ == State::Unknown || before_last_move_ == State::Unknown) return RoundingUse::Unstated;
-  if (before_last_move_ == State::Off) return RoundingUse::RunOn;
+  if (is_on_ == Answer::No) return RoundingUse::Corner;
+  if (is_on_ == Answer::Unknown || is_first_ == Answer::Unknown) return RoundingUse::Unstated;
+  if (is_first_ == Answer::Yes) return RoundingUse::RunOn;
   for (std::size_t next = at + 1; next < blocks.size(); ++next) {
     if (is_flow(blocks[next]) && blocks[next].kind != BlockKind::Label) break;
     if (!is_path(blocks[next])) continue;

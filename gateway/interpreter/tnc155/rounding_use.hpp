@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "gateway/interpreter/tnc155/block.hpp"
@@ -18,9 +19,16 @@ class CompensationTrack {
   RoundingUse use_of(std::span<const Block> blocks, std::size_t at) const;
 
  private:
-  enum class State : std::uint8_t { Off, On, Unknown };
-  State state_ = State::Off;
-  State before_last_move_ = State::Off;
+  enum class Answer : std::uint8_t { No, Yes, Unknown };
+
+  void end();
+  void pass_move(const Block& block);
+  Answer names_plane(const Block& block) const;
+
+  Answer is_on_ = Answer::No;     ///< RL or RR is in force
+  Answer is_begun_ = Answer::No;  ///< since then no block has named a coordinate of the plane
+  Answer is_first_ = Answer::No;  ///< the last block was the first one to do so
+  std::optional<Axis> normal_ = Axis::Z;  ///< of the plane; none: axis IV, whichever that is
 };
 
 /// L, LP, C, CP, CT with coordinates.

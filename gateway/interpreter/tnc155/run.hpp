@@ -23,6 +23,12 @@ struct LimitReached {
   bool is_positive = false;
 };
 
+/// A TOOL DEF the run has not come to, and the units of its program.
+struct DefinitionAhead {
+  Block block;
+  Units units = Units::Millimetre;
+};
+
 /// One run: what the files of this folder work on. Functions that can not go on give false and
 /// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
 /// that thing is done again once the answer is there.
@@ -79,7 +85,8 @@ struct Run {
   joining::Joiner joiner;
   BlockReader reader;
   State state;
-  std::vector<ToolDefinition> tools;  ///< of the setup: the central tool file
+  std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
+  std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL in hand
 
   BlockParts parts;             ///< of the block in hand
   bool is_in_block = false;     ///< read, and not finished

@@ -88,7 +88,7 @@ template <class Archive>
 void visit(Archive& archive, ProgramFrame& frame) {
   visit(archive, frame.back);
   visit(archive, frame.form);
-  archive(frame.label_base);
+  visit_all(archive, frame.label_base, frame.resumes_modal_call);
 }
 template <class Archive>
 void visit(Archive& archive, LabelPlace& label) {
@@ -131,10 +131,11 @@ void visit_transformation(Archive& archive, Transformation& transformation) {
 template <class Archive>
 void visit_contour(Archive& archive, State& state) {
   up_to(archive, state.compensation, Compensation::Shorter);
-  visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.has_compensated);
+  visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.has_compensated,
+            state.awaits_contour);
   Joint& joint = state.joint;
   up_to(archive, joint.kind, JointKind::RunOff);
-  archive(joint.is_stated);
+  visit_all(archive, joint.is_stated, joint.is_lost);
   visit(archive, joint.size);
   visit(archive, joint.origin);
   LastMove& last = state.last;
@@ -182,7 +183,8 @@ void visit_flow(Archive& archive, State& state) {
 template <class Archive>
 void visit_state(Archive& archive, State& state) {
   up_to(archive, state.phase, RunPhase::Alarmed);
-  visit_all(archive, state.has_header, state.blocks, state.program_number);
+  visit_all(archive, state.has_header, state.are_calls_checked, state.blocks, state.number_due,
+            state.program_number);
   visit(archive, state.at);
   visit_reading(archive, state.reading);
   up_to(archive, state.units, Units::Millimetre);

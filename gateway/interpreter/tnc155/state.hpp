@@ -62,6 +62,7 @@ struct ProgramFrame {
   TextPlace back;
   ProgramForm form;  ///< of the caller
   std::uint8_t label_base = 0;
+  bool resumes_modal_call = false;  ///< M89 rests while this program of a cycle runs
 };
 struct LabelPlace {
   ProgramIndex program = kMainProgram;
@@ -70,7 +71,15 @@ struct LabelPlace {
 };
 
 /// A jump that needs text of another place; taken before the next block.
-enum class JumpKind : std::uint8_t { None, Label, Subprogram, Repeat, Program, Start };
+enum class JumpKind : std::uint8_t {
+  None,
+  Label,
+  Subprogram,
+  Repeat,
+  Program,
+  CycleProgram,
+  Start,
+};
 struct Jump {
   JumpKind kind = JumpKind::None;
   std::uint32_t number = 0;
@@ -96,6 +105,7 @@ enum class JointKind : std::uint8_t { None, Round, Chamfer, RunOn, RunOff };
 struct Joint {
   JointKind kind = JointKind::None;
   bool is_stated = false;  ///< G25: a corner and nothing else
+  bool is_lost = false;    ///< the contour ended before the move that it joins
   double size = 0;
   Origin origin;
 };
@@ -117,8 +127,10 @@ struct PolarData {
 struct State {
   RunPhase phase = RunPhase::Running;
   bool has_header = false;
+  bool are_calls_checked = false;  ///< the programs that are called are there
   std::uint64_t blocks = 0;
-  TextPlace at;  ///< the next block
+  TextPlace at;                            ///< the next block
+  std::int32_t number_due = Block::kNone;  ///< its number, where that is known
   ReadingState reading;
   std::int64_t program_number = -1;  ///< of the program that was started
   Units units = Units::Millimetre;
@@ -129,7 +141,7 @@ struct State {
 
   Plane plane = Plane::XY;
   ActiveTool tool;
-  std::vector<ToolDefinition> definitions;  ///< executed in this run
+  std::vector<ToolDefinition> definitions;  ///< executed in this run; the last one last
   SpindleModes spindle;
   CoolantModes coolant;
   double feed = 0;  ///< millimetres or degrees per minute; 0: none yet
@@ -139,6 +151,7 @@ struct State {
   bool joins = false;            ///< moves pass the corner stage: one waits there
   bool is_parallel = false;      ///< after M98: compensation has to be programmed anew
   bool has_compensated = false;  ///< a contour was started in this run
+  bool awaits_contour = false;   ///< RL or RR is on, and no block in the plane has followed
   Joint joint;
   LastMove last;
   std::array<double, 3> pole{};  ///< X, Y, Z; program coordinates

@@ -97,6 +97,7 @@ PlaneMove plane_move(const State& state, const Target& target) {
   const PlaneAxes axes = axes_of(state.plane);
   PlaneMove move;
   const AxisMask both = static_cast<AxisMask>(bit(axes.first) | bit(axes.second));
+  move.has_any = (target.named & both) != 0;
   move.has_both = (target.named & both) == both;
   move.has_third = (target.named & ~both) != 0;
   move.from = nominal_in_plane(state);

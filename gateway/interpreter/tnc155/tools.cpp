@@ -31,17 +31,53 @@ Plane plane_of(Axis axis) {
   }
 }
 
+/// In the order in which the control looks: its tool file, what the run has defined, what was there
+/// before.
+const ToolData* find_data(const Run& run, int number) {
+  const ToolData* data = run.options.central_tool_file ? find(run.tools, number) : nullptr;
+  if (data == nullptr) data = find(run.state.definitions, number);
+  return data != nullptr ? data : find(run.tools, number);
+}
+
+/// As the tool defined last.
+void keep_definition(State& state, const ToolDefinition& tool) {
+  std::erase_if(state.definitions,
+                [&](const ToolDefinition& known) { return known.number == tool.number; });
+  state.definitions.push_back(tool);
+}
+
+/// TOOL DEF further on in the text, with what its Q parameters hold now.
+void take_definition_ahead(Run& run, int number) {
+  const auto& ahead = run.definition_ahead;
+  if (!ahead || ahead->block.target != number) return;
+  const double unit = ahead->units == Units::Inch ? Length::kMillimetresPerInch : 1;
+  const ToolData data{run.number(ahead->block.length) * unit,
+                      run.number(ahead->block.radius) * unit};
+  keep_definition(run.state, {static_cast<std::uint8_t>(number), data});
+}
+
+/// Blockwise transfer keeps no blocks: only the tool defined last is there, but for the tool file.
+bool refuse_in_transfer(Run& run, int number) {
+  const auto& definitions = run.state.definitions;
+  if (!run.options.blockwise_restrictions || run.options.central_tool_file || definitions.empty() ||
+      definitions.back().number == number) {
+    return true;
+  }
+  return run.fail(
+      ErrorCode::NotInBlockwiseTransfer,
+      fmt::format("TOOL CALL {}, the tool defined last is {}", number, definitions.back().number));
+}
+
 bool choose(Run& run, int number) {
-  State& state = run.state;
-  ActiveTool& tool = state.tool;
+  ActiveTool& tool = run.state.tool;
   if (number == 0) {
     tool.number = 0;
     tool.data = {};
     return true;
   }
-  const ToolData* data = run.options.central_tool_file ? find(run.tools, number) : nullptr;
-  if (data == nullptr) data = find(state.definitions, number);
-  if (data == nullptr) data = find(run.tools, number);
+  if (!refuse_in_transfer(run, number)) return false;
+  if (find_data(run, number) == nullptr) take_definition_ahead(run, number);
+  const ToolData* data = find_data(run, number);
   if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
   tool.number = number;
   tool.data = *data;
@@ -61,12 +97,13 @@ bool define_tool(Run& run, const Block& block) {
                     fmt::format("tool {} is not 1 to {}", block.target, kLastTool));
   }
   const auto number = static_cast<std::uint8_t>(block.target);
-  const ToolData data{run.length(block.length), run.length(block.radius)};
-  auto at = std::find_if(state.definitions.begin(), state.definitions.end(),
-                         [&](const ToolDefinition& tool) { return tool.number == number; });
-  if (at == state.definitions.end()) at = state.definitions.insert(at, {number, {}});
-  at->data = data;
+  keep_definition(state, {number, {run.length(block.length), run.length(block.radius)}});
   return true;
+}
+
+bool needs_definition_ahead(const Run& run, const Block& block) {
+  return block.kind == BlockKind::ToolCall && block.target > 0 &&
+         !run.options.blockwise_restrictions && find_data(run, block.target) == nullptr;
 }
 
 bool call_tool(Run& run, const Block& block) {

@@ -107,6 +107,33 @@ TEST(TncCorner, ARunOffArcKeepsTheFeedOfTheContour) {
                           "A X46.494 Y7.328 c40,12 ccw54.267 F100", "R X70 Y40"));
 }
 
+// HD-108, HD-109: in ISO the words say which one it is, and the place has to agree.
+TEST(TncCorner, ApproachAndDepartureStandWhereTheySay) {
+  const auto iso = [](const std::string& blocks) {
+    return run_text(
+        "%3 G71 *\nN1 G99 T1 L+0 R+4 *\nN2 T1 G17 S100 *\n"
+        "N3 G01 G40 G90 X-30 Y+40 F100 *\n" +
+        blocks + "N9999 %3 G71 *\n");
+  };
+  EXPECT_EQ(iso("N4 X+0 Y+0 *\nN5 G26 R8 *\nN6 X+40 *\n").alarm_id, "TNC-PATH-OFFSET");
+  EXPECT_EQ(iso("N4 G41 X+0 Y+0 *\nN5 X+40 *\nN6 G26 R8 *\nN7 X+40 Y+30 *\n").alarm_id,
+            "TNC-PLANE");
+  EXPECT_EQ(iso("N4 G41 X+0 Y+0 *\nN5 X+40 Y+0 *\nN6 G26 R8 *\nN7 X+40 Y+30 *\n").alarm_id,
+            "TNC-PATH-OFFSET");
+  EXPECT_EQ(iso("N4 X+0 Y+0 *\nN5 G27 R8 *\nN6 X+40 Y+0 *\n").alarm_id, "TNC-PATH-OFFSET");
+  const auto goes_on = iso("N4 G41 X+0 Y+0 *\nN5 X+40 Y+0 *\nN6 G27 R2 *\nN7 X+40 Y+30 *\n");
+  EXPECT_EQ(goes_on.alarm_id, "TNC-PATH-OFFSET");
+  EXPECT_EQ(goes_on.alarm_line, 8u);
+}
+// HD-106: a corner whose second side is gone is told of.
+TEST(TncCorner, AContourDoesNotEndBetweenTheSidesOfACorner) {
+  const auto run =
+      run_blocks({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S100", "L X+0 Y+20 R0 F100", "L X+0 Y+0 RL",
+                  "L X+40 Y+0", "RND R5", "TOOL CALL 0 Z S50", "L X+40 Y+30"});
+  EXPECT_EQ(run.alarm_id, "TNC-PLANE");
+  EXPECT_EQ(run.alarm_line, 9u);
+}
+
 // HD-108: the tool stands within the circle.
 TEST(TncCorner, ARunOnArcMustNotReachTheStart) {
   EXPECT_THAT(path("+4", {"L X+0 Y+10 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0"}).back(),

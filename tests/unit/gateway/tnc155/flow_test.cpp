@@ -107,7 +107,58 @@ TEST(TncFlow, ProgramsNestFourDeep) {
   EXPECT_EQ(moves_of({"CALL PGM 2"}, library).back(), "! EXCESSIVE SUBPROGRAMMING");
   library.programs[3].second = "0 BEGIN PGM 5 MM\n1 L IX+1 R0 F MAX\n2 END PGM 5 MM\n";
   EXPECT_EQ(moves_of({"CALL PGM 2"}, library).back(), "R X4");
-  EXPECT_EQ(moves_of({"CALL PGM 15"}).back(), "! PGM 15 UNAVAILABLE");
+}
+
+// HD-150: when the program is started, also where the call would never be reached; what is called
+// in a called program when that comes to it.
+TEST(TncFlow, MissingProgramsAreComplainedOfAtTheStart) {
+  const auto run = run_blocks({"L X+1 R0 F MAX", "STOP M02", "CALL PGM 15"});
+  EXPECT_THAT(run.events, ElementsAre("! PGM 15 UNAVAILABLE"));
+  EXPECT_EQ(run.alarm_id, "TNC-PGM-UNAVAILABLE");
+  EXPECT_EQ(run.alarm_line, 4u);
+  EXPECT_THAT(moves_of({"L X+1 R0 F MAX", "CYCL DEF 12.0 PGM CALL", "CYCL DEF 12.1 PGM 16"}),
+              ElementsAre("! PGM 16 UNAVAILABLE"));
+  EXPECT_THAT(run_text("%3 G71 *\nN1 G17 G40 G90 G00 X+1 *\nN2 %17 *\nN9999 %3 G71 *\n").events,
+              ElementsAre("! PGM 17 UNAVAILABLE"));
+  PathSetup library;
+  library.programs = {{"7", "0 BEGIN PGM 7 MM\n1 CALL PGM 8\n2 END PGM 7 MM\n"}};
+  EXPECT_THAT(moves_of({"L X+1 R0 F MAX", "CALL PGM 7"}, library),
+              ElementsAre("R X1", "! PGM 8 UNAVAILABLE"));
+}
+// HD-150: a slow line need not bring the whole program first.
+TEST(TncFlow, MissingProgramsMayBeLeftToTheCall) {
+  EXPECT_THAT(
+      moves_of({"L X+1 R0 F MAX", "CALL PGM 15"}, {"[control]\nprogram_check = \"call\"", {}}),
+      ElementsAre("R X1", "! PGM 15 UNAVAILABLE"));
+}
+
+// HD-187, HD-137: the moves of the program that cycle 12 calls do not call it again; behind it M89
+// goes on.
+TEST(TncFlow, M89RestsWithinTheProgramOfACycle) {
+  PathSetup library;
+  library.programs = {{"7",
+                       "0 BEGIN PGM 7 MM\n1 L IZ-1 R0 F MAX\n2 L IZ+1 F MAX\n"
+                       "3 END PGM 7 MM\n"}};
+  EXPECT_THAT(moves_of({"CYCL DEF 12.0 PGM CALL", "CYCL DEF 12.1 PGM 7", "L X+1 R0 F MAX M89",
+                        "L X+2 F MAX", "L X+3 F MAX M99", "L X+4 F MAX"},
+                       library),
+              ElementsAre("R X1", "R X2", "R X2 Z-1", "R X2 Z0", "R X3 Z0", "R X3 Z-1", "R X3 Z0",
+                          "R X4 Z0"));
+}
+
+// Block numbers are only checked where the setup says so, and a jump begins a new count.
+TEST(TncFlow, BlockNumbersMayHaveToFollowOneAnother) {
+  const PathSetup strict{"[control]\nstrict_numbers = true", {}};
+  const std::string gap = "0 BEGIN PGM 1 MM\n1 L X+1 R0 F MAX\n3 L X+2 F MAX\n4 END PGM 1 MM\n";
+  EXPECT_THAT(run_text(gap).events, ElementsAre("R X1", "R X2", testing::StartsWith("end")));
+  const auto refused = run_text(gap, strict);
+  EXPECT_THAT(refused.events, ElementsAre("R X1", "! BLOCK NUMBER INCORRECT: 3 where 2 was due"));
+  EXPECT_EQ(refused.alarm_line, 3u);
+  EXPECT_THAT(moves_of({"LBL 1", "L IX+1 R0 F MAX", "CALL LBL 1 REP 1/1", "L X+9 F MAX"}, strict),
+              ElementsAre("R X1", "R X2", "R X9"));
+  EXPECT_THAT(
+      run_text("%3 G71 *\nN1 G17 G40 G90 G00 X+1 *\nN7 X+2 *\nN9999 %3 G71 *\n", strict).events,
+      ElementsAre("R X1", "R X2", testing::StartsWith("end")));
 }
 
 // HD-230: the restrictions of blockwise transfer, as an option.

@@ -83,6 +83,42 @@ TEST(TncMachine, ToolsAreDefinedAndCalled) {
   EXPECT_THAT(events_of({"TOOL CALL 9 Z S100"}).back(), testing::StartsWith("! TOOL DEF MISSING"));
 }
 
+// HD-129: a tool may be defined behind its call, in either form; the first definition counts until
+// the run comes to one, and Q parameters are what they are at the call.
+TEST(TncMachine, ToolsMayBeDefinedBehindTheirCall) {
+  EXPECT_THAT(events_of({"FN 0: Q1 = +7", "TOOL CALL 3 Z S100", "STOP M02", "TOOL DEF 3 L+Q1 R+4",
+                         "TOOL DEF 3 L+9 R+9"}),
+              ElementsAre("T3 L7 R4"));
+  EXPECT_THAT(events_of({"TOOL CALL 3 Z S100", "TOOL DEF 3 L+1 R+1", "TOOL DEF 3 L+2 R+2",
+                         "TOOL CALL 3 Z S100"}),
+              ElementsAre("T3 L1 R1", "T3 L2 R2"));
+  EXPECT_THAT(run_text("%3 G70 *\nN1 T4 G17 S100 *\nN2 T4 G99 R0,5 L+1 *\nN9999 %3 G70 *\n").events,
+              ElementsAre("T4 L25.4 R12.7", testing::StartsWith("end")));
+  // a next tool is no definition
+  EXPECT_THAT(events_of({"TOOL CALL 3 Z S100", "TOOL DEF 3"}).back(),
+              testing::StartsWith("! TOOL DEF MISSING"));
+}
+
+// HD-230: without the tool file, blockwise transfer only has the tool defined last.
+TEST(TncMachine, BlockwiseTransferHasTheToolDefinedLast) {
+  const std::string restricted = "blockwise_restrictions = true";
+  EXPECT_THAT(
+      events_of({"TOOL DEF 3 L+1 R+1", "TOOL DEF 4 L+2 R+2", "TOOL CALL 4 Z S100"}, restricted),
+      ElementsAre("T4 L2 R2"));
+  EXPECT_THAT(
+      events_of({"TOOL DEF 3 L+1 R+1", "TOOL DEF 4 L+2 R+2", "TOOL CALL 3 Z S100"}, restricted),
+      ElementsAre("! NOT PERMITTED IN BLOCKWISE TRANSFER: TOOL CALL 3, the tool defined "
+                  "last is 4"));
+  EXPECT_THAT(events_of({"TOOL CALL 3 Z S100", "TOOL DEF 3 L+1 R+1"}, restricted).back(),
+              testing::StartsWith("! TOOL DEF MISSING"));
+  const PathSetup store{
+      "[[tool]]\nnumber = 3\nlength = 50\nradius = 6\n[control]\ncentral_tool_file = true\n"
+      "blockwise_restrictions = true",
+      {}};
+  EXPECT_THAT(run_blocks({"TOOL DEF 4 L+2 R+2", "TOOL CALL 3 Z S100"}, store).events,
+              ElementsAre("T3 L50 R6", testing::StartsWith("end")));
+}
+
 // HD-067, HD-070: the central tool file, and the next tool.
 TEST(TncMachine, TheCentralToolFileGoesBeforeDefinitions) {
   const PathSetup store{

@@ -163,10 +163,47 @@ TEST(TncMotion, MachineCoordinatesLeaveTheDatumOut) {
       ElementsAre("L X105 Z21 F100", "R X105 Z7", "R X105 Z307", "L X105 Z300 F100"));
 }
 
-// HD-120: whole turns are taken off before the block moves.
+// HD-119: the end of an arc in machine coordinates, the centre where CC is: (100, 0) in the
+// machine.
+TEST(TncMotion, ArcsMayEndInMachineCoordinates) {
+  const PathSetup datum{"[[offset]]\nname = \"datum\"\nX = 100", {}};
+  EXPECT_THAT(
+      moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "C X+100 Y+10 DR+ M91", "L X+5"}, datum),
+      ElementsAre("L X110 Y0 F100", "A X100 Y10 c100,0 ccw90 F100", "L X105 Y10 F100"));
+  EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "CT X+110 Y+10 M91"}, datum).back(),
+              "A X110 Y10 c100,10 ccw90 F100");
+}
+
+// HD-119: turned by 90 degrees, X of the machine is the program's -Y.
+TEST(TncMotion, MachineCoordinatesOfAnArcAreNotTurned) {
+  EXPECT_THAT(moves_of({"CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+90", "L X+10 Y+0 R0 F100",
+                        "CC X+0 Y+0", "C X-10 Y+0 DR+ M91", "L X+0 Y+0"}),
+              ElementsAre("L X0 Y10 F100", "A X-10 Y0 c0,0 ccw90 F100", "L X0 Y0 F100"));
+}
+
+// HD-119: what M91 and M92 can not be for is refused, never left out.
+TEST(TncMotion, MachineCoordinatesAreForCartesianMovesWithoutARadius) {
+  for (const char* block :
+       {"LP PR+10 PA+0 M91", "CP PA+90 DR+ M92", "L R F M91", "STOP M91", "CYCL CALL M92"}) {
+    EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", block}),
+                ElementsAre("L X10 Y0 F100", "! BLOCK FORMAT INCORRECT"))
+        << block;
+  }
+  EXPECT_THAT(run_text("%3 G71 *\nN1 G17 G40 G90 G01 X+1 F100 *\nN2 I+0 J+0 M91 *\n").events.back(),
+              testing::StartsWith("! BLOCK FORMAT INCORRECT"));
+  EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "L X+0 RL M91"}).back(),
+              "! PATH OFFSET WRONGLY STARTED");
+  EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "C X+0 Y+10 DR+ RL M91"}).back(),
+              "! PATH OFFSET WRONGLY STARTED");
+}
+
+// HD-120: whole turns are taken off what the program counts with; the axis stands where it stood,
+// so that 40 is 10 further than 750.
 TEST(TncMotion, M94TakesWholeTurnsOffARotaryAxis) {
-  EXPECT_THAT(moves_of({"L C+750 R0 F100", "L IC+10 M94"}),
-              ElementsAre("L C750 F100", "L C40 F100"));
+  EXPECT_THAT(moves_of({"L C+750 R0 F100", "L IC+10 M94", "L C+20"}),
+              ElementsAre("L C750 F100", "L C760 F100", "L C740 F100"));
+  EXPECT_THAT(moves_of({"L C-400 R0 F100", "C+0 M94"}),
+              ElementsAre("L C-400 F100", "L C-360 F100"));
 }
 
 // HD-161: Q in coordinates, feeds, radii and angles; HD-160: with its sign.

@@ -32,6 +32,15 @@ TEST(TncRun, BeginsAtABlock) {
             "TNC-START-UNDEFINED");
 }
 
+// HD-194: a block that moves nothing has no coordinates to be complete.
+TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
+  EXPECT_THAT(from_block(2,
+                         "0 BEGIN PGM 5 MM\n1 L X+1 Y+1 R0 F100\n2 L R F M08\n3 L X+3 Y+3 F50\n"
+                         "4 END PGM 5 MM\n")
+                  .events,
+              ElementsAre("coolant on", "L X3 Y3 F50", "end 3"));
+}
+
 // HD-190: one block a step, whatever it is.
 TEST(TncRun, StepsBlockByBlock) {
   MemorySource source(kProgram);

@@ -1,0 +1,121 @@
+#include "gateway/interpreter/tnc155/ahead_search.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+namespace dripline::interpreter::tnc155 {
+
+AheadSearch::AheadSearch(ProgramSource& source, ReaderOptions options) : reader_(source, options) {}
+
+void AheadSearch::begin() {
+  at_ = TextPlace{};
+  state_ = ReadingState{};
+  blocks_ = 0;
+}
+
+/// Of an ISO program only the words are read: what they mean in their place is the run's.
+AheadSearch::Step AheadSearch::next() {
+  reader_.seek(at_);
+  const ReadState read = is_iso() ? reader_.next_words(state_) : reader_.next(state_, parts_);
+  switch (read) {
+    case ReadState::Ready:
+      at_ = reader_.place();
+      ++blocks_;
+      return Step::Read;
+    case ReadState::NotYet:
+      return Step::NotYet;
+    case ReadState::Wrong:
+      if (state_.program.form == Form::Unknown || !reader_.skip_wrong()) return Step::End;
+      at_ = reader_.place();
+      ++blocks_;
+      return Step::Skipped;
+    default:
+      return Step::End;
+  }
+}
+
+/// The last block of a program.
+bool AheadSearch::is_over() const {
+  if (!is_iso()) return parts_.blocks[0].kind == BlockKind::End;
+  const IsoBlock& block = reader_.iso_block();
+  return blocks_ > 1 && block.program != IsoBlock::kNone &&
+         (block.has(IsoGroup::Unit) || block.program == state_.program.number);
+}
+
+bool AheadSearch::is_definition(std::int32_t number) {
+  if (!is_iso()) {
+    definition_ = parts_.blocks[0];
+  } else {
+    const IsoBlock& block = reader_.iso_block();
+    if (!block.has_code(IsoGroup::Tool, 99)) return false;
+    definition_.clear(BlockKind::ToolDefinition);
+    definition_.target = block.tool;
+    definition_.length = block.length;
+    if (block.has(IsoSlot::R)) definition_.radius = block.value(IsoSlot::R);
+  }
+  return definition_.kind == BlockKind::ToolDefinition && definition_.target == number &&
+         (definition_.length.is_programmed() || definition_.radius.is_programmed());
+}
+
+AheadSearch::Outcome AheadSearch::find_tool(std::int32_t number) {
+  if (tool_ != number) begin();
+  tool_ = number;
+  reader_.forget_window();
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
+    const Step step = next();
+    if (step == Step::NotYet) return Outcome::NotYet;
+    const bool is_found = step == Step::Read && is_definition(number);
+    if (is_found || step == Step::End || (step == Step::Read && is_over())) {
+      tool_ = Block::kNone;  // the next search begins anew
+      return is_found ? Outcome::Found : Outcome::Missing;
+    }
+  }
+  return Outcome::More;
+}
+
+std::int32_t AheadSearch::block_number() const {
+  return is_iso() ? reader_.iso_block().number : parts_.blocks[0].number;
+}
+
+/// The program that the block read last calls; kNone: none.
+std::int32_t AheadSearch::called_program() const {
+  if (!is_iso()) {
+    const Block& block = parts_.blocks[0];
+    const bool calls = block.kind == BlockKind::ProgramCall ||
+                       (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
+    return calls ? block.target : Block::kNone;
+  }
+  const IsoBlock& block = reader_.iso_block();
+  if (block.has_code(IsoGroup::Cycle, 39) && block.has_parameter(1)) {
+    const Value& number = block.cycle[1].value;
+    return number.kind == Value::Kind::Number ? number.number / Value::kStepsPerUnit : Block::kNone;
+  }
+  return block.has(IsoGroup::Unit) ? Block::kNone : block.program;
+}
+
+AheadSearch::Outcome AheadSearch::find_missing_program() {
+  reader_.forget_window();
+  while (blocks_ < kMostBlocks && called_.size() < kMostPrograms) {
+    const TextPlace here = at_;
+    const Step step = next();
+    if (step == Step::NotYet) return Outcome::NotYet;
+    if (step == Step::Skipped) continue;
+    if (step == Step::End || is_over()) return Outcome::Missing;
+    const std::int32_t number = called_program();
+    if (number == Block::kNone || number == state_.program.number ||
+        std::ranges::find(called_, number) != called_.end()) {
+      continue;
+    }
+    const ProgramLookup lookup = reader_.find(fmt::format("{}", number));
+    if (lookup.state == ProgramLookup::State::NotYet) {
+      at_ = here;
+      --blocks_;
+      return Outcome::NotYet;
+    }
+    called_.push_back(number);
+    if (lookup.state == ProgramLookup::State::NotFound) return Outcome::Found;
+  }
+  return Outcome::Missing;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gateway/interpreter/tnc155/block_reader.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What the control finds out about a program before it runs to it: a program is looked through in
+/// the order of its text, its labels and jumps meaning nothing, and blocks that can not be read are
+/// passed over (the run stops at them). A search goes on where it stopped when it is called again,
+/// and gives back after a bounded number of blocks. The windows of other readers of the source are
+/// stale after a search.
+class AheadSearch {
+ public:
+  enum class Outcome : std::uint8_t { Found, Missing, NotYet, More };
+
+  AheadSearch(ProgramSource& source, ReaderOptions options);
+
+  /// The first TOOL DEF of this tool, with a length or a radius, in the program that was started.
+  Outcome find_tool(std::int32_t number);
+  /// After Found.
+  const Block& definition() const { return definition_; }
+  Units units() const { return state_.program.units; }
+
+  /// The first program that the started one calls, by CALL PGM or cycle 12, and that the source
+  /// does not have. Looks at as many blocks as the control's memory has, and at as many programs.
+  Outcome find_missing_program();
+  /// After Found.
+  std::int32_t missing_program() const { return called_.back(); }
+  const TextPlace& place() const { return reader_.block_place(); }  ///< of the block that calls it
+  std::int32_t block_number() const;
+  const ProgramForm& program() const { return state_.program; }
+
+ private:
+  static constexpr unsigned kBlocksPerCall = 1u << 14;
+  static constexpr std::uint64_t kMostBlocks = 3'100;
+  static constexpr std::size_t kMostPrograms = 32;
+
+  enum class Step : std::uint8_t { Read, Skipped, NotYet, End };
+
+  void begin();
+  Step next();
+  bool is_iso() const { return state_.program.form == Form::Iso; }
+  bool is_definition(std::int32_t number);
+  std::int32_t called_program() const;
+  bool is_over() const;
+
+  BlockReader reader_;
+  TextPlace at_;  ///< of the next block
+  ReadingState state_;
+  BlockParts parts_;
+  std::uint64_t blocks_ = 0;
+  std::int32_t tool_ = Block::kNone;  ///< being looked for
+  Block definition_;
+  std::vector<std::int32_t> called_;  ///< programs looked up
+};
+
+}  // namespace dripline::interpreter::tnc155
