@@ -93,27 +93,28 @@ std::int32_t AheadSearch::called_program() const {
   return block.has(IsoGroup::Unit) ? Block::kNone : block.program;
 }
 
+AheadSearch::Outcome AheadSearch::look_up() {
+  const ProgramLookup lookup = reader_.find(fmt::format("{}", *wanted_));
+  if (lookup.state == ProgramLookup::State::NotYet) return Outcome::NotYet;
+  called_.push_back(*wanted_);
+  wanted_.reset();
+  return lookup.state == ProgramLookup::State::NotFound ? Outcome::Found : Outcome::Missing;
+}
+
 AheadSearch::Outcome AheadSearch::find_missing_program() {
   reader_.forget_window();
   while (blocks_ < kMostBlocks && called_.size() < kMostPrograms) {
-    const TextPlace here = at_;
+    if (wanted_) {
+      if (const Outcome outcome = look_up(); outcome != Outcome::Missing) return outcome;
+    }
     const Step step = next();
     if (step == Step::NotYet) return Outcome::NotYet;
     if (step == Step::Skipped) continue;
     if (step == Step::End || is_over()) return Outcome::Missing;
     const std::int32_t number = called_program();
-    if (number == Block::kNone || number == state_.program.number ||
-        std::ranges::find(called_, number) != called_.end()) {
-      continue;
-    }
-    const ProgramLookup lookup = reader_.find(fmt::format("{}", number));
-    if (lookup.state == ProgramLookup::State::NotYet) {
-      at_ = here;
-      --blocks_;
-      return Outcome::NotYet;
-    }
-    called_.push_back(number);
-    if (lookup.state == ProgramLookup::State::NotFound) return Outcome::Found;
+    const bool is_new = number != Block::kNone && number != state_.program.number &&
+                        std::ranges::find(called_, number) == called_.end();
+    if (is_new) wanted_ = number;
   }
   return Outcome::Missing;
 }

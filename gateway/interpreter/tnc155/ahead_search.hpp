@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gateway/interpreter/tnc155/block_reader.hpp"
@@ -46,6 +47,7 @@ class AheadSearch {
   bool is_definition(std::int32_t number);
   std::int32_t called_program() const;
   bool is_over() const;
+  Outcome look_up();
 
   BlockReader reader_;
   TextPlace at_;  ///< of the next block
@@ -54,7 +56,8 @@ class AheadSearch {
   std::uint64_t blocks_ = 0;
   std::int32_t tool_ = Block::kNone;  ///< being looked for
   Block definition_;
-  std::vector<std::int32_t> called_;  ///< programs looked up
+  std::vector<std::int32_t> called_;    ///< programs looked up
+  std::optional<std::int32_t> wanted_;  ///< to be looked up before the search goes on
 };
 
 }  // namespace dripline::interpreter::tnc155
