@@ -43,6 +43,11 @@ TEST_F(DncConvert, ChangesTheFormOfTncPrograms) {
                  "--decimal-point"})
                 .out,
             "%5 G71 *\nT2 G17 S400 *\nG01 G40 G90 X+1.5 F80 *\nN9999 %5 G71 *\n");
+  dnc.write("point.toml", "[control]\ndecimal_sign = \"point\"\n");
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "point.toml"}).out,
+            "%5 G71 *\r\nN10 T2 G17 S400 *\r\nN20 G01 G40 G90 X+1.5 F80 *\r\nN9999 %5 G71 *\r\n");
+  dnc.write("wrong.toml", "[control]\ndecimal_sign = \"dot\"\n");
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "wrong.toml"}).status, 1);
   dnc.write("b.h", "0 BEGIN PGM 5 MM\n1 C X1 Y1 DR+ R0 F MAX M\n");
   const auto refused = dnc({"convert", "b.h", "-o", "b.i", "--to", "iso"});
   EXPECT_EQ(refused.status, 1);

@@ -57,6 +57,8 @@ TEST(ToolStore, NamesWhatIsWrong) {
   EXPECT_EQ(twice.error().what, "line 2: tool 5 is there twice");
   EXPECT_FALSE(read_tool_store("T5 P L+1\n"));
   EXPECT_FALSE(read_tool_store("T5 P L+1 R+1 X\n"));
+  EXPECT_EQ(*write_tool_store({tool(7, 1.5, 0.25)}, Units::Millimetre, '.'),
+            "0 BEGIN PGM 0 MM\r\nT7 P L+1.500 R+0.250\r\n1 END PGM 0 MM\r\n");
   EXPECT_EQ(write_tool_store({tool(100, 0, 0)}, Units::Millimetre).error().code,
             Errc::LimitExceeded);
 }
