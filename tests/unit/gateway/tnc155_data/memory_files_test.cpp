@@ -49,6 +49,11 @@ TEST(ToolStore, TakesPointsAndBlanks) {
   EXPECT_NEAR(read->at(0).radius.mm(), 6.35, 1e-9);
 }
 
+TEST(ToolStore, HasTheDecimalSignThatTheControlIsSetTo) {
+  EXPECT_EQ(*write_tool_store({tool(7, 1.5, 0.25)}, Units::Millimetre, '.'),
+            "0 BEGIN PGM 0 MM\r\nT7 P L+1.500 R+0.250\r\n2 END PGM 0 MM\r\n");
+}
+
 TEST(ToolStore, NamesWhatIsWrong) {
   EXPECT_EQ(read_tool_store("T0 P L+1 R+1").error().code, Errc::LimitExceeded);
   EXPECT_EQ(read_tool_store("T100 P L+1 R+1").error().code, Errc::LimitExceeded);
@@ -57,8 +62,6 @@ TEST(ToolStore, NamesWhatIsWrong) {
   EXPECT_EQ(twice.error().what, "line 2: tool 5 is there twice");
   EXPECT_FALSE(read_tool_store("T5 P L+1\n"));
   EXPECT_FALSE(read_tool_store("T5 P L+1 R+1 X\n"));
-  EXPECT_EQ(*write_tool_store({tool(7, 1.5, 0.25)}, Units::Millimetre, '.'),
-            "0 BEGIN PGM 0 MM\r\nT7 P L+1.500 R+0.250\r\n1 END PGM 0 MM\r\n");
   EXPECT_EQ(write_tool_store({tool(100, 0, 0)}, Units::Millimetre).error().code,
             Errc::LimitExceeded);
 }
