@@ -196,7 +196,7 @@ void Compensator::take_straight(const Move& move, Feed feed, bool rests) {
   }
   if (!is_in_plane) return take_aside(move);
   Element& element = state_.spare();
-  element.is_arc = false;
+  element.is_arc = element.rounds_corner = false;
   element.rests = rests;
   element.is_rapid = std::is_same_v<Move, Rapid>;
   element.origin = move.origin;
@@ -246,7 +246,7 @@ void Compensator::on_arc(const Arc& event) {
     return;
   }
   Element& element = state_.spare();
-  element.is_rapid = false;
+  element.is_rapid = element.rounds_corner = false;
   element.rests = event.rests;
   element.origin = event.origin;
   element.to = event.to;
@@ -317,6 +317,7 @@ bool Compensator::accepts_arc(const Element& arc) {
 /// The corner between what waits and `next` is known now.
 void Compensator::join(Element& next) {
   const Element& first = state_.waiting();
+  if (first.rounds_corner && !end_corner(next)) return;
   const CornerEnd corner = round_corner(policy_, first, next, nose());
   if (corner.fault) {
     refuse({*corner.fault, first.origin, next.origin, Length::mm(length(first.end - nose())),

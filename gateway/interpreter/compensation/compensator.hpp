@@ -65,6 +65,11 @@ class Compensator final : public EventSink {
   void shape_corner(OutsideCorner shape);
   /// Round the outside of the corner at the end of the next move in the plane in this manner.
   void shape_next_corner(OutsideCorner shape);
+  /// Goes round the corner that the last move has come to as a move of its own: on the cutter's
+  /// circle from that move's normal to the one of the next move in the plane, or at once to that of
+  /// the direction `along`, of length 1. Nothing where nothing is offset. False: no compensated
+  /// move came before.
+  bool go_round_corner(const Origin& origin, Feed feed, std::optional<PlaneVector> along = {});
   /// From here on (`still`), or no longer: moves lead the program on and decide corners, but the
   /// tool does not carry them out. The next real move goes from where the tool stands.
   void stand_still(bool still) { state_.stands_still = still; }
@@ -138,6 +143,8 @@ class Compensator final : public EventSink {
   void use(const Cutter& cutter);
   bool accepts_arc(const impl::Element& arc);
   void join(impl::Element& next);
+  std::optional<PlaneVector> last_direction() const;
+  bool end_corner(const impl::Element& next);
   void begin_alone(impl::Element& element);
   void finish(PlaneVector end);
   void reach_begin(impl::Element& next);

@@ -1,5 +1,8 @@
 #include "gateway/interpreter/fanuc/cutter_compensation.hpp"
 
+#include <fmt/core.h>
+
+#include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/run.hpp"
 #include "gateway/interpreter/fanuc/tool_offsets.hpp"
 #include "gateway/interpreter/fanuc/transformation.hpp"
@@ -48,6 +51,42 @@ void turn_on(Run& run) {
   run.compensator.turn_on(cutter_of(run));
 }
 
+/// I, J, K of G39, of length 1, as scaling and rotation turn it. False: an alarm.
+bool read_direction(Run& run, PlaneVector& direction) {
+  const Words& words = run.block.words;
+  const PlaneAxes axes = axes_of(run.state.plane());
+  constexpr std::array<Address, 3> kComponents{I, J, K};
+  Point3 from = program_position(run);
+  Point3 to = from;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!words.has(kComponents[i])) continue;
+    if (static_cast<Axis>(i) == axes.normal) {
+      return run.fail(ErrorCode::IllegalPlaneAxis, words.column(kComponents[i]),
+                      fmt::format("{}", letter(kComponents[i])));
+    }
+    to[i] += run.length(words[kComponents[i]]);
+  }
+  if (run.state.is_transformed) {
+    from = transform(run.state, from);
+    to = transform(run.state, to);
+  }
+  const auto along = [&](Axis axis) {
+    return to[static_cast<std::size_t>(axis)] - from[static_cast<std::size_t>(axis)];
+  };
+  const PlaneVector vector{along(axes.first), along(axes.second)};
+  const double size = length(vector);
+  if (!(size > 0)) {
+    return run.fail(ErrorCode::CornerMoveNotAllowed, words.first_column(kCentreWords),
+                    "I, J, K say no direction");
+  }
+  direction = (1 / size) * vector;
+  return true;
+}
+
+bool refuse_corner(Run& run, std::string_view why) {
+  return run.fail(ErrorCode::CornerMoveNotAllowed, run.block.parts.g_column, why);
+}
+
 bool reaches_machine(const Block& block) {
   const Block::Parts& parts = block.parts;
   if (parts.kind != BlockKind::Nc || parts.ending == Ending::Return) return false;
@@ -88,6 +127,19 @@ bool apply_compensation(Run& run) {
     run.compensator.turn_off();
   }
   return true;
+}
+
+bool round_corner(Run& run) {
+  const Words& words = run.block.words;
+  if (!run.state.is_compensating()) return refuse_corner(run, "without G41 or G42");
+  if (words.has_any(kAxisWords)) return refuse_corner(run, "with a move in its block");
+  if (!check_feed(run)) return false;
+  std::optional<PlaneVector> direction;
+  if (words.has_any(kCentreWords) && !read_direction(run, direction.emplace())) return false;
+  // D0: nothing to go round
+  if (!run.compensator.is_on()) return true;
+  if (run.compensator.go_round_corner(run.origin, run.active_feed(), direction)) return true;
+  return refuse_corner(run, "before a compensated move");
 }
 
 void interrupt_compensation(Run& run, bool first_keeps_distance) {

@@ -12,6 +12,9 @@ compensation::Policy policy_of(const ControlOptions& options);
 
 /// G40, G41, G42 and D of the block, before its motion. False: an alarm.
 bool apply_compensation(Run& run);
+/// G39: round the corner on the cutter's circle, to the normal of the next block's begin, or to
+/// that of the direction of I, J, K. False: an alarm.
+bool round_corner(Run& run);
 /// What interrupts compensation calls `interrupt` before and `resume` after its moves. By choice
 /// the first of them keeps the distance that the tool has.
 void interrupt_compensation(Run& run, bool first_keeps_distance = false);

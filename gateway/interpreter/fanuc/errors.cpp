@@ -29,6 +29,7 @@ constexpr std::array kRows{
     ErrorRow{IllegalValueInG10, "PS032", "ILLEGAL OFFSET VALUE IN G10"},
     ErrorRow{NoSolution, "PS033", "NO SOLUTION AT CRC"},
     ErrorRow{ArcAtStartUp, "PS034", "NO CIRC ALLOWED IN ST-UP/EXT BLK"},
+    ErrorRow{CornerMoveNotAllowed, "PS035", "CAN NOT COMMANDED G39"},
     ErrorRow{SkipInCompensation, "PS036", "CAN NOT COMMANDED G31"},
     ErrorRow{PlaneInCompensation, "PS037", "CAN NOT CHANGE PLANE IN CRC"},
     ErrorRow{Interference, "PS041", "INTERFERENCE IN CRC"},

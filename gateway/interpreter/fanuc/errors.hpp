@@ -25,6 +25,7 @@ enum class ErrorCode : std::uint16_t {
   IllegalValueInG10 = 32,
   NoSolution = 33,
   ArcAtStartUp = 34,
+  CornerMoveNotAllowed = 35,
   SkipInCompensation = 36,
   PlaneInCompensation = 37,
   Interference = 41,

@@ -69,10 +69,13 @@ bool apply_modes(Run& run) {
     }
     state.g[kPlaneGroup] = block.g[kPlaneGroup];
   }
-  // F of a thread is its lead; motion.cpp.
   const bool is_thread =
       block.names(kMotionGroup) ? block.g[kMotionGroup] == 33 : state.g[kMotionGroup] == 33;
-  if (!is_thread && !apply_feed(run)) return false;
+  if (is_thread) {
+    apply_lead(run);
+  } else if (!apply_feed(run)) {
+    return false;
+  }
   return apply_speed(run);
 }
 
@@ -156,6 +159,8 @@ bool execute_one_shot(Run& run) {
       if (run.state.is_cycle())
         return run.fail(ErrorCode::HomeInCycle, block.parts.g_column, "G31");
       return start_skip(run);
+    case 39:
+      return round_corner(run);
     case 52:
       return set_local_zero(run);
     case 53:

@@ -39,7 +39,7 @@ constexpr std::array<std::uint8_t, 100> groups_of_codes() {
   const auto put = [&](std::uint8_t group, auto... codes) {
     ((groups[static_cast<std::size_t>(codes)] = group), ...);
   };
-  put(kOneShot, 4, 7, 9, 10, 11, 27, 28, 29, 30, 31, 45, 46, 47, 48, 52, 53, 60, 65, 92);
+  put(kOneShot, 4, 7, 9, 10, 11, 27, 28, 29, 30, 31, 39, 45, 46, 47, 48, 52, 53, 60, 65, 92);
   put(kMotionGroup, 0, 1, 2, 3, 33);
   put(kPlaneGroup, 17, 18, 19);
   put(kDistanceGroup, 90, 91);

@@ -98,13 +98,6 @@ void note_skip(Run& run) {
 bool cut_thread(Run& run, const Position& to) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
-  // F of a thread is its lead: a length, whatever the feed mode.
-  if (words.has(F)) {
-    const Word& word = words[F];
-    const double unit = state.units == Units::Inch ? 0.0001 : 0.01;
-    const bool is_plain = word.form == WordForm::Whole && !run.options.calculator_point;
-    state.feed[1] = word.value * (is_plain ? unit : 1) * run.increments.mm_per_unit;
-  }
   if (!(state.feed[1] > 0)) return run.fail(ErrorCode::NoFeed, words.first_column(kAxisWords));
   std::optional<Angle> start;
   if (words.has(Q)) start = Angle::degrees(run.angle(words[Q]));
@@ -182,6 +175,15 @@ bool apply_feed(Run& run) {
   state.last.f = value;
   state.feed[state.is_per_revolution()] = value * run.increments.mm_per_unit;
   return true;
+}
+
+void apply_lead(Run& run) {
+  const Words& words = run.block.words;
+  if (!words.has(F)) return;
+  const Word& word = words[F];
+  const double unit = run.state.units == Units::Inch ? 0.0001 : 0.01;
+  const bool is_plain = word.form == WordForm::Whole && !run.options.calculator_point;
+  run.state.feed[1] = word.value * (is_plain ? unit : 1) * run.increments.mm_per_unit;
 }
 
 bool check_feed(Run& run) {

@@ -27,6 +27,8 @@ void finish_skip(Run& run, const ProbeResult& result);
 
 /// F of the block, before anything else.
 bool apply_feed(Run& run);
+/// F of a block in G33: the lead, a length whatever the feed mode.
+void apply_lead(Run& run);
 bool check_feed(Run& run);
 
 /// G02, G03; arcs.cpp.

@@ -161,7 +161,7 @@ bool arc_move(Run& run, bool is_clockwise) {
   Feed feed;
   State& state = run.state;
   if (state.modes.has_tilted_plane) {
-    return run.fail(ErrorCode::NotSupported, 0, "an arc in a UV, WU or VW plane");
+    return run.fail(ErrorCode::ArcTilted, 0);
   }
   if (!read_feed(run, true, feed) || !read_target(run, target)) return false;
   const PlaneAxes axes = axes_of(state.modes.plane);

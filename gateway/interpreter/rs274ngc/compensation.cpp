@@ -6,12 +6,16 @@
 #include "gateway/interpreter/geometry/plane_axes.hpp"
 #include "gateway/interpreter/rs274ngc/compensation_paths.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
+#include "gateway/interpreter/rs274ngc/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
+/// The orientation of a tool whose nose's centre is positioned; so is that of 0, no lathe tool.
+constexpr int kCentred = 9;
+
 /// D words name a slot or tool; without one it is the tool in the spindle.
-bool diameter_of_tool(Run& run, double& diameter) {
+bool read_tool(Run& run, double& diameter, int& orientation) {
   const Words& words = run.block.words;
   const double written = words.value_or('D', run.state.tool.loaded);
   const double number = std::round(written);
@@ -25,6 +29,24 @@ bool diameter_of_tool(Run& run, double& diameter) {
     return run.fail_word(ErrorCode::ToolNotFound, 'D', fmt::format("D{}", number));
   }
   diameter = tool ? tool->diameter : 0;
+  orientation = tool ? tool->orientation : 0;
+  return true;
+}
+
+/// D is the diameter itself, L the orientation of a lathe tool.
+bool read_own_tool(Run& run, double& diameter, int& orientation) {
+  const Words& words = run.block.words;
+  if (!words.has('D')) return run.fail(ErrorCode::OffsetIndexMissing, 0, "no D word");
+  diameter = run.mm(words['D']);
+  if (!words.has('L')) return true;
+  if (run.state.modes.plane != Plane::ZX) {
+    return run.fail_word(ErrorCode::CompLathe, 'L', "L needs G18");
+  }
+  if (!(words['L'] <= kCentred)) {
+    return run.fail_word(ErrorCode::CompLathe, 'L',
+                         fmt::format("L{} is not in 0 to {}", words['L'], kCentred));
+  }
+  orientation = static_cast<int>(words['L']);
   return true;
 }
 
@@ -52,11 +74,15 @@ bool switch_compensation(Run& run, int g_code) {
   if (!is_plane_allowed(run)) return run.fail(ErrorCode::CompNotXy, 0);
   if (compensation.side != Side::Off) return run.fail(ErrorCode::CompOnTwice, 0);
   double diameter = 0;
-  if (g_code == 411 || g_code == 421) {
-    if (!run.block.words.has('D')) return run.fail(ErrorCode::OffsetIndexMissing, 0, "no D word");
-    diameter = run.mm(run.block.words['D']);
-  } else if (!diameter_of_tool(run, diameter)) {
+  int orientation = 0;
+  const bool is_own = g_code == 411 || g_code == 421;
+  if (!(is_own ? read_own_tool(run, diameter, orientation)
+               : read_tool(run, diameter, orientation))) {
     return false;
+  }
+  if (orientation == kCentred) orientation = 0;
+  if (orientation != 0 && run.state.modes.plane != Plane::ZX) {
+    return run.fail(ErrorCode::CompLathe, 0, "a lathe tool needs G18");
   }
   if (run.state.rotation != 0 && run.state.modes.plane != Plane::XY) {
     return run.fail(ErrorCode::NotSupported, 0, "compensation in this plane of a turned system");
@@ -64,6 +90,7 @@ bool switch_compensation(Run& run, int g_code) {
   const bool is_left = (g_code < 420) == (diameter >= 0);
   compensation.side = is_left ? Side::Left : Side::Right;
   compensation.radius = std::fabs(diameter) / 2;
+  compensation.orientation = static_cast<std::uint8_t>(orientation);
   compensation.is_first = true;
   compensation.was_on = false;
   return true;
@@ -81,6 +108,7 @@ bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn tur
 }
 
 void release_held(Run& run) {
+  if (run.state.compensation.orientation != 0) shift_held_to_tip(run);
   run.held.release(run.sink);
 }
 

@@ -135,7 +135,7 @@ bool finish_held(Run& run, PlanePoint end, double travel) {
     if (auto* line = std::get_if<Line>(&event)) put(run, line->to, end);
     if (auto* rapid = std::get_if<Rapid>(&event)) put(run, rapid->to, end);
   }
-  run.held.release(run.sink);
+  release_held(run);
   return true;
 }
 
@@ -175,14 +175,22 @@ bool make_corner(Run& run, PlanePoint to, bool is_rapid, const Feed& feed) {
   Target here;
   here.to = run.state.position;
   const Target target = moved_to(run, here, to);
+  const bool is_lathe = run.state.compensation.orientation != 0;
+  if (is_lathe) run.held.on_block_end({});  // makes it the sink
+  bool ok = true;
   if (is_rapid) {
     rapid_to(run, target);
-    return true;
+  } else {
+    const PlanePoint center = programmed_point(run);
+    const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::CounterClockwise;
+    const double sweep = sweep_of(center, tool_point(run), to, turn);
+    ok = arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
   }
-  const PlanePoint center = programmed_point(run);
-  const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::CounterClockwise;
-  const double sweep = sweep_of(center, tool_point(run), to, turn);
-  return arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
+  if (is_lathe) {
+    run.held.events().erase(run.held.events().begin());
+    release_held(run);
+  }
+  return ok;
 }
 
 /// Makes the corner between the held move and the next, whose offset curve is `next`.
@@ -270,6 +278,9 @@ bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& fe
 /// The offset arc must begin where the tool is: its centre moves along the end's normal.
 bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
                   const Feed& feed) {
+  if (run.state.compensation.orientation != 0) {
+    return run.fail(ErrorCode::CompLathe, 0, "the entry move is an arc");
+  }
   const double radius = run.state.compensation.radius;
   const PlanePoint tool = tool_point(run);
   const PlanePoint end = point_of(run, target.to);

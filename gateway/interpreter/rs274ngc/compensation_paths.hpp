@@ -17,6 +17,9 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
 /// Ends the path where the tool is. Errors: the last move can not be made.
 bool stop_trimming(Run& run);
 
+/// A lathe tool is positioned by the tip of its nose; all is computed for the nose's centre.
+void shift_held_to_tip(Run& run);
+
 /// Where the tool is, in the plane.
 PlanePoint tool_point(const Run& run);
 PlanePoint point_of(const Run& run, const Axes& axes);

@@ -5,18 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "gateway/interpreter/rs274ngc/tool_table.hpp"
+
 namespace dripline::interpreter::rs274ngc {
 namespace {
-
-struct Turned {
-  double x, y;
-};
-Turned turned(double x, double y, double degrees) {
-  const double radians = degrees * (Angle::kPi / 180);
-  const double c = std::cos(radians);
-  const double s = std::sin(radians);
-  return {x * c - y * s, x * s + y * c};
-}
 
 constexpr std::size_t kX = index_of(Axis::X);
 constexpr std::size_t kY = index_of(Axis::Y);
@@ -29,6 +21,13 @@ void keep_machine(Run& run) {
 }
 
 }  // namespace
+
+Turned turned(double x, double y, double degrees) {
+  const double radians = degrees * (Angle::kPi / 180);
+  const double c = std::cos(radians);
+  const double s = std::sin(radians);
+  return {x * c - y * s, x * s + y * c};
+}
 
 Position to_machine(const Run& run, const Axes& program) {
   const State& state = run.state;
@@ -104,12 +103,6 @@ void set_tool_length(Run& run, const Axes& length) {
   state.machine = to_machine(run, state.position);
 }
 
-const Tool* find_tool(const Run& run, int number) {
-  const auto tool = std::find_if(run.tools.begin(), run.tools.end(),
-                                 [number](const Tool& each) { return each.number == number; });
-  return tool == run.tools.end() ? nullptr : &*tool;
-}
-
 bool select_system(Run& run, int g_code) {
   const int system = g_code < 590 ? (g_code - 530) / 10 : 6 + (g_code - 590);
   if (system == run.state.system) return true;
@@ -120,9 +113,6 @@ bool select_system(Run& run, int g_code) {
   return true;
 }
 
-namespace {
-
-/// The words' coordinates over those of `axes`.
 void take_axis_words(const Run& run, Axes& axes) {
   for (const Axis axis : kAllAxes) {
     const char word = letter(axis);
@@ -131,6 +121,8 @@ void take_axis_words(const Run& run, Axes& axes) {
     axes[index_of(axis)] = is_rotary(axis) ? value : run.mm(value);
   }
 }
+
+namespace {
 
 /// The tool of an H word: a slot of the changer, or a row of the table.
 bool tool_of_h(Run& run, double h, const Tool*& tool) {
@@ -207,6 +199,8 @@ Axes origin_for_current_point(Run& run, std::size_t first) {
 /// G10 L2 and L20: origin and rotation of a system.
 bool set_system(Run& run, bool at_current_point) {
   const Words& words = run.block.words;
+  if (words.has('I')) return run.fail_word(ErrorCode::UnusedI, 'I');
+  if (words.has('J')) return run.fail_word(ErrorCode::UnusedJ, 'J');
   const double written = words.value_or('P', 0);
   const double p = run.is_linuxcnc() ? std::trunc(written) : std::round(written);
   if (!(p >= 0 && p <= kSystems) || (p == 0 && !run.is_linuxcnc())) {
@@ -242,10 +236,8 @@ bool set_data(Run& run) {
   const double l = run.block.words.value_or('L', -1);
   if (l == 2) return set_system(run, false);
   if (l == 20) return set_system(run, true);
-  if (l == 1 || l == 10 || l == 11 || l == 0) {
-    return run.fail_word(ErrorCode::NotSupported, 'L',
-                         "the tool table belongs to the setup: G10 L0, L1, L10, L11");
-  }
+  if (l == 0) return reload_tools(run);
+  if (l == 1 || l == 10 || l == 11) return write_tool(run, static_cast<int>(l));
   return run.fail_word(ErrorCode::G10L, 'L', fmt::format("L{}", l));
 }
 

@@ -11,6 +11,15 @@ Position to_machine(const Run& run, const Axes& program);
 /// The other way; `machine` in millimetres and degrees.
 Axes to_program(const Run& run, const Axes& machine);
 
+/// X and Y about the origin.
+struct Turned {
+  double x, y;
+};
+Turned turned(double x, double y, double degrees);
+
+/// The coordinates of the line's axis words over those of `axes`.
+void take_axis_words(const Run& run, Axes& axes);
+
 /// The point of G53, G28 and G30: machine coordinates with the tool length on top.
 Axes machine_with_length(const Run& run);
 Axes program_of_machine_with_length(const Run& run, const Axes& machine);
@@ -29,8 +38,5 @@ bool set_length_offset(Run& run, int g_code);
 bool execute_one_shot(Run& run, int g_code);
 /// What M2 and M30 do to coordinates.
 void reset_coordinates(Run& run);
-
-/// The row of the tool table, or nullptr.
-const Tool* find_tool(const Run& run, int number);
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -7,6 +7,7 @@
 #include "gateway/interpreter/rs274ngc/machine_functions.hpp"
 #include "gateway/interpreter/rs274ngc/modes.hpp"
 #include "gateway/interpreter/rs274ngc/motion.hpp"
+#include "gateway/interpreter/rs274ngc/nurbs.hpp"
 #include "gateway/interpreter/rs274ngc/probe.hpp"
 #include "gateway/interpreter/rs274ngc/splines.hpp"
 #include "gateway/interpreter/rs274ngc/thread.hpp"
@@ -45,9 +46,11 @@ bool execute_motion_code(Run& run, int code) {
       return arc_move(run, code == 20);
     case 50:
     case 51:
-    case 52:
-    case 53:
       return spline_move(run, code);
+    case 52:
+      return add_control_point(run);
+    case 53:
+      return make_nurbs(run);
     case 330:
     case 331:
       return synchronised_move(run, code);
@@ -68,7 +71,7 @@ bool execute_motion(Run& run) {
   if (!keeps_series) state.cycle.is_series = false;
   if (code != 50) state.follows_spline = false;
   if (!execute_motion_code(run, code)) return false;
-  state.modes.motion = static_cast<std::int16_t>(code);
+  state.modes.motion = static_cast<std::int16_t>(run.block.motion);
   return true;
 }
 
@@ -99,6 +102,8 @@ bool execute_line(Run& run) {
   if (block.stage == Stage::Machine) {
     if (block.m_groups != 0 && !apply_machine_functions(run)) return false;
     if (block.g_groups != 0) {
+      if (!run.state.nurbs.points.empty() && !fits_in_nurbs(run)) [[unlikely]]
+        return false;
       if (!dwell(run) || !apply_modes(run)) return false;
       if (block.has(GGroup::OneShot) && !execute_one_shots(run)) return false;
     }

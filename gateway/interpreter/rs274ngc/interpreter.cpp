@@ -8,6 +8,7 @@
 #include "gateway/interpreter/rs274ngc/compensation.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
 #include "gateway/interpreter/rs274ngc/execution.hpp"
+#include "gateway/interpreter/rs274ngc/nurbs.hpp"
 #include "gateway/interpreter/rs274ngc/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 
@@ -165,6 +166,7 @@ bool Rs274NgcInterpreter::execute() {
     bool is_end = false;
     if (!meet_percent(at, is_end)) return false;
     if (is_end) {
+      if (!check_nurbs_closed(run_)) return false;
       release_held(run_);
       state.phase = RunPhase::Ended;
     }

@@ -6,6 +6,8 @@
 #include "gateway/interpreter/rs274ngc/compensation.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
 #include "gateway/interpreter/rs274ngc/modes.hpp"
+#include "gateway/interpreter/rs274ngc/nurbs.hpp"
+#include "gateway/interpreter/rs274ngc/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -229,7 +231,7 @@ bool apply_machine_functions(Run& run) {
 
 bool reset_at_end(Run& run) {
   State& state = run.state;
-  if (!switch_compensation(run, 400)) return false;
+  if (!check_nurbs_closed(run) || !switch_compensation(run, 400)) return false;
   state.compensation = Compensation{};
   reset_coordinates(run);
   state.modes.plane = Plane::XY;

@@ -43,6 +43,18 @@ Result<void> read_limits(const Options& options, ControlOptions& control) {
   return {};
 }
 
+Result<void> read_tolerance(const Options& options, ControlOptions& control) {
+  constexpr double kLeast = 1e-6;
+  const auto tolerance = options.length("spline_tolerance", Length::mm(control.spline_tolerance));
+  if (!tolerance) return fail(tolerance.error());
+  if (!(tolerance->mm() >= kLeast)) {
+    return fail(Errc::Syntax, "[control] spline_tolerance: {} mm is below {} mm", tolerance->mm(),
+                kLeast);
+  }
+  control.spline_tolerance = tolerance->mm();
+  return {};
+}
+
 Result<void> read_pins(const Options& options, ControlOptions& control) {
   const auto pins = options.integers("pins");
   if (!pins) return fail(pins.error());
@@ -56,7 +68,7 @@ Result<void> read_pins(const Options& options, ControlOptions& control) {
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   if (auto known = options.check_known({"profile", "axes", "ignore_missing_axis_words", "slots",
-                                        "max_passes", "max_loops", "pins"});
+                                        "max_passes", "max_loops", "pins", "spline_tolerance"});
       !known) {
     return fail(known.error());
   }
@@ -74,6 +86,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   control.axes = *axes;
   control.ignores_missing_axes = *ignores;
   if (auto read = read_limits(options, control); !read) return fail(read.error());
+  if (auto read = read_tolerance(options, control); !read) return fail(read.error());
   if (auto read = read_pins(options, control); !read) return fail(read.error());
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;

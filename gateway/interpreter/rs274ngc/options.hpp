@@ -17,6 +17,10 @@ struct Tool {
   int number = 0;
   Axes length{};
   double diameter = 0;
+  double front_angle = 0, back_angle = 0;  ///< degrees, of a lathe tool
+  int orientation = 0;                     ///< of its tip, 1 to 9; 0 = a mill's
+
+  friend bool operator==(const Tool&, const Tool&) = default;
 };
 
 /// What a machine's builder and operator have set: the `[control]` options and the panel's
@@ -30,6 +34,7 @@ struct ControlOptions {
   int slots = 128;                       ///< of the tool changer
   std::uint64_t max_passes = 1'000'000;  ///< of loops and calls, together
   std::uint64_t max_restarts = 1000;     ///< of the main program by M99
+  double spline_tolerance = 0.001;       ///< mm, of the pieces of G5 to G5.3
   double mm_per_machine_unit = 1;        ///< of stored parameters
   std::vector<std::int64_t> pins;
   bool answers_pins = false;  ///< `pins` was given: nobody need be asked

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <array>
 
+#include "gateway/interpreter/rs274ngc/tool_table.hpp"
+
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
@@ -15,6 +17,26 @@ double shown(const Run& run, Axis axis, double value) {
   return is_rotary(axis) ? value : value / run.state.mm_per_unit();
 }
 
+/// 5401 to 5413: the row of the tool in the spindle, whatever length is in force.
+double parameter_of_tool(const Run& run, int index) {
+  const Tool* tool = find_tool(run, run.state.tool.loaded);
+  if (tool == nullptr) return 0;
+  switch (index) {
+    case 5410:
+      return tool->diameter / run.state.mm_per_unit();
+    case 5411:
+      return tool->front_angle;
+    case 5412:
+      return tool->back_angle;
+    case 5413:
+      return tool->orientation;
+    default:
+      break;
+  }
+  const Axis axis = kAllAxes[static_cast<std::size_t>(index - 5401)];
+  return shown(run, axis, tool->length[index_of(axis)]);
+}
+
 /// Parameters from 5400 on show the state.
 double live_parameter(const Run& run, int index) {
   const State& state = run.state;
@@ -23,16 +45,7 @@ double live_parameter(const Run& run, int index) {
     return shown(run, axis, state[axis]);
   }
   if (index == 5400) return state.tool.loaded;
-  if (index > 5400 && index <= 5400 + static_cast<int>(kAxisCount)) {
-    const Axis axis = kAllAxes[static_cast<std::size_t>(index - 5401)];
-    return shown(run, axis, state.tool_length[index_of(axis)]);
-  }
-  if (index == 5410) {
-    for (const Tool& tool : run.tools) {
-      if (tool.number == state.tool.loaded) return tool.diameter / state.mm_per_unit();
-    }
-    return 0;
-  }
+  if (index > 5400 && index <= 5413) return parameter_of_tool(run, index);
   return run.parameters[static_cast<std::size_t>(index)];
 }
 

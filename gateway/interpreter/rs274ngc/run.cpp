@@ -13,7 +13,8 @@ LineRules rules_of(const ControlOptions& options) {
 Run::Run(ControlOptions control_options, std::vector<Tool> tool_table,
          ProgramSource& program_source, EventSink& event_sink)
     : options(std::move(control_options)),
-      tools(std::move(tool_table)),
+      setup_tools(std::move(tool_table)),
+      tools(setup_tools),
       source(program_source),
       sink(event_sink),
       reader(program_source, rules_of(options)) {}

@@ -50,7 +50,8 @@ struct Run {
   double mm(double units) const { return units * state.mm_per_unit(); }
 
   const ControlOptions options;
-  const std::vector<Tool> tools;
+  const std::vector<Tool> setup_tools;
+  std::vector<Tool> tools;  ///< the same rows, as G10 has written them
   ProgramSource& source;
   EventSink& sink;
   LineReader reader;

@@ -68,6 +68,11 @@ void visit(Archive& archive, KnownLabel& known) {
   visit(archive, known.place);
 }
 
+template <class Archive>
+void visit(Archive& archive, ControlPoint& point) {
+  visit_all(archive, point.x, point.y, point.weight);
+}
+
 template <class Archive, class Element>
 void visit_list(Archive& archive, std::vector<Element>& list, std::size_t most) {
   std::size_t count = list.size();
@@ -104,8 +109,15 @@ void visit_modal(Archive& archive, State& state) {
             cycle.j, cycle.k, cycle.d, cycle.is_series, cycle.initial);
   Compensation& compensation = state.compensation;
   visit_all(archive, compensation.side, compensation.radius, compensation.is_first,
-            compensation.was_on, compensation.x, compensation.y, compensation.held_sweep);
+            compensation.was_on, compensation.x, compensation.y, compensation.held_sweep,
+            compensation.orientation);
   visit_all(archive, state.spline_i, state.spline_j, state.follows_spline);
+}
+
+template <class Archive>
+void visit(Archive& archive, Nurbs& nurbs) {
+  archive(nurbs.order);
+  visit_list(archive, nurbs.points, kMaxControlPoints);
 }
 
 template <class Archive>
@@ -129,6 +141,7 @@ void visit_state(Archive& archive, State& state) {
   visit(archive, state.at);
   visit_coordinates(archive, state);
   visit_modal(archive, state);
+  visit(archive, state.nurbs);
   visit_flow(archive, state);
 }
 
@@ -147,6 +160,27 @@ void visit_parameters(Archive& archive, Parameters& parameters) {
     archive(number);
     if (number >= parameters.size()) return archive.damage();
     archive(parameters[number]);
+    ++at;
+  }
+}
+
+/// Only the rows that the program has written.
+template <class Archive>
+void visit_tools(Archive& archive, const std::vector<Tool>& from_setup, std::vector<Tool>& tools) {
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < tools.size(); ++i) written += !(tools[i] == from_setup[i]);
+  if (!archive.size(written, tools.size())) return;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < written; ++i) {
+    if constexpr (!Archive::kReads) {
+      while (tools[at] == from_setup[at]) ++at;
+    }
+    auto row = static_cast<std::uint32_t>(at);
+    archive(row);
+    if (row >= tools.size()) return archive.damage();
+    Tool& tool = tools[row];
+    visit_axes(archive, tool.length);
+    visit_all(archive, tool.diameter, tool.front_angle, tool.back_angle, tool.orientation);
     ++at;
   }
 }
@@ -170,15 +204,18 @@ bool is_plausible(const State& state) {
   return knows(state.skip.label) && knows_motion && state.phase <= RunPhase::Alarmed &&
          state.demarcation <= Demarcation::None && state.units <= Units::Millimetre &&
          state.modes.plane <= Plane::YZ && state.modes.feed <= FeedMode::PerRevolution &&
-         state.compensation.side <= Side::Right && state.skip.until <= SkipFor::FanucFile &&
-         state.system >= 1 && state.system <= kSystems &&
+         state.compensation.side <= Side::Right && state.compensation.orientation < 9 &&
+         state.skip.until <= SkipFor::FanucFile && state.nurbs.order >= kLeastOrder &&
+         state.nurbs.order <= kMaxOrder && state.system >= 1 && state.system <= kSystems &&
          state.spindle.state <= SpindleState::Oriented;
 }
 
 template <class Archive>
 void visit_all_of(Archive& archive, State& state, Parameters& parameters, NamedParameters& names,
-                  HeldEvents& held, Origin& origin) {
+                  HeldEvents& held, Origin& origin, const std::vector<Tool>& from_setup,
+                  std::vector<Tool>& tools) {
   visit_state(archive, state);
+  visit_tools(archive, from_setup, tools);
   visit_parameters(archive, parameters);
   names.visit(archive);
   visit_held(archive, held);
@@ -194,7 +231,8 @@ Snapshot take_snapshot(const Run& run) {
   NamedParameters names = run.names;
   HeldEvents held = run.held;
   Origin origin = run.origin;
-  visit_all_of(writer, state, parameters, names, held, origin);
+  std::vector<Tool> tools = run.tools;
+  visit_all_of(writer, state, parameters, names, held, origin, run.setup_tools, tools);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
@@ -209,7 +247,8 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   NamedParameters names;
   HeldEvents held;
   Origin origin;
-  visit_all_of(reader, state, parameters, names, held, origin);
+  std::vector<Tool> tools = run.setup_tools;
+  visit_all_of(reader, state, parameters, names, held, origin, run.setup_tools, tools);
   if (!reader.is_complete() || !is_plausible(state)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
   }
@@ -218,6 +257,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   run.names = std::move(names);
   run.held = std::move(held);
   run.origin = origin;
+  run.tools = std::move(tools);
   return {};
 }
 

@@ -2,13 +2,10 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/rs274ngc/arcs.hpp"
-#include "gateway/interpreter/rs274ngc/motion.hpp"
+#include "gateway/interpreter/rs274ngc/curve_pieces.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
-
-constexpr int kPieces = 64;
 
 /// A cubic curve by its end points and the two points that pull it.
 struct Cubic {
@@ -63,18 +60,23 @@ bool read_quadratic(Run& run, Cubic& curve) {
 
 }  // namespace
 
-bool spline_move(Run& run, int g_code) {
-  State& state = run.state;
-  if (g_code == 52 || g_code == 53) {
-    return run.fail(ErrorCode::NotSupported, 0, "NURBS: G5.2 and G5.3");
+bool check_spline(Run& run) {
+  const State& state = run.state;
+  if (state.modes.plane != Plane::XY || state.modes.has_tilted_plane) {
+    return run.fail(ErrorCode::SplinePlane, 0);
   }
-  if (state.modes.plane != Plane::XY) return run.fail(ErrorCode::SplinePlane, 0);
   if (state.compensation.side != Side::Off) {
     return run.fail(ErrorCode::CompNotAllowed, 0, "a spline");
   }
   if (run.block.words.has_any(set_of("ZABCUVW"))) {
     return run.fail(ErrorCode::SplineWords, 0, "splines move X and Y only");
   }
+  return true;
+}
+
+bool spline_move(Run& run, int g_code) {
+  if (!check_spline(run)) return false;
+  const State& state = run.state;
   Feed feed;
   Target target;
   if (!read_feed(run, false, feed) || !read_target(run, target)) return false;
@@ -82,17 +84,10 @@ bool spline_move(Run& run, int g_code) {
   curve.start = {state[Axis::X], state[Axis::Y]};
   curve.end = {target.to[index_of(Axis::X)], target.to[index_of(Axis::Y)]};
   if (!(g_code == 50 ? read_cubic(run, curve) : read_quadratic(run, curve))) return false;
-  target.named = static_cast<AxisBits>(target.named | bit_of(Axis::X) | bit_of(Axis::Y));
-  for (int piece = 1; piece <= kPieces; ++piece) {
-    const PlanePoint at = piece == kPieces ? curve.end : curve.at(piece / double{kPieces});
-    Target next = target;
-    next.to[index_of(Axis::X)] = at.first;
-    next.to[index_of(Axis::Y)] = at.second;
-    line_to(run, next,
-            feed.per() == Feed::Per::Move ? Feed::inverse_time(feed.moves_per_minute() * kPieces)
-                                          : feed);
-  }
-  return true;
+  std::vector<PlanePoint> points;
+  add_pieces([&](double t) { return curve.at(t); }, 0, 1, run.options.spline_tolerance, points);
+  points.back() = curve.end;
+  return follow_points(run, points, feed);
 }
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -70,11 +70,25 @@ struct CycleWords {
 
 struct Compensation {
   Side side = Side::Off;
-  double radius = 0;      ///< mm, not negative
-  bool is_first = false;  ///< no move since it was turned on
-  bool was_on = false;    ///< turned off, and no move since
-  double x = 0, y = 0;    ///< end of the last move as programmed, along the plane's axes
-  double held_sweep = 0;  ///< degrees of the held arc as programmed, whole turns left out
+  double radius = 0;             ///< mm, not negative
+  bool is_first = false;         ///< no move since it was turned on
+  bool was_on = false;           ///< turned off, and no move since
+  double x = 0, y = 0;           ///< end of the last move as programmed, along the plane's axes
+  std::uint8_t orientation = 0;  ///< of a lathe tool's tip, 1 to 8; its nose's centre else
+  double held_sweep = 0;         ///< degrees of the held arc as programmed, whole turns left out
+};
+
+inline constexpr int kLeastOrder = 3;
+inline constexpr int kMaxOrder = 20;
+inline constexpr std::size_t kMaxControlPoints = 1000;
+struct ControlPoint {
+  double x = 0, y = 0;  ///< mm
+  double weight = 1;
+};
+/// From G5.2 to G5.3; without points, no curve is open.
+struct Nurbs {
+  int order = kLeastOrder;
+  std::vector<ControlPoint> points;
 };
 
 /// An O word's label: a number, or a name by its place in `label_names`.
@@ -172,6 +186,7 @@ struct State {
   Compensation compensation;
   double spline_i = 0, spline_j = 0;  ///< mm: end direction of the last G5
   bool follows_spline = false;
+  Nurbs nurbs;
 
   std::vector<BlockFrame> frames;
   std::vector<CallFrame> calls;

@@ -45,6 +45,9 @@ class Maker {
   void other_plane();
   void offsets();
   void lengths();
+  void tool_rows();
+  void splines();
+  void nurbs();
   void compensation();
   void cycles();
 

@@ -156,6 +156,74 @@ void Maker::lengths() {
   known_position();
 }
 
+/// Rows of the tool table, written; what they are shows when a length or a radius is taken.
+void Maker::tool_rows() {
+  const std::uint64_t tool = 1 + below(4);
+  if (below(3) == 0) {
+    line(fmt::format("T{} M6 G43", below(5)));
+    line("M3");
+  }
+  if (below(3) == 0)
+    line(fmt::format("G10 L2 P{} R{}", 9 * below(2), text_of(between(-600'000, 600'000))));
+  const std::string z = text_of(between(-9'000, 30'000));
+  switch (below(4)) {
+    case 0:
+      line(fmt::format("G10 L1 P{} Z{} R{}", tool, z, text_of(between(100, 1'000))));
+      break;
+    case 1:
+      line(fmt::format("G10 L10 P{} Z{}", tool, z));
+      break;
+    case 2:
+      line(fmt::format("G10 L11 P{} Z{} X{}", tool, z, text_of(between(-9'000, 9'000))));
+      break;
+    default:
+      line(fmt::format("G10 L10 P{} X{} Y{}", tool, text_of(between(-9'000, 9'000)), z));
+      break;
+  }
+  line(below(2) == 0 ? fmt::format("G43 H{}", tool) : fmt::format("G43.2 H{}", tool));
+  line("G1 X#5421 Y[#5401/4] Z[#5422/8 + #5403/16]");
+  if (below(2) == 0) line("G49");
+  known_position();
+}
+
+/// Of curves the peer prints no points: where they end shows in the move behind them.
+void Maker::splines() {
+  known_position();
+  const auto some = [&] { return text_of(between(-20'000, 20'000)); };
+  switch (below(3)) {
+    case 0:
+      line(fmt::format("G5 X{} Y{} I{} J{} P{} Q{}", some(), some(), some(), some(), some(),
+                       some()));
+      if (below(2) == 0) line(fmt::format("G5 X{} Y{} P{} Q{}", some(), some(), some(), some()));
+      break;
+    case 1:
+      line(fmt::format("G5.1 X{} Y{} I{} J{}", some(), some(), some(), some()));
+      break;
+    default:
+      nurbs();
+      break;
+  }
+  line(fmt::format("G1 Z{}", text_of(z_ + 1'000)));
+  known_position();
+}
+
+/// Now and then with too few points.
+void Maker::nurbs() {
+  const auto point = [&] {
+    return fmt::format("X{} Y{} P{}", text_of(between(-20'000, 20'000)),
+                       text_of(between(-20'000, 20'000)), text_of(between(1'000, 40'000)));
+  };
+  const std::uint64_t order = 3 + below(3);
+  line(below(3) == 0 ? fmt::format("G5.2 P{} L{}", text_of(between(1'000, 40'000)), order)
+                     : fmt::format("G5.2 {} L{}", point(), order));
+  const std::uint64_t count = order - 2 + below(5);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (below(8) == 0) line(one_of(std::array{"M8", "#1=2", "F20", "(on)"}));
+    line(point());
+  }
+  line("G5.3");
+}
+
 /// A way around with room for the tool, mostly.
 void Maker::compensation() {
   known_position();

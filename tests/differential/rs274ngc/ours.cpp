@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -17,10 +18,26 @@ using namespace interpreter;
 
 constexpr std::array kAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C};
 
+/// Lines that make a curve: the peer prints no moves of it.
+std::set<std::uint64_t> curve_lines(const std::string& program) {
+  std::set<std::uint64_t> lines;
+  std::istringstream text(program);
+  std::string line;
+  for (std::uint64_t number = 1; std::getline(text, line); ++number) {
+    for (const char* code : {"G5 ", "G5.1", "G5.3"}) {
+      if (line.find(code) != std::string::npos) lines.insert(number);
+    }
+  }
+  return lines;
+}
+
 class MoveSink final : public EventSink {
  public:
+  explicit MoveSink(const std::string& program) : curves_(curve_lines(program)) {}
   void on_rapid(const Rapid& event) override { add(Move::Kind::Rapid, event.to); }
-  void on_line(const Line& event) override { add(Move::Kind::Feed, event.to); }
+  void on_line(const Line& event) override {
+    if (!curves_.contains(event.origin.line)) add(Move::Kind::Feed, event.to);
+  }
   void on_thread(const Thread& event) override { add(Move::Kind::Feed, event.to); }
   void on_arc(const Arc& event) override {
     add(Move::Kind::Arc, event.to);
@@ -38,6 +55,8 @@ class MoveSink final : public EventSink {
   Behaviour behaviour;
 
  private:
+  std::set<std::uint64_t> curves_;
+
   void add(Move::Kind kind, const Position& to) {
     Move move;
     move.kind = kind;
@@ -82,7 +101,7 @@ Behaviour run_ours(const std::string& program, const std::filesystem::path& fold
     text << file.rdbuf();
     return text.str();
   });
-  MoveSink sink;
+  MoveSink sink(program);
   const auto outcome = run_offline(**dialect, *setup, source, sink);
   if (!outcome) sink.behaviour.complaint = outcome.error().what;
   drop_standing_moves(sink.behaviour);

@@ -72,7 +72,22 @@ constexpr std::array kMistakes{"G1 X1 X2",
                                "G0 U1",
                                "G0 B10",
                                "G1 F0 X1",
-                               "G95 G1 X1"};
+                               "G95 G1 X1",
+                               "G10 L1 P9 Z1",
+                               "G10 L1 P1",
+                               "G10 L10 Z1",
+                               "G10 L11 P0 Z1",
+                               "G10 L2 P1 I2",
+                               "G10 L20 P1 X1 J2",
+                               "G10 L1 P1 Q12",
+                               "G10 L1 P1 Q1.5",
+                               "G10 L1 P1 Z1 G1",
+                               "T2 M6 G10 L0",
+                               "G17 G41.1 D.1 L3",
+                               "G5.3",
+                               "G5.2 X1 P1",
+                               "G5.2 X1 Y1 P1 I1",
+                               "G17.1 G2 X1 I1"};
 
 }  // namespace
 
@@ -136,7 +151,7 @@ void Maker::known_position() {
 }
 
 void Maker::part() {
-  switch (below(17)) {
+  switch (below(20)) {
     case 0:
     case 1:
       return lines(2 + below(4));
@@ -165,6 +180,11 @@ void Maker::part() {
       return subprogram();
     case 15:
       return expressions();
+    case 16:
+    case 17:
+      return tool_rows();
+    case 18:
+      return splines();
     default:
       return small_things();
   }

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/compensation/impl/element.hpp"
 
+#include <algorithm>
+
 namespace dripline::interpreter::compensation::impl {
 namespace {
 
@@ -17,6 +19,9 @@ struct Shift {
 
 /// Angles so small are their own tangents to the last digit.
 constexpr double kSmallSlope = 1e-6;
+
+/// So near to a half turn, or to none, in radians, both ways round are the same.
+constexpr double kHalfTurn = 1e-9;
 
 double angle_of(double sine, double cosine) {
   if (cosine > 0 && std::fabs(sine) < kSmallSlope * cosine) return sine / cosine;
@@ -52,6 +57,24 @@ void complete_arc(Element& element, const Arc& arc) {
   element.direction_in = tangent(in, arch.radius_in, arch.side);
   element.direction_out = tangent(out, arch.radius_out, arch.side);
   element.is_arc = true;
+}
+
+void complete_corner(Element& element, PlaneVector corner, PlaneVector direction) {
+  element.is_arc = true;
+  element.rounds_corner = true;
+  element.from = element.end = corner;
+  element.direction_in = element.direction_out = direction;
+  element.arch = {.center = corner, .side = element.offset > 0 ? -1.0 : 1.0};
+}
+
+bool turn_corner(Element& element, PlaneVector direction) {
+  double sweep = element.arch.side * turn_between(element.direction_in, direction);
+  // away from the compensated side, whatever rounding makes of a half circle
+  if (sweep < kHalfTurn - Angle::kPi) sweep += 2 * Angle::kPi;
+  if (sweep < -kHalfTurn) return false;
+  element.arch.sweep = std::max(sweep, 0.0);
+  element.direction_out = direction;
+  return true;
 }
 
 double offset_sweep(const Element& element, PlaneVector end) {

@@ -49,8 +49,9 @@ struct ByArc {
 struct Element {
   bool is_rapid = false;
   bool is_arc = false;
-  bool rests = false;      ///< the axes come to rest at its end
-  bool is_silent = false;  ///< decides its corners, but is not carried out
+  bool rests = false;          ///< the axes come to rest at its end
+  bool is_silent = false;      ///< decides its corners, but is not carried out
+  bool rounds_corner = false;  ///< round the corner's own point, until the next element goes on
   Role role = Role::Contour;
   StartUp start_up = StartUp::NextNormal;                 ///< of the role StartUp
   OutsideCorner outside = OutsideCorner::ExtendTangents;  ///< of the corner at its end
@@ -78,6 +79,10 @@ struct Element {
 void complete_line(Element& element);
 /// Sets directions, radii and turn of an arc from `from`, `end`, its centre and its turn.
 void complete_arc(Element& element, const Arc& arc);
+/// An arc of no radius about `corner`, which comes along `direction` and goes on along it.
+void complete_corner(Element& element, PlaneVector corner, PlaneVector direction);
+/// It goes on along `direction` instead. False: that is a turn to the compensated side.
+bool turn_corner(Element& element, PlaneVector direction);
 
 /// The sweep of the offset arc between `element.begin` and `end`, which both lie on it: the
 /// programmed one, less what is cut off or plus what is added at either end. Below 0 when it runs

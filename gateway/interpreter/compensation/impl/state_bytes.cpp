@@ -46,7 +46,8 @@ void visit(Archive& archive, LeadIn& lead_in) {
 }
 template <class Archive>
 void visit(Archive& archive, Element& element) {
-  visit_all(archive, element.is_rapid, element.is_arc, element.rests, element.is_silent);
+  visit_all(archive, element.is_rapid, element.is_arc, element.rests, element.is_silent,
+            element.rounds_corner);
   visit(archive, element.offset);
   up_to(archive, element.role, Role::Parallel);
   up_to(archive, element.start_up, StartUp::Tangent);

@@ -114,6 +114,11 @@ class Contour {
     compensator.on_line({next(), at_, feed});
     return end_block();
   }
+  /// Round the corner; false in `goes_round` when there was none.
+  Contour& round(std::optional<PlaneVector> along = {}) {
+    goes_round = compensator.go_round_corner(next(), feed, along);
+    return end_block();
+  }
   Contour& misc(int code) {
     compensator.on_miscellaneous({next(), code});
     return end_block();
@@ -134,6 +139,7 @@ class Contour {
 
   PathLog log;
   Compensator compensator;
+  bool goes_round = true;
   Feed feed = Feed::per_minute(Length::mm(200));
 
  private:

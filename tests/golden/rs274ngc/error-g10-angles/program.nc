@@ -1,0 +1,3 @@
+(expect NGC0173 2:14)
+G10 L2 P1 X0 I1
+M2

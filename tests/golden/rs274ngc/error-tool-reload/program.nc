@@ -1,0 +1,4 @@
+(expect NGC0233 3:5)
+T2 M6
+G10 L0
+M2

@@ -1,0 +1,3 @@
+(expect NGC0230 2:8)
+G10 L1 P7 Z5
+M2
