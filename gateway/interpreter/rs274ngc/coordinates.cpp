@@ -96,9 +96,14 @@ void load_system(Run& run, int system) {
 
 void set_tool_length(Run& run, const Axes& length) {
   State& state = run.state;
-  for (std::size_t i = 0; i < kAxisCount; ++i) {
-    state.position[i] += state.tool_length[i] - length[i];
+  Axes change;
+  for (std::size_t i = 0; i < kAxisCount; ++i) change[i] = state.tool_length[i] - length[i];
+  if (state.rotation != 0) {  // lengths lie along the machine's axes
+    const Turned in_system = turned(change[kX], change[kY], -state.rotation);
+    change[kX] = in_system.x;
+    change[kY] = in_system.y;
   }
+  for (std::size_t i = 0; i < kAxisCount; ++i) state.position[i] += change[i];
   state.tool_length = length;
   state.machine = to_machine(run, state.position);
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <array>
 
+#include "gateway/interpreter/rs274ngc/coordinates.hpp"
 #include "gateway/interpreter/rs274ngc/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -17,13 +18,14 @@ double shown(const Run& run, Axis axis, double value) {
   return is_rotary(axis) ? value : value / run.state.mm_per_unit();
 }
 
-/// 5401 to 5413: the row of the tool in the spindle, whatever length is in force.
+/// 5401 to 5413: the row of the tool in the spindle as the table has it, in machine units, whatever
+/// length is in force.
 double parameter_of_tool(const Run& run, int index) {
   const Tool* tool = find_tool(run, run.state.tool.loaded);
   if (tool == nullptr) return 0;
   switch (index) {
     case 5410:
-      return tool->diameter / run.state.mm_per_unit();
+      return to_memory(run, Axis::X, tool->diameter);
     case 5411:
       return tool->front_angle;
     case 5412:
@@ -34,7 +36,7 @@ double parameter_of_tool(const Run& run, int index) {
       break;
   }
   const Axis axis = kAllAxes[static_cast<std::size_t>(index - 5401)];
-  return shown(run, axis, tool->length[index_of(axis)]);
+  return to_memory(run, axis, tool->length[index_of(axis)]);
 }
 
 /// Parameters from 5400 on show the state.

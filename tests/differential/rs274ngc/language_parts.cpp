@@ -29,7 +29,7 @@ void Maker::loop() {
       break;
     case 1:
       line(fmt::format("{} do", o));
-      body(counter, o);
+      body(counter, "");  // a continue would give the peer's next repeat more passes
       line(fmt::format("{} while [#{} le {}]", o, counter, 1 + below(4)));
       break;
     case 2:

@@ -85,6 +85,7 @@ void Maker::radius_arc() {
 void Maker::other_plane() {
   const bool is_zx = below(2) == 0;
   line("G10 L2 P0 R0");  // a turned arc of these planes is none of ours
+  known_position();
   line(is_zx ? "G18" : "G19");
   const Ticks first = between(-9'000, 9'000);
   const Ticks second = between(1'000, 9'000);
@@ -159,12 +160,16 @@ void Maker::lengths() {
 /// Rows of the tool table, written; what they are shows when a length or a radius is taken.
 void Maker::tool_rows() {
   const std::uint64_t tool = 1 + below(4);
-  if (below(3) == 0) {
-    line(fmt::format("T{} M6 G43", below(5)));
+  const bool loads = below(2) == 0;  // the peer begins with a tool of its own making
+  if (loads) {
+    line(fmt::format("T{} M6", 1 + below(4)));
     line("M3");
+    line("G43");
   }
-  if (below(3) == 0)
+  if (below(3) == 0) {
     line(fmt::format("G10 L2 P{} R{}", 9 * below(2), text_of(between(-600'000, 600'000))));
+    known_position();  // with G92 the peer is wrong about where a turned system puts the tool
+  }
   const std::string z = text_of(between(-9'000, 30'000));
   switch (below(4)) {
     case 0:
@@ -181,7 +186,8 @@ void Maker::tool_rows() {
       break;
   }
   line(below(2) == 0 ? fmt::format("G43 H{}", tool) : fmt::format("G43.2 H{}", tool));
-  line("G1 X#5421 Y[#5401/4] Z[#5422/8 + #5403/16]");
+  line(loads ? "G1 X#5421 Y[#5401/4 + 1] Z[#5422/8 + #5403/16 + #5410]"
+             : "G1 X#5421 Y1.5 Z[#5422/8]");
   if (below(2) == 0) line("G49");
   known_position();
 }

@@ -82,7 +82,6 @@ constexpr std::array kMistakes{"G1 X1 X2",
                                "G10 L1 P1 Q12",
                                "G10 L1 P1 Q1.5",
                                "G10 L1 P1 Z1 G1",
-                               "T2 M6 G10 L0",
                                "G17 G41.1 D.1 L3",
                                "G5.3",
                                "G5.2 X1 P1",
@@ -193,6 +192,7 @@ void Maker::part() {
 void Maker::small_things() {
   switch (below(10)) {
     case 0:
+      line("G49");
       line(below(2) == 0 ? "G20" : "G21");
       break;
     case 1:
