@@ -109,7 +109,7 @@ void finish_contour(Run& run) {
       joint.kind == JointKind::RunOff || (joint.kind == JointKind::Round && !joint.is_stated);
   state.compensation = Compensation::Off;
   if (!by_arc && joint.kind != JointKind::None) return run.joiner.turn_off();
-  if (joint.kind == JointKind::Round) run.joiner.drop_corner();
+  if (by_arc) run.joiner.drop_corner();
   release_corner(run);
   if (!by_arc) return run.compensator.turn_off();
   run.compensator.turn_off_by_arc(joint.origin, Length::mm(joint.size));
@@ -279,12 +279,12 @@ bool make_joint(Run& run, const Block& block) {
       }
       break;
     case JointKind::Round:
+    case JointKind::RunOff:
       run.joiner.round_corner(run.origin, size);
       break;
     case JointKind::Chamfer:
       run.joiner.chamfer_corner(run.origin, size);
       break;
-    case JointKind::RunOff:
     case JointKind::None:
       break;
   }

@@ -81,11 +81,6 @@ bool mirror(Run& run, const Block& block) {
   return transform(run, changed);
 }
 
-Plane plane_with(Axis reference) {
-  if (reference == Axis::Y) return Plane::YZ;
-  return reference == Axis::Z ? Plane::ZX : Plane::XY;
-}
-
 bool rotate(Run& run, const Block& block) {
   Transformation changed = run.state.transformation;
   double angle = run.number(block.angle);
@@ -97,7 +92,7 @@ bool rotate(Run& run, const Block& block) {
     angle = std::fmod(angle, kMostRotation);
   }
   changed.rotation = angle;
-  changed.rotation_plane = block.axis ? plane_with(*block.axis) : run.state.plane;
+  changed.rotation_plane = block.axis ? plane_across(*block.axis) : run.state.plane;
   return transform(run, changed);
 }
 

@@ -203,6 +203,8 @@ bool TncInterpreter::execute_parts() {
     const bool is_last = part_ + 1 == parts.count;
     run_.joint_follows = is_last ? peeked_joint_ : is_joint(parts.blocks[part_ + 1]);
     if (!execute(run_, parts.blocks[part_])) return false;
+    // what a part has done to the contour comes before what the next one finds wrong
+    if (run_.state.uses_stages && !is_last && !check_stages(run_)) return false;
     run_.answer.reset();
     if (run_.state.phase == RunPhase::Ended) [[unlikely]]
       break;

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/tnc155/conversion_parts.hpp"
 #include "gateway/interpreter/tnc155/iso_axes.hpp"
+#include "gateway/interpreter/tnc155/joint_ahead.hpp"
 #include "gateway/interpreter/tnc155/mode_flow.hpp"
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
 
@@ -49,6 +50,13 @@ Result<void> check_ways(const NumberedIsoBlock& numbered, const ModesBefore& bef
   if (before.is_motion_open && !has_motion) {
     return refuse(numbered.line, "the path function in force depends on where the run comes from");
   }
+  const bool has_plane = block.has(IsoGroup::Plane) && !block.has_code(IsoGroup::Cycle, 73);
+  if ((before.is_plane_open && !has_plane) ||
+      (before.is_compensation_open && !block.has(IsoGroup::Compensation))) {
+    return refuse(numbered.line,
+                  "whether a plane and a compensation were programmed depends on where the run "
+                  "comes from");
+  }
   const int motion = has_motion ? block.code(IsoGroup::Motion) : before.modes.motion;
   if (before.is_turn_open && (motion == 5 || motion == 15)) {
     return refuse(numbered.line, "the direction repeated depends on where the run comes from");
@@ -77,6 +85,7 @@ class IsoToPlain {
     ReadingState state;
     BlockParts parts;
     Fault fault;
+    bool is_gap = false;
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       const auto& [block, line] = program_.blocks[i];
       if (auto checked = check_ways(program_.blocks[i], before[i]); !checked) return checked;
@@ -84,6 +93,10 @@ class IsoToPlain {
       if (!resolve(block, i == 0, state, parts, fault)) {
         return fail(Errc::Syntax, "line {}, column 1: {}", line, fault.text());
       }
+      if (parts.count != 0 && is_gap && is_joint(*parts.begin())) {
+        return refuse(line, "a corner behind a block that plain language has none for");
+      }
+      is_gap = parts.count == 0;
       for (const Block& part : parts) {
         blocks_.push_back(part);
         lines_.push_back(line);

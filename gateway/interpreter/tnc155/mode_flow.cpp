@@ -34,6 +34,12 @@ Distance distance_behind(const IsoBlock& block) {
   return last;
 }
 
+/// The plane of a blank or a rotation belongs to them.
+bool sets_plane(const IsoBlock& block) {
+  return block.has(IsoGroup::Plane) && !block.has(IsoGroup::Blank) &&
+         !block.has_code(IsoGroup::Cycle, 73);
+}
+
 void open(ModesBefore& state) {
   state.is_motion_open = state.is_distance_open = state.is_turn_open = true;
 }
@@ -63,9 +69,14 @@ ModesBefore behind(const IsoBlock& block, ModesBefore state) {
   if (block.has(IsoGroup::Cycle) && block.parameters != 0) {
     state.has_program_cycle = block.code(IsoGroup::Cycle) == 39;
   }
-  state.modes.has_compensation |= block.has(IsoGroup::Compensation);
-  state.modes.has_plane |= block.has(IsoGroup::Plane) && !block.has(IsoGroup::Blank) &&
-                           !block.has_code(IsoGroup::Cycle, 73);
+  if (block.has(IsoGroup::Compensation)) {
+    state.modes.has_compensation = true;
+    state.is_compensation_open = false;
+  }
+  if (sets_plane(block)) {
+    state.modes.has_plane = true;
+    state.is_plane_open = false;
+  }
   return state;
 }
 
@@ -82,6 +93,9 @@ bool merge(ModesBefore& into, const ModesBefore& from) {
                            into.modes.has_distance != from.modes.has_distance ||
                            into.modes.is_incremental != from.modes.is_incremental;
   into.is_turn_open |= from.is_turn_open || into.modes.last_turn != from.modes.last_turn;
+  into.is_plane_open |= from.is_plane_open || into.modes.has_plane != from.modes.has_plane;
+  into.is_compensation_open |=
+      from.is_compensation_open || into.modes.has_compensation != from.modes.has_compensation;
   into.has_program_cycle |= from.has_program_cycle;
   into.modes.has_plane |= from.modes.has_plane;
   into.modes.has_compensation |= from.modes.has_compensation;

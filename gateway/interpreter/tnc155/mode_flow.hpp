@@ -14,7 +14,9 @@ struct ModesBefore {
   bool is_motion_open = false;
   bool is_distance_open = false;
   bool is_turn_open = false;
-  bool has_program_cycle = false;  ///< a cycle call may run a program
+  bool is_plane_open = false;         ///< whether one was programmed
+  bool is_compensation_open = false;  ///< likewise
+  bool has_program_cycle = false;     ///< a cycle call may run a program
   bool is_reached = false;
   friend bool operator==(const ModesBefore&, const ModesBefore&) = default;
 };

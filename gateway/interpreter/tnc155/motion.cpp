@@ -121,6 +121,11 @@ bool go_straight(Run& run, const Block& block, const Target& target) {
 
 /// A block without coordinates: its compensation, its feed and its M; no element of a contour.
 bool run_tail(Run& run, const Block& block, const Target& target) {
+  const bool is_about_path = (block.compensation != Compensation::NotProgrammed &&
+                              block.compensation != run.state.compensation) ||
+                             (block.m >= 95 && block.m <= 98);
+  run.state.last.starts_contour = false;  // RND joins the block directly before it
+  if (!is_about_path) return read_feed(run, block);
   LastMove last = run.state.last;
   if (!go_straight(run, block, target)) return false;
   last.is_single_offset = false;

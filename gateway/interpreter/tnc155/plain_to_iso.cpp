@@ -58,7 +58,9 @@ class PlainToIso {
   }
 
   Result<void> convert(const Block& block, const CompensationTrack& track) {
-    if (is_flow(block) || is_move(block)) make_start_complete(block);
+    const bool is_about_path =
+        block.kind == BlockKind::Line && block.compensation != Compensation::NotProgrammed;
+    if (is_flow(block) || is_move(block) || is_about_path) make_start_complete(block);
     has_flow_ |= is_flow(block);
     if (auto checked = check_tool_call(block); !checked) return checked;
     switch (block.kind) {

@@ -82,6 +82,7 @@ void CompensationTrack::pass_move(const Block& block) {
   if (block.m == 91 || block.m == 92) return;  // moves without compensation
   if (block.compensation == Compensation::Left || block.compensation == Compensation::Right) {
     if (is_on_ == Answer::No) is_begun_ = Answer::Yes;
+    if (is_on_ == Answer::Unknown) is_begun_ = Answer::Unknown;
     is_on_ = Answer::Yes;
   }
   const Answer names = names_plane(block);

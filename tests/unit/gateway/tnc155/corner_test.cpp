@@ -125,6 +125,19 @@ TEST(TncCorner, ApproachAndDepartureStandWhereTheySay) {
   EXPECT_EQ(goes_on.alarm_id, "TNC-PATH-OFFSET");
   EXPECT_EQ(goes_on.alarm_line, 8u);
 }
+// HD-105: a block of M and F alone between RND and the next move does no harm; between the move
+// and its RND it does.
+TEST(TncCorner, BlocksWithoutCoordinatesAreNoElements) {
+  EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+0 Y+0", "L X+40 Y+0", "RND R5", "L R F M08",
+                        "L X+40 Y+30"}),
+              ElementsAre("L X0 Y10 F100", "L X0 Y0 F100", "L X35 Y0 F100",
+                          "A X40 Y5 c35,5 ccw90 F100", "L X40 Y30 F100"));
+  EXPECT_THAT(
+      moves_of({"L X+0 Y+10 R0 F100", "L X+0 Y+0", "L R F M08", "RND R5", "L X+40 Y+0"}).back(),
+      "! PLANE WRONGLY DEFINED");
+  EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "L R F M08", "CT X+10 Y+10"}).back(),
+              "A X10 Y10 c0,10 ccw90 F100");
+}
 // HD-106: a corner whose second side is gone is told of.
 TEST(TncCorner, AContourDoesNotEndBetweenTheSidesOfACorner) {
   const auto run =

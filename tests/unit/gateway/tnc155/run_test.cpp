@@ -85,6 +85,19 @@ TEST(TncRun, RunsIso) {
                           testing::StartsWith("end")));
 }
 
+// HD-182: the plane in the block of G73 is that of its spindle axis: G17 turns X to Y, G19 Y to Z.
+TEST(TncRun, RotatesInThePlaneThatTheBlockNames) {
+  const auto turned = [](const std::string& rotation) {
+    return run_text("%5 G71 *\nN20 T0 G17 S100 *\nN30 G00 G40 G90 X+0 Y+0 *\nN40 " + rotation +
+                    " *\nN50 X+10 Y+5 *\nN9999 %5 G71 *\n")
+        .events[1];
+  };
+  EXPECT_EQ(turned("G73 G17 H+90"), "R X-5 Y10");
+  EXPECT_EQ(turned("G73 H+90"), "R X-5 Y10");
+  EXPECT_EQ(turned("G73 G19 H+90"), "R X10 Y0 Z5");
+  EXPECT_EQ(turned("G73 G18 H+90"), "R X0 Y5 Z-10");
+}
+
 // HD-105, HD-032: G25 in the block of the corner, and in a block of its own.
 TEST(TncRun, RoundsInIso) {
   for (const char* corner : {"N40 X+40 Y+0 G25 R5 *\n", "N40 X+40 Y+0 *\nN45 G25 R5 *\n"}) {

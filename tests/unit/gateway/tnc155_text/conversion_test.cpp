@@ -166,6 +166,16 @@ TEST(Tnc155ConversionRefuses, WhatHasNoCounterpart) {
             "! line 2: G43 or G44 without an axis has no counterpart in plain language");
   EXPECT_EQ(converted("%7 G71\nN1 G73 G18 G90 H5", Form::Plain),
             "! line 2: G73 names another plane than that of the tool, which CYCL DEF 10 can not");
+  EXPECT_EQ(converted("0 BEGIN PGM 7 MM\n1 L X1 R0 F9 M03\n2 CYCL CALL", Form::Iso),
+            "! line 3: this needs a TOOL CALL with the spindle axis before all moves, labels and "
+            "calls");
+  EXPECT_EQ(converted("%7 G71\nN1 G17 G40 G90 G01 X0 Y0 F9\nN2 X5\nN3 G91\nN4 G25 R1\nN5 Y5",
+                      Form::Plain),
+            "! line 5: a corner behind a block that plain language has none for");
+  EXPECT_EQ(
+      converted("%7 G71\nN1 L3\nN2 G17 G40 G90 G01 X0 F9\nN3 G98 L3\nN4 G90 G01 X5", Form::Plain),
+      "! line 5: whether a plane and a compensation were programmed depends on where the run "
+      "comes from");
   EXPECT_EQ(converted("%7 G71\nN1 X1?", Form::Plain),
             "! line 2, column 6: BLOCK FORMAT INCORRECT: '?' is not expected here");
   EXPECT_EQ(converted("O0100", Form::Plain), "! line 1: neither plain language nor ISO of a TNC");
