@@ -111,7 +111,7 @@ bool set_stroke_zone(Run& run) {
   ModalState& state = run.state;
   const std::uint8_t code = run.block.g[kStrokeGroup];
   state.g[kStrokeGroup] = code;
-  state.zone.is_on = code == 22;
+  state.zone.is_on = false;
   if (code == 23) return true;
   constexpr std::array<Address, 3> kOneCorner{X, Y, Z};
   constexpr std::array<Address, 3> kOther{I, J, K};
@@ -121,6 +121,7 @@ bool set_stroke_zone(Run& run) {
     if (words.has(kOther[i])) state.zone.low[i] = run.length(words[kOther[i]]);
     if (state.zone.low[i] > state.zone.high[i]) std::swap(state.zone.low[i], state.zone.high[i]);
   }
+  state.zone.is_on = state.zone.has_volume();
   return true;
 }
 

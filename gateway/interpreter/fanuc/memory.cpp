@@ -93,7 +93,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
   state.commons.fill(kNull);
   state.kept.fill(kNull);
   state.zone = options.zone;
-  state.zone.is_on = state.g[kStrokeGroup] == 22;
+  state.zone.is_on = state.g[kStrokeGroup] == 22 && state.zone.has_volume();
   for (const OffsetRecord& offset : setup.offsets) {
     if (auto done = load_offset(offset, memory.coordinates); !done) return done;
   }

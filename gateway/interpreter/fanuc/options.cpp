@@ -114,7 +114,7 @@ void read_model(Reader& read, ControlOptions& control) {
 void read_start(Reader& read, ControlOptions& control) {
   control.start_units =
       read.choice("start_units", {"in", "mm"}, 1) == 0 ? Units::Inch : Units::Millimetre;
-  std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 23, 15};
+  std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 22, 15};
   std::vector<std::int64_t> given;
   read.integers("start_g", given);
   codes.insert(codes.end(), given.begin(), given.end());

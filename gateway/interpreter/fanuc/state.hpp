@@ -88,9 +88,11 @@ struct Coordinates {
 };
 
 struct StrokeZone {
-  bool is_on = false;
+  bool is_on = false;  ///< G22 is in force, and there is something to keep out of
   std::array<double, 3> low{};
   std::array<double, 3> high{};
+
+  bool has_volume() const { return low[0] < high[0] && low[1] < high[1] && low[2] < high[2]; }
 };
 
 using Locals = std::array<double, kLocalCount>;

@@ -83,6 +83,7 @@ double to_memory(const Run& run, Axis axis, double mm) {
 
 void load_system(Run& run, int system) {
   const int first = first_of_system(system);
+  const Axes old = run.state.system_offset;
   for (const Axis axis : kAllAxes) {
     const auto at = static_cast<std::size_t>(first) + index_of(axis);
     run.state.system_offset[index_of(axis)] = from_memory(run, axis, run.parameters[at]);
@@ -92,6 +93,9 @@ void load_system(Run& run, int system) {
   run.state.system = static_cast<std::uint8_t>(system);
   run.parameters[kSystemNumber] = system;
   keep_machine(run);
+  // of the NIST program's compensation, in the XY plane: the path as programmed stays where it is
+  run.state.compensation.x += old[kX] - run.state.system_offset[kX];
+  run.state.compensation.y += old[kY] - run.state.system_offset[kY];
 }
 
 void set_tool_length(Run& run, const Axes& length) {
@@ -111,7 +115,7 @@ void set_tool_length(Run& run, const Axes& length) {
 bool select_system(Run& run, int g_code) {
   const int system = g_code < 590 ? (g_code - 530) / 10 : 6 + (g_code - 590);
   if (system == run.state.system) return true;
-  if (run.state.compensation.side != Side::Off) {
+  if (run.is_linuxcnc() && run.state.compensation.side != Side::Off) {
     return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the coordinate system");
   }
   load_system(run, system);

@@ -23,7 +23,10 @@ bool check_probe(Run& run, const Target& target) {
     const double part = target.to[index_of(axis)] - state[axis];
     squares += part * part;
   }
-  const double least = state.units == Units::Inch ? 0.01 * Length::kMillimetresPerInch : 0.254;
+  // the later program refuses only what is no move
+  const double least = run.is_linuxcnc()             ? 1e-9
+                       : state.units == Units::Inch ? 0.01 * Length::kMillimetresPerInch
+                                                    : 0.254;
   if (std::sqrt(squares) < least) return run.fail(ErrorCode::ProbeTooClose, 0);
   return true;
 }
