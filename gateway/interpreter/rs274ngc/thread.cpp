@@ -29,12 +29,20 @@ bool check_synchronised(Run& run) {
   return run.fail(ErrorCode::CompNotAllowed, 0, "a synchronised move");
 }
 
-/// G76 in millimetres (words of 16.5).
+/// G76 in millimetres (words of 16.5). Depths count from the peak, across the drive line.
 struct ThreadCycle {
   double pitch, peak, first_depth, full_depth, degression, angle, taper_length;
   int spring_passes, taper;
-  double start_x, start_z, end_z, drive_x;
+  double drive_x, start_z, end_z;
 };
+
+bool is_sane(const ThreadCycle& cycle) {
+  return cycle.pitch > 0 && cycle.peak != 0 && cycle.first_depth > 0 &&
+         cycle.full_depth > cycle.first_depth && cycle.degression >= 1 &&
+         cycle.spring_passes >= 0 && cycle.spring_passes <= 100 && cycle.taper >= 0 &&
+         cycle.taper <= 3 && std::fabs(cycle.angle) < Angle::kPi / 2 && cycle.taper_length >= 0 &&
+         2 * cycle.taper_length <= std::fabs(cycle.end_z - cycle.start_z);
+}
 
 bool read_cycle(Run& run, ThreadCycle& cycle) {
   const Words& words = run.block.words;
@@ -42,6 +50,9 @@ bool read_cycle(Run& run, ThreadCycle& cycle) {
   for (const char needed : {'P', 'Z', 'I', 'J', 'K'}) {
     if (!words.has(needed))
       return run.fail(ErrorCode::ThreadWords, 0, fmt::format("no {}", needed));
+  }
+  if (words.has_any(set_of("XYABCUVW@^"))) {
+    return run.fail(ErrorCode::ThreadWords, 0, "G76 takes Z alone of the axes");
   }
   cycle.pitch = run.mm(words['P']);
   cycle.peak = run.mm(words['I']);
@@ -52,29 +63,27 @@ bool read_cycle(Run& run, ThreadCycle& cycle) {
   cycle.spring_passes = static_cast<int>(std::round(words.value_or('H', 0)));
   cycle.taper_length = run.mm(words.value_or('E', 0));
   cycle.taper = static_cast<int>(words.value_or('L', 0));
-  cycle.start_x = state[Axis::X];
+  cycle.drive_x = state[Axis::X];
   cycle.start_z = state[Axis::Z];
-  cycle.drive_x = cycle.start_x;
   Target target;
   if (!read_target(run, target)) return false;
   cycle.end_z = target.to[index_of(Axis::Z)];
-  const bool is_sane = cycle.pitch > 0 && cycle.peak != 0 && cycle.first_depth > 0 &&
-                       cycle.full_depth > cycle.first_depth && cycle.degression >= 1 &&
-                       cycle.spring_passes >= 0 && cycle.spring_passes <= 100 && cycle.taper >= 0 &&
-                       cycle.taper <= 3 && std::fabs(cycle.angle) < Angle::kPi / 2;
-  return is_sane || run.fail(ErrorCode::ThreadWords, 0, "a word is out of range");
+  return is_sane(cycle) || run.fail(ErrorCode::ThreadWords, 0, "a word is out of range");
 }
 
+/// As the peer makes them.
 class ThreadPasses {
  public:
   ThreadPasses(Run& run, const ThreadCycle& cycle) : run_(run), cycle_(cycle) {}
 
-  /// Depths by degression, then the finish and its spring passes.
+  /// Depths by degression, then the finish and its spring passes. Ends on the drive line at the
+  /// end.
   bool make() {
     constexpr int kMostPasses = 1000;
+    constexpr double kRounding = 1e-9;  // a last pass that deep is the finish
     double depth = cycle_.first_depth;
     int pass = 1;
-    while (depth < cycle_.full_depth) {
+    while (depth < cycle_.full_depth * (1 - kRounding)) {
       make_pass(depth);
       if (++pass > kMostPasses) {
         return run_.fail(ErrorCode::ThreadWords, 0,
@@ -83,13 +92,13 @@ class ThreadPasses {
       depth = cycle_.first_depth * std::pow(pass, 1 / cycle_.degression);
     }
     for (int i = 0; i <= cycle_.spring_passes; ++i) make_pass(cycle_.full_depth);
+    rapid(cycle_.drive_x, cycle_.end_z);
     return true;
   }
 
  private:
-  double sign() const { return cycle_.peak > 0 ? 1 : -1; }
   void rapid(double x, double z) { rapid_to(run_, target(x, z)); }
-  void cut(double x, double z) { thread_to(run_, target(x, z), cycle_.pitch); }
+  void cut(double x, double z, double lead) { thread_to(run_, target(x, z), lead); }
   Target target(double x, double z) const {
     Target to;
     to.to = run_.state.position;
@@ -98,24 +107,38 @@ class ThreadPasses {
     to.named = static_cast<AxisBits>(bit_of(Axis::X) | bit_of(Axis::Z));
     return to;
   }
-  /// Depth counts from the peak; an external thread (I negative) goes to smaller X.
-  double x_at(double depth) const { return cycle_.drive_x + cycle_.peak + sign() * depth; }
-  /// The flank that cuts is chosen by moving the start along Z.
+  /// So far from the drive line; an external thread (I negative) lies at smaller X.
+  double x_at(double distance) const {
+    return cycle_.drive_x + (cycle_.peak > 0 ? distance : -distance);
+  }
+  /// Along a taper as long as `taper_length` and as high as the thread.
+  double taper_lead() const {
+    const double length = cycle_.taper_length;
+    return cycle_.pitch * std::hypot(length, cycle_.full_depth) / length;
+  }
+  /// The flank that cuts is chosen by moving the pass along Z. The tool keeps the same way out of
+  /// every pass: in deep ones to the drive line.
   void make_pass(double depth) {
-    const double shift = (depth - cycle_.full_depth) * std::tan(cycle_.angle);
     const double toward = cycle_.end_z < cycle_.start_z ? -1 : 1;
-    const double begin = cycle_.start_z + toward * shift;
-    const double end = cycle_.end_z + toward * shift;
-    const double taper = cycle_.taper_length;
-    const bool tapers_in = (cycle_.taper & 1) != 0 && taper > 0;
-    const bool tapers_out = (cycle_.taper & 2) != 0 && taper > 0;
-    rapid(cycle_.drive_x, begin);
-    rapid(tapers_in ? x_at(0) : x_at(depth), begin);
-    if (tapers_in) cut(x_at(depth), begin + toward * taper);
-    cut(x_at(depth), tapers_out ? end - toward * taper : end);
-    if (tapers_out) cut(x_at(0), end);
-    rapid(cycle_.drive_x, end);
-    rapid(cycle_.drive_x, cycle_.start_z);
+    const double slope = toward * std::tan(cycle_.angle);
+    const double begin = cycle_.start_z + depth * slope;
+    const double end = cycle_.end_z + (depth - cycle_.full_depth) * slope;
+    const double taper = toward * cycle_.taper_length;
+    const bool tapers_in = (cycle_.taper & 1) != 0 && taper != 0;
+    const bool tapers_out = (cycle_.taper & 2) != 0 && taper != 0;
+    const double bottom = x_at(std::fabs(cycle_.peak) + depth);
+    const double top = x_at(std::fabs(cycle_.peak) + depth - cycle_.full_depth);
+    const double out = x_at(depth - cycle_.full_depth);
+    rapid(out, begin);
+    if (tapers_in) {
+      cut(top, begin, taper_lead());
+      cut(bottom, begin + taper, taper_lead());
+    } else {
+      rapid(bottom, begin);
+    }
+    cut(bottom, tapers_out ? end - taper : end, cycle_.pitch);
+    if (tapers_out) cut(top, end, taper_lead());
+    rapid(out, end);
   }
 
   Run& run_;
