@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "gateway/interpreter/event.hpp"
 
 namespace dripline::interpreter {
@@ -10,16 +12,12 @@ struct PlaneAxes {
   Axis first, second, normal;
 };
 
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return {Axis::Z, Axis::X, Axis::Y};
-    case Plane::YZ:
-      return {Axis::Y, Axis::Z, Axis::X};
-    case Plane::XY:
-      break;
-  }
-  return {Axis::X, Axis::Y, Axis::Z};
+/// In the order of `Plane`.
+inline constexpr std::array kAxesOfPlanes{PlaneAxes{Axis::X, Axis::Y, Axis::Z},
+                                          PlaneAxes{Axis::Z, Axis::X, Axis::Y},
+                                          PlaneAxes{Axis::Y, Axis::Z, Axis::X}};
+constexpr const PlaneAxes& axes_of(Plane plane) {
+  return kAxesOfPlanes[static_cast<std::size_t>(plane)];
 }
 
 /// The plane across X, Y or Z.
