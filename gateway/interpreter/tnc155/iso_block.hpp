@@ -62,11 +62,13 @@ struct IsoBlock {
   bool has(IsoSlot slot) const { return (slots >> static_cast<unsigned>(slot) & 1u) != 0; }
   const Value& value(IsoSlot slot) const { return values[static_cast<std::size_t>(slot)]; }
   Distance distance(IsoSlot slot) const { return distances[static_cast<std::size_t>(slot)]; }
-  void set(IsoSlot slot, Value value, Distance distance) {
+  /// The place of the slot's value, which is still to be put there.
+  Value& add(IsoSlot slot, Distance distance) {
     slots = static_cast<std::uint16_t>(slots | 1u << static_cast<unsigned>(slot));
-    values[static_cast<std::size_t>(slot)] = value;
     distances[static_cast<std::size_t>(slot)] = distance;
+    return values[static_cast<std::size_t>(slot)];
   }
+  void set(IsoSlot slot, Value value, Distance distance) { add(slot, distance) = value; }
   bool has_parameter(std::size_t p) const { return (parameters >> p & 1u) != 0; }
 
   std::int32_t number = kNone;  ///< N

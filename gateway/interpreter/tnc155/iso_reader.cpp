@@ -124,17 +124,15 @@ class IsoReader {
     const auto name = static_cast<IsoSlot>(slot);
     if (block_.has(name)) return twice(letter, cursor_.at() - 1);
     block_.last_distance = Distance::AsBefore;
-    Value value;
-    if (!cursor_.is_value_next()) {  // only the mirror cycle names axes alone
-      bare_ |= 1u << slot;
-    } else {
-      const Range& range =
-          name == IsoSlot::H ? kIncrementalAngle : coordinate_range(cursor_.form());
-      if (!cursor_.read_value(value, range, {&letter, 1})) return false;
-    }
-    block_.set(name, value, distance_);
+    Value& value = block_.add(name, distance_);
     axis_count_ += name >= IsoSlot::X && name <= IsoSlot::W ? 1 : 0;
-    return true;
+    if (!cursor_.is_value_next()) {  // only the mirror cycle names axes alone
+      value = Value{};
+      bare_ |= 1u << slot;
+      return true;
+    }
+    const Range& range = name == IsoSlot::H ? kIncrementalAngle : coordinate_range(cursor_.form());
+    return cursor_.read_value(value, range, {&letter, 1});
   }
 
   bool read_m(const char* start) {
@@ -217,8 +215,7 @@ class IsoReader {
     if (bare_ != 0 && !are_bare_words_right()) return false;
     if (label_ && !read_label()) return false;
     if (feed_ && !read_feed()) return false;
-    if ((block_.slots & kAxisSlots) != 0 &&
-        std::popcount(block_.slots & kAxisSlots) > most_axes()) {
+    if (axis_count_ > most_axes()) {
       return cursor_.wrong(fmt::format("more than {} coordinates", most_axes()));
     }
     return is_alone() && check_radius() && check_angle();

@@ -36,17 +36,19 @@ bool stays_within_limits(Run& run, const Position& to) {
   return !run.limit;
 }
 
-void put_out(Run& run, const Position& to, Pace pace) {
+/// `move.to` is where it goes: events are made where they are, not copied together.
+void put_out(Run& run, Line& move, Pace pace) {
   State& state = run.state;
-  if (run.has_limits && !stays_within_limits(run, to)) [[unlikely]]
+  if (run.has_limits && !stays_within_limits(run, move.to)) [[unlikely]]
     return;
-  const bool moves = !to.same_point(state.machine);
+  const bool moves = !move.to.same_point(state.machine);
   if (moves && pace.is_rapid) {
-    run.events().on_rapid({run.origin, to});
+    run.events().on_rapid({move.origin, move.to});
   } else if (moves) {
-    run.events().on_line({run.origin, to, Feed::per_minute(Length::mm(pace.feed))});
+    move.feed = Feed::per_minute(Length::mm(pace.feed));
+    run.events().on_line(move);
   }
-  state.machine = to;
+  state.machine = move.to;
 }
 
 void apply(const State& state, Position& to, const Target& target) {
@@ -82,12 +84,13 @@ Position machine_position(const State& state, const Target& target) {
 
 void line_to(Run& run, const Target& target, Pace pace) {
   State& state = run.state;
-  const Position to = machine_position(state, target);
+  Line move{run.origin, state.machine, {}};
+  apply(state, move.to, target);
   state.nominal = target.at;
   if ((target.named & kRotary) != 0 && !pace.is_rapid) [[unlikely]] {
-    pace.feed = linear_feed(run, to, pace.feed);
+    pace.feed = linear_feed(run, move.to, pace.feed);
   }
-  put_out(run, to, pace);
+  put_out(run, move, pace);
 }
 
 void arc_to(Run& run, const ArcTarget& target, Pace pace) {
@@ -117,7 +120,8 @@ void arc_to(Run& run, const ArcTarget& target, Pace pace) {
 
 void machine_line_to(Run& run, const Target& target, Pace pace) {
   State& state = run.state;
-  Position to = state.machine;
+  Line move{run.origin, state.machine, {}};
+  Position& to = move.to;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const auto axis = static_cast<Axis>(i);
     if ((target.named & bit(axis)) != 0) to.set_raw(axis, target.at[i]);
@@ -125,7 +129,7 @@ void machine_line_to(Run& run, const Target& target, Pace pace) {
   if ((target.named & kRotary) != 0 && !pace.is_rapid) {
     pace.feed = linear_feed(run, to, pace.feed);
   }
-  put_out(run, to, pace);
+  put_out(run, move, pace);
   AxisValues machine{};
   for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
   const AxisValues nominal = state.transformation.to_program(machine);

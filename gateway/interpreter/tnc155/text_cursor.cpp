@@ -1,6 +1,7 @@
 #include "gateway/interpreter/tnc155/text_cursor.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -93,11 +94,14 @@ std::int64_t TextCursor::long_number(const char* start) const {
   return number;
 }
 
-bool TextCursor::read_last_decimals(const char* start, std::int32_t fraction,
+bool TextCursor::read_many_decimals(const char* start, const char* decimals, std::int64_t& steps,
                                     std::string_view name) {
-  bool is_fine = fraction % 10 == 0 || is_inch();
-  for (; is_digit(*at_); ++at_) is_fine = is_fine && *at_ == '0';
-  return is_fine ? true : too_fine(start, name);
+  const char* const behind = decimals + (is_inch() ? 4 : 3);
+  if (std::any_of(behind, at_, [](char c) { return c != '0'; })) return too_fine(start, name);
+  std::int64_t fraction = 0;
+  for (int i = 0; i < 4; ++i) fraction = fraction * 10 + (decimals[i] - '0');
+  steps += fraction;
+  return true;
 }
 
 bool TextCursor::too_fine(const char* start, std::string_view name) {

@@ -161,25 +161,26 @@ class TextCursor {
 
   /// Digits with up to as many decimals as the program's units have.
   bool read_steps(std::int64_t& steps, std::string_view name) {
-    static constexpr std::int32_t kScale[]{10'000, 1'000, 100, 10, 1};
+    static constexpr std::uint32_t kScale[]{10'000, 1'000, 100, 10, 1};
     const char* start = at_;
     steps = take_digits() * kSteps;
     const char* at = at_;
     if (*at == ',' || *at == '.') {
       const char* decimals = ++at;
-      std::int32_t fraction = 0;
-      while (is_digit(*at) && at - decimals < 4) fraction = fraction * 10 + (*at++ - '0');
+      std::uint32_t fraction = 0;
+      for (; is_digit(*at); ++at) fraction = fraction * 10 + static_cast<unsigned char>(*at - '0');
       const auto count = at - decimals;
-      if (count == 0 && decimals == start + 1) return at_ = start, missing(name);
-      steps += fraction * kScale[count];
       at_ = at;
-      return count < 4 || read_last_decimals(start, fraction, name);
+      if (count == 0 && decimals == start + 1) return at_ = start, missing(name);
+      if (count > 4) return read_many_decimals(start, decimals, steps, name);
+      steps += fraction * kScale[count];
+      return count < 4 || fraction % 10 == 0 || is_inch() || too_fine(start, name);
     }
     return at == start ? missing(name) : true;
   }
-  /// Behind the fourth decimal.
-  [[gnu::cold]] bool read_last_decimals(const char* start, std::int32_t fraction,
-                                        std::string_view name);
+  /// Adds those that count; behind them only zeros may stand.
+  [[gnu::cold]] bool read_many_decimals(const char* start, const char* decimals,
+                                        std::int64_t& steps, std::string_view name);
   [[gnu::cold]] bool too_fine(const char* start, std::string_view name);
   [[gnu::cold]] bool out_of_range(const char* start, std::string_view name, std::int64_t low,
                                   std::int64_t high);
