@@ -40,10 +40,7 @@ inline constexpr int kMaxWritten = 255;  // of leading and of trailing, zeros in
 
 /// digits / 10^scale, correctly rounded: both are exact doubles up to 2^53 and 10^18, and one
 /// division rounds once. Longer numbers take the slow and exact way.
-inline double to_double(std::uint64_t digits, int scale) {
-  if (digits <= (std::uint64_t{1} << 53)) {
-    return static_cast<double>(digits) / kPowerOfTen[static_cast<std::size_t>(scale)];
-  }
+[[gnu::noinline, gnu::cold]] inline double long_to_double(std::uint64_t digits, int scale) {
   std::array<char, 32> text;
   char* at = std::to_chars(text.data(), text.data() + 20, digits).ptr;
   *at++ = 'e';
@@ -52,10 +49,16 @@ inline double to_double(std::uint64_t digits, int scale) {
   std::from_chars(text.data(), at, value);
   return value;
 }
+inline double to_double(std::uint64_t digits, int scale) {
+  if (digits > (std::uint64_t{1} << 53)) [[unlikely]]
+    return long_to_double(digits, scale);
+  return static_cast<double>(static_cast<std::int64_t>(digits)) /
+         kPowerOfTen[static_cast<std::size_t>(scale)];
+}
 
 /// Numbers with blanks within, with too many digits or with a fault.
 template <NumberRules kRules = NumberRules{}>
-const char* read_any_number(const char* at, const char* end, NumberText& number) {
+[[gnu::noinline]] const char* read_any_number(const char* at, const char* end, NumberText& number) {
   number = NumberText{};
   const auto skip = [&] {
     if constexpr (kRules.skip_blanks) {
@@ -112,10 +115,11 @@ const char* read_any_number(const char* at, const char* end, NumberText& number)
 
 /// Reads [+|-] digits [. digits] at `at` and returns the first character behind it; the caller
 /// looks at `number.fault`. No exponent, no locale. Leading zeros do not count as significant,
-/// trailing ones do. Reads the
-/// usual number in one pass of two tight loops.
+/// trailing ones do. Reads the usual number in one pass of two tight loops; always inlined, so that
+/// what a caller does not ask for is not written.
 template <NumberRules kRules = NumberRules{}>
-inline const char* read_number(const char* begin, const char* end, NumberText& number) {
+[[gnu::always_inline]] inline const char* read_number(const char* begin, const char* end,
+                                                      NumberText& number) {
   const auto is_digit = [&](const char* at) {
     return at != end && static_cast<unsigned char>(*at - '0') <= 9;
   };

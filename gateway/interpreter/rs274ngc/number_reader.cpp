@@ -32,7 +32,8 @@ bool read_long_number(Run& run, const char*& at, double& value) {
 bool read_number_at(Run& run, const char*& at, double& value) {
   NumberText number;
   const char* start = at;
-  const char* behind = read_number<kNumberRules>(at, run.line_end, number);
+  // the line's end is no character of a number, so that no end need be given
+  const char* behind = read_number<kNumberRules>(at, nullptr, number);
   if (number.fault == NumberFault::None) [[likely]] {
     value = number.value;
     at = behind;
