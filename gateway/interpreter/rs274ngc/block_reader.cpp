@@ -74,28 +74,34 @@ bool add_word(Run& run, char letter, const char* start, const char*& at) {
 }
 
 /// A code of one digit, as those of most moves are; false and nothing read when there is more.
-bool read_short_g(const char*& at, double& value) {
+bool read_short_g(const char*& at, std::int16_t& tenths) {
   if (!is_digit(*at)) return false;
   const char* behind = skip_blanks(at + 1);
   if (is_digit(*behind) || *behind == '.') return false;
-  value = *at - '0';
+  tenths = static_cast<std::int16_t>((*at - '0') * 10);
   at = behind;
   return true;
 }
 
-bool add_g(Run& run, const char* start, const char*& at) {
+bool read_any_g(Run& run, const char* start, const char*& at, std::int16_t& code) {
   double value = 0;
-  if (!read_short_g(at, value) && !read_value(run, at, value)) return false;
+  if (!read_value(run, at, value)) return false;
   const double tenths = std::floor(value * 10 + 0.5);
-  if (!(std::fabs(value * 10 - tenths) <= 0.001) || !(tenths <= 999)) [[unlikely]] {
+  if (!(std::fabs(value * 10 - tenths) <= 0.001) || !(tenths <= 999)) {
     return run.fail(ErrorCode::GRange, run.column(start), fmt::format("G{}", value));
   }
   if (tenths < 0)
     return run.fail(ErrorCode::GNegative, run.column(start), fmt::format("G{}", value));
-  const auto code = static_cast<std::int16_t>(tenths);
+  code = static_cast<std::int16_t>(tenths);
+  return true;
+}
+
+bool add_g(Run& run, const char* start, const char*& at) {
+  std::int16_t code = 0;
+  if (!read_short_g(at, code) && !read_any_g(run, start, at, code)) return false;
   const GRow* row = g_row(code, run.options.profile);
   if (row == nullptr) [[unlikely]] {
-    return run.fail(ErrorCode::GUnknown, run.column(start), fmt::format("G{}", value));
+    return run.fail(ErrorCode::GUnknown, run.column(start), fmt::format("G{}", code / 10.0));
   }
   Block& block = run.block;
   if (block.has(row->group)) [[unlikely]] {
