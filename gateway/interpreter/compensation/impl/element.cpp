@@ -40,9 +40,9 @@ double difference(const Shift& a, const Shift& b) {
 
 void complete_line(Element& element) {
   const PlaneVector along = element.end - element.from;
-  const double scale = 1 / length(along);
-  element.direction_in = scale * along;
-  element.direction_out = scale * along;
+  const PlaneVector direction = (1 / length(along)) * along;
+  element.direction_in = direction;
+  element.direction_out = direction;
 }
 
 void complete_arc(Element& element, const Arc& arc) {

@@ -14,6 +14,11 @@ double length_of(const Piece& piece, PlaneVector from) {
                       : length(piece.to - from);
 }
 
+/// With inverse time, the pieces that lead to an element and the element share its time.
+bool shares_time(const Element& element) {
+  return element.lead_in.count != 0 && element.feed.per() == Feed::Per::Move;
+}
+
 }  // namespace
 
 PlaneVector PathWriter::nose() const {
@@ -27,10 +32,9 @@ void PathWriter::move_tool(PlaneVector tip, const Position& others) {
   set_in_plane(state_.tool, axes_, tip);
 }
 
-/// With inverse time, the pieces that lead to an element and the element share its time.
+/// Moves per minute and millimetre of an element that shares its time.
 Feed PathWriter::paced(const Element& element, double own_length) const {
   const LeadIn& lead_in = element.lead_in;
-  if (element.feed.per() != Feed::Per::Move) return element.feed;
   double total = own_length;
   PlaneVector from = nose();
   for (std::uint8_t i = 0; i < lead_in.count; ++i) {
@@ -41,15 +45,15 @@ Feed PathWriter::paced(const Element& element, double own_length) const {
 }
 
 /// `feed` of inverse time is per millimetre here.
-void PathWriter::lead_in(const Element& element, Feed feed) {
+void PathWriter::lead_in(const Element& element, const Feed& feed) {
+  const bool is_paced = feed.per() == Feed::Per::Move;
   for (std::uint8_t i = 0; i < element.lead_in.count; ++i) {
     const Piece& piece = element.lead_in.pieces[i];
-    const double size = length_of(piece, nose());
-    Feed own =
-        feed.per() == Feed::Per::Move ? Feed::inverse_time(feed.moves_per_minute() / size) : feed;
     // an arc that leads away belongs to the contour, not to the move behind it
-    if (element.role == Role::Cancel && piece.origin) own = state_.waiting().feed;
-    const Company with{state_.tool, own};
+    const bool leads_away = element.role == Role::Cancel && piece.origin;
+    Feed own;
+    if (is_paced) own = Feed::inverse_time(feed.moves_per_minute() / length_of(piece, nose()));
+    const Company with{state_.tool, leads_away ? state_.waiting().feed : is_paced ? own : feed};
     if (piece.is_arc) {
       arc(element, piece, with);
     } else {
@@ -88,27 +92,28 @@ void PathWriter::arc(const Element& element, const Piece& piece, const Company& 
 }
 
 void PathWriter::put_out_straight(const Element& element, PlaneVector tip) {
-  Feed feed = element.feed;
-  if (element.lead_in.count) {
-    const double own = length(tip - state_.tip - element.begin);
-    feed = paced(element, own);
-    lead_in(element, feed);
-    if (feed.per() == Feed::Per::Move && own > 0)
-      feed = Feed::inverse_time(feed.moves_per_minute() / own);
+  if (!shares_time(element)) [[likely]] {
+    lead_in(element, element.feed);
+    return straight(element, tip, {element.to, element.feed, element.rests});
   }
+  const double own = length(tip - state_.tip - element.begin);
+  Feed feed = paced(element, own);
+  lead_in(element, feed);
+  if (own > 0) feed = Feed::inverse_time(feed.moves_per_minute() / own);
   straight(element, tip, {element.to, feed, element.rests});
 }
 
 void PathWriter::put_out_arc(const Element& element, PlaneVector end, double sweep) {
   const Arch& arch = element.arch;
-  Feed feed = element.feed;
-  if (element.lead_in.count) {
-    const double own = sweep * 0.5 * (element.offset_radius_in() + element.offset_radius_out());
-    feed = paced(element, own);
-    lead_in(element, feed);
-    if (feed.per() == Feed::Per::Move) feed = Feed::inverse_time(feed.moves_per_minute() / own);
-  }
   const Piece piece{.is_arc = true, .to = end, .center = arch.center, .sweep = arch.side * sweep};
+  if (!shares_time(element)) [[likely]] {
+    lead_in(element, element.feed);
+    return arc(element, piece, {element.to, element.feed, element.rests});
+  }
+  const double own = sweep * 0.5 * (element.offset_radius_in() + element.offset_radius_out());
+  Feed feed = paced(element, own);
+  lead_in(element, feed);
+  feed = Feed::inverse_time(feed.moves_per_minute() / own);
   arc(element, piece, {element.to, feed, element.rests});
 }
 

@@ -20,12 +20,12 @@ class PathWriter {
   /// Of a move, besides its way in the plane.
   struct Company {
     const Position& others;  ///< where the axes outside the plane go
-    Feed feed;
+    const Feed& feed;
     bool rests = false;
   };
 
   void put_out_arc(const Element& element, PlaneVector end, double sweep);
-  void lead_in(const Element& element, Feed feed);
+  void lead_in(const Element& element, const Feed& feed);
   void straight(const Element& element, PlaneVector tip, const Company& with);
   void arc(const Element& element, const Piece& piece, const Company& with);
   void move_tool(PlaneVector tip, const Position& others);
