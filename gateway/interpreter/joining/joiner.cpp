@@ -20,6 +20,13 @@ void give(EventSink& sink, const Line& move) {
   sink.on_line(move);
 }
 
+/// Little is written: a move announces nothing as a rule.
+void forget(Announced& announced) {
+  announced.corner.reset();
+  announced.estimate.reset();
+  announced.back.reset();
+}
+
 CornerShape::Kind kind_of(Chamfer measure) {
   return measure == Chamfer::Leg ? CornerShape::Kind::ChamferLeg : CornerShape::Kind::ChamferFace;
 }
@@ -38,7 +45,7 @@ Joiner::Joiner(const Policy& policy, compensation::Compensator& behind, const Po
 
 void Joiner::reset(const Position& start) {
   state_.has_element = false;
-  state_.next = {};
+  forget(state_.next);
   state_.has_end = false;
   state_.held.clear();
   fault_.reset();
@@ -151,7 +158,7 @@ void Joiner::take_straight(const Move& move, Feed feed, bool rests) {
 /// too short to count add up to one that does.
 template <class Move>
 void Joiner::take_aside(const Move& move) {
-  state_.next = {};
+  forget(state_.next);
   if (!state_.has_element) {
     follow(move.to);
     return joining::give(*sink_, move);
@@ -166,7 +173,7 @@ void Joiner::on_rapid(const Rapid& event) {
   if (policy_.joins_rapids) return take_straight(event, Feed{}, false);
   settle();
   if (fault_) return;
-  state_.next = {};
+  forget(state_.next);
   follow(event.to);
   sink_->on_rapid(event);
 }
@@ -207,7 +214,7 @@ void Joiner::on_arc(const Arc& event) {
       return refuse(FaultKind::OtherPlane, state_.waiting().line.origin, event.origin);
     if (state_.next.corner) return refuse(FaultKind::OtherPlane, event.origin, event.origin);
     settle();
-    state_.next = {};
+    forget(state_.next);
     follow(event.to);
     return sink_->on_arc(event);
   }
@@ -234,7 +241,7 @@ bool Joiner::waits(const Element& element) const {
 void Joiner::take(Element& element) {
   element.is_moved = false;
   element.announced = state_.next;
-  state_.next = {};
+  forget(state_.next);
   if (state_.has_element) {
     join(element);
   } else {
