@@ -12,6 +12,10 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
+/// What a block begins as. Copied from here, because one put together on the spot for every block
+/// is copied before its parts have reached the memory, and waits for them.
+const Block::Parts kFreshParts{};
+
 std::unique_ptr<DryRun> dry_run_of(const ControlOptions& options, EventSink& sink) {
   if (!options.is_dry_run) return nullptr;
   const Feed feed = Feed::per_minute(Length::mm(options.dry_run_feed_mm));
@@ -159,7 +163,8 @@ bool CenturionInterpreter::begin_block() {
     return false;
   place_origin();
   run_.origin.offset = run_.text.offset();
-  run_.block.clear();
+  run_.block.words.clear();
+  run_.block.parts = kFreshParts;
   run_.block.parts.stage = Stage::Items;
   if (run_.state.is_searching && starts_here()) [[unlikely]]
     start_->begin_here(run_);

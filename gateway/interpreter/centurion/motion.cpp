@@ -149,8 +149,8 @@ bool move(Run& run) {
   if (!check_feed(run)) return false;
   if (target.to == run.state.position && !run.block.leads_back()) return true;
   announce_line(run);
-  const Position to = event_position(run, target.to, target.named);
-  run.events().on_line({run.origin, to, run.active_feed(), run.rests()});
+  run.events().on_line(
+      {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});
   arrive(run, target.to);
   return true;
 }
@@ -169,15 +169,13 @@ void finish_probe(Run& run, const ProbeResult& result) {
 
 void rapid_to(Run& run, const Point& to, AxesNamed named) {
   if (to == run.state.position) return;
-  const Position at = event_position(run, to, named);
-  run.events().on_rapid({run.origin, at});
+  run.events().on_rapid({run.origin, event_position(run, to, named)});
   arrive(run, to);
 }
 
 void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
   if (to == run.state.position) return;
-  const Position at = event_position(run, to, named);
-  run.events().on_line({run.origin, at, feed, run.rests()});
+  run.events().on_line({run.origin, event_position(run, to, named), feed, run.rests()});
   arrive(run, to);
 }
 
