@@ -268,6 +268,8 @@ bool check_forms(Run& run) {
 
 }  // namespace
 
+const Block::Parts kFreshParts{};
+
 const char* find_block_end(const Run& run, const char* at) {
   const char* end = run.text.end();
   bool in_comment = false;
@@ -326,16 +328,19 @@ bool read_block(Run& run) {
       block.parts.has_code = true;
       continue;
     }
-    const Word word{number.value, static_cast<std::uint16_t>(run.column(at)), number.trailing,
-                    number.has_point ? WordForm::Point : WordForm::Whole, number.is_negative};
+    // made where it is kept: a copy would have to wait for its parts
+    const auto word = [&, column = static_cast<std::uint16_t>(run.column(at))] {
+      return Word{number.value, column, number.trailing,
+                  number.has_point ? WordForm::Point : WordForm::Whole, number.is_negative};
+    };
     at = behind;
     const auto address = address_of(letter);
     if (number.is_negative) block.parts.negatives |= set_of(address);
     if (number.has_point) block.parts.points |= set_of(address);
     if (letter >= 'X' && block.parts.kind == BlockKind::Nc && !block.words.has(address))
         [[likely]] {
-      block.words.set(address, word);
-    } else if (!add_word(run, letter, word)) {
+      block.words.set(address, word());
+    } else if (!add_word(run, letter, word())) {
       return false;
     }
     block.parts.has_code = true;

@@ -98,7 +98,8 @@ bool FanucInterpreter::is_plain() const {
 FanucInterpreter::BlockOutcome FanucInterpreter::read() {
   const char c = *run_.text.begin();
   place_origin();
-  run_.block.clear();
+  run_.block.words.clear();
+  run_.block.parts = kFreshParts;
   run_.answers_used = 0;
   if (c == '%' || upper(c) == 'O' || c == ':' || c == '(' || kind_of(c) == CharKind::Blank)
       [[unlikely]] {

@@ -198,7 +198,7 @@ bool execute_plain(Run& run) {
   if (words.has(F) && !apply_feed(run)) return false;
   if (run.state.g[kMotionGroup] > 1) return move_on_arc(run);
   if (!words.has_any(kAxisWords)) return true;
-  Line line{run.origin, {}, {}};
+  Line line{run.origin, run.state.position, {}};
   if (!read_target(run, line.to)) return false;
   if (run.state.position.same_point(line.to)) return true;
   if (run.state.g[kMotionGroup] == 0) {
