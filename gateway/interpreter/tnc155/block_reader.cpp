@@ -46,7 +46,8 @@ ReadState BlockReader::next(ReadingState& state, BlockParts& parts) {
 }
 
 ReadState BlockReader::peek(const ReadingState& state, std::string_view& next) {
-  ReadingState tried = state;
+  ReadingState tried;  // the form is all that loading looks at, and may find out
+  tried.program.form = state.program.form;
   const ReadState loaded = load(tried);
   is_peeked_ = loaded == ReadState::Ready;
   next = is_peeked_ ? text() : std::string_view();

@@ -100,7 +100,7 @@ PlaneMove plane_move(const State& state, const Target& target) {
   move.has_any = (target.named & both) != 0;
   move.has_both = (target.named & both) == both;
   move.has_third = (target.named & ~both) != 0;
-  move.from = nominal_in_plane(state);
+  move.from = {state.nominal_of(axes.first), state.nominal_of(axes.second)};
   move.to = in_plane(state, target);
   move.has_way = !(move.from == move.to);
   return move;

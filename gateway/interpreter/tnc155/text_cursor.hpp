@@ -146,7 +146,7 @@ class TextCursor {
               const char* start);
 
   /// A run of digits, perhaps empty; more than any range allows becomes kTooLong.
-  std::int64_t take_digits() {
+  [[gnu::always_inline]] std::int64_t take_digits() {
     const char* at = at_;
     std::uint64_t number = 0;
     for (unsigned digit = 0; (digit = static_cast<unsigned char>(*at) - unsigned{'0'}) < 10; ++at) {
@@ -160,7 +160,7 @@ class TextCursor {
   [[gnu::cold]] std::int64_t long_number(const char* start) const;
 
   /// Digits with up to as many decimals as the program's units have.
-  bool read_steps(std::int64_t& steps, std::string_view name) {
+  [[gnu::always_inline]] bool read_steps(std::int64_t& steps, std::string_view name) {
     static constexpr std::uint32_t kScale[]{10'000, 1'000, 100, 10, 1};
     const char* start = at_;
     steps = take_digits() * kSteps;
