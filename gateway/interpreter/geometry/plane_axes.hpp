@@ -16,8 +16,9 @@ struct PlaneAxes {
 inline constexpr std::array kAxesOfPlanes{PlaneAxes{Axis::X, Axis::Y, Axis::Z},
                                           PlaneAxes{Axis::Z, Axis::X, Axis::Y},
                                           PlaneAxes{Axis::Y, Axis::Z, Axis::X}};
-constexpr const PlaneAxes& axes_of(Plane plane) {
-  return kAxesOfPlanes[static_cast<std::size_t>(plane)];
+constexpr PlaneAxes axes_of(Plane plane) {
+  const PlaneAxes& axes = kAxesOfPlanes[static_cast<std::size_t>(plane)];
+  return {axes.first, axes.second, axes.normal};
 }
 
 /// The plane across X, Y or Z.
