@@ -10,7 +10,7 @@ constexpr AxisMask kRotary = bit(Axis::A) | bit(Axis::B) | bit(Axis::C);
 /// Rotated coordinates nearer to the old ones than this have not changed.
 constexpr double kSame = 1e-9;
 
-/// The feed of the linear axes when rotary ones move with them, as the machine wants it.
+/// Of the linear axes, when rotary ones move with them, as the machine wants it.
 double linear_feed(const Run& run, const Position& to, double feed) {
   double linear = 0;
   double rotary = 0;
@@ -21,6 +21,11 @@ double linear_feed(const Run& run, const Position& to, double feed) {
   if (linear == 0 || rotary == 0) return feed;
   if (run.options.contour_feed) return feed * std::sqrt(linear / (linear + rotary));
   return feed * std::sqrt(linear / rotary);
+}
+
+Feed feed_to(const Run& run, const Target& target, const Position& to, const Pace& pace) {
+  const bool turns = (target.named & kRotary) != 0 && !pace.is_rapid;
+  return Feed::per_minute(Length::mm(turns ? linear_feed(run, to, pace.feed) : pace.feed));
 }
 
 /// The move is left out, and its block fails when it is finished.
@@ -36,16 +41,14 @@ bool stays_within_limits(Run& run, const Position& to) {
   return !run.limit;
 }
 
-/// `move.to` is where it goes: events are made where they are, not copied together.
-void put_out(Run& run, Line& move, Pace pace) {
+void put_out(Run& run, const Line& move, bool is_rapid) {
   State& state = run.state;
   if (run.has_limits && !stays_within_limits(run, move.to)) [[unlikely]]
     return;
   const bool moves = !move.to.same_point(state.machine);
-  if (moves && pace.is_rapid) {
+  if (moves && is_rapid) {
     run.events().on_rapid({move.origin, move.to});
   } else if (moves) {
-    move.feed = Feed::per_minute(Length::mm(pace.feed));
     run.events().on_line(move);
   }
   state.machine = move.to;
@@ -82,18 +85,16 @@ Position machine_position(const State& state, const Target& target) {
   return to;
 }
 
-void line_to(Run& run, const Target& target, Pace pace) {
+void line_to(Run& run, const Target& target, const Pace& pace) {
   State& state = run.state;
   Line move{run.origin, state.machine, {}};
   apply(state, move.to, target);
   state.nominal = target.at;
-  if ((target.named & kRotary) != 0 && !pace.is_rapid) [[unlikely]] {
-    pace.feed = linear_feed(run, move.to, pace.feed);
-  }
-  put_out(run, move, pace);
+  move.feed = feed_to(run, target, move.to, pace);
+  put_out(run, move, pace.is_rapid);
 }
 
-void arc_to(Run& run, const ArcTarget& target, Pace pace) {
+void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
   State& state = run.state;
   const PlaneAxes axes = axes_of(state.plane);
   Arc arc;
@@ -118,7 +119,7 @@ void arc_to(Run& run, const ArcTarget& target, Pace pace) {
   state.nominal = target.to.at;
 }
 
-void machine_line_to(Run& run, const Target& target, Pace pace) {
+void machine_line_to(Run& run, const Target& target, const Pace& pace) {
   State& state = run.state;
   Line move{run.origin, state.machine, {}};
   Position& to = move.to;
@@ -126,10 +127,8 @@ void machine_line_to(Run& run, const Target& target, Pace pace) {
     const auto axis = static_cast<Axis>(i);
     if ((target.named & bit(axis)) != 0) to.set_raw(axis, target.at[i]);
   }
-  if ((target.named & kRotary) != 0 && !pace.is_rapid) {
-    pace.feed = linear_feed(run, to, pace.feed);
-  }
-  put_out(run, move, pace);
+  move.feed = feed_to(run, target, to, pace);
+  put_out(run, move, pace.is_rapid);
   AxisValues machine{};
   for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
   const AxisValues nominal = state.transformation.to_program(machine);

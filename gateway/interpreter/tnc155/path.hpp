@@ -43,11 +43,11 @@ inline Target here(const State& state) {
 }
 
 /// Straight to there; the nominal position follows. No event for a move of no length.
-void line_to(Run& run, const Target& target, Pace pace);
+void line_to(Run& run, const Target& target, const Pace& pace);
 /// Along an arc in the plane in force.
-void arc_to(Run& run, const ArcTarget& target, Pace pace);
+void arc_to(Run& run, const ArcTarget& target, const Pace& pace);
 /// To a place in machine coordinates (M91): only the axes that are named.
-void machine_line_to(Run& run, const Target& target, Pace pace);
+void machine_line_to(Run& run, const Target& target, const Pace& pace);
 
 /// The nominal position in the plane.
 PlaneVector nominal_in_plane(const State& state);
