@@ -147,7 +147,10 @@ template <NumberRules kRules = NumberRules{}>
   const bool goes_on = is_point(at) || (kRules.skip_blanks && is_digit(at));
   const auto written = leading + trailing;
   if (goes_on || written == 0 || written > number_detail::kMaxDigits) [[unlikely]] {
-    return number_detail::read_any_number<kRules>(begin, end, number);
+    NumberText any;  // apart, so that the usual number can stay in registers
+    at = number_detail::read_any_number<kRules>(begin, end, any);
+    number = any;
+    return at;
   }
   const double value = number_detail::to_double(digits, static_cast<int>(trailing));
   number = NumberText{is_negative ? -value : value,
