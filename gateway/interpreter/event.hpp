@@ -224,6 +224,24 @@ struct Stop {
   Origin origin;
   StopKind kind = StopKind::Program;
 };
+
+/// When a feed hold acts.
+enum class HoldRule : std::uint8_t {
+  AtOnce,
+  Later,     ///< behind the moves it can not stop, which are made first
+  LaterToo,  ///< one that was asked for before waits on; one asked for from here on acts at once
+};
+/// What of the operator's panel does not count from here on, until the next of these: while a
+/// thread is tapped, or where the program says so. A feed of a thread ignores feed override and
+/// feed hold without it. Not part of a trace.
+struct PanelLock {
+  Origin origin;
+  bool feed_override = false;  ///< as if it stood at 100 %; that of rapid moves is not meant
+  bool spindle_override = false;
+  bool single_block = false;
+  HoldRule hold = HoldRule::AtOnce;
+  bool is_tapping = false;  ///< a tapping cycle that ends where it began
+};
 struct Warning {
   Origin origin;
   Diagnostic diagnostic;
@@ -263,6 +281,7 @@ class EventSink {
   virtual void on_message(const Message&) {}
   virtual void on_prompt(const Prompt&) {}
   virtual void on_stop(const Stop&) {}
+  virtual void on_panel_lock(const PanelLock&) {}
   virtual void on_warning(const Warning&) {}
   virtual void on_alarm(const Alarm&) {}
   virtual void on_end(const End&) {}

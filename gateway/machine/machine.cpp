@@ -79,6 +79,9 @@ void Machine::hold() {
 bool Machine::resume() {
   return parts_->executor.resume();
 }
+void Machine::turn_handwheel(Seconds program_time) {
+  parts_->executor.turn_handwheel(program_time.count());
+}
 void Machine::abort() {
   parts_->executor.abort();
 }

@@ -102,10 +102,15 @@ class Machine {
   const OperatorPanel& panel() const;
   /// Takes effect at once, along the path with the machine's acceleration. Clamped.
   void set_panel(const OperatorPanel& panel);
-  /// Feed hold: slows down along the path and stands. A thread is finished first.
+  /// Feed hold: slows down along the path and stands. A thread is finished first, and what the
+  /// program has locked against it (PanelLock).
   void hold();
   /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
   bool resume();
+  /// The handwheel was turned, in handwheel mode: lets `program_time` pass, no faster than by
+  /// itself. Only forward. Nothing happens in another mode; a tapping cycle is left out, with a
+  /// message.
+  void turn_handwheel(Seconds program_time);
   /// Slows down along the path, then discards everything: on_aborted, possibly during this call.
   void abort();
 

@@ -17,7 +17,7 @@ OperatorPanel OperatorPanel::clamped() const {
   OperatorPanel panel = *this;
   panel.feed_override = within(0, kMaxFeedOverride, feed_override);
   panel.rapid_override = within(0, kMaxRapidOverride, rapid_override);
-  panel.spindle_override = within(kMinSpindleOverride, kMaxSpindleOverride, spindle_override);
+  panel.spindle_override = within(0, kMaxSpindleOverride, spindle_override);
   return panel;
 }
 

@@ -10,10 +10,10 @@ struct OperatorPanel {
   bool block_skip = false;
   double feed_override = 1;     ///< 0 .. 2; threads ignore it
   double rapid_override = 1;    ///< 0 .. 1
-  double spindle_override = 1;  ///< 0.5 .. 1.2
+  double spindle_override = 1;  ///< 0 .. 2.55
+  bool handwheel = false;       ///< the program's time passes only as the handwheel is turned
 
-  static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1;
-  static constexpr double kMinSpindleOverride = 0.5, kMaxSpindleOverride = 1.2;
+  static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1, kMaxSpindleOverride = 2.55;
 
   /// The nearest panel a hand could set; a NaN counts as 1.
   OperatorPanel clamped() const;

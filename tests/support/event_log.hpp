@@ -33,6 +33,7 @@ class EventLog final : public EventSink {
   void on_message(const Message& event) override;
   void on_prompt(const Prompt& event) override;
   void on_stop(const Stop& event) override;
+  void on_panel_lock(const PanelLock& event) override;
   void on_warning(const Warning& event) override;
   void on_alarm(const Alarm& event) override;
   void on_end(const End& event) override;

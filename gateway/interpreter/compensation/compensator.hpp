@@ -117,6 +117,7 @@ class Compensator final : public EventSink {
   void on_close(const Close& event) override;
   void on_message(const Message& event) override;
   void on_stop(const Stop& event) override;
+  void on_panel_lock(const PanelLock& event) override;
   void on_block_end(const Origin& event) override;
   /// As on_block_end, of a block that `Policy::blocks_without_motion` does not count: it says
   /// nothing to the machine (a macro statement, a call, a return).

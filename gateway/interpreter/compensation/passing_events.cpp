@@ -96,6 +96,9 @@ void Compensator::on_pin(const PinChange& event) {
 void Compensator::on_stop(const Stop& event) {
   hold_or_pass(event);
 }
+void Compensator::on_panel_lock(const PanelLock& event) {
+  hold_or_pass(event);
+}
 void Compensator::on_close(const Close& event) {
   hold_or_pass(event);
 }

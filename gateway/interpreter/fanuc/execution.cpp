@@ -58,6 +58,7 @@ bool apply_modes(Run& run) {
     state.g[group] = block.g[group];
   }
   if (block.names(kUnitsGroup)) change_units(run);
+  if (block.names(kPathGroup)) show_panel_lock(run);
   if (block.names(kPolarGroup)) state.polar_angle = 0;
   if (block.names(kPlaneGroup)) {
     if (state.is_compensating() && state.g[kPlaneGroup] != block.g[kPlaneGroup]) {

@@ -10,6 +10,7 @@
 #include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/path.hpp"
 #include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/panel_lock.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -104,9 +105,14 @@ class Hole {
   }
 
   bool make() {
-    for (const Step step : steps_of(run_.state.g[kCycleGroup])) {
+    const std::uint8_t code = run_.state.g[kCycleGroup];
+    const bool is_tap = code == 74 || code == 84;
+    for (const Step step : steps_of(code)) {
+      if (is_tap && step == RapidToReturn) lock(lock_behind_tap(panel_lock(run_)));
       if (!perform(step)) return false;
+      if (is_tap && step == RapidToRetract) lock(tapping_lock(run_.origin));
     }
+    if (is_tap) lock(panel_lock(run_));
     return true;
   }
 
@@ -143,6 +149,7 @@ class Hole {
     if (sign < 0) to = machine_point(run_, at_);
     return rapid_to(run_, to);
   }
+  void lock(const PanelLock& lock) { run_.events().on_panel_lock(lock); }
   bool spindle(SpindleState state) {
     turn_spindle(run_, state);
     return true;

@@ -137,6 +137,24 @@ void turn_spindle(Run& run, SpindleState state) {
   deliver_spindle(run);
 }
 
+PanelLock panel_lock(const Run& run) {
+  const ModalState& state = run.state;
+  const bool is_tapping_mode = state.g[kPathGroup] == 63;
+  const auto has = [&state](Counter place, unsigned bit) {
+    return (static_cast<unsigned>(state.counters[place]) & bit) != 0;
+  };
+  PanelLock lock{.origin = run.origin};
+  lock.feed_override = lock.spindle_override = is_tapping_mode || has(kHold, 2);
+  lock.single_block = has(kSingle, 1);
+  if (is_tapping_mode || has(kHold, 1)) lock.hold = HoldRule::Later;
+  return lock;
+}
+
+/// Before the program's first event the header tells it.
+void show_panel_lock(Run& run) {
+  if (run.state.has_header) run.events().on_panel_lock(panel_lock(run));
+}
+
 void all_off(Run& run) {
   run.state.speed_changed = false;
   if (run.state.spindle.state != SpindleState::Off) turn_spindle(run, SpindleState::Off);

@@ -13,6 +13,9 @@ bool apply_before_motion(Run& run);
 bool apply_after_motion(Run& run);
 /// An event only when something changes.
 void turn_spindle(Run& run, SpindleState state);
+/// What the program keeps the operator's hands off: G63, #3003, #3004.
+PanelLock panel_lock(const Run& run);
+void show_panel_lock(Run& run);
 /// What M02 and M30 switch off.
 void all_off(Run& run);
 

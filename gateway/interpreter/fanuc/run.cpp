@@ -1,5 +1,7 @@
 #include "gateway/interpreter/fanuc/run.hpp"
 
+#include "gateway/interpreter/fanuc/machine_functions.hpp"
+
 namespace dripline::interpreter::fanuc {
 namespace {
 
@@ -22,6 +24,9 @@ void Run::deliver_header() {
   if (!name.empty()) header.name = name;
   header.units = state.units;
   sink.on_program(header);
+  const PanelLock lock = panel_lock(*this);
+  const bool locks = lock.feed_override || lock.single_block || lock.hold != HoldRule::AtOnce;
+  if (locks) sink.on_panel_lock(lock);
 }
 
 bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {

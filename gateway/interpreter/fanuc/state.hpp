@@ -151,6 +151,9 @@ struct LastWords {
   double f = 0;
 };
 
+/// Places in ModalState::counters.
+enum Counter : std::size_t { kClockBase, kHours, kSingle, kHold, kSettings, kMade, kRequired };
+
 struct ModalState {
   RunPhase phase = RunPhase::Running;
   bool has_header = false;

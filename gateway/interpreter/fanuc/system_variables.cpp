@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "gateway/interpreter/fanuc/block_reader.hpp"
+#include "gateway/interpreter/fanuc/machine_functions.hpp"
 #include "gateway/interpreter/fanuc/tool_offsets.hpp"
 #include "gateway/interpreter/fanuc/variables.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
 
-/// Places in ModalState::counters.
-enum Counter : std::size_t { kClockBase, kHours, kSingle, kHold, kSettings, kMade, kRequired };
 constexpr std::array<Axis, 8> kVariableAxes{Axis::X, Axis::Y, Axis::Z, Axis::A,
                                             Axis::B, Axis::C, Axis::U, Axis::V};
 
@@ -270,9 +269,13 @@ bool write_control(Run& run, int number, std::uint32_t column, double value) {
     case 3002:
       return keep(kHours, 0, 1e9);
     case 3003:
-      return keep(kSingle, 0, 3);
+      if (!keep(kSingle, 0, 3)) return false;
+      show_panel_lock(run);
+      return true;
     case 3004:
-      return keep(kHold, 0, 7);
+      if (!keep(kHold, 0, 7)) return false;
+      show_panel_lock(run);
+      return true;
     case 3005:
       return keep(kSettings, 0, 65535);
     case 3901:

@@ -107,6 +107,7 @@ class Joiner final : public EventSink {
   void on_close(const Close& event) override;
   void on_message(const Message& event) override;
   void on_stop(const Stop& event) override;
+  void on_panel_lock(const PanelLock& event) override;
   void on_block_end(const Origin& event) override;
   /// `Compensator::end_uncounted_block`; an ordinary end where there is no compensator behind.
   void end_uncounted_block(const Origin& event);

@@ -156,6 +156,9 @@ void Joiner::on_pin(const PinChange& event) {
 void Joiner::on_stop(const Stop& event) {
   hold_or_pass(event);
 }
+void Joiner::on_panel_lock(const PanelLock& event) {
+  hold_or_pass(event);
+}
 void Joiner::on_close(const Close& event) {
   hold_or_pass(event);
 }

@@ -169,6 +169,13 @@ void visit(Archive& archive, Close& event) {
   up_to(archive, event.device, OutputDevice::Printer);
 }
 template <class Archive>
+void visit(Archive& archive, PanelLock& event) {
+  visit(archive, event.origin);
+  visit_all(archive, event.feed_override, event.spindle_override, event.single_block);
+  up_to(archive, event.hold, HoldRule::LaterToo);
+  archive(event.is_tapping);
+}
+template <class Archive>
 void visit(Archive& archive, HeldText& text) {
   up_to(archive, text.kind, HeldText::Kind::Message);
   up_to(archive, text.device, OutputDevice::Printer);

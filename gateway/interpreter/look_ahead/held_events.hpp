@@ -32,8 +32,9 @@ struct BlockEnd {
 template <class... Own>
 class HeldEvents {
  public:
-  using Event = std::variant<BlockEnd, Rapid, Line, Dwell, Spindle, Coolant, ToolChange,
-                             Miscellaneous, PinChange, Stop, UnitsChange, Close, HeldText, Own...>;
+  using Event =
+      std::variant<BlockEnd, Rapid, Line, Dwell, Spindle, Coolant, ToolChange, Miscellaneous,
+                   PinChange, Stop, UnitsChange, Close, HeldText, PanelLock, Own...>;
 
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
@@ -92,6 +93,7 @@ struct Giver {
   void operator()(const Stop& event) const { sink.on_stop(event); }
   void operator()(const UnitsChange& event) const { sink.on_units(event); }
   void operator()(const Close& event) const { sink.on_close(event); }
+  void operator()(const PanelLock& event) const { sink.on_panel_lock(event); }
 
   void give(const HeldText& event, std::string_view text) const {
     switch (event.kind) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/panel_lock.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
 #include "gateway/interpreter/rs274ngc/cycle_table.hpp"
 #include "gateway/interpreter/rs274ngc/machine_functions.hpp"
@@ -225,10 +226,13 @@ bool CycleRun::make() {
 bool CycleRun::make_hole(double height) {
   rapid(first_, second_, height);
   rapid_height(r_);
+  const bool is_tap = row_.code == 740 || row_.code == 840;
+  if (is_tap) run_.events().on_panel_lock(tapping_lock(run_.origin));
   for (const Step step : row_.steps) {
     if (step == Step::End) break;
     if (!make_step(step)) return false;
   }
+  if (is_tap) run_.events().on_panel_lock(panel_lock(run_));
   return true;
 }
 

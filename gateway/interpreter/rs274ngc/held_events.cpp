@@ -17,6 +17,7 @@ class Deliver {
   void operator()(const Miscellaneous& event) { sink_.on_miscellaneous(event); }
   void operator()(const Stop& event) { sink_.on_stop(event); }
   void operator()(const UnitsChange& event) { sink_.on_units(event); }
+  void operator()(const PanelLock& event) { sink_.on_panel_lock(event); }
   void operator()(const HeldEvents::BlockEnd& event) { sink_.on_block_end(event.origin); }
   void operator()(const HeldEvents::Text& event) {
     using Kind = HeldEvents::Text::Kind;

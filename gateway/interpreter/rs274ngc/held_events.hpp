@@ -24,7 +24,7 @@ class HeldEvents final : public EventSink {
     Origin origin;
   };
   using Event = std::variant<Rapid, Line, Arc, Dwell, Spindle, Coolant, ToolChange, Miscellaneous,
-                             Stop, UnitsChange, Text, BlockEnd, Thread>;
+                             Stop, UnitsChange, Text, BlockEnd, Thread, PanelLock>;
   static constexpr std::size_t kMost = 1000;
 
   bool empty() const { return events_.empty(); }
@@ -50,6 +50,7 @@ class HeldEvents final : public EventSink {
   void on_tool(const ToolChange& event) override { events_.emplace_back(event); }
   void on_miscellaneous(const Miscellaneous& event) override { events_.emplace_back(event); }
   void on_stop(const Stop& event) override { events_.emplace_back(event); }
+  void on_panel_lock(const PanelLock& event) override { events_.emplace_back(event); }
   void on_units(const UnitsChange& event) override { events_.emplace_back(event); }
   void on_message(const Message& event) override {
     events_.emplace_back(

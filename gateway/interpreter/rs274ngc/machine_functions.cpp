@@ -52,6 +52,7 @@ void apply_override(Run& run, int code) {
   if (code == 52) overrides.adaptive = enables;
   if (code == 53) overrides.hold = enables;
   run.events().on_miscellaneous({run.origin, code});
+  run.events().on_panel_lock(panel_lock(run));
 }
 
 bool change_tool(Run& run, int code) {
@@ -229,6 +230,15 @@ bool apply_machine_functions(Run& run) {
   return true;
 }
 
+PanelLock panel_lock(const Run& run) {
+  const Overrides& overrides = run.state.overrides;
+  PanelLock lock{.origin = run.origin};
+  lock.feed_override = !overrides.feed;
+  lock.spindle_override = !overrides.speed;
+  if (!overrides.hold) lock.hold = HoldRule::Later;
+  return lock;
+}
+
 bool reset_at_end(Run& run) {
   State& state = run.state;
   if (!check_nurbs_closed(run) || !switch_compensation(run, 400)) return false;
@@ -287,6 +297,7 @@ void restore_modes(Run& run, const SavedModes& saved) {
   state.modes = saved.modes;
   state.feed = saved.feed;
   state.overrides = saved.overrides;
+  if (state.has_header) run.events().on_panel_lock(panel_lock(run));
   if (saved.system != state.system) load_system(run, saved.system);
   const SpindleState now = state.spindle.state;
   state.spindle = saved.spindle;

@@ -16,6 +16,9 @@ bool apply_machine_functions(Run& run);
 /// G96 and G97.
 bool apply_spindle_mode(Run& run);
 
+/// What M48 to M53 keep the operator's hands off.
+PanelLock panel_lock(const Run& run);
+
 /// M0, M1, M60, M2, M30.
 bool apply_stops(Run& run);
 /// What M2, M30 and the end of a program leave behind (11.3).

@@ -125,6 +125,12 @@ void visit_event(Archive& archive, UnitsChange& event) {
   archive(event.units);
 }
 template <class Archive>
+void visit_event(Archive& archive, PanelLock& event) {
+  visit_origin(archive, event.origin);
+  language::visit_all(archive, event.feed_override, event.spindle_override, event.single_block,
+                      event.hold, event.is_tapping);
+}
+template <class Archive>
 void visit_event(Archive& archive, HeldEvents::Text& event) {
   constexpr std::size_t kMostText = 4096;
   visit_origin(archive, event.origin);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/panel_lock.hpp"
 #include "gateway/interpreter/rs274ngc/machine_functions.hpp"
 #include "gateway/interpreter/rs274ngc/motion.hpp"
 
@@ -162,10 +163,12 @@ bool synchronised_move(Run& run, int g_code) {
   Target back;
   back.to = run.state.position;
   back.named = target.named;
+  run.events().on_panel_lock(tapping_lock(run.origin));
   thread_to(run, target, lead);
   turn_spindle(run, other);
   thread_to(run, back, lead);
   turn_spindle(run, turning);
+  run.events().on_panel_lock(panel_lock(run));
   return true;
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "gateway/interpreter/panel_lock.hpp"
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 #include "gateway/interpreter/tnc155/machining_cycles.hpp"
 
@@ -44,11 +45,13 @@ void drill_by_pecks(CycleMotion& motion, const MachiningCycle& cycle) {
 
 void tap(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
   const SpindleState direction = run.state.spindle.state;
+  run.events().on_panel_lock(tapping_lock(run.origin));
   motion.feed_to_height(motion.start_height() + cycle.clearance + cycle.depth, cycle.feed);
   turn_spindle(run, reversed(direction));
   motion.dwell(cycle.dwell);
   motion.feed_to_height(motion.start_height(), cycle.feed);
   turn_spindle(run, direction);
+  run.events().on_panel_lock({.origin = run.origin});
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "gateway/interpreter/event.hpp"
+#include "gateway/machine/impl/lock.hpp"
 #include "gateway/machine/impl/path.hpp"
 #include "gateway/machine/impl/text_ring.hpp"
 #include "gateway/machine/operator_panel.hpp"
@@ -73,6 +74,7 @@ using Body =
 struct Action {
   interpreter::Origin origin;
   bool ends_block = false;
+  Lock lock;
   double seconds = 0;  ///< about what it takes at 100 %
   Body body;
 

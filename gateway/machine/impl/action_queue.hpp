@@ -35,6 +35,7 @@ class ActionQueue {
     Action& action = back();
     action.origin = origin;
     action.ends_block = false;
+    action.lock = {};
     action.seconds = 0;
     return action;
   }

@@ -14,7 +14,9 @@ Executor::Executor(const Parts& parts)
       spindle_(parts.limits.spindle) {}
 
 void Executor::begin(const interpreter::Position& at) {
-  is_held_ = is_aborting_ = false;
+  is_held_ = is_aborting_ = hold_waits_ = skips_tap_ = false;
+  lock_ = {};
+  handwheel_seconds_ = 0;
   discard();
   at_ = {};
   axes_ = {};
@@ -31,7 +33,7 @@ void Executor::begin(const interpreter::Position& at) {
 
 // -- time ------------------------------------------------------------------------------------
 
-double Executor::advance(double by, std::size_t max_actions) {
+double Executor::pass(double by, std::size_t max_actions) {
   double used = 0;
   look_ahead_again();
   for (;;) {
@@ -49,15 +51,8 @@ double Executor::advance(double by, std::size_t max_actions) {
       }
       finish_move();
     } else if (is_dwelling_) {
-      if (is_held_) return used;
-      if (dwell_left_ > by - used) {
-        dwell_left_ -= by - used;
-        return by;
-      }
-      used += dwell_left_;
-      is_dwelling_ = false;
-      finish_action();
-    } else if ((max_actions > 0 || is_slowing_down()) && may_start()) {
+      if (!pass_dwell(by, used)) return used;
+    } else if ((max_actions > 0 || goes_on_regardless()) && may_start()) {
       if (max_actions > 0) --max_actions;
       start_front();
     } else {
@@ -78,17 +73,41 @@ bool Executor::may_start() const {
   if (stop_ == MachineState::Completed)
     return std::holds_alternative<BlockEnd>(queue_.front().body);
   if (stop_ != MachineState::Idle) return false;
-  return speed_ > 0 || !(is_held_ || is_aborting_);
+  if (speed_ > 0) return true;
+  return !is_aborting_ && (!is_held_ || delays_hold(queue_.front().lock));
 }
 
-/// Axes that have to come to rest cross into the next moves, whatever the budget.
-bool Executor::is_slowing_down() const {
-  return speed_ > 0 && (is_held_ || is_aborting_);
+/// Axes that have to come to rest cross into the next moves, and moves that can not be held are
+/// made to their end, whatever the budget.
+bool Executor::goes_on_regardless() const {
+  if (speed_ > 0) return is_held_ || is_aborting_;
+  return is_held_ && !queue_.empty() && delays_hold(queue_.front().lock);
+}
+
+/// False: it goes on later. `used` takes what passed of `by`.
+bool Executor::pass_dwell(double by, double& used) {
+  if (is_held_ && !delays_hold(lock_)) return false;
+  const double rate = dwell_follows_spindle_ ? lock_.seen(panel_).spindle_override : 1;
+  if (rate <= 0) return false;
+  const double left = dwell_left_ / rate;
+  if (left > by - used) {
+    dwell_left_ -= (by - used) * rate;
+    used = by;
+    return false;
+  }
+  used += left;
+  is_dwelling_ = false;
+  finish_action();
+  return true;
 }
 
 void Executor::start_front() {
   Action& action = queue_.front();
-  origin_ = action.origin;
+  enter(action);
+  if (skips(action)) {
+    speed_ = 0;
+    return finish_action();
+  }
   const bool takes_time = std::holds_alternative<Move>(action.body) ||
                           std::holds_alternative<Wait>(action.body) ||
                           std::holds_alternative<ProbeMarker>(action.body);
@@ -98,7 +117,8 @@ void Executor::start_front() {
     start(*move);
   } else if (const auto* wait = std::get_if<Wait>(&action.body)) {
     is_dwelling_ = true;
-    dwell_left_ = wait->follows_spindle ? wait->seconds / panel_.spindle_override : wait->seconds;
+    dwell_follows_spindle_ = wait->follows_spindle;
+    dwell_left_ = wait->seconds;
   } else if (std::holds_alternative<ProbeMarker>(action.body)) {
     start_probe();
   } else {
@@ -108,12 +128,6 @@ void Executor::start_front() {
 
 void Executor::start(const Move& move) {
   motion_.start(move, speed_, goal(move));
-}
-
-/// Only a move that an operator can interrupt obeys a hold; an abort stops everything.
-MotionGoal Executor::goal(const Move& move) const {
-  if (is_aborting_ || (is_held_ && move.pace != Pace::Thread)) return {.cruise = 0, .exit = 0};
-  return {.cruise = move.wanted_speed(panel_), .exit = std::sqrt(move.exit_square)};
 }
 
 void Executor::finish_move() {
@@ -130,12 +144,12 @@ void Executor::finish_move() {
 void Executor::finish_action() {
   const Action& action = queue_.front();
   const bool ends_block = action.ends_block;
+  const bool is_single = action.lock.seen(panel_).single_block;
   const interpreter::Origin origin = action.origin;
   queue_.pop();
   if (!ends_block) return;
   executed_ = origin.block;
-  if (panel_.single_block && speed_ == 0 && stop_ == MachineState::Idle)
-    stop_ = MachineState::SingleBlock;
+  if (is_single && speed_ == 0 && stop_ == MachineState::Idle) stop_ = MachineState::SingleBlock;
   sink_.on_block_executed(origin);
 }
 
@@ -181,39 +195,7 @@ void Executor::finish_probe() {
   sink_.on_probed(probe);
 }
 
-// -- the operator ----------------------------------------------------------------------------
-
-void Executor::set_panel(const OperatorPanel& panel) {
-  const OperatorPanel next = panel.clamped();
-  if (next == panel_) return;
-  panel_ = next;
-  planner_.invalidate();
-  plan_motion_again();
-}
-
-void Executor::hold() {
-  if (is_held_ || is_over()) return;
-  is_held_ = true;
-  plan_motion_again();
-}
-
-bool Executor::resume() {
-  if (is_aborting_ || is_over()) return false;
-  if (!is_held_ && stop_ == MachineState::Idle) return false;
-  is_held_ = false;
-  stop_ = MachineState::Idle;
-  plan_motion_again();
-  return true;
-}
-
-void Executor::abort() {
-  if (is_aborting_ || is_over()) return;
-  is_aborting_ = true;
-  if (speed() > 0)
-    plan_motion_again();
-  else
-    discard();
-}
+// -- the plan ---------------------------------------------------------------------------------
 
 /// More was queued: the move being made may leave faster than it had to when nothing was behind it.
 void Executor::look_ahead_again() {
@@ -261,10 +243,10 @@ MachineStatus Executor::status() const {
   const bool is_rapid = motion_.is_active() && motion_.move().pace == Pace::Rapid;
   const Path* way = is_rapid ? &motion_.move().path : nullptr;
   const double x = way != nullptr ? way->at(way->length)[0] : now[0];
-  const double turn = spindle_.rpm(x, panel_.spindle_override);
+  const double turn = spindle_.rpm(x, lock_.seen(panel_).spindle_override);
   return {.state = state(),
           .position = to_position(now, axes_),
-          .feed_per_minute = speed() * 60,
+          .feed_per_minute = is_moving() ? speed() * 60 : 0,
           .spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn,
           .origin = origin_,
           .executed = executed_,

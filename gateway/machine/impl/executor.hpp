@@ -30,17 +30,24 @@ class Executor {
   void hold();
   bool resume();
   void abort();
+  void turn_handwheel(double seconds);
 
   MachineState state() const;
-  bool is_moving() const { return speed() > 0; }
+  bool is_moving() const;
   MachineStatus status() const;
   double buffered() const;
 
  private:
+  double pass(double by, std::size_t max_actions);
+  bool is_driven_by_hand() const;
+  bool pass_dwell(double by, double& used);
   bool may_start() const;
-  bool is_slowing_down() const;
+  bool goes_on_regardless() const;
+  bool delays_hold(const Lock& lock) const;
   bool is_over() const;
   void start_front();
+  void enter(const Action& action);
+  bool skips(const Action& action) const;
   void start(const Move& move);
   void start_probe();
   void finish_move();
@@ -70,12 +77,17 @@ class Executor {
   Motion motion_;  ///< the move being made, if any
   Move probe_move_;
   bool is_dwelling_ = false;  ///< the front of the queue is a wait that has begun
-  double dwell_left_ = 0;
+  bool dwell_follows_spindle_ = false;
+  double dwell_left_ = 0;       ///< at 100 % spindle, where it follows that
   double speed_ = 0;            ///< between two moves
   Coordinates at_{};            ///< between two moves
   interpreter::Position axes_;  ///< says which axes were ever given
 
   bool is_held_ = false, is_aborting_ = false;
+  Lock lock_;                               ///< of the action begun last
+  bool hold_waits_ = false;                 ///< for the end of moves that can not be held
+  bool skips_tap_ = false;                  ///< this tapping cycle is not done by handwheel
+  double handwheel_seconds_ = 0;            ///< that its turns have still to pass
   MachineState stop_ = MachineState::Idle;  ///< Idle: no reason to stand
   interpreter::StopKind stopped_at_{};
   interpreter::Origin origin_;

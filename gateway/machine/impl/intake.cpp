@@ -18,6 +18,7 @@ Intake::Intake(const MachineLimits& limits, ActionQueue& queue)
 
 void Intake::begin(const Coordinates& at) {
   end_ = at;
+  lock_ = {};
   spindle_.stop();
   builder_.forget_direction();
   is_closed_ = false;
@@ -25,7 +26,11 @@ void Intake::begin(const Coordinates& at) {
 
 Action* Intake::add(const Origin& origin) {
   if (is_closed_) return nullptr;
-  if (queue_.size() + 1 < queue_.capacity()) return &queue_.push(origin);
+  if (queue_.size() + 1 < queue_.capacity()) {
+    Action& action = queue_.push(origin);
+    action.lock = lock_;
+    return &action;
+  }
   alarm(origin, "MCH0005", "one block asks for more actions than the machine can queue");
   return nullptr;
 }
@@ -63,6 +68,7 @@ void Intake::add_move(const Origin& origin, const MoveTask& task) {
     queue_.drop_back();
     return alarm(origin, refusal->id, std::move(refusal->text));
   }
+  if (move.pace == Pace::Thread) action->lock.hold = interpreter::HoldRule::Later;
   queue_.set_seconds(*action, move.path.length / std::min(move.speed, move.ceiling));
   end_ = task.path.to;
 }
@@ -197,6 +203,7 @@ void Intake::on_block_end(const Origin& origin) {
     Action& last = queue_.back();
     if (!last.ends_block && last.origin.block == origin.block) {
       last.ends_block = true;
+      last.lock.single_block = lock_.single_block;
       last.origin = origin;
       return;
     }

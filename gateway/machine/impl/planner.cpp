@@ -24,12 +24,13 @@ void Planner::plan(ActionQueue& queue, const OperatorPanel& panel) {
   };
   for (std::size_t i = window; i-- > 0;) {
     Action& action = queue.at(i);
-    if (panel.single_block && action.ends_block) {
+    const OperatorPanel seen = action.lock.seen(panel);
+    if (seen.single_block && action.ends_block) {
       allowed = 0;
       decided_before(i + 1);
     }
     if (auto* move = std::get_if<Move>(&action.body)) {
-      const double wanted = move->wanted_speed(panel);
+      const double wanted = move->wanted_speed(seen);
       const double wanted_square = wanted * wanted;
       if (allowed >= wanted_square) decided_before(i + 1);
       move->exit_square = std::min(allowed, wanted_square);

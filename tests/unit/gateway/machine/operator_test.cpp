@@ -20,7 +20,7 @@ TEST(Panel, IsClampedToWhatAHandCanSet) {
   test.machine.set_panel(panel);
   EXPECT_EQ(test.machine.panel().feed_override, 2);
   EXPECT_EQ(test.machine.panel().rapid_override, 0);
-  EXPECT_EQ(test.machine.panel().spindle_override, 0.5);
+  EXPECT_EQ(test.machine.panel().spindle_override, 0);
 }
 
 TEST(Override, ScalesTheFeed) {

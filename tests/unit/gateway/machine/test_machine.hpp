@@ -114,6 +114,17 @@ class Program {
     sink_.on_thread({origin_, at(x, z), Length::mm(lead), std::nullopt});
     end_block();
   }
+  /// No block of its own.
+  void lock(interpreter::PanelLock lock) {
+    lock.origin = origin_;
+    sink_.on_panel_lock(lock);
+  }
+  void unlock() { lock({}); }
+  void turns(double revolutions) {
+    begin_block();
+    sink_.on_dwell({origin_, 0, revolutions});
+    end_block();
+  }
   void dwell(double seconds) {
     begin_block();
     sink_.on_dwell({origin_, seconds, std::nullopt});

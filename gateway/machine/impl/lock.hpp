@@ -1,0 +1,33 @@
+#pragma once
+
+#include "gateway/interpreter/event.hpp"
+#include "gateway/machine/operator_panel.hpp"
+
+namespace dripline::machine::impl {
+
+/// What of the panel an action takes no notice of: the program's PanelLock before it.
+struct Lock {
+  interpreter::HoldRule hold = interpreter::HoldRule::AtOnce;
+  bool feed_override = false, spindle_override = false, single_block = false;
+  bool is_tapping = false;
+
+  /// The panel as this action sees it. A handwheel drives the program in the place of its feeds.
+  OperatorPanel seen(const OperatorPanel& panel) const {
+    OperatorPanel seen = panel;
+    if (feed_override || panel.handwheel) seen.feed_override = 1;
+    if (panel.handwheel) seen.rapid_override = 1;
+    if (spindle_override) seen.spindle_override = 1;
+    if (single_block) seen.single_block = false;
+    return seen;
+  }
+};
+
+inline Lock lock_of(const interpreter::PanelLock& event) {
+  return {.hold = event.hold,
+          .feed_override = event.feed_override,
+          .spindle_override = event.spindle_override,
+          .single_block = event.single_block,
+          .is_tapping = event.is_tapping};
+}
+
+}  // namespace dripline::machine::impl

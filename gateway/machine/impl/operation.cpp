@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/machine/impl/executor.hpp"
+
+/// The part of the executor that the operator's hands are on: hold, overrides, handwheel, and where
+/// the program keeps them off.
+namespace dripline::machine::impl {
+
+using interpreter::HoldRule;
+
+namespace {
+
+/// What turns that wait can amount to: nobody turns further ahead of a machine.
+constexpr double kMostHandwheelSeconds = 600;
+constexpr std::string_view kTapByHandwheel =
+    "tapping cycles are not done in handwheel mode: this one is left out";
+
+}  // namespace
+
+double Executor::advance(double by, std::size_t max_actions) {
+  if (!is_driven_by_hand()) return pass(by, max_actions);
+  const double used = pass(std::min(by, handwheel_seconds_), max_actions);
+  handwheel_seconds_ = std::max(0.0, handwheel_seconds_ - used);
+  // Turned while nothing can move, it turns in vain.
+  if (!motion_.is_active() && !is_dwelling_ && !may_start()) handwheel_seconds_ = 0;
+  return used;
+}
+
+/// What has begun to slow down, and a tap, is made in the machine's own time.
+bool Executor::is_driven_by_hand() const {
+  return panel_.handwheel && !is_held_ && !is_aborting_ && (!lock_.is_tapping || skips_tap_);
+}
+
+void Executor::turn_handwheel(double seconds) {
+  if (!panel_.handwheel || is_over()) return;
+  handwheel_seconds_ = std::clamp(handwheel_seconds_ + seconds, 0.0, kMostHandwheelSeconds);
+}
+
+bool Executor::is_moving() const {
+  return speed() > 0 && !(is_driven_by_hand() && handwheel_seconds_ == 0);
+}
+
+/// With a hold asked for: whether an action under `lock` is made all the same.
+bool Executor::delays_hold(const Lock& lock) const {
+  return hold_waits_ && lock.hold != HoldRule::AtOnce;
+}
+
+void Executor::enter(const Action& action) {
+  const Lock& lock = action.lock;
+  const bool is_same_tap =
+      lock.is_tapping && lock_.is_tapping && action.origin.block == origin_.block;
+  origin_ = action.origin;
+  lock_ = lock;
+  if (lock.hold == HoldRule::AtOnce) hold_waits_ = false;
+  // Too fast to come to rest before it.
+  if (lock.hold == HoldRule::Later && is_held_ && speed_ > 0) hold_waits_ = true;
+  if (is_same_tap) return;
+  skips_tap_ = lock.is_tapping && panel_.handwheel;
+  if (skips_tap_) sink_.on_message({origin_, kTapByHandwheel});
+}
+
+/// A tapping cycle ends where it began, so without its moves the way goes on from there.
+bool Executor::skips(const Action& action) const {
+  return skips_tap_ &&
+         (std::holds_alternative<Move>(action.body) || std::holds_alternative<Wait>(action.body) ||
+          std::holds_alternative<interpreter::Spindle>(action.body));
+}
+
+/// Only a move that an operator can interrupt obeys a hold; an abort stops everything.
+MotionGoal Executor::goal(const Move& move) const {
+  if (is_aborting_ || (is_held_ && !delays_hold(lock_))) return {.cruise = 0, .exit = 0};
+  return {.cruise = move.wanted_speed(lock_.seen(panel_)), .exit = std::sqrt(move.exit_square)};
+}
+
+void Executor::set_panel(const OperatorPanel& panel) {
+  const OperatorPanel next = panel.clamped();
+  if (next == panel_) return;
+  panel_ = next;
+  if (!panel_.handwheel) handwheel_seconds_ = 0;
+  planner_.invalidate();
+  plan_motion_again();
+}
+
+void Executor::hold() {
+  if (is_held_ || is_over()) return;
+  is_held_ = true;
+  hold_waits_ = lock_.hold == HoldRule::Later;
+  plan_motion_again();
+}
+
+bool Executor::resume() {
+  if (is_aborting_ || is_over()) return false;
+  if (!is_held_ && stop_ == MachineState::Idle) return false;
+  is_held_ = hold_waits_ = false;
+  stop_ = MachineState::Idle;
+  plan_motion_again();
+  return true;
+}
+
+void Executor::abort() {
+  if (is_aborting_ || is_over()) return;
+  is_aborting_ = true;
+  if (speed() > 0)
+    plan_motion_again();
+  else
+    discard();
+}
+
+}  // namespace dripline::machine::impl

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/panel_lock.hpp"
+#include "tests/unit/gateway/machine/test_machine.hpp"
+
+/// A program driven by the handwheel. Row: CEN-224.
+namespace dripline::machine::test {
+namespace {
+
+OperatorPanel by_handwheel() {
+  OperatorPanel panel;
+  panel.handwheel = true;
+  return panel;
+}
+
+/// One block: down to Z -20 and back to 10.
+void tap(TestMachine& test) {
+  const Origin origin = test.program.begin_block();
+  interpreter::EventSink& events = test.machine.events();
+  const Feed feed = Feed::per_minute(Length::mm(1200));
+  events.on_panel_lock(interpreter::tapping_lock(origin));
+  events.on_line({origin, Program::at(0, -20), feed});
+  events.on_spindle({origin, interpreter::SpindleState::CounterClockwise, 500, {}, {}});
+  events.on_line({origin, Program::at(0, 10), feed});
+  test.program.unlock();
+  test.program.end_block();
+}
+
+TEST(Handwheel, LetsTheProgramsTimePassOnlyAsItIsTurned) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 100, 1200);
+  test.machine.advance(Seconds{5});
+  EXPECT_EQ(test.z(), 0);
+  EXPECT_FALSE(test.machine.is_moving());
+  test.machine.turn_handwheel(Seconds{0.5});
+  EXPECT_EQ(test.machine.advance(Seconds{5}).count(), 0.5);
+  EXPECT_NEAR(test.z(), 0.5 * 20 - 0.2, 1e-9);
+  EXPECT_EQ(test.machine.status().feed_per_minute, 0) << "the wheel is at rest";
+  test.machine.turn_handwheel(Seconds{100});
+  test.run_all();
+  EXPECT_EQ(test.z(), 100);
+}
+
+/// Turned faster than the program's own speed, the rest follows at that speed.
+TEST(Handwheel, NeverDrivesFasterThanTheProgram) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 100, 1200);
+  test.machine.turn_handwheel(Seconds{2});
+  test.machine.advance(Seconds{1});
+  EXPECT_NEAR(test.z(), 20 - 0.2, 1e-9);
+  EXPECT_TRUE(test.machine.is_moving());
+}
+
+TEST(Handwheel, TakesThePlaceOfTheFeedSwitch) {
+  TestMachine test;
+  OperatorPanel panel = by_handwheel();
+  panel.feed_override = 0.1;
+  test.machine.set_panel(panel);
+  test.program.line(0, 100, 1200);
+  test.machine.turn_handwheel(Seconds{1});
+  test.run_all();
+  EXPECT_NEAR(test.z(), 20 - 0.2, 1e-9);
+}
+
+TEST(Handwheel, TurnedForNothingIsForgotten) {
+  TestMachine test;
+  test.machine.set_panel(by_handwheel());
+  test.machine.turn_handwheel(Seconds{10});
+  test.run_all();
+  test.program.line(0, 100, 1200);
+  test.run_all();
+  EXPECT_EQ(test.z(), 0);
+}
+
+TEST(Handwheel, DrivesNothingInAnotherMode) {
+  TestMachine test;
+  test.machine.turn_handwheel(Seconds{10});
+  test.machine.set_panel(by_handwheel());
+  test.program.line(0, 100, 1200);
+  test.run_all();
+  EXPECT_EQ(test.z(), 0);
+  test.machine.set_panel({});
+  test.run_all();
+  EXPECT_EQ(test.z(), 100) << "the program goes on by itself";
+}
+
+TEST(Handwheel, AtRestStillLetsAHoldAndAnAbortEnd) {
+  for (const bool aborts : {false, true}) {
+    TestMachine test;
+    test.program.line(0, 100, 1200);
+    test.machine.advance(Seconds{1});
+    test.machine.set_panel(by_handwheel());
+    if (aborts) {
+      test.machine.abort();
+    } else {
+      test.machine.hold();
+    }
+    test.run_all();
+    EXPECT_EQ(test.machine.state(), aborts ? MachineState::Aborted : MachineState::Held);
+    EXPECT_FALSE(test.machine.is_moving());
+  }
+}
+
+TEST(Handwheel, LeavesATappingCycleOutAndSaysSo) {
+  TestMachine test;
+  test.recorder.writes_blocks = false;
+  test.machine.set_panel(by_handwheel());
+  test.program.rapid(0, 10);
+  tap(test);
+  test.program.line(30, 10, 1200);
+  test.machine.turn_handwheel(Seconds{60});
+  const double used = test.run_all();
+  EXPECT_NEAR(used, trapezoid(10, 100, 1000) + trapezoid(30, 20, 1000), 1e-9);
+  EXPECT_EQ(test.x(), 30);
+  EXPECT_EQ(test.z(), 10);
+  ASSERT_EQ(test.recorder.lines.size(), 1U);
+  EXPECT_TRUE(
+      test.recorder.lines[0].starts_with("message tapping cycles are not done in handwheel mode"));
+}
+
+TEST(SpindleOverride, OfZeroStopsADwellOfTurnsUntilItIsRaised) {
+  TestMachine test;
+  test.program.spindle(600);
+  test.program.turns(5);  // half a second
+  OperatorPanel panel;
+  panel.spindle_override = 0;
+  test.machine.set_panel(panel);
+  EXPECT_EQ(test.run_all(), 0);
+  panel.spindle_override = 2;
+  test.machine.set_panel(panel);
+  EXPECT_NEAR(test.run_all(), 0.25, 1e-9);
+}
+
+}  // namespace
+}  // namespace dripline::machine::test
