@@ -14,6 +14,7 @@ struct OrderCommand {
   std::string run;
   std::string text, name, state;
   std::optional<double> feed, rapid, spindle;  ///< per cent
+  int clicks = 1;
 };
 
 /// "hold", "feed override 50 %", "single_block on"
@@ -21,6 +22,7 @@ std::string order_text(const client::OrderRequest& order) {
   if (order.action == "switch") {
     return fmt::format("{} {}", order.name.value_or(""), order.value == 1.0 ? "on" : "off");
   }
+  if (order.action == "handwheel") return fmt::format("{:.0f} clicks", order.value.value_or(0));
   std::string text = order.action;
   std::ranges::replace(text, '_', ' ');
   if (order.value) text += fmt::format(" {:.4g} %", *order.value * 100);
@@ -72,7 +74,7 @@ void add_switch(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
   auto options = std::make_shared<OrderCommand>();
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("NAME", options->name, "single_block, optional_stop or block_skip")
+  command->add_option("NAME", options->name, "single_block, optional_stop, block_skip or handwheel")
       ->required();
   command->add_option("STATE", options->state, "on or off")
       ->required()
@@ -82,6 +84,27 @@ void add_switch(CLI::App& group, Context& context) {
     client::OrderRequest order = plain("switch");
     order.name = options->name;
     order.value = options->state == "on" ? 1 : 0;
+    context.status = give(context, options->run, {order});
+  });
+}
+
+void add_handwheel(CLI::App& group, Context& context) {
+  constexpr int kMostClicks = 1000;
+  auto* command = group.add_subcommand("handwheel", "Turn the handwheel that drives the program");
+  auto options = std::make_shared<OrderCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("CLICKS", options->clicks, "How far, forward")
+      ->required()
+      ->check(CLI::Range(1, kMostClicks));
+  command->footer(
+      "In handwheel mode a program goes on only as far as the wheel is turned; the feed switch "
+      "says "
+      "how\nmuch a click is.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
+      "handwheel "
+      "latest 200");
+  command->callback([&context, options] {
+    client::OrderRequest order = plain("handwheel");
+    order.value = options->clicks;
     context.status = give(context, options->run, {order});
   });
 }
@@ -126,6 +149,7 @@ void add_order_commands(CLI::App& group, Context& context) {
   add_answer(group, context);
   add_switch(group, context);
   add_override(group, context);
+  add_handwheel(group, context);
 }
 
 }  // namespace dripline::cli

@@ -39,6 +39,8 @@ Gateway::Gateway(Parts parts)
   panel.optional_stop = parts_.setup.switches.optional_stop;
   panel.block_skip = parts_.setup.switches.block_skip;
   machine_.set_panel(panel);
+  machine_.begin(parts_.setup.start);
+  take_panel_tables(parts_.setup);
   if (parts_.options.line) line_request_ = parts_.options.line->request;
 }
 
@@ -134,8 +136,10 @@ SteadyTime Gateway::turn(SteadyTime now) {
 }
 
 bool Gateway::is_running() const {
-  return session_ && !is_ending_ &&
-         (machine_.state() == machine::MachineState::Running || machine_.is_moving());
+  if (!session_ || is_ending_) return false;
+  if (machine_.is_moving()) return true;
+  // A handwheel at rest is an order that has not come.
+  return machine_.state() == machine::MachineState::Running && !machine_.panel().handwheel;
 }
 
 SteadyTime Gateway::next_turn(SteadyTime now) const {

@@ -80,12 +80,17 @@ class Gateway {
   Result<interpreter::Setup> setup_with(const std::string& control_data) const;
   std::optional<Reply> refusal_of_start(const dds::Order& order);
   Reply operate(const dds::Order& order);
-  Reply set_switch(const dds::Order& order);
-  Reply set_override(const dds::Order& order);
-  std::optional<std::string> refusal_of_feed_dial(double factor) const;
   void keep_result(const dds::Order& order, const Reply& reply);
   void answer(const dds::Order& order, const Reply& reply);
   void send_results();
+
+  // gateway_panel.cpp
+  void take_panel_tables(const interpreter::Setup& setup);
+  Reply set_switch(const dds::Order& order);
+  Reply set_override(const dds::Order& order);
+  std::optional<std::string> refusal_of_feed(double factor) const;
+  std::optional<std::string> refusal_of_spindle(double factor) const;
+  Reply turn_handwheel(const dds::Order& order);
 
   // gateway_run.cpp
   void run_slice(SteadyTime now);
@@ -125,6 +130,7 @@ class Gateway {
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
   std::unique_ptr<RunSession> session_;
+  interpreter::PanelTables panel_tables_;
 
   std::deque<dds::OrderResult> results_;
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;

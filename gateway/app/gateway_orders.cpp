@@ -1,5 +1,4 @@
 #include <spdlog/spdlog.h>
-#include <cmath>
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/feed/pull_feed.hpp"
@@ -19,16 +18,6 @@ constexpr std::uint64_t kMaxProgramBytes = 1ULL << 40;
 /// the same answer.
 std::string start_key(const std::string& run) {
   return "run " + run;
-}
-
-std::string range_of(OrderAction override) {
-  using Panel = machine::OperatorPanel;
-  if (override == OrderAction::FeedOverride)
-    return fmt::format("0 to {:.4g} %", Panel::kMaxFeedOverride * 100);
-  if (override == OrderAction::RapidOverride)
-    return fmt::format("0 to {:.4g} %", Panel::kMaxRapidOverride * 100);
-  return fmt::format("{:.4g} to {:.4g} %", Panel::kMinSpindleOverride * 100,
-                     Panel::kMaxSpindleOverride * 100);
 }
 
 }  // namespace
@@ -138,7 +127,11 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   if (!known) return fail(known.error().code, "the server's setup: {}", known.error().what);
   interpreter::Setup setup = *std::move(known);
   setup.switches.block_skip = machine_.panel().block_skip;
-  if (!started_by.from.empty()) setup.control.set("start_at", {started_by.from, 0});
+  const bool is_taken_up = !started_by.from.empty();
+  if (is_taken_up) {
+    setup.control.set("start_at", {started_by.from, 0});
+    setup.stands = machine_.status().position;
+  }
   auto session = RunSession::make({.run = run,
                                    .feed = std::move(feed),
                                    .machine = machine_,
@@ -158,7 +151,8 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
     return fail(done.error().code, "the start can not be kept: {}", done.error().what);
   }
   parts_.journal.begin(run.run);
-  machine_.begin(parts_.setup.start);
+  take_panel_tables(setup);
+  machine_.begin(setup.stands.value_or(setup.start));
   session_ = std::move(*session);
   session_->size_feed(parts_.options.speed.factor);
   last_step_ = parts_.clock.steady_now();
@@ -189,56 +183,11 @@ Gateway::Reply Gateway::operate(const dds::Order& order) {
       const auto taken = session_->answer(order.argument);
       return taken ? Reply{} : refuse(taken.error().what);
     }
+    case OrderAction::Handwheel:
+      return turn_handwheel(order);
     default:
       return refuse("not an order this gateway knows");
   }
-}
-
-Gateway::Reply Gateway::set_switch(const dds::Order& order) {
-  if (order.value != 0 && order.value != 1)
-    return refuse(fmt::format("a switch is 0 or 1, not {}", order.value));
-  machine::OperatorPanel panel = machine_.panel();
-  const bool is_on = order.value == 1;
-  if (order.argument == "single_block") {
-    panel.single_block = is_on;
-  } else if (order.argument == "optional_stop") {
-    panel.optional_stop = is_on;
-  } else if (order.argument == "block_skip") {
-    panel.block_skip = is_on;
-  } else {
-    return refuse(
-        fmt::format("no switch '{}': single_block, optional_stop, block_skip", order.argument));
-  }
-  machine_.set_panel(panel);
-  const bool is_for_next_run = session_ && order.argument == "block_skip";
-  return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
-}
-
-/// Controls whose knob has positions do not stand between them.
-std::optional<std::string> Gateway::refusal_of_feed_dial(double factor) const {
-  const interpreter::FeedDial& dial = parts_.dialect.feed_dial;
-  if (dial.step <= 0) return std::nullopt;
-  const double position = factor / dial.step;
-  constexpr double kNoise = 1e-6;
-  if (factor <= dial.most + kNoise && std::fabs(position - std::round(position)) <= kNoise)
-    return std::nullopt;
-  return fmt::format("{:.4g} %: this control's knob goes in steps of {:.4g} to {:.4g} %",
-                     factor * 100, dial.step * 100, dial.most * 100);
-}
-
-Gateway::Reply Gateway::set_override(const dds::Order& order) {
-  machine::OperatorPanel panel = machine_.panel();
-  double& knob = order.action == OrderAction::FeedOverride    ? panel.feed_override
-                 : order.action == OrderAction::RapidOverride ? panel.rapid_override
-                                                              : panel.spindle_override;
-  knob = order.value;
-  if (!std::isfinite(order.value) || panel.clamped() != panel)
-    return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
-  if (order.action == OrderAction::FeedOverride) {
-    if (auto refusal = refusal_of_feed_dial(order.value)) return refuse(std::move(*refusal));
-  }
-  machine_.set_panel(panel);
-  return {};
 }
 
 }  // namespace dripline::gateway

@@ -99,6 +99,8 @@ Execution Gateway::execution_of_run(std::string& message) const {
   if (state == MachineState::ProgramStop || state == MachineState::OptionalStop)
     message = recorder_.notice();
   if (state == MachineState::SingleBlock) message = "single block";
+  if (state == MachineState::Running && machine_.panel().handwheel)
+    message = "driven by the handwheel";
   return execution_of(state);
 }
 

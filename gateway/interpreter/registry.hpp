@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/panel_tables.hpp"
 #include "gateway/interpreter/setup.hpp"
 
 namespace dripline::interpreter {
@@ -40,6 +41,9 @@ struct Dialect {
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.
   Result<std::string> (*list)(std::string_view text) = nullptr;
+  /// Switches of the panel that a setup can be given tables for; nullptr: the panel is as
+  /// `feed_dial` says. Errors: Syntax, LimitExceeded.
+  Result<PanelTables> (*panel_tables)(const Setup& setup) = nullptr;
 };
 
 std::span<const Dialect> dialects();

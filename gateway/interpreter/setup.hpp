@@ -45,6 +45,8 @@ struct VariableRecord {
 /// setup file").
 struct Setup {
   Position start;
+  /// Where the machine stands when a program is taken up in its middle, if not at `start`.
+  std::optional<Position> stands;
   std::optional<Units> units;
   Switches switches;
   std::optional<LocalTime> date_time;

@@ -51,7 +51,8 @@ enum class OrderAction : std::uint8_t {
   Switch,
   FeedOverride,
   RapidOverride,
-  SpindleOverride
+  SpindleOverride,
+  Handwheel
 };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 

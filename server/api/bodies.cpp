@@ -1,6 +1,7 @@
 #include "server/api/bodies.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
@@ -27,6 +28,7 @@ constexpr std::array kActions{
     ActionRow{"feed_override", dds::OrderAction::FeedOverride, "v"},
     ActionRow{"rapid_override", dds::OrderAction::RapidOverride, "v"},
     ActionRow{"spindle_override", dds::OrderAction::SpindleOverride, "v"},
+    ActionRow{"handwheel", dds::OrderAction::Handwheel, "v"},
 };
 
 Result<const ActionRow*> find_action(std::string_view name) {
@@ -42,6 +44,11 @@ Result<void> check_value(const ActionRow& row, double value) {
   if (row.action == dds::OrderAction::Switch) {
     if (value == 0 || value == 1) return {};
     return fail(Errc::Syntax, "value {} of a switch must be 0 or 1", value);
+  }
+  if (row.action == dds::OrderAction::Handwheel) {
+    if (value >= 1 && value <= kMaxClicks && value == std::floor(value)) return {};
+    return fail(Errc::LimitExceeded, "value {} of handwheel must be a whole number from 1 to {}",
+                value, kMaxClicks);
   }
   if (value >= 0 && value <= kMaxOverride) return {};
   return fail(Errc::LimitExceeded, "value {} of {} must be 0 to {}, 1 is 100 %", value, row.name,

@@ -25,5 +25,6 @@ Result<feeds::StartRequest> decode_start(std::string_view body);
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<feeds::OrderRequest> decode_order(std::string_view body);
 inline constexpr double kMaxOverride = 10;
+inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one order
 
 }  // namespace dripline::api

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "gateway/interpreter/centurion/control_memory.hpp"
 #include "gateway/interpreter/centurion/interpreter.hpp"
+#include "gateway/interpreter/centurion/panel_tables.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -60,9 +62,15 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kCenturionDialect{"centurion", "Milltronics Centurion 5T/6T (lathe)",
-                                &likelihood, &make,
-                                Units::Inch, MachineKind::Lathe,
-                                {.step = 0.1, .most = 1.5, .fastest = std::nullopt}};
+const Dialect kCenturionDialect{"centurion",
+                                "Milltronics Centurion 5T/6T (lathe)",
+                                &likelihood,
+                                &make,
+                                Units::Inch,
+                                MachineKind::Lathe,
+                                {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
+                                false,
+                                nullptr,
+                                &read_panel_tables};
 
 }  // namespace dripline::interpreter

@@ -8,6 +8,7 @@
 #include "gateway/interpreter/centurion/cycle_words.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/centurion/motion.hpp"
+#include "gateway/interpreter/panel_lock.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -147,11 +148,14 @@ bool tap(Run& run, const Hole& hole) {
         fmt::format("the tap coasts {} and the thread is {} long", coast, std::fabs(way)));
   }
   go_to_clearance(run, hole);
+  run.events().on_panel_lock(tapping_lock(run.origin));
   feed_z(run, hole, hole.bottom - std::copysign(coast, way));
   spindle_to(run, reverse_of(turns));
   feed_z(run, hole, hole.clearance);
   spindle_to(run, turns);
+  run.events().on_panel_lock(lock_behind_tap(panel_lock(run)));
   return_rapid(run, hole);
+  run.events().on_panel_lock(panel_lock(run));
   return true;
 }
 

@@ -29,6 +29,7 @@ class EventFilter : public EventSink {
   void on_message(const Message& event) override { out_.on_message(event); }
   void on_prompt(const Prompt& event) override { out_.on_prompt(event); }
   void on_stop(const Stop& event) override { out_.on_stop(event); }
+  void on_panel_lock(const PanelLock& event) override { out_.on_panel_lock(event); }
   void on_warning(const Warning& event) override { out_.on_warning(event); }
   void on_alarm(const Alarm& event) override { out_.on_alarm(event); }
   void on_end(const End& event) override { out_.on_end(event); }

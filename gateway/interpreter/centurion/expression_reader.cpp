@@ -303,6 +303,10 @@ bool read_parameter(Run& run, double number, std::uint32_t column, double& value
   if (index >= kFirstStatus && index <= kLastStatus) {
     value = status_parameter(run.state, run.parameters, index).value_or(value);
   }
+  // a change that waits for G11 reads as it was written
+  for (const DataChange& change : run.state.data_changes) {
+    if (change.number == index) value = change.value;
+  }
   return true;
 }
 

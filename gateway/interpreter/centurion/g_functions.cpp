@@ -49,7 +49,11 @@ void change_units(Run& run, Units units) {
 bool set_data_mode(Run& run, bool on) {
   run.state.modes.takes_data = on;
   if (on) return true;
-  run.update_origin();  // what G10 brought counts from G11 on
+  for (const DataChange& change : run.state.data_changes) {
+    run.parameters[change.number] = change.value;
+  }
+  run.state.data_changes.clear();
+  run.update_origin();
   refresh_tool(run);
   run.stages_changed();
   return true;
@@ -134,6 +138,7 @@ bool apply_g(Run& run, const GRow& row) {
       modes.path = row.code == 61   ? PathMode::ExactStop
                    : row.code == 63 ? PathMode::Tapping
                                     : PathMode::Cutting;
+      if (run.state.has_header) run.events().on_panel_lock(panel_lock(run));
       return true;
     case GAction::SafeZone:
       modes.checks_zone = row.code == 22;

@@ -57,8 +57,14 @@ void take_pending_tool(Run& run) {
 }
 
 /// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
+/// Until he has done it the spindle is locked; what that means to one that turns is the machine's.
 bool change_tool(Run& run) {
+  constexpr double kPulseMs = 150;
   if (!go_to_tool_change(run)) return false;
+  if (run.options.tool_change_stops_spindle && run.state.spindle.state != SpindleState::Off)
+    spindle_to(run, SpindleState::Off);
+  if (run.options.tool_change_pin)
+    pulse_output(run, *output_of_pin(*run.options.tool_change_pin), true, kPulseMs);
   take_pending_tool(run);
   show_comment(run);
   run.events().on_stop({run.origin, StopKind::ToolChange});
@@ -249,6 +255,17 @@ void show_machine_state(Run& run) {
   }
   if (run.state.spindle.state != SpindleState::Off) emit_spindle(run);
   if (run.state.coolant.flood) emit_coolant(run);
+  run.events().on_panel_lock(panel_lock(run));
+}
+
+PanelLock panel_lock(const Run& run) {
+  const bool is_tapping_mode = run.state.modes.path == PathMode::Tapping;
+  return {.origin = run.origin,
+          .feed_override = is_tapping_mode,
+          .spindle_override = is_tapping_mode,
+          .single_block = is_tapping_mode,
+          .hold = is_tapping_mode ? HoldRule::Later : HoldRule::AtOnce,
+          .is_tapping = false};
 }
 
 void show_comment(Run& run) {

@@ -26,9 +26,12 @@ void apply_spindle_range(Run& run);
 double most_revolutions(const Run& run);
 void spindle_to(Run& run, SpindleState state);
 void all_off(Run& run);
-/// Tool, spindle and coolant as they are by now: for a machine that has seen nothing of the
+/// Tool, spindle, coolant and locks as they are by now: for a machine that has seen nothing of the
 /// program.
 void show_machine_state(Run& run);
+
+/// What the path mode keeps the operator's hands off (G63).
+PanelLock panel_lock(const Run& run);
 
 /// The block's comment, for the operator; nothing when it has none (spec 3.1).
 void show_comment(Run& run);

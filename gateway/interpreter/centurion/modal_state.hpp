@@ -116,6 +116,12 @@ struct Jump {
   bool is_not_in_ram = false;  ///< the RAM directory has been asked
 };
 
+/// What a P n = value between G10 and G11 will be.
+struct DataChange {
+  std::uint16_t number = 0;
+  double value = 0;
+};
+
 /// What G990 wrote: a file Qnnnn of the control's RAM drive, for as long as the run lasts.
 struct ParameterFile {
   std::uint32_t number = 0;
@@ -167,6 +173,7 @@ struct ModalState {
   std::vector<GosubFrame> gosubs;
   std::vector<LoopFrame> loops;
   std::vector<ParameterFile> files;
+  std::vector<DataChange> data_changes;  ///< each number once; they count from G11 on
   Jump jump;
   PatternCycle pattern;                    ///< of G70-G73, while one is under way
   std::vector<ModalState> before_pattern;  ///< one while a pattern is read: what it must not change

@@ -39,6 +39,8 @@ struct ControlOptions {
   std::array<int, 10> custom_g{};                   ///< bound to O9010-O9019; 0 none
   std::array<int, 10> custom_m{};                   ///< bound to O9020-O9029
   std::uint16_t tool_change_program = 0;            ///< `m6_macro`: in the place of M6; 0 none
+  std::optional<int> tool_change_pin;               ///< `m6_pin`: the output that M6 pulses
+  bool tool_change_stops_spindle = false;           ///< `m6_spindle`: one that turns is stopped
   std::vector<int> post_m;                          ///< M codes that come last
   SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`
   double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill
@@ -56,9 +58,5 @@ struct ControlOptions {
 /// Reads the options. Errors: Syntax, Unsupported (an option this control does not have, or has
 /// but this version does not honour).
 Result<ControlOptions> read_options(const Setup& setup);
-
-/// The control's memory at the start of a run: modes, offsets, tools, parameters.
-/// Errors: Unsupported, naming the record of the setup that this control does not have.
-Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& parameters);
 
 }  // namespace dripline::interpreter::centurion

@@ -30,6 +30,7 @@ class PassingSink : public EventSink {
   void on_prompt(const Prompt& event) override { next_->on_prompt(event); }
   void on_stop(const Stop& event) override { next_->on_stop(event); }
   void on_blank(const Blank& event) override { next_->on_blank(event); }
+  void on_panel_lock(const PanelLock& event) override { next_->on_panel_lock(event); }
   void on_warning(const Warning& event) override { next_->on_warning(event); }
   void on_alarm(const Alarm& event) override { next_->on_alarm(event); }
   void on_end(const End& event) override { next_->on_end(event); }

@@ -25,6 +25,7 @@ class PatternRecorder final : public PassingSink {
     pass(&EventSink::on_miscellaneous, event);
   }
   void on_pin(const PinChange& event) override { pass(&EventSink::on_pin, event); }
+  void on_panel_lock(const PanelLock& event) override { pass(&EventSink::on_panel_lock, event); }
   void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
 
  private:

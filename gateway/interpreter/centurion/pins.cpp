@@ -14,15 +14,6 @@ std::uint32_t output_bit(int number, Axis axis) {
   return std::uint32_t{1} << place;
 }
 
-/// The bit of an output's pin number, or 0.
-std::uint32_t bit_of_pin(int pin) {
-  for (const Axis axis : {Axis::Z, Axis::X}) {
-    const int number = pin - input_pin(axis, 1) - kPinsPerKind + 1;
-    if (number >= 1 && number <= kPinsPerKind) return output_bit(number, axis);
-  }
-  return 0;
-}
-
 bool is_listed(const Run& run, int pin) {
   const auto& ones = run.options.pins_at_one;
   return std::find(ones.begin(), ones.end(), pin) != ones.end();
@@ -42,6 +33,14 @@ int input_pin(Axis axis, int number) {
   return (axis == Axis::X ? kFirstOfX : kFirstOfZ) + number - 1;
 }
 
+std::optional<OutputPin> output_of_pin(int pin) {
+  for (const Axis axis : {Axis::Z, Axis::X}) {
+    const int number = pin - input_pin(axis, 1) - kPinsPerKind + 1;
+    if (number >= 1 && number <= kPinsPerKind) return OutputPin{axis, number};
+  }
+  return std::nullopt;
+}
+
 void remember_output(Run& run, OutputPin pin, bool state) {
   const std::uint32_t bit = output_bit(pin.number, pin.axis);
   run.state.outputs = state ? run.state.outputs | bit : run.state.outputs & ~bit;
@@ -58,8 +57,8 @@ void pulse_output(Run& run, OutputPin pin, bool state, double milliseconds) {
 }
 
 bool read_pin(Run& run, int pin, std::uint32_t column, double& value) {
-  if (const std::uint32_t bit = bit_of_pin(pin); bit != 0) {
-    value = (run.state.outputs & bit) != 0 ? 1 : 0;
+  if (const auto output = output_of_pin(pin)) {
+    value = (run.state.outputs & output_bit(output->number, output->axis)) != 0 ? 1 : 0;
     return true;
   }
   const bool is_input = (pin >= kFirstOfZ && pin < kFirstOfZ + kPinsPerKind) ||

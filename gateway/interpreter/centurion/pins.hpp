@@ -14,6 +14,8 @@ struct OutputPin {
   Axis axis = Axis::X;
   int number = 1;  ///< from 1
 };
+/// The output with this pin number, if it is one.
+std::optional<OutputPin> output_of_pin(int pin);
 void set_output(Run& run, OutputPin pin, bool state);
 /// What PIN reads from now on; the machine is told otherwise (an M function by its number).
 void remember_output(Run& run, OutputPin pin, bool state);

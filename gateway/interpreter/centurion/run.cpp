@@ -1,5 +1,7 @@
 #include "gateway/interpreter/centurion/run.hpp"
 
+#include "gateway/interpreter/centurion/machine_functions.hpp"
+
 namespace dripline::interpreter::centurion {
 
 void Run::choose_stages() {
@@ -83,6 +85,7 @@ void Run::deliver_header() {
   header.units = state.units;
   header.x_is_diameter = true;
   sink.on_program(header);
+  if (state.modes.path == PathMode::Tapping) sink.on_panel_lock(panel_lock(*this));
 }
 
 bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {

@@ -99,6 +99,17 @@ void visit_files(Archive& archive, std::vector<ParameterFile>& files) {
   }
 }
 
+template <class Archive>
+void visit_data_changes(Archive& archive, std::vector<DataChange>& changes) {
+  std::size_t count = changes.size();
+  if (!archive.size(count, kParameterCount - kFirstDataParameter)) return;
+  changes.resize(count);
+  for (DataChange& change : changes) {
+    all(archive, change.number, change.value);
+    if (change.number >= kParameterCount) return archive.damage();
+  }
+}
+
 template <class Archive, class Frame>
 void visit_stack(Archive& archive, std::vector<Frame>& stack) {
   std::size_t count = stack.size();
@@ -155,6 +166,7 @@ void visit_state(Archive& archive, ModalState& state) {
   visit_stack(archive, state.gosubs);
   visit_stack(archive, state.loops);
   visit_files(archive, state.files);
+  visit_data_changes(archive, state.data_changes);
   Jump& jump = state.jump;
   all(archive, jump.kind, jump.is_call_word, jump.condition, jump.number, jump.passes, jump.custom,
       jump.changes_tool, jump.is_not_in_ram);

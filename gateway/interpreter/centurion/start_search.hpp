@@ -62,6 +62,7 @@ class StartSearch final : public EventFilter {
   void on_message(const Message& event) override { pass(&EventSink::on_message, event); }
   void on_prompt(const Prompt& event) override { pass(&EventSink::on_prompt, event); }
   void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
+  void on_panel_lock(const PanelLock& event) override { pass(&EventSink::on_panel_lock, event); }
   void on_warning(const Warning& event) override { pass(&EventSink::on_warning, event); }
   void on_end(const End& event) override { pass(&EventSink::on_end, event); }
   void on_block_end(const Origin& event) override { pass(&EventSink::on_block_end, event); }

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/centurion/statements.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <cmath>
 
 #include "gateway/interpreter/centurion/expression_reader.hpp"
@@ -16,6 +17,16 @@ namespace {
 
 constexpr std::uint32_t kHighestLabel = 99999;
 constexpr std::uint32_t kHighestProgram = 9999;
+
+void keep_for_g11(std::vector<DataChange>& changes, int number, double value) {
+  const auto same = [number](const DataChange& change) { return change.number == number; };
+  const auto found = std::find_if(changes.begin(), changes.end(), same);
+  if (found != changes.end()) {
+    found->value = value;
+  } else {
+    changes.push_back({static_cast<std::uint16_t>(number), value});
+  }
+}
 
 const char* end_of_block(const char* at) {
   while (!is_end_of_block(*at)) ++at;
@@ -224,6 +235,10 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
   if (number >= kFirstDataParameter && !state.modes.takes_data) {
     return run.fail(ErrorCode::ParameterOutOfRange, column,
                     fmt::format("P{} can be set between G10 and G11 only", number));
+  }
+  if (number >= kFirstDataParameter) {
+    keep_for_g11(state.data_changes, number, value);
+    return true;
   }
   if (number == 268) {  // the pending tool: a posted tool change sets it so
     if (!(value >= 0 && value <= kOffsetCount) || value != std::trunc(value)) {

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/centurion/machine_functions.hpp"
 #include "gateway/interpreter/language/expression.hpp"
+#include "gateway/interpreter/panel_lock.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -112,7 +114,9 @@ void cut_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer, co
   // A turning spindle does not wait again: this goes on in step, so it has no angle of its own.
   thread_to_point(run, {pull_out.x + side_of(pass) * chamfer.out, pass.cut_to.z}, lead,
                   pull_out == pass.cut_from);
+  run.events().on_panel_lock(lock_behind_tap(panel_lock(run)));
   rapid_to(run, {pass.start.x, run.state.position.z}, kBothAxes);
+  run.events().on_panel_lock(panel_lock(run));
   rapid_to(run, pass.start, kBothAxes);
 }
 

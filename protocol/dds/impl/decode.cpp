@@ -127,7 +127,7 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.machine = members.text(s.machine, "machine");
   m.id = members.text(s.id, "id");
   m.expires = time_point(s.expires_us);
-  m.action = members.enumerator(s.action, OrderAction::SpindleOverride, "action");
+  m.action = members.enumerator(s.action, OrderAction::Handwheel, "action");
   m.run = members.text(s.run, "run");
   m.program = members.text(s.program, "program");
   m.revision = members.text(s.revision, "revision");

@@ -20,9 +20,13 @@ struct Shop::Process {
   Witness witness;
 };
 
-Shop::Shop(const std::string& speed) {
+Shop::Shop(const std::string& speed) : Shop(toy_control(), {}, speed) {}
+
+Shop::Shop(const interpreter::Dialect& control, interpreter::Setup its_setup,
+           const std::string& speed)
+    : setup(std::move(its_setup)), control_(control) {
   options_.machine = "lathe-1";
-  options_.control = "toy";
+  options_.control = control.name;
   options_.speed = parse_speed(speed).value();
   restart_gateway();
 }
@@ -34,7 +38,7 @@ void Shop::restart_gateway() {
   process_.reset();
   process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
   requests_.clear();
-  Gateway::Parts parts{options_,          toy_control(),     setup, *this, process_->outbox,
+  Gateway::Parts parts{options_,          control_,          setup, *this, process_->outbox,
                        process_->journal, process_->witness, clock, 0};
   parts.session = static_cast<std::uint64_t>(++sessions_);
   gateway = std::make_unique<Gateway>(std::move(parts));
@@ -73,7 +77,7 @@ dds::Order Shop::start_order(const std::string& program) {
   start.program = program;
   start.revision = sha256(programs.at(program)).hex();
   start.size = programs.at(program).size();
-  start.control = "toy";
+  start.control = options_.control;
   program_ = program;
   return start;
 }

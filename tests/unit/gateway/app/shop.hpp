@@ -26,9 +26,11 @@ class TestClock final : public Clock {
 
 /// A gateway with everything around it in a test's hands: its clock, its server and its disk.
 /// The server answers requests and acknowledges records between two turns, while `is_up`.
-class Shop final : public dds::GatewayEndpoint {
+class Shop : public dds::GatewayEndpoint {
  public:
+  /// Of the toy control.
   explicit Shop(const std::string& speed = "max");
+  Shop(const interpreter::Dialect& control, interpreter::Setup its_setup, const std::string& speed);
   ~Shop() override;
 
   /// A new process on the same disk, as after a kill (what was not committed is gone).
@@ -76,6 +78,7 @@ class Shop final : public dds::GatewayEndpoint {
   std::string text_of(const dds::BlockRequest& request) const;
 
   test_support::TemporaryFolder folder_;
+  const interpreter::Dialect& control_;
   GatewayOptions options_;
   std::unique_ptr<Process> process_;
   std::vector<dds::BlockRequest> requests_;

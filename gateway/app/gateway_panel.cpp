@@ -1,0 +1,130 @@
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/app/gateway.hpp"
+
+/// The part of the gateway that stands at the operator's panel: switches, overrides, handwheel.
+namespace dripline::gateway {
+
+using dds::OrderAction;
+using machine::OperatorPanel;
+
+namespace {
+
+constexpr double kNoise = 1e-6;
+constexpr double kMostClicks = 1000;  ///< in one order
+/// Of a control whose setup has no table for it.
+constexpr double kLeastSpindle = 0.5, kMostSpindle = 1.2;
+
+std::string range_of(OrderAction override) {
+  if (override == OrderAction::FeedOverride)
+    return fmt::format("0 to {:.4g} %", OperatorPanel::kMaxFeedOverride * 100);
+  if (override == OrderAction::RapidOverride)
+    return fmt::format("0 to {:.4g} %", OperatorPanel::kMaxRapidOverride * 100);
+  return fmt::format("{:.4g} to {:.4g} %", kLeastSpindle * 100, kMostSpindle * 100);
+}
+
+/// The position of a switch that stands for `factor`; the table's size when none does.
+std::size_t position_of(const std::vector<double>& table, double factor) {
+  const auto found = std::find_if(table.begin(), table.end(), [factor](double entry) {
+    return std::fabs(entry - factor) <= kNoise;
+  });
+  return static_cast<std::size_t>(found - table.begin());
+}
+
+std::optional<std::string> refusal_of(const std::vector<double>& table, double factor) {
+  if (position_of(table, factor) < table.size()) return std::nullopt;
+  std::string positions;
+  for (const double entry : table) positions += fmt::format(" {:.4g}", entry * 100);
+  return fmt::format("{:.4g} %: this control's switch has the positions{} %", factor * 100,
+                     positions);
+}
+
+}  // namespace
+
+/// The setup was already found good, or is found bad by the next start.
+void Gateway::take_panel_tables(const interpreter::Setup& setup) {
+  if (parts_.dialect.panel_tables == nullptr) return;
+  auto tables = parts_.dialect.panel_tables(setup);
+  if (tables) {
+    panel_tables_ = *std::move(tables);
+  } else {
+    spdlog::warn("setup: {} {}", tables.error().what, label());
+  }
+}
+
+Gateway::Reply Gateway::set_switch(const dds::Order& order) {
+  if (order.value != 0 && order.value != 1)
+    return refuse(fmt::format("a switch is 0 or 1, not {}", order.value));
+  OperatorPanel panel = machine_.panel();
+  const bool is_on = order.value == 1;
+  if (order.argument == "single_block") {
+    panel.single_block = is_on;
+  } else if (order.argument == "optional_stop") {
+    panel.optional_stop = is_on;
+  } else if (order.argument == "block_skip") {
+    panel.block_skip = is_on;
+  } else if (order.argument == "handwheel") {
+    if (panel_tables_.click_seconds.empty())
+      return refuse(
+          fmt::format("a handwheel drives no program of control {}", parts_.options.control));
+    panel.handwheel = is_on;
+  } else {
+    return refuse(fmt::format("no switch '{}': single_block, optional_stop, block_skip, handwheel",
+                              order.argument));
+  }
+  machine_.set_panel(panel);
+  const bool is_for_next_run = session_ && order.argument == "block_skip";
+  return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
+}
+
+/// Controls whose knob has positions do not stand between them.
+std::optional<std::string> Gateway::refusal_of_feed(double factor) const {
+  if (!panel_tables_.feed.empty()) return refusal_of(panel_tables_.feed, factor);
+  const interpreter::FeedDial& dial = parts_.dialect.feed_dial;
+  if (dial.step <= 0) return std::nullopt;
+  const double position = factor / dial.step;
+  if (factor <= dial.most + kNoise && std::fabs(position - std::round(position)) <= kNoise)
+    return std::nullopt;
+  return fmt::format("{:.4g} %: this control's knob goes in steps of {:.4g} to {:.4g} %",
+                     factor * 100, dial.step * 100, dial.most * 100);
+}
+
+std::optional<std::string> Gateway::refusal_of_spindle(double factor) const {
+  if (!panel_tables_.spindle.empty()) return refusal_of(panel_tables_.spindle, factor);
+  if (factor >= kLeastSpindle && factor <= kMostSpindle) return std::nullopt;
+  return fmt::format("{:.4g} %: expected {}", factor * 100, range_of(OrderAction::SpindleOverride));
+}
+
+Gateway::Reply Gateway::set_override(const dds::Order& order) {
+  OperatorPanel panel = machine_.panel();
+  double& knob = order.action == OrderAction::FeedOverride    ? panel.feed_override
+                 : order.action == OrderAction::RapidOverride ? panel.rapid_override
+                                                              : panel.spindle_override;
+  knob = order.value;
+  if (!std::isfinite(order.value) || panel.clamped() != panel)
+    return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
+  std::optional<std::string> refusal;
+  if (order.action == OrderAction::FeedOverride) refusal = refusal_of_feed(order.value);
+  if (order.action == OrderAction::SpindleOverride) refusal = refusal_of_spindle(order.value);
+  if (refusal) return refuse(*std::move(refusal));
+  machine_.set_panel(panel);
+  return {};
+}
+
+/// The feed switch says how much a click is.
+Gateway::Reply Gateway::turn_handwheel(const dds::Order& order) {
+  if (!machine_.panel().handwheel)
+    return refuse("the handwheel does not drive the program: switch handwheel on first");
+  if (!(order.value >= 1 && order.value <= kMostClicks) || order.value != std::floor(order.value))
+    return refuse(fmt::format("{} clicks: expected a whole number from 1 to {}, forward only",
+                              order.value, kMostClicks));
+  const auto& clicks = panel_tables_.click_seconds;
+  const std::size_t position = position_of(panel_tables_.feed, machine_.panel().feed_override);
+  const double click = clicks.at(std::min(position, clicks.size() - 1));
+  machine_.turn_handwheel(machine::Seconds{order.value * click});
+  return {};
+}
+
+}  // namespace dripline::gateway
