@@ -39,6 +39,55 @@ void add_motion(Details& details, const client::MachineStatus& status) {
                           percent(status.rapid_override), percent(status.spindle_override)));
 }
 
+std::string number_text(const std::optional<std::int64_t>& value) {
+  return value ? std::to_string(*value) : "none";
+}
+
+/// "3, offset 13, next 4"
+std::string tool_text(const client::ActiveModes& modes) {
+  std::string text = number_text(modes.tool);
+  if (modes.tool_offset) text += fmt::format(", offset {}", *modes.tool_offset);
+  if (modes.next_tool) text += fmt::format(" (next {})", *modes.next_tool);
+  return text;
+}
+
+std::string programmed_feed_text(const client::ActiveModes& modes) {
+  const std::string_view unit = modes.feed_unit == "per_revolution" ? "mm a turn"
+                                : modes.feed_unit == "inverse_time" ? "moves a minute"
+                                                                    : "mm/min";
+  return fmt::format("{:.3f} {}{}", modes.feed, unit,
+                     modes.feed_limited ? ", limited by an axis" : "");
+}
+
+std::string programmed_speed_text(const client::ActiveModes& modes) {
+  if (!modes.surface_speed) return fmt::format("{:.0f} 1/min", modes.spindle_speed);
+  return fmt::format("{:.1f} m/min at the surface", modes.spindle_speed / 1000);
+}
+
+std::string coolant_text(const client::ActiveModes& modes) {
+  if (modes.flood && modes.mist) return "flood and mist";
+  return modes.flood ? "flood" : modes.mist ? "mist" : "off";
+}
+
+/// What a status window has besides place, position and speeds, in the control's order.
+void add_modes(Details& details, const client::ActiveModes& modes) {
+  details.add("compensation", modes.compensation);
+  details.add("tool", tool_text(modes));
+  details.add("tool lengths",
+              fmt::format("X {:.3f} Z {:.3f} mm", modes.tool_length_x, modes.tool_length_z));
+  details.add("tool radius", fmt::format("{:.3f} mm", modes.tool_radius));
+  details.add("work system", modes.work_system);
+  details.add("interpolation", modes.motion);
+  details.add("programmed feed", programmed_feed_text(modes));
+  details.add("words",
+              fmt::format("{}, {}", modes.incremental ? "incremental" : "absolute", modes.units));
+  details.add("cycle", modes.cycle.empty() ? "none" : modes.cycle);
+  details.add("dwell", fmt::format("{:.1f} s left", modes.dwell_seconds));
+  details.add("programmed speed", programmed_speed_text(modes));
+  details.add("spindle load", modes.spindle_load ? percent(*modes.spindle_load) : "not measured");
+  details.add("coolant", coolant_text(modes));
+}
+
 void add_program(Details& details, const client::MachineStatus& status) {
   details.add("run", status.run);
   details.add("program", status.program);
@@ -121,6 +170,7 @@ Details machine_details(const client::Machine& machine) {
   details.add("mode", status.mode);
   add_program(details, status);
   add_motion(details, status);
+  if (status.modes) add_modes(details, *status.modes);
   details.add("message", status.message);
   details.add("records waiting", std::to_string(status.outbox));
   return details;

@@ -51,6 +51,23 @@ struct Upload {
   std::uint64_t max_piece = 0;
 };
 
+/// What a control's status window shows besides place, position and speeds; millimetres.
+struct ActiveModes {
+  std::string motion, compensation, units;
+  bool incremental = false;
+  std::string feed_unit;
+  double feed = 0;  ///< programmed, in its unit
+  bool feed_limited = false;
+  std::optional<std::int64_t> tool, next_tool, tool_offset;
+  double tool_length_x = 0, tool_length_z = 0, tool_radius = 0;
+  std::string work_system, cycle;
+  double dwell_seconds = 0;
+  bool surface_speed = false;
+  double spindle_speed = 0;  ///< programmed: 1/min, or mm per minute
+  std::optional<double> spindle_load;
+  bool flood = false, mist = false;
+};
+
 struct MachineStatus {
   std::string time, execution, mode, run, program;
   std::uint64_t sent = 0, accepted = 0, executed = 0, total_bytes = 0, offset = 0;
@@ -63,6 +80,7 @@ struct MachineStatus {
   bool single_block = false;
   std::string message;
   std::uint64_t outbox = 0;
+  std::optional<ActiveModes> modes;
 };
 
 struct Machine {

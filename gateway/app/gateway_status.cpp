@@ -30,7 +30,65 @@ Execution execution_of(MachineState state) {
   return Execution::Stopped;
 }
 
+static_assert(static_cast<int>(dds::MotionKind::Thread) ==
+              static_cast<int>(machine::MotionKind::Thread));
+static_assert(static_cast<int>(dds::CompensationSide::Right) ==
+              static_cast<int>(interpreter::CompensationSide::Right));
+
+dds::FeedUnit unit_of(Feed feed) {
+  switch (feed.per()) {
+    case Feed::Per::Minute:
+      return dds::FeedUnit::PerMinute;
+    case Feed::Per::Revolution:
+      return dds::FeedUnit::PerRevolution;
+    case Feed::Per::Move:
+      return dds::FeedUnit::InverseTime;
+  }
+  return dds::FeedUnit::PerMinute;
+}
+
+/// "G54", "G59.3", "G54.1 P7"
+std::string work_system_text(const interpreter::ActiveModes& modes) {
+  if (modes.work_system == 0) return {};
+  std::string text = fmt::format("G{}", modes.work_system / 10);
+  if (modes.work_system % 10 != 0) text += fmt::format(".{}", modes.work_system % 10);
+  if (modes.work_page != 0) text += fmt::format(" P{}", modes.work_page);
+  return text;
+}
+
+/// What the interpreter knows of the block that is executed.
+void show_program(dds::ActiveModes& shown, const interpreter::ActiveModes& modes) {
+  shown.compensation = static_cast<dds::CompensationSide>(modes.compensation);
+  shown.is_inch = modes.units == interpreter::Units::Inch;
+  shown.is_incremental = modes.is_incremental;
+  shown.feed_unit = unit_of(modes.feed);
+  shown.feed = shown.feed_unit == dds::FeedUnit::InverseTime ? modes.feed.moves_per_minute()
+                                                             : modes.feed.length().mm();
+  shown.tool_length_x = modes.tool_length_x.mm();
+  shown.tool_length_z = modes.tool_length_z.mm();
+  shown.tool_radius = modes.tool_radius.mm();
+  shown.work_system = work_system_text(modes);
+  shown.cycle = modes.cycle.substr(0, dds::kMaxCycle);
+}
+
 }  // namespace
+
+dds::ActiveModes Gateway::modes(const machine::MachineStatus& now) const {
+  dds::ActiveModes shown;
+  shown.motion = static_cast<dds::MotionKind>(now.motion);
+  shown.is_feed_limited = now.is_feed_limited;
+  shown.tool = now.tool;
+  shown.next_tool = now.next_tool;
+  shown.tool_offset = now.tool_offset;
+  shown.dwell_seconds = now.dwell_left.count();
+  shown.is_surface_speed = now.spindle.surface_speed.has_value();
+  shown.spindle_speed =
+      shown.is_surface_speed ? now.spindle.surface_speed->mm() : now.spindle.revolutions_per_minute;
+  shown.flood = now.flood;
+  shown.mist = now.mist;
+  if (session_) show_program(shown, session_->modes_at(now.origin.block));
+  return shown;
+}
 
 dds::Status Gateway::status() const {
   dds::Status status;
@@ -51,6 +109,7 @@ dds::Status Gateway::status() const {
   status.single_block = machine_.panel().single_block;
   status.outbox =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(outbox_.unacknowledged(), UINT32_MAX));
+  status.modes = modes(now);
   if (session_) {
     status.run = session_->run().run;
     status.program = session_->run().program;

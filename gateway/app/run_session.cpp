@@ -32,6 +32,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   auto made = dialect.make(given, session->feed(), session->parts_.machine.events());
   if (!made) return fail(made.error());
   session->interpreter_ = std::move(*made);
+  session->note_modes();
   return session;
 }
 
@@ -42,11 +43,13 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
   if (is_over_) return 0;
   if (has_question_ && !settle_question()) return 0;
+  forget_modes();
   std::size_t blocks = 0;
   while (blocks < max_blocks && parts_.machine.has_room()) {
     switch (interpreter_->step(1)) {
       case StepState::Ran:
         ++blocks;
+        note_modes();
         break;
       case StepState::NeedsText:
         waits_ = Waits::ForText;
@@ -57,12 +60,31 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         break;
       case StepState::Ended:
       case StepState::Alarmed:
+        note_modes();
         is_over_ = true;
         return blocks + 1;
     }
   }
   if (blocks == max_blocks) waits_ = Waits::ForNothing;
   return blocks;
+}
+
+void RunSession::note_modes() {
+  const interpreter::ActiveModes modes = interpreter_->modes();
+  if (modes_.empty() || modes_.back().modes != modes) {
+    modes_.push_back({interpreter_->blocks(), modes});
+  }
+}
+
+void RunSession::forget_modes() {
+  const std::uint64_t executing = parts_.machine.status().origin.block;
+  while (modes_.size() > 1 && modes_[1].block <= executing) modes_.pop_front();
+}
+
+const interpreter::ActiveModes& RunSession::modes_at(std::uint64_t block) const {
+  std::size_t last = modes_.size() - 1;
+  while (last > 0 && modes_[last].block > block) --last;
+  return modes_[last].modes;
 }
 
 bool RunSession::settle_question() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,8 @@ class RunSession {
   feed::ProgramFeed& feed() { return *parts_.feed; }
   const feed::ProgramFeed& feed() const { return *parts_.feed; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }
+  /// What `block` runs under.
+  const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
   /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
   void size_feed(std::optional<double> speed_factor);
 
@@ -56,12 +59,20 @@ class RunSession {
   bool settle(const interpreter::TimeQuestion& question);
   bool give(const interpreter::Answer& answer);
   bool machine_rests() const;
+  void note_modes();
+  void forget_modes();
 
   Parts parts_;
   interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
   std::size_t next_answer_ = 0;
   std::unique_ptr<interpreter::Interpreter> interpreter_;
   Waits waits_ = Waits::ForNothing;
+  struct Modes {
+    std::uint64_t block = 0;  ///< the first that runs under them
+    interpreter::ActiveModes modes;
+  };
+  /// From the executing block on, one for each change; as many as the machine queues blocks.
+  std::deque<Modes> modes_;
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "gateway/interpreter/active_modes.hpp"
 #include "gateway/interpreter/event.hpp"
 #include "gateway/interpreter/program_source.hpp"
 #include "protocol/base/digest.hpp"
@@ -75,6 +76,8 @@ class Interpreter {
   virtual std::uint64_t blocks() const = 0;
   /// The block being executed, or the last one finished.
   virtual const Origin& origin() const = 0;
+  /// What the block finished last was executed under.
+  virtual ActiveModes modes() const { return {}; }
 
   /// Both only at a block boundary, that is, not while a question is open.
   virtual Snapshot snapshot() const = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "gateway/interpreter/event.hpp"
@@ -29,6 +30,8 @@ enum class MachineState : std::uint8_t {
   Aborted,       ///< `begin` is the only way on
 };
 
+enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
+
 struct MachineStatus {
   MachineState state = MachineState::Idle;
   interpreter::Position position;      ///< actual
@@ -39,6 +42,12 @@ struct MachineStatus {
   Seconds buffered{0};                 ///< of queued motion and dwells, at 100 % override
   std::size_t queued = 0;              ///< actions waiting
   interpreter::StopKind stopped_at{};  ///< in ProgramStop
+  MotionKind motion{};                 ///< of the move being made, or the last one
+  bool is_feed_limited = false;        ///< it is made slower than feed and override ask for
+  Seconds dwell_left{0};
+  std::optional<int> tool, next_tool, tool_offset;  ///< as far as programs have named them
+  interpreter::Spindle spindle;                     ///< as programmed
+  bool flood = false, mist = false;
 };
 
 /// The machine behind the interpreter: queues what the program does and executes it in order, in

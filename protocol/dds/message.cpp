@@ -36,4 +36,21 @@ std::string_view to_string(BlockStatus value) {
   return kNames.at(static_cast<std::size_t>(value));
 }
 
+std::string_view to_string(MotionKind value) {
+  static constexpr std::array<std::string_view, 6> kNames{
+      "none", "rapid", "line", "clockwise", "counterclockwise", "thread"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
+std::string_view to_string(CompensationSide value) {
+  static constexpr std::array<std::string_view, 3> kNames{"off", "left", "right"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
+std::string_view to_string(FeedUnit value) {
+  static constexpr std::array<std::string_view, 3> kNames{"per_minute", "per_revolution",
+                                                          "inverse_time"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
 }  // namespace dripline::dds

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,9 @@ enum class OrderAction : std::uint8_t {
   SpindleOverride,
   Handwheel
 };
+enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
+enum class CompensationSide : std::uint8_t { Off, Left, Right };
+enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
 std::string_view to_string(Execution value);
@@ -61,6 +65,9 @@ std::string_view to_string(ControllerMode value);
 std::string_view to_string(RecordKind value);
 std::string_view to_string(OrderAction value);
 std::string_view to_string(BlockStatus value);
+std::string_view to_string(MotionKind value);
+std::string_view to_string(CompensationSide value);
+std::string_view to_string(FeedUnit value);
 
 struct Announce {
   std::string machine, control, version;
@@ -68,6 +75,27 @@ struct Announce {
   std::uint64_t epoch = 0, session = 0;
   std::string description;
   friend bool operator==(const Announce&, const Announce&) = default;
+};
+
+inline constexpr std::size_t kMaxWorkSystem = 16;
+inline constexpr std::size_t kMaxCycle = 32;
+
+struct ActiveModes {
+  MotionKind motion = MotionKind::None;
+  CompensationSide compensation = CompensationSide::Off;
+  bool is_inch = false, is_incremental = false;
+  FeedUnit feed_unit = FeedUnit::PerMinute;
+  double feed = 0;
+  bool is_feed_limited = false;
+  std::optional<std::int32_t> tool, next_tool, tool_offset;  ///< none is negative
+  double tool_length_x = 0, tool_length_z = 0, tool_radius = 0;
+  std::string work_system, cycle;
+  double dwell_seconds = 0;
+  bool is_surface_speed = false;
+  double spindle_speed = 0;
+  std::optional<double> spindle_load;
+  bool flood = false, mist = false;
+  friend bool operator==(const ActiveModes&, const ActiveModes&) = default;
 };
 
 struct Status {
@@ -88,6 +116,7 @@ struct Status {
   std::uint32_t outbox = 0;
   std::uint16_t axes = 0;  ///< bit set over `position`, bit 0 = X
   std::uint64_t session = 0;
+  std::optional<ActiveModes> modes;  ///< older gateways say none
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -30,6 +30,34 @@ json position_json(const dds::Status& status) {
   return axes;
 }
 
+json number_or_null(const std::optional<std::int32_t>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json modes_json(const dds::ActiveModes& modes) {
+  return {{"motion", dds::to_string(modes.motion)},
+          {"compensation", dds::to_string(modes.compensation)},
+          {"units", modes.is_inch ? "inch" : "mm"},
+          {"incremental", modes.is_incremental},
+          {"feed_unit", dds::to_string(modes.feed_unit)},
+          {"feed", modes.feed},
+          {"feed_limited", modes.is_feed_limited},
+          {"tool", number_or_null(modes.tool)},
+          {"next_tool", number_or_null(modes.next_tool)},
+          {"tool_offset", number_or_null(modes.tool_offset)},
+          {"tool_length_x", modes.tool_length_x},
+          {"tool_length_z", modes.tool_length_z},
+          {"tool_radius", modes.tool_radius},
+          {"work_system", optional_text(modes.work_system)},
+          {"cycle", optional_text(modes.cycle)},
+          {"dwell_seconds", modes.dwell_seconds},
+          {"surface_speed", modes.is_surface_speed},
+          {"spindle_speed", modes.spindle_speed},
+          {"spindle_load", modes.spindle_load ? json(*modes.spindle_load) : json(nullptr)},
+          {"flood", modes.flood},
+          {"mist", modes.mist}};
+}
+
 json status_json(const dds::Status& status) {
   return {{"time", to_iso8601(status.time)},
           {"execution", dds::to_string(status.execution)},
@@ -52,7 +80,8 @@ json status_json(const dds::Status& status) {
           {"buffered_seconds", status.buffered_seconds},
           {"single_block", status.single_block},
           {"message", optional_text(status.message)},
-          {"outbox", status.outbox}};
+          {"outbox", status.outbox},
+          {"modes", status.modes ? modes_json(*status.modes) : json(nullptr)}};
 }
 
 }  // namespace

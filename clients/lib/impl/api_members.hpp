@@ -73,6 +73,31 @@ void members(V& v, Is<Upload> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ActiveModes> auto& x) {
+  v("motion", x.motion);
+  v("compensation", x.compensation);
+  v("units", x.units);
+  v("incremental", x.incremental);
+  v("feed_unit", x.feed_unit);
+  v("feed", x.feed);
+  v("feed_limited", x.feed_limited);
+  v("tool", x.tool);
+  v("next_tool", x.next_tool);
+  v("tool_offset", x.tool_offset);
+  v("tool_length_x", x.tool_length_x);
+  v("tool_length_z", x.tool_length_z);
+  v("tool_radius", x.tool_radius);
+  v("work_system", x.work_system);
+  v("cycle", x.cycle);
+  v("dwell_seconds", x.dwell_seconds);
+  v("surface_speed", x.surface_speed);
+  v("spindle_speed", x.spindle_speed);
+  v("spindle_load", x.spindle_load);
+  v("flood", x.flood);
+  v("mist", x.mist);
+}
+
+template <class V>
 void members(V& v, Is<MachineStatus> auto& x) {
   v("time", x.time);
   v("execution", x.execution);
@@ -96,6 +121,7 @@ void members(V& v, Is<MachineStatus> auto& x) {
   v("single_block", x.single_block);
   v("message", x.message);
   v("outbox", x.outbox);
+  v("modes", x.modes);
 }
 
 template <class V>

@@ -4,6 +4,7 @@
 
 #include "gateway/interpreter/centurion/dry_run.hpp"
 #include "gateway/interpreter/centurion/run.hpp"
+#include "gateway/interpreter/centurion/status_window.hpp"
 #include "gateway/interpreter/centurion/text_search.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -19,6 +20,7 @@ class CenturionInterpreter final : public Interpreter {
   Result<void> answer(const Answer& answer) override;
   std::uint64_t blocks() const override { return run_.state.blocks; }
   const Origin& origin() const override { return run_.origin; }
+  ActiveModes modes() const override { return active_modes(run_); }
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
 

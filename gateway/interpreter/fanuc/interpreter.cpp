@@ -7,6 +7,7 @@
 #include "gateway/interpreter/fanuc/flow.hpp"
 #include "gateway/interpreter/fanuc/motion.hpp"
 #include "gateway/interpreter/fanuc/snapshot.hpp"
+#include "gateway/interpreter/fanuc/tool_offsets.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -207,6 +208,24 @@ Result<void> FanucInterpreter::answer(const Answer& answer) {
   run_.answers.push_back(answer);
   is_asking_ = false;
   return {};
+}
+
+ActiveModes FanucInterpreter::modes() const {
+  const ModalState& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  modes.is_incremental = state.is_incremental();
+  modes.compensation = static_cast<CompensationSide>(state.g[kCompensationGroup] - 40);
+  const std::uint8_t system = state.g[kWorkGroup];
+  const bool is_paged = system == kMoreWorkSystems;
+  modes.work_system = static_cast<std::uint16_t>(is_paged ? 541 : 10 * system);
+  if (is_paged) modes.work_page = static_cast<std::uint16_t>(run_.memory.coordinates.more_work);
+  modes.tool_length_z = Length::mm(state.length_offset);
+  modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
+  const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
+  modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);
+  modes.cycle = hole_cycle_name(state.g[kCycleGroup]);
+  return modes;
 }
 
 Snapshot FanucInterpreter::snapshot() const {

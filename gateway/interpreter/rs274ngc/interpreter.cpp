@@ -227,6 +227,25 @@ Result<void> Rs274NgcInterpreter::answer(const Answer& answer) {
   return {};
 }
 
+ActiveModes Rs274NgcInterpreter::modes() const {
+  const State& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  modes.is_incremental = state.modes.is_incremental;
+  modes.compensation = static_cast<CompensationSide>(state.compensation.side);
+  const int system = state.system;  // 7 to 9 are G59.1 to G59.3
+  modes.work_system = static_cast<std::uint16_t>(system <= 6 ? 530 + 10 * system : 584 + system);
+  modes.tool_length_x = Length::mm(state.tool_length[index_of(Axis::X)]);
+  modes.tool_length_z = Length::mm(state.tool_length[index_of(Axis::Z)]);
+  modes.tool_radius = Length::mm(state.compensation.radius);
+  const Length feed = Length::mm(run_.mm(state.feed));
+  modes.feed = state.modes.feed == FeedMode::PerMinute       ? Feed::per_minute(feed)
+               : state.modes.feed == FeedMode::PerRevolution ? Feed::per_revolution(feed)
+                                                             : Feed::inverse_time(state.feed);
+  modes.cycle = hole_cycle_name(state.modes.motion / 10);
+  return modes;
+}
+
 Snapshot Rs274NgcInterpreter::snapshot() const {
   invariant(run_.block.stage == Stage::Start, "a snapshot is taken between blocks");
   return take_snapshot(run_);

@@ -167,6 +167,14 @@ Result<void> TektronixInterpreter::answer(const Answer&) {
   return dripline::fail(Errc::Syntax, "no question is open");
 }
 
+ActiveModes TektronixInterpreter::modes() const {
+  ActiveModes modes;
+  modes.units = run_.options.is_metric() ? Units::Millimetre : Units::Inch;
+  modes.is_incremental = run_.state.is_incremental;
+  modes.feed = Feed::per_minute(Length::mm(run_.state.last.feed));
+  return modes;
+}
+
 Snapshot TektronixInterpreter::snapshot() const {
   return take_snapshot(run_);
 }

@@ -16,6 +16,7 @@ class TektronixInterpreter final : public Interpreter {
   Result<void> answer(const Answer& answer) override;
   std::uint64_t blocks() const override { return run_.state.blocks; }
   const Origin& origin() const override { return run_.state.at; }
+  ActiveModes modes() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
 

@@ -236,6 +236,18 @@ Result<void> TncInterpreter::answer(const Answer& answer) {
   return {};
 }
 
+ActiveModes TncInterpreter::modes() const {
+  const State& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  if (state.compensation == Compensation::Left) modes.compensation = CompensationSide::Left;
+  if (state.compensation == Compensation::Right) modes.compensation = CompensationSide::Right;
+  modes.tool_length_z = Length::mm(state.tool.data.length);
+  modes.tool_radius = Length::mm(state.tool.data.radius);
+  modes.feed = Feed::per_minute(Length::mm(state.feed));
+  return modes;
+}
+
 Snapshot TncInterpreter::snapshot() const {
   invariant(!run_.is_in_block, "a snapshot is taken between blocks");
   return take_snapshot(run_);

@@ -26,16 +26,25 @@ struct Move {
   double exit_square = 0;       ///< the planner's: highest speed at the end, squared
 
   double wanted_speed(const OperatorPanel& panel) const {
+    return std::min(ceiling, asked_speed(panel));
+  }
+  /// Whether an axis allows less than a feed asks for.
+  bool is_limited(const OperatorPanel& panel) const {
+    return pace != Pace::Rapid && asked_speed(panel) > ceiling * (1 + 1e-9);
+  }
+
+ private:
+  double asked_speed(const OperatorPanel& panel) const {
     const double turns = std::min(panel.spindle_override, spindle_headroom);
     switch (pace) {
       case Pace::Rapid:
-        return std::min(ceiling, speed * panel.rapid_override);
+        return speed * panel.rapid_override;
       case Pace::Feed:
-        return std::min(ceiling, speed * panel.feed_override);
+        return speed * panel.feed_override;
       case Pace::FeedPerRevolution:
-        return std::min(ceiling, speed * panel.feed_override * turns);
+        return speed * panel.feed_override * turns;
       case Pace::Thread:
-        return std::min(ceiling, speed * turns);
+        return speed * turns;
     }
     return 0;
   }

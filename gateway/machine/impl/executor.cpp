@@ -29,6 +29,7 @@ void Executor::begin(const interpreter::Position& at) {
   stop_ = MachineState::Idle;
   origin_ = {};
   executed_ = 0;
+  shown_ = {};
 }
 
 // -- time ------------------------------------------------------------------------------------
@@ -127,6 +128,7 @@ void Executor::start_front() {
 }
 
 void Executor::start(const Move& move) {
+  show(move);
   motion_.start(move, speed_, goal(move));
 }
 
@@ -237,22 +239,40 @@ MachineState Executor::state() const {
   return is_busy ? MachineState::Running : MachineState::Idle;
 }
 
+void Executor::show(const Move& move) {
+  if (move.pace == Pace::Rapid)
+    shown_.motion = MotionKind::Rapid;
+  else if (move.pace == Pace::Thread)
+    shown_.motion = MotionKind::Thread;
+  else if (!move.path.is_arc())
+    shown_.motion = MotionKind::Line;
+  else
+    shown_.motion =
+        move.path.circle.sweep > 0 ? MotionKind::CounterClockwise : MotionKind::Clockwise;
+}
+
 MachineStatus Executor::status() const {
   const Coordinates now = position();
   // a rapid move already turns for the diameter it leads to
   const bool is_rapid = motion_.is_active() && motion_.move().pace == Pace::Rapid;
   const Path* way = is_rapid ? &motion_.move().path : nullptr;
   const double x = way != nullptr ? way->at(way->length)[0] : now[0];
-  const double turn = spindle_.rpm(x, lock_.seen(panel_).spindle_override);
-  return {.state = state(),
-          .position = to_position(now, axes_),
-          .feed_per_minute = is_moving() ? speed() * 60 : 0,
-          .spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn,
-          .origin = origin_,
-          .executed = executed_,
-          .buffered = Seconds{buffered()},
-          .queued = queue_.size(),
-          .stopped_at = stopped_at_};
+  const OperatorPanel in_force = lock_.seen(panel_);
+  const double turn = spindle_.rpm(x, in_force.spindle_override);
+  MachineStatus status = shown_;
+  status.state = state();
+  status.position = to_position(now, axes_);
+  status.feed_per_minute = is_moving() ? speed() * 60 : 0;
+  status.spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn;
+  status.origin = origin_;
+  status.executed = executed_;
+  status.buffered = Seconds{buffered()};
+  status.queued = queue_.size();
+  status.stopped_at = stopped_at_;
+  status.is_feed_limited = motion_.is_active() && motion_.move().is_limited(in_force);
+  status.dwell_left = Seconds{is_dwelling_ ? dwell_left_ : 0};
+  status.spindle = spindle_.programmed();
+  return status;
 }
 
 }  // namespace dripline::machine::impl

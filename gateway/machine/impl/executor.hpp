@@ -57,6 +57,8 @@ class Executor {
   void report_text(const interpreter::Origin& origin, const Text& text);
   void report_alarm(const interpreter::Origin& origin);
   void report_stop(const interpreter::Stop& stop);
+  void show(const Move& move);
+  void show(const interpreter::ToolChange& tool);
   void discard();
 
   MotionGoal goal(const Move& move) const;
@@ -90,6 +92,7 @@ class Executor {
   double handwheel_seconds_ = 0;            ///< that its turns have still to pass
   MachineState stop_ = MachineState::Idle;  ///< Idle: no reason to stand
   interpreter::StopKind stopped_at_{};
+  MachineStatus shown_;  ///< motion, tool and coolant as executed last; nothing else of it is used
   interpreter::Origin origin_;
   std::uint64_t executed_ = 0;
 };

@@ -27,13 +27,18 @@ void Executor::report(const Action& action) {
                    sink_.on_close({origin, close.device});
                  },
                  [&](const CoolantChange& coolant) {
+                   shown_.flood = coolant.flood;
+                   shown_.mist = coolant.mist;
                    sink_.on_coolant({origin, coolant.flood, coolant.mist});
                  },
                  [&](const interpreter::Spindle& spindle) {
                    spindle_.set(spindle);
                    sink_.on_spindle(spindle);
                  },
-                 [&](const interpreter::ToolChange& tool) { sink_.on_tool(tool); },
+                 [&](const interpreter::ToolChange& tool) {
+                   show(tool);
+                   sink_.on_tool(tool);
+                 },
                  [&](const interpreter::Miscellaneous& code) { sink_.on_miscellaneous(code); },
                  [&](const interpreter::PinChange& pin) { sink_.on_pin(pin); },
                  [&](const interpreter::Stop& stop) { report_stop(stop); },
@@ -53,6 +58,12 @@ void Executor::report(const Action& action) {
              },
              action.body);
   if (!is_finished) finish_action();
+}
+
+void Executor::show(const interpreter::ToolChange& tool) {
+  shown_.next_tool.reset();
+  (tool.is_preselection ? shown_.next_tool : shown_.tool) = tool.number;
+  if (tool.offset) shown_.tool_offset = tool.offset;
 }
 
 void Executor::report_text(const Origin& origin, const Text& text) {

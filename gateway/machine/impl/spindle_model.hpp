@@ -12,6 +12,7 @@ class SpindleModel {
   explicit SpindleModel(const SpindleLimits& limits) : limits_(limits) {}
   void set(const interpreter::Spindle& spindle) { spindle_ = spindle; }
   void stop() { spindle_ = {}; }
+  const interpreter::Spindle& programmed() const { return spindle_; }
 
   /// Revolutions per minute, 0 or more, with the tool at radius `x`.
   double rpm(double x, double override) const;

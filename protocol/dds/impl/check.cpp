@@ -73,6 +73,15 @@ Result<void> check(const Status& m) {
       .number("spindle_override", m.spindle_override)
       .number("buffered_seconds", m.buffered_seconds);
   for (const double value : m.position) verdict.number("position", value);
+  if (m.modes) {
+    verdict.number("feed", m.modes->feed)
+        .number("tool_length_x", m.modes->tool_length_x)
+        .number("tool_length_z", m.modes->tool_length_z)
+        .number("tool_radius", m.modes->tool_radius)
+        .number("dwell_seconds", m.modes->dwell_seconds)
+        .number("spindle_speed", m.modes->spindle_speed)
+        .number("spindle_load", m.modes->spindle_load.value_or(0));
+  }
   return verdict.result();
 }
 

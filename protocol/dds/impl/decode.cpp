@@ -49,6 +49,36 @@ std::span<const std::byte> as_bytes(const dds_sequence_octet& sequence) {
   return std::as_bytes(std::span(sequence._buffer, sequence._length));
 }
 
+std::optional<std::int32_t> number_or_none(std::int32_t value) {
+  return value < 0 ? std::nullopt : std::optional(value);
+}
+
+ActiveModes modes_of(const dripline_idl_ActiveModes& s, Members& members) {
+  ActiveModes m;
+  m.motion = members.enumerator(s.motion, MotionKind::Thread, "motion");
+  m.compensation = members.enumerator(s.compensation, CompensationSide::Right, "compensation");
+  m.is_inch = s.is_inch;
+  m.is_incremental = s.is_incremental;
+  m.feed_unit = members.enumerator(s.feed_unit, FeedUnit::InverseTime, "feed_unit");
+  m.feed = s.feed;
+  m.is_feed_limited = s.is_feed_limited;
+  m.tool = number_or_none(s.tool);
+  m.next_tool = number_or_none(s.next_tool);
+  m.tool_offset = number_or_none(s.tool_offset);
+  m.tool_length_x = s.tool_length_x;
+  m.tool_length_z = s.tool_length_z;
+  m.tool_radius = s.tool_radius;
+  m.work_system = members.text(s.work_system, "work_system");
+  m.cycle = members.text(s.cycle, "cycle");
+  m.dwell_seconds = s.dwell_seconds;
+  m.is_surface_speed = s.is_surface_speed;
+  m.spindle_speed = s.spindle_speed;
+  if (s.spindle_load >= 0) m.spindle_load = s.spindle_load;
+  m.flood = s.flood;
+  m.mist = s.mist;
+  return m;
+}
+
 }  // namespace
 
 Result<Announce> decode(const dripline_idl_Announce& s) {
@@ -96,6 +126,7 @@ Result<Status> decode(const dripline_idl_Status& s) {
   m.outbox = s.outbox;
   m.axes = s.axes;
   m.session = s.session;
+  if (s.modes.is_told) m.modes = modes_of(s.modes, members);
   return members.finish(std::move(m));
 }
 

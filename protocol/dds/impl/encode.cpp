@@ -53,6 +53,37 @@ class Texts {
   Result<void> result_;
 };
 
+std::int32_t number_or_none(const std::optional<std::int32_t>& value) {
+  return value.value_or(-1);
+}
+
+Result<void> encode(const ActiveModes& m, dripline_idl_ActiveModes& s) {
+  s.is_told = true;
+  s.motion = number(m.motion);
+  s.compensation = number(m.compensation);
+  s.is_inch = m.is_inch;
+  s.is_incremental = m.is_incremental;
+  s.feed_unit = number(m.feed_unit);
+  s.feed = m.feed;
+  s.is_feed_limited = m.is_feed_limited;
+  s.tool = number_or_none(m.tool);
+  s.next_tool = number_or_none(m.next_tool);
+  s.tool_offset = number_or_none(m.tool_offset);
+  s.tool_length_x = m.tool_length_x;
+  s.tool_length_z = m.tool_length_z;
+  s.tool_radius = m.tool_radius;
+  s.dwell_seconds = m.dwell_seconds;
+  s.is_surface_speed = m.is_surface_speed;
+  s.spindle_speed = m.spindle_speed;
+  s.spindle_load = m.spindle_load.value_or(-1);
+  s.flood = m.flood;
+  s.mist = m.mist;
+  return Texts()
+      .exact(s.work_system, m.work_system, "work_system")
+      .exact(s.cycle, m.cycle, "cycle")
+      .result();
+}
+
 }  // namespace
 
 Result<void> encode(const Announce& m, dripline_idl_Announce& s) {
@@ -94,6 +125,9 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   s.outbox = m.outbox;
   s.axes = m.axes;
   s.session = m.session;
+  if (m.modes) {
+    if (auto encoded = encode(*m.modes, s.modes); !encoded) return encoded;
+  }
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")

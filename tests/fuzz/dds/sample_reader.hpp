@@ -32,7 +32,14 @@ class SampleReader {
     s.position._maximum = s.position._length = static_cast<std::uint32_t>(positions_.size());
     s.position._buffer = positions_.data();
     all(s.feed_mm_per_min, s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
-        s.buffered_seconds, s.single_block, s.message, s.outbox);
+        s.buffered_seconds, s.single_block, s.message, s.outbox, s.axes, s.session);
+    read(s.modes);
+  }
+  void read(dripline_idl_ActiveModes& s) {
+    all(s.is_told, s.motion, s.compensation, s.is_inch, s.is_incremental, s.feed_unit, s.feed,
+        s.is_feed_limited, s.tool, s.next_tool, s.tool_offset, s.tool_length_x, s.tool_length_z,
+        s.tool_radius, s.work_system, s.cycle, s.dwell_seconds, s.is_surface_speed, s.spindle_speed,
+        s.spindle_load, s.flood, s.mist);
   }
   void read(dripline_idl_Record& s) {
     all(s.machine, s.epoch, s.number, s.time_us, s.run, s.kind, s.block, s.line, s.sequence_number,

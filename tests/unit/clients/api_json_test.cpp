@@ -14,7 +14,11 @@ nlohmann::json status_json() {
       "total_bytes":20,"offset":5,"line":2,"sequence":20,"position":{"X":1.5,"Z":-2},
       "feed_mm_per_min":100,"spindle_rpm":0,"feed_override":1,"rapid_override":0.25,
       "spindle_override":1,"buffered_seconds":0.5,"single_block":false,"message":null,
-      "outbox":0})");
+      "outbox":0,"modes":{"motion":"line","compensation":"left","units":"inch","incremental":false,
+      "feed_unit":"per_revolution","feed":0.25,"feed_limited":true,"tool":3,"next_tool":null,
+      "tool_offset":13,"tool_length_x":1.5,"tool_length_z":-2,"tool_radius":0.8,
+      "work_system":"G54","cycle":null,"dwell_seconds":0,"surface_speed":false,"spindle_speed":800,
+      "spindle_load":null,"flood":true,"mist":false}})");
 }
 
 TEST(ApiJson, ReadsAMachineWithItsStatus) {
@@ -26,6 +30,17 @@ TEST(ApiJson, ReadsAMachineWithItsStatus) {
   EXPECT_EQ(machine->status->position.at("Z"), -2);
   EXPECT_EQ(machine->status->sequence, 20);
   EXPECT_EQ(machine->status->message, "");
+  ASSERT_TRUE(machine->status->modes);
+  EXPECT_EQ(machine->status->modes->tool, 3);
+  EXPECT_EQ(machine->status->modes->next_tool, std::nullopt);
+  EXPECT_EQ(machine->status->modes->work_system, "G54");
+}
+
+TEST(ApiJson, ReadsAStatusOfAnOlderServer) {
+  auto json = test_support::machine_json("lathe-1");
+  json["status"] = status_json();
+  json["status"].erase("modes");
+  EXPECT_FALSE(from_json<client::Machine>(json)->status->modes);
 }
 
 TEST(ApiJson, GivesBackWhatItRead) {

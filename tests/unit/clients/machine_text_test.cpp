@@ -75,6 +75,37 @@ TEST(RunLines, SayHowAStoppedRunGoesOn) {
   EXPECT_EQ(run_lines(run(), &machine).size(), 2u);
 }
 
+/// CEN-228: what the control's status window has, in words.
+TEST(MachineDetails, ShowTheStatusWindow) {
+  client::Machine machine;
+  machine.status = status();
+  EXPECT_EQ(machine_details(machine).render(false).find("compensation"), std::string::npos);
+  client::ActiveModes modes;
+  modes.motion = "thread";
+  modes.compensation = "left";
+  modes.units = "inch";
+  modes.feed_unit = "per_revolution";
+  modes.feed = 1.5;
+  modes.feed_limited = true;
+  modes.tool = 3;
+  modes.next_tool = 4;
+  modes.tool_offset = 13;
+  modes.tool_length_x = 12.25;
+  modes.work_system = "G55";
+  modes.cycle = "multiple thread cycle";
+  modes.surface_speed = true;
+  modes.spindle_speed = 120'000;
+  modes.flood = true;
+  machine.status->modes = modes;
+  const std::string text = machine_details(machine).render(false);
+  for (const char* line :
+       {"3, offset 13 (next 4)", "X 12.250 Z 0.000 mm", "1.500 mm a turn, limited by an axis",
+        "absolute, inch", "multiple thread cycle", "120.0 m/min at the surface", "not measured",
+        "G55", "thread", "left", "flood"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
+  }
+}
+
 TEST(ExecutionCell, SaysWhatIsKnownOfAMachineThatIsAway) {
   client::Machine machine;
   machine.status = status();

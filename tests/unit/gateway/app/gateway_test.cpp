@@ -59,6 +59,25 @@ TEST(Gateway, ShowsARunningAndThenACompletedStatus) {
   EXPECT_EQ(shop.status->execution, Execution::ProgramCompleted);
 }
 
+/// CEN-228. The interpreter is ahead of the machine; what is shown belongs to the block in motion.
+TEST(Gateway, ShowsTheModesOfTheBlockThatIsExecuted) {
+  Shop shop("1x");
+  shop.push("O1", "X100\nX0\nX100\nX0\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  for (const std::uint64_t line : {1U, 3U}) {
+    ASSERT_TRUE(shop.run_until([&] {
+      return shop.status && shop.status->line == line && shop.status->feed_mm_per_min > 0;
+    }));
+    EXPECT_GT(shop.status->accepted, line) << "the interpreter is ahead";
+    ASSERT_TRUE(shop.status->modes);
+    EXPECT_EQ(shop.status->modes->tool_radius, static_cast<double>(line));
+    EXPECT_EQ(shop.status->modes->motion, dds::MotionKind::Line);
+    EXPECT_EQ(shop.status->modes->work_system, "G54.1 P7");
+    EXPECT_EQ(shop.status->modes->cycle, "drill");
+    EXPECT_FALSE(shop.status->modes->tool);
+  }
+}
+
 TEST(Gateway, RealTimeMotionTakesItsTime) {
   Shop shop("1x");
   shop.push("O1", "X100\nX0\nEND\n");  // 200 mm at no more than 5000 mm/min: 2.4 s and more

@@ -28,6 +28,15 @@ class ToyInterpreter final : public Interpreter {
   }
   std::uint64_t blocks() const override { return blocks_; }
   const Origin& origin() const override { return origin_; }
+  /// A radius that tells which block it was said of.
+  ActiveModes modes() const override {
+    ActiveModes modes;
+    modes.tool_radius = Length::mm(static_cast<double>(blocks_));
+    modes.work_system = 541;
+    modes.work_page = 7;
+    modes.cycle = "drill";
+    return modes;
+  }
   Snapshot snapshot() const override { return {}; }
   Result<void> restore(const Snapshot&) override { return fail(Errc::Unsupported, "toy"); }
 

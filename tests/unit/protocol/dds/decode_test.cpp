@@ -73,6 +73,30 @@ TEST(Decode, RefusesEnumeratorsWithoutMeaning) {
   EXPECT_FALSE(decode(data_status));
 }
 
+/// A gateway from before there were modes sends none: the sample's members stay zero.
+TEST(Decode, TakesAStatusWithoutModes) {
+  const Status message = status();
+  auto sample = sample_of(message);
+  EXPECT_FALSE(sample.modes.is_told);
+  sample.modes = {};
+  EXPECT_EQ(*decode(sample), message);
+}
+
+TEST(Decode, ChecksTheModes) {
+  Status message = status();
+  message.modes = ActiveModes{};
+  auto sample = sample_of(message);
+  EXPECT_EQ(decode(sample)->modes, message.modes);
+  sample.modes.motion = 6;
+  EXPECT_FALSE(decode(sample));
+  message.modes->feed = std::numeric_limits<double>::infinity();
+  SampleOf<Status> unused;
+  EXPECT_FALSE(encode(message, unused));
+  message.modes->feed = 0;
+  message.modes->cycle = std::string(33, 'x');
+  EXPECT_FALSE(encode(message, unused));
+}
+
 TEST(Decode, RefusesNumbersThatAreNotFinite) {
   const Status message = status();
   auto sample = sample_of(message);

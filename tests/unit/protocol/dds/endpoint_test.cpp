@@ -37,6 +37,27 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
   status.single_block = true;
   status.message = "Werkzeug prüfen";
   status.outbox = 9;
+  status.modes = ActiveModes{.motion = MotionKind::Clockwise,
+                             .compensation = CompensationSide::Right,
+                             .is_inch = true,
+                             .is_incremental = true,
+                             .feed_unit = FeedUnit::PerRevolution,
+                             .feed = 0.25,
+                             .is_feed_limited = true,
+                             .tool = 3,
+                             .next_tool = 4,
+                             .tool_offset = 13,
+                             .tool_length_x = 1.5,
+                             .tool_length_z = -2.5,
+                             .tool_radius = 0.8,
+                             .work_system = "G54.1 P7",
+                             .cycle = "rough turning",
+                             .dwell_seconds = 0.5,
+                             .is_surface_speed = true,
+                             .spindle_speed = 120'000,
+                             .spindle_load = 0.5,
+                             .flood = true,
+                             .mist = true};
   ASSERT_TRUE(gateway->endpoint->write(status));
   EXPECT_EQ(server->statuses.take(), status);
 
