@@ -9,7 +9,6 @@
 #include "clients/cli/standard_output.hpp"
 #include "clients/cli/value_text.hpp"
 #include "clients/lib/output_file.hpp"
-#include "gateway/interpreter/tnc155/memory_files.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -106,35 +105,45 @@ int pull(Context& context, const SetupCommand& command) {
                  fmt::format("setup {} of {}", setup->revision, setup->machine));
 }
 
-int export_tools(Context& context, const SetupCommand& command) {
+/// Of the machine, unless the command names it; a TNC where neither says it.
+std::string control_of(client::Client& client, const SetupCommand& command) {
+  if (!command.control.empty()) return command.control;
+  const auto machine = client.machine(command.machine);
+  return machine && !machine->control.empty() ? machine->control : "tnc155";
+}
+
+int export_form(Context& context, const SetupCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
   auto setup = client->setup(command.machine, command.revision);
   if (!setup) return complain(setup.error());
-  const auto text = tool_store_of(setup->text);
+  const auto text = control_form_of(setup->text, control_of(*client, command));
   if (!text) return complain(text.error());
-  return put_out(command.file, *text,
-                 fmt::format("the tools of setup {} of {}", setup->revision, setup->machine));
+  return put_out(
+      command.file, *text,
+      fmt::format("setup {} of {} as its control takes it", setup->revision, setup->machine));
 }
 
-int import_tools(const std::string& path, const std::string& output) {
+int import_form(const std::string& path, const std::string& output) {
   const auto text = read_small_file(path, kMaxSetupFile);
   if (!text) return complain(text.error());
-  const auto tools = interpreter::tnc155::read_tool_store(*text);
-  if (!tools) return complain(Error{tools.error().code, path + ": " + tools.error().what});
-  return put_out(output, tools_toml(*tools), fmt::format("{} tools", tools->size()));
+  const auto setup = setup_of_control_form(*text);
+  if (!setup) return complain(Error{setup.error().code, path + ": " + setup.error().what});
+  return put_out(output, *setup, "a setup");
 }
 
 void add_import(CLI::App& group, Context& context) {
-  auto* command =
-      group.add_subcommand("import", "Make a setup from the tool store that a TNC 151/155 sent");
+  auto* command = group.add_subcommand(
+      "import", "Make a setup from what a control sent: TNC tools, Centurion parameters");
   auto files = std::make_shared<std::pair<std::string, std::string>>();
-  command->add_option("FILE", files->first, "Its program 0")->required();
+  command
+      ->add_option("FILE", files->first, "A TNC's program 0, or P... = values between G10 and G11")
+      ->required();
   command->add_option("-o,--output", files->second,
                       "TOML file to write, - for standard output [-]");
   command->footer("No server is needed.");
   command->callback(
-      [&context, files] { context.status = import_tools(files->first, files->second); });
+      [&context, files] { context.status = import_form(files->first, files->second); });
 }
 
 /// The old text becomes the newest revision: nothing is ever lost.
@@ -203,7 +212,11 @@ void add_setup_commands(CLI::App& app, Context& context) {
                               "File to write, - for standard output [-]");
 
   auto exporting = add_verb(*group, context, "export",
-                            "The tools as a TNC 151/155 takes them: its program 0", export_tools);
+                            "As the control takes it: a TNC's tools (its program 0), a Centurion's "
+                            "parameters (G10)",
+                            export_form);
+  exporting.command->add_option("--control", exporting.options->control,
+                                "tnc155 or centurion [the machine's]");
   exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "gateway/interpreter/centurion/parameter_text.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
 #include "gateway/interpreter/tnc155/options.hpp"
 
@@ -26,6 +27,19 @@ Result<std::string> tool_store_of(std::string_view toml) {
   if (!sign) return fail(sign.error());
   return interpreter::tnc155::write_tool_store(
       data->tools, data->units.value_or(interpreter::Units::Millimetre), *sign);
+}
+
+Result<std::string> control_form_of(std::string_view toml, std::string_view control) {
+  if (control != "centurion") return tool_store_of(toml);
+  const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
+  return data ? interpreter::centurion::write_parameter_text(*data) : fail(data.error());
+}
+
+Result<std::string> setup_of_control_form(std::string_view text) {
+  if (text.find("G10") != std::string_view::npos)
+    return interpreter::centurion::setup_of_parameter_text(text);
+  const auto tools = interpreter::tnc155::read_tool_store(text);
+  return tools ? tools_toml(*tools) : Result<std::string>(fail(tools.error()));
 }
 
 }  // namespace dripline::cli

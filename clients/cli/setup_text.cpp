@@ -4,6 +4,7 @@
 
 #include "clients/cli/table.hpp"
 #include "clients/cli/value_text.hpp"
+#include "gateway/interpreter/centurion/machine_parameters.hpp"
 #include "gateway/interpreter/setup.hpp"
 
 namespace dripline::cli {
@@ -83,6 +84,26 @@ std::string variable_table(const std::vector<interpreter::VariableRecord>& varia
   return table.render(has_colour);
 }
 
+/// A Centurion's axis and power parameters by their pages; other controls have none.
+std::string machine_table(const interpreter::Options& control, bool has_colour) {
+  interpreter::centurion::Parameters values;
+  if (!interpreter::centurion::load_machine_parameters(control, values)) return {};
+  Table table({{"PAGE"},
+               {"PARAMETER"},
+               {"VALUE", Align::Right},
+               {"X", Align::Right},
+               {"Z", Align::Right},
+               {"MEANING"}});
+  for (const auto& row : interpreter::centurion::machine_parameters()) {
+    const std::string first = fmt::format("{:g}", values[row.number]);
+    const std::string x = row.is_per_axis ? fmt::format("{:g}", values[row.number + 1]) : "";
+    if (first == "0" && (x == "0" || x.empty())) continue;
+    table.add({std::string(row.page), std::string(row.name), row.is_per_axis ? "" : first, x,
+               row.is_per_axis ? first : "", std::string(row.title)});
+  }
+  return table.empty() ? std::string() : table.render(has_colour);
+}
+
 }  // namespace
 
 Result<std::string> setup_tables(const client::Setup& setup, bool has_colour) {
@@ -96,6 +117,7 @@ Result<std::string> setup_tables(const client::Setup& setup, bool has_colour) {
   if (!data->tools.empty()) add(tool_table(data->tools, lengths, has_colour));
   if (!data->offsets.empty()) add(offset_table(data->offsets, lengths, has_colour));
   if (!data->variables.empty()) add(variable_table(data->variables, has_colour));
+  if (const auto machine = machine_table(data->control, has_colour); !machine.empty()) add(machine);
   if (!data->control.empty()) text += "\nIt also sets options of the control: dnc setup pull\n";
   return text;
 }

@@ -199,6 +199,7 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   const auto is_diameter = stored_x_is_diameter(setup.control);
   if (!is_diameter) return fail(is_diameter.error());
   if (auto done = load_places(setup, parameters); !done) return done;
+  if (auto done = load_machine_parameters(setup.control, parameters); !done) return done;
   for (const OffsetRecord& offset : setup.offsets) {
     if (auto done = load_offset(offset, *is_diameter, state, parameters); !done) return done;
   }

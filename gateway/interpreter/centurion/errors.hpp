@@ -20,6 +20,7 @@ enum class ErrorCode : std::uint16_t {
   TravelOfZ = 403,
   SafeZone = 413,
   OutOfPosition = 416,
+  ToolNotFound = 452,
   IllegalAddress = 501,
   UndefinedCycle = 502,
   ReturnWithoutGosub = 503,

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/centurion/execution.hpp"
 
+#include <fmt/format.h>
+
 #include "gateway/interpreter/centurion/box_cycles.hpp"
 #include "gateway/interpreter/centurion/drilling_cycles.hpp"
 #include "gateway/interpreter/centurion/flow.hpp"
@@ -26,6 +28,11 @@ bool move_in_thought(Run& run) {
 
 /// Drills and grooving tools have no use for compensation (spec 9.4).
 bool run_aside(Run& run, bool (*cycle)(Run&)) {
+  if (run.parameters[kNoCannedCycles] != 0) {
+    const GRow& row = g_row(run.block.parts.action);
+    return run.fail(ErrorCode::UndefinedCycle, 0,
+                    fmt::format("G{}: the canned cycles are not loaded", row.code));
+  }
   leave_compensation(run);
   const bool is_done = cycle(run);
   resume_compensation(run);

@@ -1,5 +1,6 @@
 #include "gateway/interpreter/centurion/machine_functions.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "gateway/interpreter/centurion/macro_calls.hpp"
@@ -56,10 +57,21 @@ void take_pending_tool(Run& run) {
   run.events().on_tool({run.origin, tool.active, false, offset_or_none(tool.pending_offset)});
 }
 
+/// A changer that has pockets finds no tool outside of them. T00 puts back what is in the spindle.
+bool check_pocket(Run& run) {
+  const int pockets = static_cast<int>(run.parameters[kAtcPockets]);
+  const int tool = run.state.tool.pending;
+  if (pockets == 0 || tool == 0 || run.options.pockets[static_cast<std::size_t>(tool)] != 0)
+    return true;
+  return run.fail(ErrorCode::ToolNotFound, 0,
+                  fmt::format("T{:02} is in none of {} pockets", tool, pockets));
+}
+
 /// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
 /// Until he has done it the spindle is locked; what that means to one that turns is the machine's.
 bool change_tool(Run& run) {
   constexpr double kPulseMs = 150;
+  if (!check_pocket(run)) return false;
   if (!go_to_tool_change(run)) return false;
   if (run.options.tool_change_stops_spindle && run.state.spindle.state != SpindleState::Off)
     spindle_to(run, SpindleState::Off);

@@ -224,7 +224,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "handwheel_pulses",
                                     "cranking_minutes",
                                     "m6_pin",
-                                    "m6_spindle"});
+                                    "m6_spindle",
+                                    "machine"});
   if (!known) return fail(known.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G511");
@@ -249,6 +250,11 @@ Result<ControlOptions> read_options(const Setup& setup) {
   const auto pulse = options.number("pulse_ms", control.pulse_ms);
   if (!pulse) return fail(pulse.error());
   control.pulse_ms = *pulse;
+  Parameters machine;  // read here for its checks and the changer's pockets
+  if (auto done = load_machine_parameters(options, machine); !done) return fail(done.error());
+  auto pockets = read_pockets(setup, static_cast<int>(machine[kAtcPockets]));
+  if (!pockets) return fail(pockets.error());
+  control.pockets = *pockets;
   auto pins = options.integers("pins");
   if (!pins) return fail(pins.error());
   control.answers_pins = options.find("pins") != nullptr;

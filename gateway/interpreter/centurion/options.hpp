@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/centurion/machine_parameters.hpp"
 #include "gateway/interpreter/centurion/modal_state.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
 #include "gateway/interpreter/centurion/start_search.hpp"
@@ -41,6 +42,7 @@ struct ControlOptions {
   std::uint16_t tool_change_program = 0;            ///< `m6_macro`: in the place of M6; 0 none
   std::optional<int> tool_change_pin;               ///< `m6_pin`: the output that M6 pulses
   bool tool_change_stops_spindle = false;           ///< `m6_spindle`: one that turns is stopped
+  Pockets pockets{};                                ///< of a tool changer
   std::vector<int> post_m;                          ///< M codes that come last
   SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`
   double tap_ramp_seconds = 0;                      ///< `tap_ramp`: from full speed to standstill

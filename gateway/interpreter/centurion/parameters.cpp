@@ -1,5 +1,7 @@
 #include "gateway/interpreter/centurion/parameters.hpp"
 
+#include "gateway/interpreter/centurion/machine_parameters.hpp"
+
 namespace dripline::interpreter::centurion {
 
 Point Parameters::work_offset(int system) const {
@@ -28,6 +30,10 @@ double Parameters::tool(int offset, ToolField field) const {
 void Parameters::convert_tables(double factor) {
   // zeroes, axis parameters; then centers of mirror, scaling and rotation, and clearances
   for (int number = kWorkOffsets; number <= kLastAxisParameter; ++number) (*this)[number] *= factor;
+  for (const MachineParameter& row : machine_parameters()) {
+    if (!row.is_length) continue;
+    for (int i = 0; i < row.count(); ++i) (*this)[row.number + i] *= factor;
+  }
   for (const int number : {139, 140, 172, 173, 180, 181, 196, 197}) (*this)[number] *= factor;
   for (int offset = 1; offset <= kOffsetCount; ++offset) {
     for (const ToolField field : {ToolField::LengthZ, ToolField::LengthX, ToolField::Radius,

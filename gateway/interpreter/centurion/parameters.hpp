@@ -19,12 +19,15 @@
 ///   P528, P530 positive and negative software limit (both the same: none)
 ///   P532, P534 overrun of G60, of every G0
 ///   P536 maximum feed per minute (0: none)
+/// and what only the machine itself uses: P850-P908, listed in machine_parameters.cpp.
 /// All others keep what is written to them. X values are radii.
 namespace dripline::interpreter::centurion {
 
 inline constexpr int kParameterCount = 1000;
 inline constexpr int kByteCount = 640;
 inline constexpr int kFirstDataParameter = 499;  ///< from here on writable in data mode (G10) only
+inline constexpr int kMaterialLength = 156;
+inline constexpr int kMaterialDiameter = 157;
 inline constexpr int kFirstStatus = 200;
 inline constexpr int kLastStatus = 370;
 inline constexpr int kWorkOffsets = 500;

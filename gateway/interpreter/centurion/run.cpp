@@ -86,6 +86,21 @@ void Run::deliver_header() {
   header.x_is_diameter = true;
   sink.on_program(header);
   if (state.modes.path == PathMode::Tapping) sink.on_panel_lock(panel_lock(*this));
+  tell_material();
+}
+
+/// From the face at Z0 towards the chuck, about the program's X0 (spec 24.6).
+void Run::tell_material() {
+  const double size = parameters[kMaterialLength], diameter = parameters[kMaterialDiameter];
+  if (!(size > 0 && diameter > 0)) return;
+  Blank blank{.origin = origin, .spindle_axis = Axis::Z, .min = {}, .max = {}};
+  blank.min.set(Axis::X, length(state.origin.x - diameter / 2));
+  blank.max.set(Axis::X, length(state.origin.x + diameter / 2));
+  blank.min.set(Axis::Y, length(-diameter / 2));
+  blank.max.set(Axis::Y, length(diameter / 2));
+  blank.min.set(Axis::Z, length(state.origin.z - size));
+  blank.max.set(Axis::Z, length(state.origin.z));
+  sink.on_blank(blank);
 }
 
 bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {

@@ -61,6 +61,8 @@ struct Run {
       choose_stages();
     return joiner;
   }
+  /// P156 and P157: the bar that the program cuts, for graphics. Nothing while one of them is 0.
+  void tell_material();
   /// From here on, with the machine at the program's position and compensation, if on, anew.
   void restart_stages();
   /// To the compensation stage, in order with the events. The joining stage stands in front.

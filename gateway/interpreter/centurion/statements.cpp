@@ -253,6 +253,8 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
     return run.fail(ErrorCode::StatusParameter, column, fmt::format("P{}", number));
   }
   run.parameters[number] = value;
+  const bool is_material = number == kMaterialLength || number == kMaterialDiameter;
+  if (is_material && state.has_header) run.tell_material();
   return true;
 }
 

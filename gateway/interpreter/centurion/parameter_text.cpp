@@ -1,0 +1,228 @@
+#include "gateway/interpreter/centurion/parameter_text.hpp"
+
+#include <fmt/format.h>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "gateway/interpreter/centurion/options.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+struct Pair {
+  std::string_view name;
+  int number;
+};
+constexpr Pair kPlaces[] = {
+    {"home", kHomePosition},
+    {"tool_change", kToolChangePoint},
+    {"positive_zone", kPositiveZone},
+    {"negative_zone", kNegativeZone},
+    {"positive_limit", kPositiveLimit},
+    {"negative_limit", kNegativeLimit},
+    {"g60_overrun", kSingleOverrun},
+    {"g0_overrun", kRapidOverrun},
+    {"maximum_feed", kMaximumFeed},
+};
+constexpr int kWorkSystems = 6, kReferences = 4, kFirstUnnamed = 200;
+constexpr int kLastToolField = static_cast<int>(ToolField::WearRadius);
+
+std::string value_text(double value) {
+  std::string text = fmt::format("{:.10f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Parameters& parameters) : parameters_(parameters) {}
+  void line(std::string_view text) { text_ += fmt::format("{}\n", text); }
+  void set(int number) {
+    text_ += fmt::format("P{}={}\n", number, value_text(parameters_[number]));
+  }
+  void set(int first, int count) {
+    for (int number = first; number < first + count; ++number) set(number);
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  const Parameters& parameters_;
+  std::string text_;
+};
+
+/// One line of the text: what it sets, or what it switches.
+struct Line {
+  std::optional<std::pair<int, double>> set;
+  std::optional<Units> units;
+};
+
+std::string without_comment(std::string_view line) {
+  std::string text;
+  bool in_comment = false;
+  for (const char c : line) {
+    if (c == '(') in_comment = true;
+    if (!in_comment && !is_blank(c) && c != '\r') text += upper(c);
+    if (c == ')') in_comment = false;
+  }
+  return text;
+}
+
+Result<Line> read_line(std::string_view raw, std::size_t number) {
+  const std::string text = without_comment(raw);
+  Line line;
+  if (text.empty() || text == "%" || text == "G10" || text == "G11" || text == "M30" ||
+      text.front() == 'O')
+    return line;
+  if (text == "G20" || text == "G21") {
+    line.units = text == "G20" ? Units::Inch : Units::Millimetre;
+    return line;
+  }
+  const auto equals = text.find('=');
+  int parameter = 0;
+  double value = 0;
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  if (text.front() == 'P' && equals != std::string::npos) {
+    const auto left = std::from_chars(begin + 1, begin + equals, parameter);
+    const auto right = std::from_chars(begin + equals + 1, end, value, std::chars_format::fixed);
+    if (left.ec == std::errc{} && left.ptr == begin + equals && right.ec == std::errc{} &&
+        right.ptr == end && std::isfinite(value)) {
+      line.set = {parameter, value};
+      return line;
+    }
+  }
+  return fail(Errc::Syntax, "line {}: \"{}\": expected P and a number = a value", number,
+              raw.substr(0, 60));
+}
+
+bool has_name(int number) {
+  if (number >= 0 && number < kFirstUnnamed) return true;
+  if (number >= kWorkOffsets && number <= kLastAxisParameter) return true;
+  if (number >= kToolOffsets && number < kToolOffsets + kFieldsPerTool * kOffsetCount)
+    return (number - kToolOffsets) % kFieldsPerTool <= kLastToolField;
+  for (const MachineParameter& row : machine_parameters()) {
+    if (number >= row.number && number < row.number + row.count()) return true;
+  }
+  return false;
+}
+
+/// The values as the sections of a setup file; those at 0, which is what they are without it, only
+/// where a table would be half empty.
+class SetupText {
+ public:
+  SetupText(const Parameters& parameters, Units units) : parameters_(parameters) {
+    text_ = fmt::format("units = \"{}\"\n", units == Units::Inch ? "in" : "mm");
+  }
+  std::string make() {
+    for (int system = 0; system < kWorkSystems; ++system) add_offset(system);
+    for (int tool = 1; tool <= kOffsetCount; ++tool) add_tool(tool);
+    for (int number = 0; number < kFirstUnnamed; ++number) {
+      if (parameters_[number] == 0) continue;
+      text_ += fmt::format("\n[[variable]]\nname = \"P{}\"\nvalue = {}\n", number, value(number));
+    }
+    text_ += "\n[control]\nstored_x = \"radius\"\n";
+    for (const Pair& place : kPlaces) add_place(place.name, place.number);
+    add_references();
+    add_machine();
+    return std::move(text_);
+  }
+
+ private:
+  std::string value(int number) const { return value_text(parameters_[number]); }
+  std::string axes(int z) const {
+    return fmt::format("{{ X = {}, Z = {} }}", value(z + 1), value(z));
+  }
+  bool is_zero(int z) const { return parameters_[z] == 0 && parameters_[z + 1] == 0; }
+
+  void add_offset(int system) {
+    const int z = kWorkOffsets + 2 * system;
+    if (is_zero(z)) return;
+    text_ += fmt::format("\n[[offset]]\nname = \"G{}\"\nX = {}\nZ = {}\n", 54 + system,
+                         value(z + 1), value(z));
+  }
+  void add_tool(int tool) {
+    const auto of = [&](ToolField field) { return value(Parameters::tool_parameter(tool, field)); };
+    bool is_empty = true;
+    for (int field = 0; field <= kLastToolField; ++field)
+      is_empty = is_empty &&
+                 parameters_[Parameters::tool_parameter(tool, static_cast<ToolField>(field))] == 0;
+    if (is_empty) return;
+    text_ += fmt::format(
+        "\n[[tool]]\nnumber = {}\nX = {}\nZ = {}\nradius = {}\ntip = {}\n"
+        "wear = {{ X = {}, Z = {}, radius = {} }}\n",
+        tool, of(ToolField::LengthX), of(ToolField::LengthZ), of(ToolField::Radius),
+        of(ToolField::Type), of(ToolField::WearX), of(ToolField::WearZ), of(ToolField::WearRadius));
+  }
+  void add_place(std::string_view name, int z) {
+    if (!is_zero(z)) text_ += fmt::format("{} = {}\n", name, axes(z));
+  }
+  void add_references() {
+    std::string points;
+    bool is_empty = true;
+    for (int i = 0; i < kReferences; ++i) {
+      const int z = kReferencePoints + 2 * i;
+      is_empty = is_empty && is_zero(z);
+      points += (i > 0 ? ", " : "") + axes(z);
+    }
+    if (!is_empty) text_ += fmt::format("reference = [{}]\n", points);
+  }
+  void add_machine() {
+    std::string rows;
+    for (const MachineParameter& row : machine_parameters()) {
+      const bool is_empty = row.is_per_axis ? is_zero(row.number) : parameters_[row.number] == 0;
+      if (is_empty) continue;
+      rows += fmt::format("{} = {}\n", row.name,
+                          row.is_per_axis ? axes(row.number) : value(row.number));
+    }
+    if (!rows.empty()) text_ += "\n[control.machine]\n" + rows;
+  }
+
+  const Parameters& parameters_;
+  std::string text_;
+};
+
+}  // namespace
+
+Result<std::string> write_parameter_text(const Setup& setup) {
+  ModalState state;
+  Parameters parameters;
+  if (auto loaded = load_memory(setup, state, parameters); !loaded) return fail(loaded.error());
+  Writer writer(parameters);
+  writer.line("(PARAMETERS)");
+  writer.line(state.units == Units::Inch ? "G20" : "G21");
+  for (int number = 0; number < kFirstUnnamed; ++number) {
+    if (parameters[number] != 0) writer.set(number);
+  }
+  writer.line("G10");
+  writer.set(kWorkOffsets, kLastAxisParameter - kWorkOffsets + 1);
+  for (int tool = 1; tool <= kOffsetCount; ++tool)
+    writer.set(Parameters::tool_parameter(tool, ToolField::LengthZ), kLastToolField + 1);
+  for (const MachineParameter& row : machine_parameters()) writer.set(row.number, row.count());
+  writer.line("G11");
+  writer.line("M30");
+  return writer.take();
+}
+
+Result<std::string> setup_of_parameter_text(std::string_view text) {
+  Parameters parameters;
+  Units units = Units::Inch;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    const auto line = read_line(text.substr(0, end), ++number);
+    if (!line) return fail(line.error());
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line->units) units = *line->units;
+    if (!line->set) continue;
+    if (!has_name(line->set->first)) {
+      return fail(Errc::Syntax, "line {}: P{} is none of the parameters that a setup keeps", number,
+                  line->set->first);
+    }
+    parameters[line->set->first] = line->set->second;
+  }
+  return SetupText(parameters, units).make();
+}
+
+}  // namespace dripline::interpreter::centurion
