@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/commands.hpp"
+#include "clients/cli/graphics_files.hpp"
 #include "clients/cli/graphics_options.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/offline_options.hpp"
 #include "clients/cli/progress.hpp"
-#include "clients/lib/output_file.hpp"
-#include "gateway/graphics/hardcopy.hpp"
+#include "clients/cli/turning_graphics.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
 
 namespace dripline::cli {
@@ -18,12 +18,14 @@ using graphics::CuttingSimulation;
 using graphics::HeightField;
 using graphics::Picture;
 
+constexpr std::size_t kUsualCells = 512;
+
 Result<graphics::SimulationSettings> settings_of(const GraphicsCommand& command,
                                                  const interpreter::Setup& setup) {
   graphics::SimulationSettings settings;
   settings.tools = setup.tools;
   settings.start = setup.start;
-  settings.cells_along = command.size;
+  settings.cells_along = command.size.value_or(kUsualCells);
   settings.shows_helices = command.shows_helices;
   if (command.tool_radius > 0) {
     settings.tool_radius =
@@ -79,16 +81,9 @@ Result<Picture> draw(const GraphicsCommand& command, const CuttingSimulation& si
     return graphics::draw_planes(part, view);
   }
   graphics::SolidView view{Angle::degrees(command.rotation), Angle::degrees(command.tilt)};
-  view.width = std::clamp<std::size_t>(command.size * 3 / 2, 320, 4096);
+  view.width = std::clamp<std::size_t>(command.size.value_or(kUsualCells) * 3 / 2, 320, 4096);
   view.height = view.width * 3 / 4;
   return graphics::draw_solid(part, view);
-}
-
-Result<void> write_file(const std::string& path, std::string_view bytes) {
-  auto file = client::OutputFile::create(path);
-  if (!file) return fail(file.error());
-  if (auto written = file->write(bytes); !written) return written;
-  return file->commit();
 }
 
 nlohmann::ordered_json extent_json(const CuttingSimulation& simulation,
@@ -119,16 +114,7 @@ Result<void> write_files(const GraphicsCommand& command, const CuttingSimulation
   }
   if (command.output.empty() && command.print.empty()) return {};
   const auto picture = draw(command, simulation);
-  if (!picture) return fail(picture.error());
-  if (!command.output.empty()) {
-    const auto bytes = picture->png();
-    if (!bytes) return fail(bytes.error());
-    if (auto done = write_file(command.output, *bytes); !done) return done;
-  }
-  if (command.print.empty()) return {};
-  const auto printer = graphics::find_printer(command.printer);
-  if (!printer) return fail(printer.error());
-  return write_file(command.print, graphics::hardcopy(*picture, *printer));
+  return picture ? write_picture(command, *picture) : fail(picture.error());
 }
 
 const char* reason(graphics::Omission why) {
@@ -171,6 +157,13 @@ void report(Context& context, const CuttingSimulation& simulation) {
   }
 }
 
+Result<void> check_view(const GraphicsCommand& command) {
+  for (const std::string_view known : {"", "solid", "plan", "planes"}) {
+    if (command.view == known) return {};
+  }
+  return fail(Errc::Syntax, "--view {}: a milled part has solid, plan and planes", command.view);
+}
+
 /// The detail is a part of the blank, which may stand in the program only: a first pass finds it.
 Result<void> settle_detail(const GraphicsCommand& command, const OfflineProgram& program,
                            graphics::SimulationSettings& settings) {
@@ -190,9 +183,9 @@ Result<void> settle_detail(const GraphicsCommand& command, const OfflineProgram&
   return {};
 }
 
-int show(Context& context, const GraphicsCommand& command) {
-  auto program = OfflineProgram::open(command.program);
-  if (!program) return complain(program.error());
+int show_milled(Context& context, const GraphicsCommand& command, const OfflineProgram& opened) {
+  const OfflineProgram* program = &opened;
+  if (auto checked = check_view(command); !checked) return complain(checked.error());
   auto settings = settings_of(command, program->setup());
   if (!settings) return complain(settings.error());
   if (auto done = settle_detail(command, *program, *settings); !done) return complain(done.error());
@@ -223,10 +216,42 @@ int show(Context& context, const GraphicsCommand& command) {
   return kExitNo;
 }
 
+int show(Context& context, const GraphicsCommand& command) {
+  const auto program = OfflineProgram::open(command.program);
+  if (!program) return complain(program.error());
+  const bool is_lathe = program->dialect().machine == interpreter::MachineKind::Lathe;
+  return is_lathe ? show_turned(context, command, *program)
+                  : show_milled(context, command, *program);
+}
+
+void add_turning_options(CLI::App& command, GraphicsCommand& options) {
+  constexpr const char* kGroup = "Of a lathe's programs";
+  command.add_flag("--path", options.shows_path, "Draw the tool's way over the part")
+      ->group(kGroup);
+  command.add_flag("--limits", options.shows_limits, "Draw the setup's travel limits")
+      ->group(kGroup);
+  command.add_flag("--zone", options.shows_zone, "Draw the setup's safe zone")->group(kGroup);
+  command
+      .add_flag("--front-turret", options.has_front_turret,
+                "Draw +X downwards, as a setup's front_turret does")
+      ->group(kGroup);
+  command
+      .add_option("--tool-width", options.tool_widths,
+                  "Diameter of a drill, width of a blade, by offset, e.g. 5=10; may be repeated")
+      ->group(kGroup);
+  command
+      .add_option("--insert", options.insert_degrees,
+                  "Angle between the edges of tools of types 1 to 4 [55]")
+      ->check(CLI::Range(10.0, 87.0))
+      ->group(kGroup);
+}
+
 void add_view_options(CLI::App& command, GraphicsCommand& options) {
   command
-      .add_option("--view", options.view, "solid, plan or planes (plan and two sections) [solid]")
-      ->check(CLI::IsMember({"solid", "plan", "planes"}));
+      .add_option("--view", options.view,
+                  "Of a mill: solid, plan or planes (plan and two sections) [solid];\n"
+                  "of a lathe: half (section above, outside below), full, section or path [half]")
+      ->check(CLI::IsMember({"solid", "plan", "planes", "half", "full", "section", "path"}));
   command.add_option("--shades", options.shades, "Of depth in a plan: 5 or 17 [17]")
       ->check(CLI::IsMember({5, 17}));
   command
@@ -238,15 +263,15 @@ void add_view_options(CLI::App& command, GraphicsCommand& options) {
   command.add_option("--tilt", options.tilt, "Solid: 5 from the front to 90 from above [35]")
       ->check(CLI::Range(5.0, 90.0));
   command.add_option("--magnify", options.detail, "Only this part of the blank, e.g. X10:40,Y0:30");
-  command.add_option("--size", options.size, "Cells along the longer side [512]")
+  command.add_option("--size", options.size, "Cells along the longer side [512, lathe 1024]")
       ->check(CLI::Range(8, 4096));
 }
 
 }  // namespace
 
 void add_graphics_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
-      "graphics", "Cut the blank with a milling program on disk and draw the part");
+  auto* command =
+      app.add_subcommand("graphics", "Cut the blank with a program on disk and draw the part");
   auto options = std::make_shared<GraphicsCommand>();
   add_offline_options(*command, options->program);
   command->add_option("-o,--output", options->output, "The picture, a PNG file");
@@ -255,8 +280,10 @@ void add_graphics_command(CLI::App& app, Context& context) {
   command->add_option("--printer", options->printer, "epson or ti-850 [epson]")
       ->check(CLI::IsMember({"epson", "ti-850"}));
   add_view_options(*command, *options);
+  add_turning_options(*command, *options);
   command->add_option("--blank", options->blank,
-                      "In place of the program's own, e.g. X0:100,Y0:80,Z-20:0");
+                      "In place of the program's own, e.g. X0:100,Y0:80,Z-20:0; on a lathe X are\n"
+                      "diameters, from a tube's bore or 0: X0:50,Z-80:0");
   command->add_option("--spindle", options->spindle, "Axis of the tool, with --blank [Z]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command
@@ -268,9 +295,12 @@ void add_graphics_command(CLI::App& app, Context& context) {
                     "Draw helices too, which the TNC 155 leaves out");
   add_json_flag(*command, context);
   command->footer(
-      "No server is needed. The cutter is a flat-ended cylinder; rapid moves cut too.\n\n"
+      "No server is needed. A mill's cutter is a flat-ended cylinder, a lathe's tool has the nose "
+      "and\n"
+      "type of the setup's table; rapid moves cut too.\n\n"
       "Exit status: 0 drawn, 1 the program alarms (drawn up to there), 2 usage or no blank.\n\n"
-      "Example:\n  dnc graphics pocket.h -o pocket.png --view planes --section X40,Y25");
+      "Example:\n  dnc graphics pocket.h -o pocket.png --view planes --section X40,Y25\n  dnc "
+      "graphics shaft.nc --setup lathe.toml -o shaft.png --view half --path");
   command->callback([&context, options] { context.status = show(context, *options); });
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clients/cli/offline_program.hpp"
 #include "gateway/graphics/cutting_simulation.hpp"
@@ -18,7 +19,7 @@ struct GraphicsCommand {
   std::string heights;  ///< .json
   std::string print;    ///< bytes for a printer
   std::string printer = "epson";
-  std::string view = "solid";
+  std::string view;  ///< empty: the machine's usual one
   int shades = 17;
   std::string arrangement = "din";
   double rotation = -30, tilt = 35;
@@ -26,8 +27,12 @@ struct GraphicsCommand {
   std::string blank, detail;
   std::string spindle = "Z";
   double tool_radius = 0;
-  std::size_t size = 512;
+  std::optional<std::size_t> size;
   bool is_inch = false, shows_helices = false;
+  // of turned parts
+  std::vector<std::string> tool_widths;  ///< 5=10
+  double insert_degrees = 55;
+  bool shows_path = false, shows_limits = false, shows_zone = false, has_front_turret = false;
 };
 
 /// Low and high on each axis that was named, in millimetres.

@@ -1,5 +1,6 @@
 #include "gateway/interpreter/centurion/control_memory.hpp"
 
+#include "gateway/interpreter/centurion/machine_parameters.hpp"
 #include "gateway/interpreter/option.hpp"
 #include "protocol/base/decimal.hpp"
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "gateway/interpreter/centurion/options.hpp"
+#include "gateway/interpreter/centurion/characters.hpp"
+#include "gateway/interpreter/centurion/control_memory.hpp"
+#include "gateway/interpreter/centurion/machine_parameters.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -62,5 +62,56 @@ TEST_F(DncGraphics, DrawsWhatWasCutBeforeAnAlarm) {
   EXPECT_NEAR(json::parse(result.out).at("removed_mm3").get<double>(), 78.54 * 4, 5);
 }
 
+/// CEN-227: a lathe's program.
+class DncTurning : public testing::Test {
+ protected:
+  DncTurning() {
+    dnc.write("pin.nc",
+              "O7\nG21 G98 F100\nP156=50\nP157=20\nT0101M6\nG0 X16 Z2\nG1 Z-30\nX22\nM30\n");
+    dnc.write(
+        "lathe.toml",
+        "units = \"mm\"\n[[tool]]\nnumber = 1\ntip = 3\n[control]\nnegative_limit = { X = -1, "
+        "Z = -60 }\npositive_limit = { X = 30, Z = 20 }\n");
+  }
+  template <class... More>
+  auto graphics(More... more) {
+    return dnc({"graphics", "--control", "centurion", "pin.nc", "--setup", "lathe.toml", more...});
+  }
+  Dnc dnc{DNC_PATH};
+};
+
+TEST_F(DncTurning, TurnsAndDraws) {
+  const auto result =
+      graphics("-o", "pin.png", "--heights", "pin.json", "--path", "--limits", "--zone", "--json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto report = json::parse(result.out);
+  EXPECT_EQ(report.at("bar").at("Z"), json::parse("[-50.0, 0.0]"));
+  EXPECT_EQ(report.at("bar").at("diameter"), json::parse("[0.0, 20.0]"));
+  const double ring = 3.14159265 / 4 * (20 * 20 - 16 * 16) * 30;
+  EXPECT_NEAR(report.at("removed_mm3").get<double>(), ring, 0.02 * ring);
+  EXPECT_EQ(dnc.read("pin.png").substr(1, 3), "PNG");
+  const auto contour = json::parse(dnc.read("pin.json"));
+  EXPECT_NEAR(contour.at("outer_radius").back().get<double>(), 8, 0.1);
+  EXPECT_NEAR(contour.at("outer_radius").front().get<double>(), 10, 0.1);
+}
+
+TEST_F(DncTurning, TakesAnotherBarAndWindow) {
+  const auto result =
+      graphics("--blank", "X10:30,Z-40:1", "--magnify", "X0:32,Z-20:2", "-o", "tube.png", "--json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out).at("bar").at("diameter"), json::parse("[10.0, 30.0]"));
+}
+
+TEST_F(DncTurning, SaysWhatIsMissingOrWrong) {
+  EXPECT_EQ(graphics("--view", "plan").status, 2);
+  EXPECT_EQ(graphics("--blank", "X0:30").status, 2);
+  EXPECT_EQ(graphics("--tool-width", "3").status, 2);
+  dnc.write("pin.nc", "G21 G98 F100\nG0 X16 Z2\nG1 Z-30\nM30\n");
+  const auto no_bar = graphics("-o", "a.png");
+  EXPECT_EQ(no_bar.status, 2);
+  EXPECT_NE(no_bar.err.find("--blank"), std::string::npos) << no_bar.err;
+  EXPECT_EQ(graphics("--view", "path", "-o", "a.png").status, 0);
+}
+
 }  // namespace
 }  // namespace dripline

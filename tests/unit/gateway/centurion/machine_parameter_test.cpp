@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "gateway/interpreter/centurion/control_memory.hpp"
 #include "gateway/interpreter/centurion/options.hpp"
 #include "gateway/interpreter/centurion/parameter_text.hpp"
 #include "gateway/interpreter/setup.hpp"
