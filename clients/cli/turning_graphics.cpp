@@ -8,6 +8,7 @@
 
 #include "clients/cli/graphics_files.hpp"
 #include "clients/cli/json_text.hpp"
+#include "clients/cli/offline_options.hpp"
 #include "clients/cli/progress.hpp"
 #include "gateway/graphics/turned_views.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"

@@ -20,11 +20,11 @@ struct TurnedView {
   TurnedSide above = TurnedSide::Section;  ///< the axis; below it is `below`
   TurnedSide below = TurnedSide::Outside;
   /// What is shown, radii positive above the axis; absent: all that is drawn.
-  std::optional<Frame> window;
+  std::optional<Frame> window{};
   bool shows_path = false;
-  std::optional<Frame> limits, zone;  ///< software limits, safe zone
-  bool has_front_turret = false;      ///< +X down
-  std::size_t width = 1024;           ///< pixels; the height follows, up to twice as much
+  std::optional<Frame> limits{}, zone{};  ///< software limits, safe zone
+  bool has_front_turret = false;          ///< +X down
+  std::size_t width = 1024;               ///< pixels; the height follows, up to twice as much
 };
 
 /// The part (absent: the path alone) and the tool's way: feeds as lines, rapid moves dashed.

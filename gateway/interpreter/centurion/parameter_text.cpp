@@ -65,7 +65,7 @@ std::string without_comment(std::string_view line) {
   bool in_comment = false;
   for (const char c : line) {
     if (c == '(') in_comment = true;
-    if (!in_comment && !is_blank(c) && c != '\r') text += upper(c);
+    if (!in_comment && !is_blank(c) && c != '\r') text += kind_of(c) == CharKind::Letter ? upper(c) : c;
     if (c == ')') in_comment = false;
   }
   return text;

@@ -68,7 +68,7 @@ TEST(MachineParameters, OutOfRangeAreRefusedByName) {
 
 /// G20 and G21 convert them with the other tables.
 TEST(MachineParameters, LengthsFollowTheUnits) {
-  ProgramRun run("PRINT[#884[04]]\nG21\nPRINT[#884[04]]\nPRINT[#852[04]]\n",
+  ProgramRun run("P1=P884\nPRINT[#1[04]]\nG21\nP1=P884\nP2=P852\nPRINT[#1[04]]\nPRINT[#2[04]]\n",
                  with_machine("backlash = { Z = 0.5 }\npulses_per_unit = { Z = 4000 }\n"));
   EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();
   EXPECT_EQ(run.printed(), std::vector<std::string>({"0.5000", "12.7000", "4000.0000"}));
@@ -155,7 +155,9 @@ TEST(ParameterText, BringsBackTheSameMemory) {
 TEST(ParameterText, IsAProgramThatSetsThem) {
   auto text = write_parameter_text(setup_of(kSetup));
   ASSERT_TRUE(text);
-  text->insert(text->find("M30"), "PRINT[#502[03] #503[03] #621[03] #885[03] #905[01] #7[02]]\n");
+  text->insert(text->find("M30"),
+               "P1=P502 P2=P503 P3=P621 P4=P885 P5=P905\n"
+               "PRINT[#1[03] #2[03] #3[03] #4[03] #5[01] #7[02]]\n");
   ProgramRun run(*text);
   EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();
   EXPECT_EQ(run.printed(), std::vector<std::string>({"-120.500 0.000 12.500 0.020 12.0 2.25"}));

@@ -13,7 +13,8 @@ using ControlSetup = interpreter::Setup;
 ActiveModes after(const std::string& text, const ControlSetup& setup = {}) {
   ProgramRun run(text, setup);
   for (const char c : text) {
-    if (c == '\n') EXPECT_EQ(run.step(1), StepState::Ran) << run.alarm();
+    if (c != '\n') continue;
+    EXPECT_EQ(run.step(1), StepState::Ran) << run.alarm();
   }
   return run.interpreter().modes();
 }

@@ -96,7 +96,7 @@ TEST(Turning, DrillsAndBoresFromWithin) {
 }
 
 TEST(Turning, ABladeIsAsWideAsItIs) {
-  const auto grooved = turned("T0404M6\nG0 X44 Z-20\nG1 X30\nG0 X44\n", kBar);
+  const auto grooved = turned("T0404M6\nG0 X100\nG0 X44 Z-20\nG1 X30\nG0 X44\n", kBar);
   const double ring = cylinder(40, 3) - cylinder(30, 3);
   EXPECT_NEAR(cylinder(40, 80) - grooved.part()->volume(), ring, 0.05 * ring);
 }
@@ -113,7 +113,7 @@ TEST(Turning, TheProgramSaysItsBar) {
 
 /// CEN-149: M90 stops drawing the way, M91 goes on.
 TEST(Turning, TheWayIsKeptWhileGraphicsAreOn) {
-  const auto simulation = turned("T0101M6\nG0 X50 Z2\nM90\nG1 Z1\nZ0\nM91\nZ-1\n", kBar);
+  const auto simulation = turned("G0 X50 Z2\nM90\nG1 Z1\nZ0\nM91\nZ-1\n", kBar);
   ASSERT_EQ(simulation.path().size(), 2u);
   EXPECT_TRUE(simulation.path()[0].is_rapid);
   EXPECT_FALSE(simulation.path()[1].is_rapid);

@@ -9,20 +9,20 @@ namespace {
 TEST(MachineStatus, NamesTheMoveThatIsMade) {
   TestMachine test;
   auto& program = test.program;
+  program.spindle(500);
   program.rapid(10, 0);
   program.line(10, -10, 600);
   program.arc(0, -10, -10, 5, 180, 600);  // from X10 to X0 about X5: half a turn
   program.arc(10, -10, -10, 5, 180, 600, interpreter::Turn::Clockwise);
   program.thread(10, -20, 1);
+  test.machine.advance_all(1);
   EXPECT_EQ(test.machine.status().motion, MotionKind::None);
   for (const MotionKind expected :
-       {MotionKind::Rapid, MotionKind::Line, MotionKind::CounterClockwise, MotionKind::Clockwise}) {
-    test.machine.advance(Seconds{0.01});
+       {MotionKind::Rapid, MotionKind::Line, MotionKind::CounterClockwise, MotionKind::Clockwise,
+        MotionKind::Thread}) {
+    test.machine.advance_all(1);
     EXPECT_EQ(test.machine.status().motion, expected);
-    test.machine.advance_all(1);  // this move, and the next begins
   }
-  test.run_all();
-  EXPECT_EQ(test.machine.status().motion, MotionKind::Thread) << "the last one stays";
 }
 
 TEST(MachineStatus, SaysThatAnAxisLimitsTheFeed) {
