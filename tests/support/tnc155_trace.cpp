@@ -1,5 +1,7 @@
 #include "tests/support/tnc155_trace.hpp"
 
+#include <optional>
+
 #include "gateway/interpreter/memory_source.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
 #include "gateway/interpreter/trace/trace_writer.hpp"
@@ -8,6 +10,17 @@ namespace dripline::interpreter {
 namespace {
 
 constexpr std::uint64_t kMostBlocks = 20'000;
+
+/// Two programs that may be called, one of each form; the second leaves other modes in force.
+std::optional<std::string> called_program(std::string_view name) {
+  if (name == "8") {
+    return "0 BEGIN PGM 8 MM\n1 CC IX+5 IY+0\n2 CP IPA+90 DR- R F M\n3 END PGM 8 MM\n";
+  }
+  if (name == "9") {
+    return "%9 G71 *\nN1 G17 G00 G40 G91 X+2 *\nN2 I+5 J+0 *\nN3 G12 H+90 *\nN9999 %9 G71 *\n";
+  }
+  return std::nullopt;
+}
 
 /// Leaves out `"name":value,` where value has no comma.
 void erase_member(std::string& line, std::string_view name) {
@@ -32,7 +45,7 @@ std::string without_places(std::string line) {
 
 std::string tnc155_trace(std::string_view text) {
   const Dialect& dialect = **find_dialect("tnc155");
-  MemorySource source(text);
+  MemorySource source(text, called_program);
   std::string written;
   std::string trace;
   {

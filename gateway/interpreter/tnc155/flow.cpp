@@ -139,11 +139,14 @@ JumpOutcome find_program(Run& run) {
     return JumpOutcome::Failed;
   }
   const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
-  state.programs.push_back({state.at, state.reading.program,
-                            static_cast<std::uint8_t>(state.labels.size()),
+  state.programs.push_back({state.at, state.reading, static_cast<std::uint8_t>(state.labels.size()),
                             is_cycle && state.cycle.is_modal_call});
   if (is_cycle) state.cycle.is_modal_call = false;
-  state.reading.program = ProgramForm{};
+  if (run.options.modes_go_over_calls) {
+    state.reading.program = ProgramForm{};
+  } else {
+    state.reading = ReadingState{};
+  }
   TextPlace entry;
   entry.program = lookup.program;
   go_to(run, entry);
@@ -240,9 +243,13 @@ void end_program(Run& run, bool rewinds) {
     const ProgramFrame& frame = state.programs.back();
     forget_labels_of(state, state.at.program);
     state.labels.resize(frame.label_base);
-    state.reading.program = frame.form;
-    if (state.units != frame.form.units) {
-      state.units = frame.form.units;
+    if (run.options.modes_go_over_calls) {
+      state.reading.program = frame.reading.program;
+    } else {
+      state.reading = frame.reading;
+    }
+    if (state.units != state.reading.program.units) {
+      state.units = state.reading.program.units;
       run.events().on_units({run.origin, state.units});
     }
     go_to(run, frame.back);

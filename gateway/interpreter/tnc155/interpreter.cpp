@@ -205,6 +205,10 @@ bool TncInterpreter::execute_parts() {
     if (!execute(run_, parts.blocks[part_])) return false;
     // what a part has done to the contour comes before what the next one finds wrong
     if (run_.state.uses_stages && !is_last && !check_stages(run_)) return false;
+    if (run_.state.jump.kind != JumpKind::None && !is_last) [[unlikely]] {
+      return run_.fail(ErrorCode::BlockFormatIncorrect,
+                       "a program is called before the end of its block");
+    }
     run_.answer.reset();
     if (run_.state.phase == RunPhase::Ended) [[unlikely]]
       break;

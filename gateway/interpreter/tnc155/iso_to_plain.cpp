@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "gateway/interpreter/tnc155/conversion_parts.hpp"
@@ -86,6 +87,9 @@ class IsoToPlain {
     BlockParts parts;
     Fault fault;
     bool is_gap = false;
+    const bool calls_programs = std::any_of(
+        program_.blocks.begin(), program_.blocks.end(),
+        [](const NumberedIsoBlock& one) { return one.block.has_code(IsoGroup::Cycle, 39); });
     for (std::size_t i = 0; i < program_.blocks.size(); ++i) {
       const auto& [block, line] = program_.blocks[i];
       if (auto checked = check_ways(program_.blocks[i], before[i]); !checked) return checked;
@@ -95,6 +99,10 @@ class IsoToPlain {
       }
       if (parts.count != 0 && is_gap && is_joint(*parts.begin())) {
         return refuse(line, "a corner behind a block that plain language has none for");
+      }
+      if (calls_programs && parts.count > 1 &&
+          std::any_of(parts.begin(), parts.end() - 1, is_positioning)) {
+        return refuse(line, "a cycle that is a program may be called within the block");
       }
       is_gap = parts.count == 0;
       for (const Block& part : parts) {

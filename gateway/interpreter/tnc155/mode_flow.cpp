@@ -40,15 +40,7 @@ bool sets_plane(const IsoBlock& block) {
          !block.has_code(IsoGroup::Cycle, 73);
 }
 
-void open(ModesBefore& state) {
-  state.is_motion_open = state.is_distance_open = state.is_turn_open = true;
-}
-
 ModesBefore behind(const IsoBlock& block, ModesBefore state) {
-  if (block.program != IsoBlock::kNone && !block.has(IsoGroup::Unit)) {
-    open(state);
-    return state;
-  }
   if (block.has(IsoGroup::Motion) && block.code(IsoGroup::Motion) != 7) {
     state.modes.motion = block.code(IsoGroup::Motion);
     state.is_motion_open = false;
@@ -65,9 +57,6 @@ ModesBefore behind(const IsoBlock& block, ModesBefore state) {
     state.modes.has_distance = true;
     state.modes.is_incremental = last == Distance::Incremental;
     state.is_distance_open = false;
-  }
-  if (block.has(IsoGroup::Cycle) && block.parameters != 0) {
-    state.has_program_cycle = block.code(IsoGroup::Cycle) == 39;
   }
   if (block.has(IsoGroup::Compensation)) {
     state.modes.has_compensation = true;
@@ -96,7 +85,6 @@ bool merge(ModesBefore& into, const ModesBefore& from) {
   into.is_plane_open |= from.is_plane_open || into.modes.has_plane != from.modes.has_plane;
   into.is_compensation_open |=
       from.is_compensation_open || into.modes.has_compensation != from.modes.has_compensation;
-  into.has_program_cycle |= from.has_program_cycle;
   into.modes.has_plane |= from.modes.has_plane;
   into.modes.has_compensation |= from.modes.has_compensation;
   return into != old;
@@ -156,7 +144,6 @@ class ModeFlow {
   void pass_on(std::size_t at) {
     const IsoBlock& block = blocks_[at].block;
     ModesBefore state = behind(block, before_[at]);
-    if (state.has_program_cycle && (block.slots != 0 || block.has(IsoGroup::Call))) open(state);
     if (is_label_call(block)) {
       reach_label(block.label, state);
       if (block.repeats != IsoBlock::kNone) reach(at + 1, state);

@@ -16,14 +16,12 @@ struct ModesBefore {
   bool is_turn_open = false;
   bool is_plane_open = false;         ///< whether one was programmed
   bool is_compensation_open = false;  ///< likewise
-  bool has_program_cycle = false;     ///< a cycle call may run a program
   bool is_reached = false;
   friend bool operator==(const ModesBefore&, const ModesBefore&) = default;
 };
 
-/// One for each block of the program. Labels, repeats, jumps and returns are followed; what a
-/// called program leaves in force is open. Blocks that nothing reaches go on from those before
-/// them.
+/// One for each block of the program. Labels, repeats, jumps and returns are followed; a called
+/// program has modes of its own. Blocks that nothing reaches go on from those before them.
 std::vector<ModesBefore> modes_before(const IsoProgram& program);
 
 }  // namespace dripline::interpreter::tnc155

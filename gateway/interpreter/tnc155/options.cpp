@@ -99,7 +99,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "circle_tolerance", "fourth_axis",
                                     "limit_low",        "limit_high",
                                     "m92_position",     "start_block",
-                                    "program_check"});
+                                    "program_check",    "iso_modes"});
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
@@ -120,6 +120,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   const auto sign = decimal_sign_of(options);
   if (!sign) return fail(sign.error());
   read.decimal_sign = *sign;
+  read.modes_go_over_calls = reader.choice("iso_modes", {"program", "run"}, 0) == 1;
   read.checks_calls = reader.choice("program_check", {"start", "call"}, 0) == 0;
   read.spindle_coded = reader.choice("spindle", {"analogue", "coded"}, 0) == 1;
   reader.number("spindle_minimum", read.spindle_minimum);

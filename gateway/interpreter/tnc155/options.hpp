@@ -23,6 +23,9 @@ struct ControlOptions {
   bool iso_continuation = true;
   bool blockwise_restrictions = false;  ///< no calls, repeats and jumps, no tool but the last one
   bool checks_calls = true;             ///< programs that are called must be there at the start
+  /// What G functions leave in force belongs to the run; off: to each program, where nothing is
+  /// preset, and the caller finds its own again.
+  bool modes_go_over_calls = false;
   bool strict_numbers = false;          ///< blocks of plain language are numbered without gaps
   char decimal_sign = ',';              ///< of texts that are written
   bool cancels_transformations = true;  ///< M02, M30 and END PGM do (MP 173)

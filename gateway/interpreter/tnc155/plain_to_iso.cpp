@@ -82,7 +82,6 @@ class PlainToIso {
       case BlockKind::CycleCall:
         iso_.set(IsoGroup::Call, 79);
         iso_.m = block.m;
-        if (calls_programs_) known_ = {};
         return put();
       case BlockKind::Chamfer:
         return convert_corner(block, 24);
@@ -97,7 +96,7 @@ class PlainToIso {
       case BlockKind::Function:
         return convert_function(block);
       case BlockKind::CycleDefinition:
-        return convert_cycle(block);
+        return convert_cycle();
       case BlockKind::BlankForm:
         return convert_blank(block);
       case BlockKind::Probe:
@@ -191,12 +190,12 @@ class PlainToIso {
   }
 
   Result<void> convert_flow(const Block& block) {
-    known_ = {};
     if (block.kind == BlockKind::ProgramCall) {
       if (block.target == program_number()) return refuse("the program calls itself");
       iso_.program = block.target;
       return put();
     }
+    known_ = {};
     iso_.label = block.target;
     if (block.kind == BlockKind::Label) iso_.set(IsoGroup::Label, 98);
     iso_.repeats = block.repeats;
@@ -217,14 +216,13 @@ class PlainToIso {
   }
 
   /// The sub-blocks that follow one another, as one block.
-  Result<void> convert_cycle(const Block& first) {
+  Result<void> convert_cycle() {
     const auto rest = std::span(blocks_).subspan(at_);
     const std::size_t count = definition_length(rest);
     if (count == 0) return refuse("CYCL INCOMPLETE: the sub-blocks of the cycle are not complete");
     if (!add_definition_words(rest.first(count), iso_)) {
       return refuse("CYCL DEF 7 names an axis twice");
     }
-    calls_programs_ |= first.cycle == 12;
     sort_distances();
     return put(count);
   }
@@ -280,7 +278,6 @@ class PlainToIso {
     iso_.feed = block.feed;
     iso_.m = block.m;
     sort_distances();
-    if (calls_programs_) known_ = {};  // M89 may call after any move
     return put();
   }
 
@@ -333,7 +330,6 @@ class PlainToIso {
   bool has_plane_ = false;
   bool has_own_plane_ = true;  ///< the program's; else the one we said
   bool has_flow_ = false;
-  bool calls_programs_ = false;
   KnownModes known_;
   IsoBlock iso_;
   std::string text_;

@@ -50,10 +50,9 @@ bool is_flow(const Block& block) {
 }
 
 void CompensationTrack::pass(const Block& block) {
-  if (is_flow(block)) {
-    is_on_ = is_begun_ = is_first_ = Answer::Unknown;
-    return;
-  }
+  calls_programs_ |= block.kind == BlockKind::CycleDefinition && block.cycle == 12;
+  is_modal_call_ |= block.m == 89;
+  if (is_flow(block) || may_run_program(block)) return open();
   switch (block.kind) {
     case BlockKind::Begin:
       return end();
@@ -71,6 +70,18 @@ void CompensationTrack::pass(const Block& block) {
       break;
   }
   if (is_path(block) || block.kind == BlockKind::Line) pass_move(block);
+}
+
+/// A called program may leave compensation as it likes.
+void CompensationTrack::open() {
+  is_on_ = is_begun_ = is_first_ = Answer::Unknown;
+}
+
+bool CompensationTrack::may_run_program(const Block& block) const {
+  if (!calls_programs_) return false;
+  const bool moves = is_path(block) || block.kind == BlockKind::SingleAxis;
+  return block.kind == BlockKind::CycleCall || block.m == 99 || block.m == 89 ||
+         (is_modal_call_ && moves);
 }
 
 void CompensationTrack::end() {

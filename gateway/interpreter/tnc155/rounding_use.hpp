@@ -22,12 +22,16 @@ class CompensationTrack {
   enum class Answer : std::uint8_t { No, Yes, Unknown };
 
   void end();
+  void open();
+  bool may_run_program(const Block& block) const;
   void pass_move(const Block& block);
   Answer names_plane(const Block& block) const;
 
   Answer is_on_ = Answer::No;     ///< RL or RR is in force
   Answer is_begun_ = Answer::No;  ///< since then no block has named a coordinate of the plane
   Answer is_first_ = Answer::No;  ///< the last block was the first one to do so
+  bool calls_programs_ = false;   ///< a cycle was defined that is a program
+  bool is_modal_call_ = false;    ///< M89
   std::optional<Axis> normal_ = Axis::Z;  ///< of the plane; none: axis IV, whichever that is
 };
 

@@ -85,9 +85,20 @@ void visit(Archive& archive, LabelFrame& frame) {
   visit(archive, frame.back);
 }
 template <class Archive>
+void visit_reading(Archive& archive, ReadingState& reading) {
+  visit(archive, reading.program);
+  IsoModes& iso = reading.iso;
+  visit_all(archive, iso.motion, iso.has_plane, iso.has_compensation, iso.has_distance,
+            iso.is_incremental);
+  visit_optional(archive, iso.last_turn, Turn::CounterClockwise);
+  visit_optional(archive, reading.last_path, BlockKind::Probe);
+  up_to(archive, reading.last_turn, Turn::CounterClockwise);
+}
+
+template <class Archive>
 void visit(Archive& archive, ProgramFrame& frame) {
   visit(archive, frame.back);
-  visit(archive, frame.form);
+  visit_reading(archive, frame.reading);
   visit_all(archive, frame.label_base, frame.resumes_modal_call);
 }
 template <class Archive>
@@ -102,17 +113,6 @@ void visit_list(Archive& archive, std::vector<Element>& list, std::size_t most) 
   if (!archive.size(count, most)) return;
   list.resize(count);
   for (Element& element : list) visit(archive, element);
-}
-
-template <class Archive>
-void visit_reading(Archive& archive, ReadingState& reading) {
-  visit(archive, reading.program);
-  IsoModes& iso = reading.iso;
-  visit_all(archive, iso.motion, iso.has_plane, iso.has_compensation, iso.has_distance,
-            iso.is_incremental);
-  visit_optional(archive, iso.last_turn, Turn::CounterClockwise);
-  visit_optional(archive, reading.last_path, BlockKind::Probe);
-  up_to(archive, reading.last_turn, Turn::CounterClockwise);
 }
 
 template <class Archive>

@@ -60,7 +60,7 @@ struct LabelFrame {
 /// CALL PGM, cycle 12.
 struct ProgramFrame {
   TextPlace back;
-  ProgramForm form;  ///< of the caller
+  ReadingState reading;  ///< of the caller
   std::uint8_t label_base = 0;
   bool resumes_modal_call = false;  ///< M89 rests while this program of a cycle runs
 };

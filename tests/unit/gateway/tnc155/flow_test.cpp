@@ -95,6 +95,26 @@ TEST(TncFlow, ACalledProgramHasItsOwnUnits) {
                                       testing::StartsWith("end ")));
 }
 
+// HD-149, HD-038: in a called program nothing is preset, and the caller finds its own G functions
+// again; a control may also keep one set of them for all programs.
+TEST(TncFlow, EveryProgramHasItsOwnModes) {
+  const std::string main =
+      "%3 G71 *\nN1 G17 G40 G90 G00 X+10 *\nN2 %7 *\nN3 X+20 *\nN9999 %3 G71 *\n";
+  PathSetup library;
+  library.programs = {{"7", "%7 G71 *\nN1 G17 G40 G91 G01 X+5 F90 *\nN9999 %7 G71 *\n"}};
+  EXPECT_THAT(run_text(main, library).events,
+              ElementsAre("R X10", "L X15 F90", "R X20", testing::StartsWith("end")));
+  PathSetup together = library;
+  together.setup = "[control]\niso_modes = \"run\"";
+  EXPECT_THAT(run_text(main, together).events,
+              ElementsAre("R X10", "L X15 F90", "L X35 F90", testing::StartsWith("end")));
+  library.programs = {{"7", "%7 G71 *\nN1 X+5 *\nN9999 %7 G71 *\n"}};
+  EXPECT_EQ(run_text(main, library).alarm_id, "TNC-START-UNDEFINED");
+  library.setup = together.setup;
+  EXPECT_THAT(run_text(main, library).events,
+              ElementsAre("R X10", "R X5", "R X20", testing::StartsWith("end")));
+}
+
 // HD-149: four levels; HD-150
 TEST(TncFlow, ProgramsNestFourDeep) {
   PathSetup library;

@@ -92,7 +92,7 @@ class ProgramMaker {
   std::string turn() { return pick(2) ? "DR+" : "DR-"; }
 
   void add_block() {
-    switch (pick(18)) {
+    switch (pick(19)) {
       case 0:
         return add("CC {} {}", axis('X'), axis('Y'));
       case 1:
@@ -131,6 +131,12 @@ class ProgramMaker {
         if (has_label_ || pick(3) != 0) return add("STOP M09");
         has_label_ = true;
         return add("LBL 1");
+      case 16:
+        if (pick(2)) return add("CALL PGM {}", 8 + pick(2));
+        add("CYCL DEF 12.0 PGM CALL");
+        add("CYCL DEF 12.1 PGM {}", 8 + pick(2));
+        return add("L {} {} {} F {}", axis('X'), axis('Y'), compensation(),
+                   pick(2) ? "M99" : "M89");
       default:
         return add("L {} {} {}", axis('X'), axis('Y'), tail());
     }
