@@ -60,7 +60,7 @@ class Program {
         turn_on(a);
         break;
       case 1:
-        compensator.turn_off();
+        bytes[2] % 4 == 3 ? round({a, b}) : compensator.turn_off();
         break;
       case 2:
         at_.set(Axis::Z, Length::mm(a));
@@ -84,6 +84,14 @@ class Program {
     if (compensator.is_waiting() || !compensator.fault())
       compensator.turn_on(
           {.radius = Length::mm(radius), .tip_first = Length::mm(0.5), .tip_second = {}});
+  }
+  void round(PlaneVector along) {
+    const double size = length(along);
+    if (size > 100) {
+      compensator.go_round_corner(origin_, feed_);
+    } else if (size > 0) {
+      compensator.go_round_corner(origin_, feed_, (1 / size) * along);
+    }
   }
   void straight(double x, double y, bool is_rapid) {
     at_.set(Axis::X, Length::mm(x));
