@@ -104,6 +104,13 @@ Result<void> SqliteStore::reject_revision(const std::string& program, std::uint6
                                           const std::string& who) {
   return repositories_->programs.reject({program, number, who, repositories_->clock.now()});
 }
+Result<Revision> SqliteStore::copy_program(const ProgramMove& move,
+                                           std::optional<std::uint64_t> number) {
+  return repositories_->programs.copy(move, number, repositories_->clock.now());
+}
+Result<void> SqliteStore::rename_program(const ProgramMove& move) {
+  return repositories_->programs.rename(move, repositories_->clock.now());
+}
 Result<void> SqliteStore::remove_program(const std::string& program) {
   return repositories_->programs.remove(program);
 }

@@ -53,6 +53,9 @@ class SqliteStore final : public Store {
                                    const std::string& who) override;
   Result<void> reject_revision(const std::string& program, std::uint64_t number,
                                const std::string& who) override;
+  Result<Revision> copy_program(const ProgramMove& move,
+                                std::optional<std::uint64_t> number) override;
+  Result<void> rename_program(const ProgramMove& move) override;
   Result<void> remove_program(const std::string& program) override;
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length) override;

@@ -41,6 +41,12 @@ struct ProgramSummary {
   std::uint64_t held = 0;  ///< revisions that wait for acceptance
 };
 
+/// A program that gets another name, or a copy of one.
+struct ProgramMove {
+  std::string from, to;
+  std::string who;
+};
+
 /// An upload in progress. Survives a restart of the server; abandoned ones are dropped after a day.
 struct Upload {
   std::string id;
@@ -227,6 +233,15 @@ class Store {
   /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is not held).
   virtual Result<void> reject_revision(const std::string& program, std::uint64_t number,
                                        const std::string& who) = 0;
+  /// Makes a new program of the latest revision, or of the one with that number; the audit entry
+  /// (program.copy) is part of the transaction. Errors: NotFound, Syntax and LimitExceeded (the new
+  /// name), ModalConflict (it exists, or is the same; the revision is held).
+  virtual Result<Revision> copy_program(const ProgramMove& move,
+                                        std::optional<std::uint64_t> number) = 0;
+  /// Gives a program with all its revisions, and its runs, another name; the audit entry
+  /// (program.rename) is part of the transaction. Errors: as copy_program's, Busy (an unfinished
+  /// run uses it, named).
+  virtual Result<void> rename_program(const ProgramMove& move) = 0;
   /// Hides the program from listings and starts; runs keep their revision. A program pushed again
   /// under the name shows only its new revisions, numbered on. Errors: NotFound, Busy (an
   /// unfinished run uses it).

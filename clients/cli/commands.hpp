@@ -10,6 +10,7 @@ void add_program_commands(CLI::App& app, Context& context);
 void add_machine_commands(CLI::App& app, Context& context);
 void add_run_commands(CLI::App& app, Context& context);
 void add_port_commands(CLI::App& app, Context& context);
+void add_port_transfer_commands(CLI::App& group, Context& context);
 /// Verbs of `dnc port` that need no server.
 void add_port_doctor_command(CLI::App& group, Context& context);
 void add_port_replay_command(CLI::App& group, Context& context);

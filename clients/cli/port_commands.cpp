@@ -239,6 +239,7 @@ void add_port_commands(CLI::App& app, Context& context) {
   add_test_rules(*group, context);
   add_monitor(*group, context);
   add_recording(*group, context);
+  add_port_transfer_commands(*group, context);
   add_port_doctor_command(*group, context);
   add_port_replay_command(*group, context);
   add_port_page_command(*group, context);

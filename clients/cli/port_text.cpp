@@ -27,6 +27,13 @@ std::string own_settings_text(const client::Settings& settings) {
   return text;
 }
 
+std::string transfer_text(const std::optional<client::Transfer>& transfer) {
+  if (!transfer) return {};
+  std::string text = transfer->state + ":";
+  for (const auto& program : transfer->programs) text += " " + program;
+  return text + fmt::format(", {} of {}", bytes_text(transfer->sent), bytes_text(transfer->size));
+}
+
 std::string rules_text(const std::string& rules) {
   if (rules.empty()) return "none: programs are kept, lines are reported";
   const auto lines = std::count(rules.begin(), rules.end(), '\n') + (rules.back() != '\n' ? 1 : 0);
@@ -87,6 +94,7 @@ Details port_details(const client::Port& port) {
   details.add("state", Cell(state_text(port), style_of_state(port)));
   details.add("trouble", Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad));
   details.add("run", port.run);
+  details.add("transfer", transfer_text(port.transfer));
   details.add("sent", bytes_text(port.sent));
   details.add("received", bytes_text(port.received));
   details.add("rules", rules_text(port.rules));

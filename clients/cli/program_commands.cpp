@@ -17,6 +17,11 @@ struct RevisionCommand {
   std::uint64_t revision = 0;
 };
 
+struct MoveCommand {
+  std::string from, to;
+  std::optional<std::uint64_t> revision;
+};
+
 Cell held_cell(std::uint64_t held) {
   return held == 0 ? Cell("") : Cell(std::to_string(held), Style::Busy);
 }
@@ -41,6 +46,7 @@ int list_programs(Context& context) {
                {"REV", Align::Right},
                {"HELD", Align::Right},
                {"SIZE", Align::Right},
+               {"TITLE"},
                {"CONTROL"},
                {"CREATED"},
                {"AUTHOR"},
@@ -48,8 +54,8 @@ int list_programs(Context& context) {
   std::uint64_t held = 0;
   for (const auto& program : *programs) {
     table.add({program.name, program.held ? Cell("-") : Cell(std::to_string(program.revision)),
-               held_cell(program.held_revisions), bytes_text(program.size), program.control,
-               time_text(program.created), program.author, program.comment});
+               held_cell(program.held_revisions), bytes_text(program.size), program.title,
+               program.control, time_text(program.created), program.author, program.comment});
     held += program.held_revisions;
   }
   if (table.empty()) context.print("The library is empty; dnc program push FILE fills it.\n");
@@ -75,6 +81,7 @@ int show_program(Context& context, const std::string& name) {
   const auto& program = history->program;
   Details details;
   details.add("program", program.name);
+  details.add("title", program.title);
   details.add("control", program.control);
   details.add("latest", program.held ? Cell("none: what is here waits for acceptance", Style::Busy)
                                      : Cell(fmt::format("revision {}, {}", program.revision,
@@ -105,6 +112,27 @@ int remove_program(Context& context, const std::string& name) {
   auto removed = client->remove_program(name);
   if (!removed) return complain(removed.error());
   context.print(fmt::format("Removed {} from the library; its runs and reports stay.\n", name));
+  return kExitOk;
+}
+
+int copy_program(Context& context, const MoveCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto copy = client->copy_program(command.from, command.to, command.revision);
+  if (!copy) return complain(copy.error());
+  context.print(fmt::format("{} revision {}: {}, {}\n", copy->program, copy->revision,
+                            copy->comment, bytes_text(copy->size)));
+  return kExitOk;
+}
+
+int rename_program(Context& context, const MoveCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto renamed = client->rename_program(command.from, command.to);
+  if (!renamed) return complain(renamed.error());
+  const auto count = renamed->revisions.size();
+  context.print(fmt::format("{} is now {}, with {} revision{}; its runs and reports go with it.\n",
+                            command.from, renamed->program.name, count, count == 1 ? "" : "s"));
   return kExitOk;
 }
 
@@ -185,6 +213,31 @@ void add_by_name(CLI::App& group, Context& context, const char* verb, const char
   command->callback([&context, name, action] { context.status = action(context, *name); });
 }
 
+void add_copy(CLI::App& group, Context& context) {
+  auto* command =
+      group.add_subcommand("copy", "Make a new program of another one's latest revision");
+  auto options = std::make_shared<MoveCommand>();
+  command->add_option("NAME", options->from, "The program")->required();
+  command->add_option("NEW", options->to, "Name of the copy; no program may have it")->required();
+  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command->footer(
+      "The copy begins with that revision as its first; what it is a copy of stands in its comment "
+      "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
+  command->callback([&context, options] { context.status = copy_program(context, *options); });
+}
+
+void add_rename(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("rename", "Give a program another name");
+  auto options = std::make_shared<MoveCommand>();
+  command->add_option("NAME", options->from, "The program")->required();
+  command->add_option("NEW", options->to, "Its new name; no program may have it")->required();
+  command->footer(
+      "All its revisions, runs and reports go with it. It is refused while a run uses the program "
+      "or a\nrevision from a machine waits for acceptance. The text stays as it is: an O number in "
+      "it too.\n\nExample:\n  dnc program rename O0200 O0210");
+  command->callback([&context, options] { context.status = rename_program(context, *options); });
+}
+
 }  // namespace
 
 void add_program_commands(CLI::App& app, Context& context) {
@@ -198,6 +251,8 @@ void add_program_commands(CLI::App& app, Context& context) {
   add_by_name(*group, context, "show", "One program and all its revisions", show_program);
   add_judgement(*group, context, "accept", "Put a held revision in force", accept_revision);
   add_judgement(*group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_copy(*group, context);
+  add_rename(*group, context);
   add_by_name(*group, context, "remove", "Take a program out of the library", remove_program);
 }
 

@@ -25,7 +25,9 @@ struct ServerInfo {
 struct Program {
   std::string name;
   std::uint64_t revision = 0, revisions = 0, size = 0;
-  std::string sha256, control, comment, author, created;
+  std::string sha256;
+  std::string title;  ///< what it calls itself in its first block
+  std::string control, comment, author, created;
   bool held = false;
   std::string accepted;
   std::uint64_t held_revisions = 0;
@@ -34,7 +36,9 @@ struct Program {
 struct Revision {
   std::string program;
   std::uint64_t revision = 0, size = 0;
-  std::string sha256, control, comment, author, created;
+  std::string sha256;
+  std::string title;  ///< what it calls itself in its first block
+  std::string control, comment, author, created;
   bool held = false;       ///< came from a machine and waits for acceptance
   std::string accepted;    ///< when, of one that was held
   bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
@@ -135,6 +139,15 @@ struct Report {
 /// Key and value, both as people write them.
 using Settings = std::map<std::string, std::string>;
 
+/// Programs sent without a run.
+struct Transfer {
+  std::string id;
+  std::vector<std::string> programs;
+  std::uint64_t size = 0, sent = 0;
+  std::string state;  ///< sending, completed, aborted, interrupted
+  std::string reason;
+};
+
 struct Port {
   std::string name, machine, address, line_template;
   Settings settings;  ///< its own, over those of its template
@@ -150,6 +163,7 @@ struct Port {
     bool without_limit = false;
   } line;
   std::string run;
+  std::optional<Transfer> transfer;  ///< the last one
   std::uint64_t sent = 0, received = 0;
   std::string waiting_since;
 };

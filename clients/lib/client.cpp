@@ -175,6 +175,23 @@ Reply<void> Client::remove_program(std::string_view name) {
   return {};
 }
 
+Reply<Revision> Client::copy_program(std::string_view from, const std::string& to,
+                                     std::optional<std::uint64_t> revision) {
+  Json json{{"to", to}};
+  if (revision) json["revision"] = *revision;
+  const std::string body = dumped(json);
+  HttpRequest http = with_method("POST", path_of("programs", from) + "/copy");
+  http.body = body;
+  return fetch<Revision>(http);
+}
+
+Reply<ProgramHistory> Client::rename_program(std::string_view from, const std::string& to) {
+  const std::string body = dumped({{"to", to}});
+  HttpRequest http = with_method("POST", path_of("programs", from) + "/rename");
+  http.body = body;
+  return fetch<ProgramHistory>(http);
+}
+
 Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t revision) {
   return fetch<Revision>(with_method(
       "POST", fmt::format("{}/revisions/{}/accept", path_of("programs", name), revision)));

@@ -97,6 +97,10 @@ class Client {
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);
   Reply<void> remove_program(std::string_view name);
+  /// The latest revision unless one is named.
+  Reply<Revision> copy_program(std::string_view from, const std::string& to,
+                               std::optional<std::uint64_t> revision);
+  Reply<ProgramHistory> rename_program(std::string_view from, const std::string& to);
   Reply<Revision> accept_revision(std::string_view name, std::uint64_t revision);
   Reply<void> reject_revision(std::string_view name, std::uint64_t revision);
   /// Fewer bytes than asked only at the end of the content.
@@ -127,6 +131,10 @@ class Client {
   Reply<Port> port(std::string_view name);
   Reply<Port> save_port(const PortRequest& request);
   Reply<void> remove_port(std::string_view name);
+  /// Names, or NAME@REVISION, in their order.
+  Reply<Transfer> send_programs(std::string_view port, const std::vector<std::string>& programs);
+  Reply<void> receive_program(std::string_view port);
+  Reply<void> stop_transfer(std::string_view port);
   Reply<PortTest> test_port(std::string_view name);
   Reply<RuleVerdict> test_rules(std::string_view name, std::string_view text);
   /// JSON lines of Traffic; they go to `sink` as they come, false from it ends the call.

@@ -37,6 +37,26 @@ Reply<void> Client::remove_port(std::string_view name) {
   return {};
 }
 
+Reply<Transfer> Client::send_programs(std::string_view port,
+                                      const std::vector<std::string>& programs) {
+  const std::string body = dumped({{"programs", programs}});
+  HttpRequest http = with_method("POST", path_of("ports", port) + "/transfers");
+  http.body = body;
+  return fetch<Transfer>(http);
+}
+
+Reply<void> Client::receive_program(std::string_view port) {
+  auto response = exchange(with_method("POST", path_of("ports", port) + "/receive"));
+  if (!response) return failed(response.error());
+  return {};
+}
+
+Reply<void> Client::stop_transfer(std::string_view port) {
+  auto response = exchange(with_method("DELETE", path_of("ports", port) + "/transfers"));
+  if (!response) return failed(response.error());
+  return {};
+}
+
 Reply<PortTest> Client::test_port(std::string_view name) {
   return fetch<PortTest>(with_method("POST", path_of("ports", name) + "/test"));
 }

@@ -108,6 +108,11 @@ struct LineSettings {
   std::optional<std::chrono::milliseconds> hold_limit;
   unsigned retries = 10;   ///< of one block of a checked protocol; a TNC's is 3
   bool xmodem_crc = true;  ///< as receiver: ask for CRC first, then fall back to the checksum
+  /// As a host: each O line in a text that the control sends begins a program of its own. The
+  /// control's own splitting is `control.splits_programs`.
+  bool extracts_programs = false;
+  /// As a host: bytes that the control's memory takes of programs sent without a run; 0: not known.
+  unsigned program_memory = 0;
   HeidenhainSettings heidenhain;
   ReaderSettings reader;
   ControlSettings control;

@@ -33,6 +33,7 @@ LineSettings prototrak() {
 
 LineSettings centurion() {
   LineSettings settings = line(9600, 7, Parity::Even, StopBits::Two);
+  settings.extracts_programs = true;
   settings.control.kind = ControlKind::Centurion;
   settings.control.buffer_size = 256;
   return settings;
@@ -53,6 +54,7 @@ LineSettings fanuc() {
   settings.end_of_block = EndOfBlock::Lf;
   settings.start_character = '%';
   settings.end_character = '%';
+  settings.extracts_programs = true;
   settings.control.kind = ControlKind::Fanuc;
   settings.control.buffer_size = 10;  // more than that behind its DC3 is alarm 087
   return settings;

@@ -193,6 +193,10 @@ constexpr std::array kRows{
     limit<"hold_limit_ms", &S::hold_limit>("longest wait for XON or CTS while held"),
     number<"retries", 0, kMaximumRetries, &S::retries>("repeats of one block, checked protocols"),
     flag<"xmodem_crc", &S::xmodem_crc>("XMODEM: ask for CRC before the checksum"),
+    flag<"extract_programs", &S::extracts_programs>(
+        "what comes in is split at its O lines, a program each"),
+    number<"program_memory", 0, 1'000'000'000, &S::program_memory>(
+        "bytes the control's memory takes of sent programs; 0: not known"),
     character<"tnc_heading", &S::heidenhain, &H::heading>("TNC blockwise: type of our headings"),
     character<"tnc_soh", &S::heidenhain, &H::soh>("TNC blockwise: start of a heading"),
     character<"tnc_stx", &S::heidenhain, &H::stx>("TNC blockwise: start of a block"),

@@ -81,6 +81,26 @@ Result<CommitBody> decode_commit(std::string_view body) {
   return CommitBody{.sha256 = *digest};
 }
 
+Result<CopyBody> decode_copy(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  CopyBody copy;
+  copy.to = object->required_text("to", kMaxName);
+  copy.revision = object->optional_unsigned("revision");
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_program_name(copy.to); !good) return fail(good.error());
+  return copy;
+}
+
+Result<std::string> decode_rename(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  auto to = object->required_text("to", kMaxName);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_program_name(to); !good) return fail(good.error());
+  return to;
+}
+
 Result<feeds::StartRequest> decode_start(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());

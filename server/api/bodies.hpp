@@ -19,6 +19,14 @@ struct CommitBody {
 /// An empty body is an empty object: everything in it is optional.
 Result<CommitBody> decode_commit(std::string_view body);
 
+struct CopyBody {
+  std::string to;
+  std::optional<std::uint64_t> revision;
+};
+Result<CopyBody> decode_copy(std::string_view body);
+/// The new name.
+Result<std::string> decode_rename(std::string_view body);
+
 /// The author is left empty.
 Result<feeds::StartRequest> decode_start(std::string_view body);
 

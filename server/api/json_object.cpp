@@ -130,6 +130,30 @@ std::optional<bool> JsonObject::optional_flag(const std::string& name) {
   return value->get<bool>();
 }
 
+std::vector<std::string> JsonObject::optional_texts(const std::string& name, std::size_t longest,
+                                                    std::size_t most) {
+  std::vector<std::string> texts;
+  const auto value = take(name);
+  if (!value) return texts;
+  if (!value->is_array()) {
+    complain(Errc::Syntax, fmt::format("member '{}' must be a list", name));
+    return texts;
+  }
+  if (value->size() > most) {
+    complain(Errc::LimitExceeded,
+             fmt::format("member '{}' has {} items: at most {}", name, value->size(), most));
+    return texts;
+  }
+  for (const auto& item : *value) {
+    if (!item.is_string()) {
+      complain(Errc::Syntax, fmt::format("member '{}' must be a list of strings", name));
+      break;
+    }
+    texts.push_back(checked_text(name, item.get<std::string>(), longest));
+  }
+  return texts;
+}
+
 std::vector<std::pair<std::string, std::string>> JsonObject::optional_scalars(
     const std::string& name, std::size_t longest) {
   std::vector<std::pair<std::string, std::string>> scalars;

@@ -28,6 +28,9 @@ class JsonObject {
   std::optional<std::uint64_t> optional_unsigned(const std::string& name);
   std::optional<double> optional_number(const std::string& name);
   std::optional<bool> optional_flag(const std::string& name);
+  /// A list of at most `most` strings. Absent: empty.
+  std::vector<std::string> optional_texts(const std::string& name, std::size_t longest,
+                                          std::size_t most);
   /// An object of strings, whole numbers and booleans, each as text; in order of their names.
   /// Absent: empty.
   std::vector<std::pair<std::string, std::string>> optional_scalars(const std::string& name,

@@ -4,6 +4,7 @@
 
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
+#include "server/api/request.hpp"
 
 namespace dripline::api {
 namespace {
@@ -17,6 +18,20 @@ Result<void> check_size(const storage::Port& port) {
   }
   if (port.address.empty()) return fail(Errc::Syntax, "member 'address' is empty");
   return {};
+}
+
+/// "NAME" or "NAME@REVISION".
+Result<ports::ProgramChoice> parse_choice(const std::string& text) {
+  const auto at = text.find('@');
+  ports::ProgramChoice choice{.program = text.substr(0, at), .revision = {}};
+  if (auto good = check_program_name(choice.program); !good) return fail(good.error());
+  if (at == std::string::npos) return choice;
+  const auto number = parse_unsigned(text.substr(at + 1));
+  if (number) {
+    choice.revision = *number;
+    return choice;
+  }
+  return fail(Errc::Syntax, "'{}': expected a program, or PROGRAM@REVISION", text);
 }
 
 }  // namespace
@@ -39,6 +54,20 @@ Result<storage::Port> decode_port(const std::string& name, std::string_view body
   std::stable_partition(port.settings.begin(), port.settings.end(),
                         [](const auto& setting) { return setting.first == "line"; });
   return port;
+}
+
+Result<std::vector<ports::ProgramChoice>> decode_transfer(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto texts = object->optional_texts("programs", kMaxName, ports::kMaxTransferPrograms);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  std::vector<ports::ProgramChoice> choices;
+  for (const auto& text : texts) {
+    auto choice = parse_choice(text);
+    if (!choice) return fail(choice.error());
+    choices.push_back(*std::move(choice));
+  }
+  return choices;
 }
 
 Result<std::string> decode_rules_text(std::string_view body) {

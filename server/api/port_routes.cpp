@@ -1,3 +1,4 @@
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "server/api/port_bodies.hpp"
@@ -67,6 +68,30 @@ Response test_port(Services& services, ports::PortControl& ports, const Request&
   return json_response(200, port_test_json(*test));
 }
 
+Response send_programs(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto programs = decode_transfer(request.body);
+  if (!programs) return error_response(programs.error());
+  const auto transfer = ports.send(request.parameter("name"), *programs);
+  if (!transfer) return error_response(transfer.error());
+  note(services, request, "port.send",
+       fmt::format("{}: {} bytes", fmt::join(transfer->programs, ", "), transfer->size));
+  return json_response(201, transfer_json(*transfer));
+}
+
+Response receive_program(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto begun = ports.receive(request.parameter("name"));
+  if (!begun) return error_response(begun.error());
+  note(services, request, "port.receive", "");
+  return no_content();
+}
+
+Response stop_transfer(Services& services, ports::PortControl& ports, const Request& request) {
+  const auto stopped = ports.stop_transfer(request.parameter("name"), "stopped by " + request.who);
+  if (!stopped) return error_response(stopped.error());
+  note(services, request, "port.stop", "");
+  return no_content();
+}
+
 Response test_rules(Services&, ports::PortControl& ports, const Request& request) {
   const auto text = decode_rules_text(request.body);
   if (!text) return error_response(text.error());
@@ -125,6 +150,9 @@ void add_port_routes(Router& router, Services& services) {
   router.add("DELETE", port, with_ports(services, remove_port));
   router.add("POST", port + "/test", with_ports(services, test_port));
   router.add("POST", port + "/test-rules", with_ports(services, test_rules));
+  router.add("POST", port + "/transfers", with_ports(services, send_programs));
+  router.add("POST", port + "/receive", with_ports(services, receive_program));
+  router.add("DELETE", port + "/transfers", with_ports(services, stop_transfer));
   router.add("GET", port + "/recording", with_ports(services, send_recording));
   router.add("GET", port + "/traffic", with_ports(services, open_traffic));
   router.add("GET", "/api/v1/port-templates", list_templates);

@@ -60,6 +60,12 @@ std::string hex(std::string_view bytes) {
 
 }  // namespace
 
+json transfer_json(const ports::PortTransfer& transfer) {
+  return {{"id", transfer.id},       {"programs", transfer.programs},
+          {"size", transfer.size},   {"sent", transfer.sent},
+          {"state", transfer.state}, {"reason", optional_text(transfer.reason)}};
+}
+
 json port_json(const ports::PortView& view) {
   return {{"name", view.port.name},
           {"machine", view.port.machine},
@@ -73,6 +79,7 @@ json port_json(const ports::PortView& view) {
           {"trouble", optional_text(view.trouble)},
           {"line", line_json(view.line)},
           {"run", optional_text(view.run)},
+          {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
           {"sent", view.sent},
           {"received", view.received},
           {"waiting_since",

@@ -7,6 +7,7 @@
 /// The JSON of serial ports and what passes over them. Pure; absent values are null.
 namespace dripline::api {
 
+nlohmann::json transfer_json(const ports::PortTransfer& transfer);
 nlohmann::json port_json(const ports::PortView& view);
 /// `bytes` in hexadecimal: any byte, one line.
 nlohmann::json traffic_json(const ports::PortTraffic& traffic);

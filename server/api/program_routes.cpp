@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "server/api/bodies.hpp"
 #include "server/api/byte_range.hpp"
 #include "server/api/routes.hpp"
 #include "server/api/views.hpp"
@@ -17,26 +18,50 @@ Response list_programs(Services& services, const Request& request) {
   const auto programs = services.programs.list(page);
   if (!programs) return error_response(programs.error());
   auto list = nlohmann::json::array();
-  for (const auto& program : *programs) list.push_back(program_json(program));
+  for (const auto& program : *programs) {
+    list.push_back(program_json(program, services.programs.title(program.latest)));
+  }
   return json_response(200, {{"programs", std::move(list)}});
 }
 
-Response show_program(Services& services, const Request& request) {
-  QueryReader query(request);
-  if (auto good = query.finish(); !good) return error_response(good.error());
-  const std::string& name = request.parameter("name");
+Response program_view(Services& services, const std::string& name) {
   const auto revisions = services.programs.revisions(name);
   if (!revisions) return error_response(revisions.error());
   const auto is_held = [](const storage::Revision& revision) { return revision.is_held; };
   const auto latest = std::ranges::find_if_not(*revisions, is_held);
   const auto held = static_cast<std::uint64_t>(std::ranges::count_if(*revisions, is_held));
-  auto view = program_json({.latest = latest == revisions->end() ? revisions->front() : *latest,
-                            .revisions = revisions->size(),
-                            .held = held});
+  const auto& shown = latest == revisions->end() ? revisions->front() : *latest;
+  auto view = program_json({.latest = shown, .revisions = revisions->size(), .held = held},
+                           services.programs.title(shown));
   auto list = nlohmann::json::array();
-  for (const auto& revision : *revisions) list.push_back(revision_json(revision));
+  for (const auto& revision : *revisions) {
+    list.push_back(revision_json(revision, services.programs.title(revision)));
+  }
   view["revisions"] = std::move(list);
   return json_response(200, view);
+}
+
+Response show_program(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  return program_view(services, request.parameter("name"));
+}
+
+Response copy_program(Services& services, const Request& request) {
+  const auto body = decode_copy(request.body);
+  if (!body) return error_response(body.error());
+  const auto copy = services.programs.copy(
+      {.from = request.parameter("name"), .to = body->to, .who = request.who}, body->revision);
+  if (!copy) return error_response(copy.error());
+  return json_response(201, revision_json(*copy, services.programs.title(*copy)));
+}
+
+Response rename_program(Services& services, const Request& request) {
+  const auto to = decode_rename(request.body);
+  if (!to) return error_response(to.error());
+  const auto renamed =
+      services.programs.rename({.from = request.parameter("name"), .to = *to, .who = request.who});
+  return renamed ? program_view(services, *to) : error_response(renamed.error());
 }
 
 Response remove_program(Services& services, const Request& request) {
@@ -55,7 +80,8 @@ Response accept_revision(Services& services, const Request& request) {
   const auto number = revision_number(request);
   if (!number) return error_response(number.error());
   const auto accepted = services.programs.accept(request.parameter("name"), *number, request.who);
-  return accepted ? json_response(200, revision_json(*accepted)) : error_response(accepted.error());
+  if (!accepted) return error_response(accepted.error());
+  return json_response(200, revision_json(*accepted, services.programs.title(*accepted)));
 }
 
 Response reject_revision(Services& services, const Request& request) {
@@ -137,6 +163,10 @@ void add_program_routes(Router& router, Services& services) {
              [&](const Request& request) { return show_program(services, request); });
   router.add("DELETE", "/api/v1/programs/{name}",
              [&](const Request& request) { return remove_program(services, request); });
+  router.add("POST", "/api/v1/programs/{name}/copy",
+             [&](const Request& request) { return copy_program(services, request); });
+  router.add("POST", "/api/v1/programs/{name}/rename",
+             [&](const Request& request) { return rename_program(services, request); });
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/accept",
              [&](const Request& request) { return accept_revision(services, request); });
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/reject",

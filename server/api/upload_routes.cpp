@@ -38,7 +38,7 @@ Response commit_upload(Services& services, const Request& request) {
   const auto committed =
       services.programs.commit(request.parameter("id"), body->sha256, request.who);
   if (!committed) return error_response(committed.error());
-  auto view = revision_json(committed->revision);
+  auto view = revision_json(committed->revision, services.programs.title(committed->revision));
   if (!committed->is_unchanged) return json_response(201, view);
   view["unchanged"] = true;
   return json_response(200, view);

@@ -93,11 +93,12 @@ json upload_json(const storage::Upload& upload, std::uint64_t max_piece) {
           {"max_piece", max_piece}};
 }
 
-json revision_json(const storage::Revision& revision) {
+json revision_json(const storage::Revision& revision, const std::string& title) {
   return {{"program", revision.program},
           {"revision", revision.number},
           {"size", revision.size},
           {"sha256", revision.content.hex()},
+          {"title", optional_text(title)},
           {"control", optional_text(revision.control)},
           {"comment", optional_text(revision.comment)},
           {"author", optional_text(revision.author)},
@@ -106,8 +107,8 @@ json revision_json(const storage::Revision& revision) {
           {"accepted", optional_time(revision.accepted)}};
 }
 
-json program_json(const storage::ProgramSummary& program) {
-  json view = revision_json(program.latest);
+json program_json(const storage::ProgramSummary& program, const std::string& title) {
+  json view = revision_json(program.latest, title);
   view.erase("program");
   view["name"] = program.latest.program;
   view["revisions"] = program.revisions;

@@ -9,8 +9,9 @@
 namespace dripline::api {
 
 nlohmann::json upload_json(const storage::Upload& upload, std::uint64_t max_piece);
-nlohmann::json revision_json(const storage::Revision& revision);
-nlohmann::json program_json(const storage::ProgramSummary& program);
+/// `title`: what the program calls itself (library::program_title).
+nlohmann::json revision_json(const storage::Revision& revision, const std::string& title);
+nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
 nlohmann::json machine_json(const feeds::MachineView& view);
 nlohmann::json run_json(const storage::Run& run);
 /// Without the text.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocol/base/names.hpp"
+#include "server/library/control_words.hpp"
 
 namespace dripline::library {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::uint64_t kCatchUpPiece = 1024 * 1024;
 
 Programs::Programs(storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
                    AuditTrail& audit)
-    : store_(store), clock_(clock), catalog_(catalog), audit_(audit) {}
+    : store_(store), clock_(clock), catalog_(catalog), audit_(audit), titles_(store) {}
 
 Result<storage::Upload> Programs::begin(const UploadRequest& request, const std::string& who) {
   if (auto name = check_program_name(request.program); !name) return fail(name.error());
@@ -117,6 +118,36 @@ Result<void> Programs::remove(const std::string& program, const std::string& who
   spdlog::info("removed program={}", program);
   audit_.write({.who = who, .action = "program.remove", .subject = program, .detail = {}});
   return {};
+}
+
+/// A refused copy or rename, as the control that the program is for would say it.
+Error Programs::in_control_words(const storage::ProgramMove& move, const Error& error) {
+  const auto source = store_.revisions(move.from);
+  if (!source || error.code == Errc::Io || error.code == Errc::Busy) return error;
+  auto refusal = Refusal::None;
+  if (move.from == move.to) {
+    refusal = Refusal::OntoItself;
+  } else if (error.code == Errc::Syntax || error.code == Errc::LimitExceeded) {
+    refusal = Refusal::BadNumber;
+  } else if (error.code == Errc::ModalConflict && store_.revisions(move.to)) {
+    refusal = Refusal::NameTaken;
+  }
+  return with_control_words(error, source->front().control, refusal);
+}
+
+Result<storage::Revision> Programs::copy(const storage::ProgramMove& move,
+                                         std::optional<std::uint64_t> number) {
+  auto copy = store_.copy_program(move, number);
+  if (!copy) return fail(in_control_words(move, copy.error()));
+  spdlog::info("copied program={} to={} by={}", move.from, move.to, move.who);
+  return copy;
+}
+
+Result<void> Programs::rename(const storage::ProgramMove& move) {
+  auto renamed = store_.rename_program(move);
+  if (!renamed) return fail(in_control_words(move, renamed.error()));
+  spdlog::info("renamed program={} to={} by={}", move.from, move.to, move.who);
+  return renamed;
 }
 
 std::shared_ptr<Programs::Session> Programs::session(const std::string& id) {

@@ -13,6 +13,7 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/content_check.hpp"
 #include "server/library/control_catalog.hpp"
+#include "server/library/program_title.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::library {
@@ -69,6 +70,12 @@ class Programs {
   /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is in force).
   Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
   Result<void> remove(const std::string& program, const std::string& who);
+  /// Promises of both: storage::Store.
+  Result<storage::Revision> copy(const storage::ProgramMove& move,
+                                 std::optional<std::uint64_t> number);
+  Result<void> rename(const storage::ProgramMove& move);
+  /// What the program calls itself (program_title.hpp).
+  std::string title(const storage::Revision& revision) { return titles_.of(revision.content); }
 
   static constexpr std::size_t kMaxComment = 1024;
   /// How much of a text is looked at to find its control.
@@ -83,12 +90,14 @@ class Programs {
   void forget(const std::string& id);
   Result<void> catch_up(Session& session, const storage::Upload& upload);
   Result<void> settle_control(storage::Upload& upload);
+  Error in_control_words(const storage::ProgramMove& move, const Error& error);
   tl::unexpected<Error> drop(const storage::Upload& upload, const Error& error);
 
   storage::Store& store_;
   const Clock& clock_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;
+  ProgramTitles titles_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Session>> sessions_;
 };

@@ -1,5 +1,7 @@
 #include "server/library/setups.hpp"
 
+#include "server/library/control_words.hpp"
+
 namespace dripline::library {
 
 Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
@@ -11,7 +13,9 @@ Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
     return fail(Errc::LimitExceeded, "a setup of {} bytes, at most {}", text.text.size(),
                 storage::kMaxSetup);
   }
-  if (auto good = catalog_.check_setup(text.control, text.text); !good) return fail(good.error());
+  if (auto good = catalog_.check_setup(text.control, text.text); !good) {
+    return fail(with_control_words(good.error(), text.control, Refusal::BadParameters));
+  }
   const auto before = store_.setup(text.machine, std::nullopt);
   storage::SetupRevision setup;
   setup.machine = text.machine;

@@ -1,6 +1,7 @@
 #include "server/serial/answer_text.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <map>
 
 #include "server/serial/program_head.hpp"
@@ -32,6 +33,19 @@ std::string comment_text(std::string_view words) {
     }
   }
   return text;
+}
+
+std::vector<std::string> comment_lines(std::string_view words) {
+  constexpr std::size_t kMostLines = 4;
+  std::vector<std::string> lines;
+  while (!words.empty() && lines.size() < kMostLines) {
+    auto end = words.size() <= kMaxComment ? words.size() : words.rfind(' ', kMaxComment);
+    if (end == std::string_view::npos || end == 0) end = kMaxComment;
+    lines.emplace_back(words.substr(0, end));
+    words.remove_prefix(end);
+    words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+  }
+  return lines;
 }
 
 std::string comment_program(const std::string& name, std::span<const std::string> lines) {

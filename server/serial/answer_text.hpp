@@ -15,6 +15,8 @@ inline constexpr std::size_t kMaxListed = 200;
 /// Capitals, digits and `.-+/=:,` only, at most 60 characters: what every control takes in a
 /// comment.
 std::string comment_text(std::string_view words);
+/// `words` broken at blanks into at most four lines of that length; none for no words.
+std::vector<std::string> comment_lines(std::string_view words);
 /// A program called `name` ("O9998") that says these lines and does nothing.
 std::string comment_program(const std::string& name, std::span<const std::string> lines);
 /// One line for each program that can be sent to a machine with that control (empty: any), at most

@@ -7,8 +7,10 @@
 #include "protocol/base/random.hpp"
 #include "server/feeds/called_programs.hpp"
 #include "server/feeds/start_point.hpp"
+#include "server/library/control_words.hpp"
 #include "server/serial/answer_text.hpp"
 #include "server/serial/program_head.hpp"
+#include "server/serial/program_stream.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -79,7 +81,9 @@ SerialFeed::Started CallDesk::on_started(bool is_request) const {
 void CallDesk::send(const std::string& name, bool is_request) {
   if (name.empty()) return say_no("no program is named", is_request);
   const auto program = find_program(name);
-  if (!program) return say_no(program.error().what, is_request);
+  if (!program) {
+    return say_no(program.error().what, is_request, library::Refusal::NoSuchProgram);
+  }
   parts_.feed.start_later(
       {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
       on_started(is_request), is_request ? name : "");
@@ -102,7 +106,11 @@ void CallDesk::restart(const std::string& block) {
 void CallDesk::send_listing(bool is_request) {
   const auto programs = parts_.store.programs({.limit = kMostPrograms});
   if (!programs) return say_no(programs.error().what, is_request);
-  const auto lines = listing(*programs, control());
+  const std::string control = this->control();
+  auto lines = listing(*programs, control);
+  if (lines.empty() && !is_request) {
+    lines.push_back(library::control_words(control, library::Refusal::NothingToSelect));
+  }
   if (is_request) {  // the protocol knows that it is a list
     std::string text;
     for (const auto& line : lines) text += line + "\n";
@@ -132,23 +140,26 @@ void CallDesk::send_next() {
   const auto& revision = offered_[next_offered_++];
   SendJob job;
   job.name = program_number(revision.program);
-  job.content = revision.content;
+  job.stream = std::make_shared<ProgramStream>(ProgramStream::of(revision.content, revision.size));
   job.size = revision.size;
   put_on_line(std::move(job));
 }
 
-void CallDesk::say_no(const std::string& why, bool is_request) const {
+void CallDesk::say_no(const std::string& why, bool is_request, library::Refusal refusal) const {
   spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
   line->note("refused: " + why);
   if (is_request) return line->refuse(why);
-  report(why);
+  report({why, library::control_words(control(), refusal)});
 }
 
-void CallDesk::report(const std::string& words) const {
+void CallDesk::report(const std::vector<std::string>& words) const {
   if (parts_.rules->reply().empty()) return;
-  const std::vector<std::string> lines{words};
+  std::vector<std::string> lines;
+  for (const auto& word : words) {
+    for (auto& line : comment_lines(word)) lines.push_back(std::move(line));
+  }
   send_answer(parts_.rules->reply(), comment_program(parts_.rules->reply(), lines));
 }
 

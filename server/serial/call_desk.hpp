@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "server/library/control_words.hpp"
 #include "server/serial/line_directory.hpp"
 #include "server/serial/rule_set.hpp"
 #include "server/serial/serial_feed.hpp"
@@ -31,15 +32,17 @@ class CallDesk {
   void carry_out(RuleAction action, const std::string& argument);
   /// The protocol's own way to ask.
   void answer(const wire::TransferRequest& request);
-  /// A short message to the control, as a program; nothing when the rules name no program for it.
-  void report(const std::string& words) const;
+  /// Short messages to the control, as a program; nothing when the rules name no program for it.
+  void report(const std::vector<std::string>& words) const;
 
  private:
   void send(const std::string& name, bool is_request);
   void restart(const std::string& block);
   void send_listing(bool is_request);
   void send_next();
-  void say_no(const std::string& why, bool is_request) const;
+  /// `refusal`: what the control has a message of its own for.
+  void say_no(const std::string& why, bool is_request,
+              library::Refusal refusal = library::Refusal::None) const;
   void send_answer(std::string name, std::string text) const;
   void put_on_line(SendJob job) const;
   SerialFeed::Started on_started(bool is_request) const;

@@ -22,9 +22,9 @@ bool is_percent(std::string_view line) {
 
 }  // namespace
 
-void Intake::begin(std::string name) {
+void Intake::begin(std::string name, bool is_program) {
   name_ = std::move(name);
-  if (!name_.empty() && !is_program_) begin_program();
+  if ((is_program || !name_.empty()) && !is_program_) begin_program();
 }
 
 std::vector<Intake::Item> Intake::take(std::string_view text) {
@@ -57,10 +57,25 @@ bool Intake::is_program_line(const std::string& line) const {
   return begins_program(line, is_behind_percent_);
 }
 
+/// Another program than the one in hand. `:15` is what ISO tapes have for O15.
+bool Intake::begins_next(const std::string& line) {
+  if (!extracts_ || !name_.empty()) return false;
+  const auto first = line.find_first_not_of(" \t");
+  if (first == std::string::npos || line[first] != ':') return splitter_.begins_next(line);
+  std::string with_letter = line;
+  with_letter[first] = 'O';
+  return splitter_.begins_next(with_letter);
+}
+
 /// What a complete line is depends on what came before it.
 void Intake::end_line() {
   const std::string line = std::exchange(line_, {});
   if (is_program_) {
+    if (begins_next(line)) {
+      end_program();
+      begin_program();
+      begins_next(line);
+    }
     add_to_program(line + "\n");
     // The second % ends a program; a name alone in front of it is none.
     if (is_percent(line) && ++blocks_ > 1 && name_.empty()) end_program();
@@ -78,6 +93,7 @@ void Intake::end_line() {
     return;
   }
   begin_program();
+  begins_next(line);
   add_to_program(line + "\n");
   blocks_ = 1;
 }
@@ -85,6 +101,7 @@ void Intake::end_line() {
 void Intake::begin_program() {
   is_program_ = true;
   blocks_ = 0;
+  splitter_ = {};
   head_.clear();
   items_.push_back({.what = Item::What::ProgramBegan, .text = name_});
   if (std::exchange(is_behind_percent_, false)) add_to_program("%\n");

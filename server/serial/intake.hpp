@@ -5,13 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/interpreter/centurion/program_extraction.hpp"
+
 namespace dripline::ports {
 
 class RuleSet;
 
 /// Cuts what a control sends into programs and printed lines while it arrives. A line is told when
 /// it is complete; a program piece by piece, because it may be of any size. NUL, DEL and CR are
-/// dropped. One thread; the rules must outlive it.
+/// dropped. With `extracts` a program ends where the next one's O line begins, so a text with
+/// several becomes several; nothing is left out. One thread; the rules must outlive it.
 class Intake {
  public:
   /// A longer line that is printed is told in pieces.
@@ -29,10 +32,11 @@ class Intake {
     std::string text;
   };
 
-  explicit Intake(const RuleSet& rules) : rules_(rules) {}
+  explicit Intake(const RuleSet& rules, bool extracts = false)
+      : rules_(rules), extracts_(extracts) {}
 
-  /// A transfer begins; a protocol that tells a name transfers programs and nothing else.
-  void begin(std::string name);
+  /// A transfer begins; one with a name, or that somebody asked for, is a program and nothing else.
+  void begin(std::string name, bool is_program = false);
   std::vector<Item> take(std::string_view text);
   /// The transfer is over, whether one was begun or not.
   std::vector<Item> end();
@@ -42,6 +46,7 @@ class Intake {
  private:
   void end_line();
   bool is_program_line(const std::string& line) const;
+  bool begins_next(const std::string& line);
   void begin_program();
   void add_to_program(std::string_view text);
   void flush_program();
@@ -49,6 +54,8 @@ class Intake {
   std::vector<Item> taken();
 
   const RuleSet& rules_;
+  const bool extracts_;
+  interpreter::centurion::ProgramSplitter splitter_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete
   std::string piece_;  ///< of a program, not told

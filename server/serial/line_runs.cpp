@@ -4,6 +4,7 @@
 
 #include "protocol/dds/record_text.hpp"
 #include "server/feeds/identifiers.hpp"
+#include "server/serial/program_stream.hpp"
 #include "server/serial/start_finder.hpp"
 
 namespace dripline::ports {
@@ -49,6 +50,8 @@ LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
   return entry;
 }
 
+}  // namespace
+
 Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine) {
   if (revision.control.empty() || machine.control.empty() || revision.control == machine.control) {
     return {};
@@ -56,8 +59,6 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
   return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
               revision.program, revision.number, revision.control, machine.name, machine.control);
 }
-
-}  // namespace
 
 Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
                                       const storage::Machine& machine) {
@@ -84,7 +85,7 @@ Result<SendJob> LineRuns::job(const storage::Run& run, const feeds::StartPoint& 
   SendJob job;
   job.id = run.id;
   job.name = run.program;
-  job.content = run.content;
+  job.stream = std::make_shared<ProgramStream>(ProgramStream::of(run.content, run.size));
   job.size = run.size;
   job.first_byte = place->byte;
   job.first_line = place->line;

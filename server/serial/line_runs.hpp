@@ -9,6 +9,9 @@
 
 namespace dripline::ports {
 
+/// Errors: Unsupported (the revision is for another control than the machine is).
+Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine);
+
 /// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
 /// the line (or were accepted, where the protocol checks), *accepted* blocks the control
 /// acknowledged (0 where it can not), *executed* nothing: a line can not tell. Any thread, one

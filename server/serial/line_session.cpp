@@ -30,6 +30,18 @@ std::string place_words(const SendProgress& progress) {
 
 }  // namespace
 
+std::string_view to_string(SendOutcome outcome) {
+  switch (outcome) {
+    case SendOutcome::Completed:
+      return "completed";
+    case SendOutcome::Aborted:
+      return "aborted";
+    case SendOutcome::Interrupted:
+      return "interrupted";
+  }
+  return "interrupted";
+}
+
 LineSession::LineSession(const wire::LineSettings& settings, SessionHost& host)
     : host_(host), is_checked_(is_checked_flow(settings.flow)), ahead_(ahead_of(settings)) {}
 
@@ -156,6 +168,23 @@ bool LineSession::abort(const std::string& id, const std::string& reason, wire::
   return true;
 }
 
+Result<void> LineSession::begin_receive(wire::Discipline& line, wire::LineTime now) {
+  if (sending_) return fail(Errc::Busy, "the line is sending {}", sending_->job.id);
+  if (is_receiving_) return fail(Errc::Busy, "the line is receiving");
+  if (auto begun = line.begin_receive("", now); !begun) return begun;
+  is_receiving_ = is_asking_ = true;
+  host_.on_incoming({.what = Incoming::What::Began, .text = {}, .is_program = true});
+  return {};
+}
+
+bool LineSession::stop_receiving(const std::string& reason, wire::Discipline& line,
+                                 wire::LineTime now) {
+  if (!is_receiving_ || sending_) return false;
+  line.abort(now);
+  end_receiving({.what = Incoming::What::Failed, .text = reason});
+  return true;
+}
+
 void LineSession::on_room(wire::Discipline& line, wire::LineTime now) {
   fill(line, now);
 }
@@ -211,6 +240,7 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     take_text(std::move(received->text), line, now);
   } else if (auto* began = std::get_if<wire::TransferBegan>(&event)) {
     if (!began->is_receiving) return;
+    if (std::exchange(is_asking_, false)) return;  // told when we asked for it
     is_receiving_ = true;
     host_.on_incoming({.what = Incoming::What::Began, .text = std::move(began->name)});
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {

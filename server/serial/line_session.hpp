@@ -1,28 +1,37 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "protocol/base/digest.hpp"
 #include "protocol/wire/discipline.hpp"
 #include "server/serial/block_ledger.hpp"
 
 namespace dripline::ports {
 
-/// What the id of a job begins with that is an answer to the control and no run.
-inline constexpr std::string_view kAnswerPrefix = "answer";
+class ProgramStream;
 
-/// Something to be sent over a line: a run's program, fetched piece by piece, or an answer to the
-/// control, which is here as a whole.
+/// What the id of a job begins with that is an answer to the control, or programs sent as they
+/// stand, and no run.
+inline constexpr std::string_view kAnswerPrefix = "answer";
+inline constexpr std::string_view kTransferPrefix = "transfer";
+inline bool is_run(std::string_view id) {
+  return !id.starts_with(kAnswerPrefix) && !id.starts_with(kTransferPrefix);
+}
+
+/// Something to be sent over a line: a run's program or several programs, fetched piece by piece,
+/// or an answer to the control, which is here as a whole.
 struct SendJob {
-  std::string id;                ///< the run's, or one that begins with "answer"
-  std::string name;              ///< of the program, for protocols that say it
-  Digest content;                ///< of the program
-  std::uint64_t size = 0;        ///< its bytes
-  std::uint64_t first_byte = 0;  ///< where the run begins
-  std::uint64_t first_line = 1;  ///< the same in blocks
+  std::string id;                     ///< the run's, or one that begins with a prefix above
+  std::string name;                   ///< of the program, for protocols that say it
+  std::vector<std::string> programs;  ///< of a transfer, for people
+  std::shared_ptr<const ProgramStream> stream;  ///< where pieces come from
+  std::uint64_t size = 0;                       ///< its bytes
+  std::uint64_t first_byte = 0;                 ///< where the run begins
+  std::uint64_t first_line = 1;                 ///< the same in blocks
   std::optional<std::string> text;
 };
 
@@ -37,6 +46,7 @@ struct SendProgress {
 };
 
 enum class SendOutcome : std::uint8_t { Completed, Aborted, Interrupted };
+std::string_view to_string(SendOutcome outcome);
 struct SendEnd {
   SendProgress progress;
   SendOutcome outcome = SendOutcome::Completed;
@@ -48,6 +58,7 @@ struct Incoming {
   enum class What : std::uint8_t { Began, Text, Damaged, Ended, Failed };
   What what = What::Text;
   std::string text;  ///< Began: the name, when the protocol tells; Text; Damaged, Failed: why
+  bool is_program = false;  ///< Began: somebody asked for a program; it is no printed line
 };
 
 /// What a session wants of its owner. Called on the line's thread; must return soon.
@@ -83,6 +94,11 @@ class LineSession {
 
   /// Errors: Busy, and those of begin_send.
   Result<void> begin(SendJob job, wire::Discipline& line, wire::LineTime now);
+  /// Has the control send a program, where the protocol lets a host begin (XMODEM). Errors: Busy,
+  /// and those of begin_receive.
+  Result<void> begin_receive(wire::Discipline& line, wire::LineTime now);
+  /// Ends what comes in, unless something is being sent beside it. False: there is no such thing.
+  bool stop_receiving(const std::string& reason, wire::Discipline& line, wire::LineTime now);
   /// These concern the job with that id; nothing happens when it is another one's turn.
   bool hold(const std::string& id);
   bool resume(const std::string& id, wire::Discipline& line, wire::LineTime now);
@@ -136,6 +152,7 @@ class LineSession {
   const std::size_t ahead_;
   std::optional<Sending> sending_;
   bool is_receiving_ = false;
+  bool is_asking_ = false;  ///< what begins next was asked for, and told, by us
   std::size_t backlog_ = 0;
   bool is_held_off_ = false;  ///< the other end, by us
   bool is_losing_ = false;    ///< text, since it is not held

@@ -13,6 +13,22 @@
 
 namespace dripline::ports {
 
+/// Programs sent as they stand, without a run: the last such transfer of a port.
+struct PortTransfer {
+  std::string id = {};
+  std::vector<std::string> programs = {};  ///< names, in their order
+  std::uint64_t size = 0, sent = 0;        ///< bytes
+  std::string state = "sending";           ///< sending, completed, aborted, interrupted
+  std::string reason = {};                 ///< why it did not end well, for people
+};
+
+/// A program that is to be sent; without a number the latest revision.
+struct ProgramChoice {
+  std::string program;
+  std::optional<std::uint64_t> revision;
+};
+inline constexpr std::size_t kMaxTransferPrograms = 256;
+
 /// A port as it is configured; kept in the store (storage::Port). `settings` are pairs of
 /// wire::setting_rows() keys and values over those of `line_template`.
 struct PortView {
@@ -21,7 +37,8 @@ struct PortView {
   bool is_open = false;         ///< the channel is there
   std::string trouble;          ///< why not, or what was wrong last; for people
   wire::LineState line;
-  std::string run;         ///< being sent, may be empty
+  std::string run;  ///< being sent, may be empty
+  std::optional<PortTransfer> transfer;
   std::uint64_t sent = 0;  ///< characters since the line was opened
   std::uint64_t received = 0;
   std::optional<UtcTime> waiting_since;  ///< of a wait that the protocol does not limit
@@ -65,6 +82,20 @@ class PortControl {
   /// Opens the line if need be and says what can be said without a program: modem lines, XOFF held,
   /// stray characters. At most some seconds. Errors: NotFound, Busy.
   virtual Result<PortTest> test(const std::string& name) = 0;
+  /// Sends programs to the control as one text, as they stand and without a run: a control that
+  /// takes programs into its memory has them then. Several must bear O numbers; the whole is framed
+  /// as the line's settings say. Returns when the line has taken the job; `port` tells how it goes.
+  /// Errors: NotFound (port, program), ModalConflict (held), Unsupported (another control's;
+  /// several on a line whose protocol names one), Syntax (no number), LimitExceeded, Busy, Timeout.
+  virtual Result<PortTransfer> send(const std::string& name,
+                                    const std::vector<ProgramChoice>& programs) = 0;
+  /// Asks the control for a program, over a protocol whose receiver begins (XMODEM), for about two
+  /// minutes; what comes is a held revision. Errors: NotFound, Unsupported (others send unasked),
+  /// Busy, Timeout.
+  virtual Result<void> receive(const std::string& name) = 0;
+  /// Ends a transfer in either direction that is no run. Errors: NotFound, ModalConflict (there is
+  /// none), Timeout.
+  virtual Result<void> stop_transfer(const std::string& name, const std::string& reason) = 0;
   /// Judges a text by the port's rules without doing anything. Errors: NotFound.
   virtual Result<RuleVerdict> test_rules(const std::string& name,
                                          const std::string& text) const = 0;

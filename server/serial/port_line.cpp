@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 
+#include "server/serial/program_stream.hpp"
+
 namespace dripline::ports {
 namespace {
 
@@ -144,7 +146,11 @@ PortView PortLine::view() const {
   const std::lock_guard lock(mutex_);
   view.trouble = trouble_;
   view.waiting_since = waiting_since_;
-  if (progress_ && !is_answer(*progress_)) view.run = progress_->id;
+  if (progress_ && is_run(progress_->id)) view.run = progress_->id;
+  view.transfer = transfer_;
+  if (transfer_ && progress_ && progress_->id == transfer_->id) {
+    view.transfer->sent = progress_->sent.bytes;
+  }
   if (!driver_) return view;
   view.is_open = driver_->is_open();
   view.line = driver_->state();
@@ -179,8 +185,28 @@ void PortLine::ask(std::function<Result<void>(wire::Discipline&, wire::LineTime)
 
 void PortLine::begin(SendJob job, Answer answer) {
   const auto shared = std::make_shared<SendJob>(std::move(job));
-  ask([this, shared](wire::Discipline& line,
-                     wire::LineTime now) { return session_.begin(std::move(*shared), line, now); },
+  ask(
+      [this, shared](wire::Discipline& line, wire::LineTime now) {
+        auto before = show_transfer(*shared);
+        auto begun = session_.begin(std::move(*shared), line, now);
+        if (!begun) take_back(std::move(before));
+        return begun;
+      },
+      std::move(answer));
+}
+
+void PortLine::begin_receive(Answer answer) {
+  ask([this](wire::Discipline& line,
+             wire::LineTime now) { return session_.begin_receive(line, now); },
+      std::move(answer));
+}
+
+void PortLine::stop_receiving(const std::string& reason, Answer answer) {
+  ask(
+      [this, reason](wire::Discipline& line, wire::LineTime now) -> Result<void> {
+        if (session_.stop_receiving(reason, line, now)) return {};
+        return fail(Errc::ModalConflict, "nothing comes in that could be stopped");
+      },
       std::move(answer));
 }
 
@@ -250,22 +276,44 @@ void PortLine::watch_wait() {
 }
 
 void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
-  parts_.strand.post([weak = weak_from_this(), id = job.id, content = job.content, offset] {
+  parts_.strand.post([weak = weak_from_this(), id = job.id, stream = job.stream, offset] {
     const auto self = weak.lock();
     if (!self) return;
-    auto bytes = self->parts_.store.read_content(content, offset, kFetchPiece);
-    if (bytes && bytes->empty()) bytes = fail(Errc::Corrupt, "content {} is short", content.hex());
+    auto piece = stream->read(self->parts_.store, offset, kFetchPiece);
     PortLine& port = *self;  // the driver is its own: no work outlives it
     port.with_line(
-        [&port, id, offset, bytes = std::move(bytes)](wire::Discipline& line, wire::LineTime now) {
-          if (!bytes) return port.session_.supply_failed(id, bytes.error(), line, now);
-          const std::string piece(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-          port.session_.supply(id, offset, piece, line, now);
+        [&port, id, offset, piece = std::move(piece)](wire::Discipline& line, wire::LineTime now) {
+          if (!piece) return port.session_.supply_failed(id, piece.error(), line, now);
+          port.session_.supply(id, offset, *piece, line, now);
         });
   });
 }
 
+/// Before it begins, because its end may come at once. What was shown before.
+std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
+  const std::lock_guard lock(mutex_);
+  auto before = transfer_;
+  if (job.id.starts_with(kTransferPrefix)) {
+    transfer_ = PortTransfer{.id = job.id, .programs = job.programs, .size = job.size};
+  }
+  return before;
+}
+
+void PortLine::take_back(std::optional<PortTransfer> before) {
+  const std::lock_guard lock(mutex_);
+  transfer_ = std::move(before);
+}
+
+void PortLine::end_transfer(const SendEnd& end) {
+  const std::lock_guard lock(mutex_);
+  if (!transfer_ || transfer_->id != end.progress.id) return;
+  transfer_->sent = end.progress.sent.bytes;
+  transfer_->state = to_string(end.outcome);
+  transfer_->reason = end.reason;
+}
+
 void PortLine::on_sent(const SendEnd& end) {
+  end_transfer(end);
   refresh();  // whoever is told finds it gone
   parts_.strand.post([on_sent = parts_.listener.on_sent, end] { on_sent(end); });
 }

@@ -62,6 +62,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   const Strand& strand() const { return parts_.strand; }
 
   void begin(SendJob job, Answer answer);
+  /// Has the control send a program (LineSession::begin_receive).
+  void begin_receive(Answer answer);
+  void stop_receiving(const std::string& reason, Answer answer);
   void hold(const std::string& id, Answer answer);
   void resume(const std::string& id, Answer answer);
   void abort(const std::string& id, const std::string& reason, Answer answer);
@@ -84,6 +87,9 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void refresh();
   void set_trouble(const std::string& words);
   void watch_wait();
+  std::optional<PortTransfer> show_transfer(const SendJob& job);
+  void take_back(std::optional<PortTransfer> before);
+  void end_transfer(const SendEnd& end);
 
   void fetch(const SendJob& job, std::uint64_t offset) override;
   void on_sent(const SendEnd& end) override;
@@ -99,6 +105,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   bool is_closed_ = false;
   std::string trouble_;
   std::optional<SendProgress> progress_;
+  std::optional<PortTransfer> transfer_;  ///< the last one
   bool is_receiving_ = false;
   std::optional<UtcTime> waiting_since_;
 };

@@ -5,8 +5,8 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/serial/address.hpp"
+#include "server/serial/line_transfer.hpp"
 #include "server/serial/port_settings.hpp"
-#include "server/serial/port_test.hpp"
 #include "server/serial/reception.hpp"
 #include "server/serial/rule_reader.hpp"
 
@@ -19,13 +19,6 @@ constexpr std::chrono::seconds kDrainLimit{10};
 LineOpener default_opener() {
   return
       [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
-}
-
-PortListener nobody() {
-  return {.on_incoming = [](const Incoming&, const std::function<void()>& kept) { kept(); },
-          .on_sent = [](const SendEnd&) {},
-          .on_request = [](const wire::TransferRequest&) {},
-          .on_change = [] {}};
 }
 
 }  // namespace
@@ -143,7 +136,7 @@ Result<void> PortService::check_idle(const std::string& name) const {
   if (!entry || !entry->line || !entry->line->is_busy()) return {};
   const PortView view = entry->line->view();
   return fail(Errc::Busy, "port '{}' of machine '{}' is {}", name, view.port.machine,
-              view.run.empty() ? "receiving" : "sending run " + view.run);
+              what_it_does(view));
 }
 
 Result<PortService::Entry> PortService::find(const std::string& name) const {
@@ -211,20 +204,23 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                         .clock = clock_,
                         .machine = name,
                         .rules = entry.rules};
-  const auto reception = std::make_shared<Reception>(Reception::Parts{.store = store_,
-                                                                      .programs = programs_,
-                                                                      .records = machine.records,
-                                                                      .machine = name,
-                                                                      .port = entry.port.name,
-                                                                      .rules = entry.rules,
-                                                                      .calls = std::move(calls)});
+  const auto reception = std::make_shared<Reception>(
+      Reception::Parts{.store = store_,
+                       .programs = programs_,
+                       .records = machine.records,
+                       .machine = name,
+                       .port = entry.port.name,
+                       .rules = entry.rules,
+                       .extracts_programs = entry.settings.extracts_programs,
+                       .calls = std::move(calls)});
   return {.on_incoming =
               [reception](Incoming incoming, std::function<void()> kept) {
                 reception->take(std::move(incoming), std::move(kept));
               },
           .on_sent =
               [this, reception, name](const SendEnd& end) {
-                if (end.progress.id.starts_with(kAnswerPrefix)) return;
+                if (end.progress.id.starts_with(kTransferPrefix)) note_transfer(name, end);
+                if (!is_run(end.progress.id)) return;
                 reception->on_run(end.progress.id);
                 feed_.on_sent(name, end);
               },
@@ -316,35 +312,6 @@ Result<void> PortService::remove(const std::string& name) {
   }
   if (entry->line) entry->line->close("the port was removed");
   return {};
-}
-
-Result<PortTest> PortService::test(const std::string& name) {
-  const std::lock_guard changing(change_mutex_);
-  const auto entry = find(name);
-  if (!entry) return fail(entry.error());
-  if (auto idle = check_idle(name); !idle) return fail(idle.error());
-  if (entry->line) return examine(*entry->line, {});
-  if (!entry->trouble.empty()) return PortTest{.is_passed = false, .findings = {entry->trouble}};
-  const auto line = make_line(*entry, Strand(pool_), nobody());
-  line->open();
-  auto test = examine(*line, {});
-  line->close("the test is over");
-  return test;
-}
-
-Result<RuleVerdict> PortService::test_rules(const std::string& name,
-                                            const std::string& text) const {
-  const auto entry = find(name);
-  if (!entry) return fail(entry.error());
-  return entry->rules->explain(text);
-}
-
-Result<std::vector<PortTraffic>> PortService::recording(const std::string& name) const {
-  const auto entry = find(name);
-  if (!entry) return fail(entry.error());
-  if (entry->line) return entry->line->recorder().entries();
-  if (options_.recordings.empty()) return std::vector<PortTraffic>{};
-  return RecordingFile(options_.recordings, name).read();
 }
 
 void PortService::on_traffic(std::function<void(const PortTraffic&)> listener) {

@@ -48,6 +48,10 @@ class PortService final : public PortControl, private LineDirectory {
   Result<PortView> save(const storage::Port& port) override;
   Result<void> remove(const std::string& name) override;
   Result<PortTest> test(const std::string& name) override;
+  Result<PortTransfer> send(const std::string& name,
+                            const std::vector<ProgramChoice>& programs) override;
+  Result<void> receive(const std::string& name) override;
+  Result<void> stop_transfer(const std::string& name, const std::string& reason) override;
   Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const override;
   Result<std::vector<PortTraffic>> recording(const std::string& name) const override;
   void on_traffic(std::function<void(const PortTraffic&)> listener) override;
@@ -74,6 +78,7 @@ class PortService final : public PortControl, private LineDirectory {
   Result<void> check_free(const storage::Port& port) const;
   Result<void> check_idle(const std::string& name) const;
   Result<Entry> find(const std::string& name) const;
+  Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;
   Result<void> enter_machine(const storage::Port& port);
   Machine machine_of(const std::string& name);
   void put(Entry entry);
@@ -83,6 +88,7 @@ class PortService final : public PortControl, private LineDirectory {
                                       PortListener listener);
   void tick(const std::weak_ptr<PortLine>& line, unsigned count);
   void tell_traffic(const PortTraffic& traffic) const;
+  void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);
   static PortView view_of(const Entry& entry);
 

@@ -4,6 +4,7 @@
 
 #include "protocol/base/one_line.hpp"
 #include "protocol/dds/message.hpp"
+#include "server/library/control_words.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -26,7 +27,9 @@ std::string printed_text(const std::string& line) {
 }  // namespace
 
 Reception::Reception(Parts parts)
-    : parts_(std::move(parts)), calls_(parts_.calls), intake_(*parts_.rules) {}
+    : parts_(std::move(parts)),
+      calls_(parts_.calls),
+      intake_(*parts_.rules, parts_.extracts_programs) {}
 
 void Reception::take(Incoming incoming, std::function<void()> kept) {
   std::vector<Intake::Item> items;
@@ -34,7 +37,7 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
     case Incoming::What::Began:
       is_in_transfer_ = true;
       program_name_ = incoming.text;
-      intake_.begin(incoming.text);
+      intake_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:
       items = intake_.take(incoming.text);
@@ -102,13 +105,16 @@ std::string Reception::current_run() {
   return run_;
 }
 
+std::string Reception::machine_control() const {
+  const auto machine = parts_.store.machine(parts_.machine);
+  return machine ? machine->control : std::string();
+}
+
 void Reception::begin_program(const std::string& name) {
   program_name_ = name;
-  const auto machine = parts_.store.machine(parts_.machine);
   program_.emplace(parts_.programs,
-                   PunchedProgram::Origin{.machine = parts_.machine,
-                                          .control = machine ? machine->control : std::string()});
-  if (!early_damage_.empty()) program_->damage(early_damage_);
+                   PunchedProgram::Origin{.machine = parts_.machine, .control = machine_control()});
+  if (!early_damage_.empty()) program_->damage(std::exchange(early_damage_, {}));
 }
 
 void Reception::end_program(const std::string& head) {
@@ -128,7 +134,12 @@ void Reception::store_program(const std::string& name) {
   const auto stored = program_->store(name);
   if (!stored) {
     spdlog::error("punched program not stored machine={}: {}", parts_.machine, stored.error().what);
-    return say("program not stored: " + stored.error().what);
+    const bool is_full = stored.error().code == Errc::Io;
+    return say(library::with_control_words(
+                   {stored.error().code, "program not stored: " + stored.error().what},
+                   machine_control(),
+                   is_full ? library::Refusal::DiskFull : library::Refusal::NotSaved)
+                   .what);
   }
   const auto& revision = stored->revision;
   say(fmt::format("program {} is revision {}{}", revision.program, revision.number,
@@ -148,7 +159,7 @@ void Reception::call(RuleAction action, const std::string& argument) {
 void Reception::do_calls() {
   for (const auto& call : std::exchange(waiting_, {})) {
     if (call.action == RuleAction::Report) {
-      calls_.report(call.argument);
+      calls_.report({call.argument});
     } else {
       calls_.carry_out(call.action, call.argument);
     }

@@ -24,6 +24,7 @@ class Reception {
     std::shared_ptr<LineRecords> records;
     std::string machine, port;
     std::shared_ptr<const RuleSet> rules;
+    bool extracts_programs = false;  ///< a text with several programs becomes several
     CallDesk::Parts calls;
   };
   explicit Reception(Parts parts);
@@ -45,6 +46,7 @@ class Reception {
   void handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries);
   void handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries);
   std::string current_run();
+  std::string machine_control() const;
   void begin_program(const std::string& name);
   void end_program(const std::string& head);
   void store_program(const std::string& name);
@@ -59,7 +61,7 @@ class Reception {
   std::string program_name_;  ///< as the protocol told it
   std::string run_;
   bool is_in_transfer_ = false;
-  std::string early_damage_;   ///< of this transfer, last; a program may only begin behind it
+  std::string early_damage_;   ///< since the last program began; the next may begin behind it
   std::vector<Call> waiting_;  ///< for the end of the transfer they came in; at most kMaxWaiting
 };
 

@@ -112,8 +112,8 @@ RuleHit RuleSet::judge(TextKind kind, std::string_view text, std::vector<std::st
           .is_probe = false};
 }
 
-RuleVerdict RuleSet::explain(const std::string& text) const {
-  Intake intake(*this);
+RuleVerdict RuleSet::explain(const std::string& text, bool extracts) const {
+  Intake intake(*this, extracts);
   auto items = intake.take(text);
   for (auto& item : intake.end()) items.push_back(std::move(item));
   RuleVerdict verdict;

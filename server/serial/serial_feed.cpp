@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <future>
 
+#include "server/serial/line_transfer.hpp"
 #include "server/serial/program_head.hpp"
 
 namespace dripline::ports {
@@ -15,10 +16,6 @@ Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
   if (answer.wait_for(SerialFeed::kAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "{}: the line did not answer within {} s; the outcome is unknown",
               what, SerialFeed::kAnswerLimit.count());
-}
-
-bool has_numbered_programs(wire::Flow flow) {
-  return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
 }
 
 dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
@@ -35,6 +32,7 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
   if (progress && progress->is_waiting_for_line) return "waits for its line";
   if (progress && progress->is_held) return "held by the operator";
   if (port.line.is_stopped) return "the control holds the line";
+  if (progress && port.transfer && progress->id == port.transfer->id) return what_it_does(port);
   if (!port.line.waiting_for.empty()) return fmt::format("waits for {}", port.line.waiting_for);
   return port.trouble;
 }
@@ -62,7 +60,7 @@ feeds::MachineView SerialFeed::view_of(const PortLine& line) const {
   status.execution = execution_of(port, progress);
   status.message = message_of(port, progress);
   if (progress) {
-    status.run = progress->id;
+    if (is_run(progress->id)) status.run = progress->id;
     status.sent = progress->sent.bytes;
     status.accepted = progress->is_checked ? progress->sent.blocks : 0;
     status.total_bytes = progress->size;
@@ -111,8 +109,8 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const feeds::Start
   }
   line->drop_answer();
   if (line->is_busy()) {
-    return started(fail(Errc::Busy, "port {} is busy: it is {}", port.port.name,
-                        port.run.empty() ? "receiving" : "sending " + port.run));
+    return started(
+        fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port)));
   }
   const auto machine = store_.machine(request.machine);
   if (!machine) return started(fail(machine.error()));
@@ -183,7 +181,7 @@ void SerialFeed::on_change(const std::string& machine) {
 
 void SerialFeed::save_progress(const PortLine& line) {
   const auto progress = line.progress();
-  if (!progress || progress->id.starts_with(kAnswerPrefix)) return;
+  if (!progress || !is_run(progress->id)) return;
   runs_.progressed(*progress);
   on_change(line.port().machine);
 }

@@ -3,28 +3,10 @@
 #include <algorithm>
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/program_moves.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
-namespace {
-
-Result<void> check_unused(sqlite::Database& database, const std::string& program) {
-  const auto run = sqlite::first_row(
-      database,
-      "SELECT run.id, machine.name FROM run JOIN machine ON machine.id = run.machine "
-      "JOIN program ON program.id = run.program "
-      "WHERE program.name = ?1 AND run.state IN ('ordered', 'active') LIMIT 1",
-      [](const sqlite::Statement& row) {
-        return fmt::format("run {} on {}", row.text(0), row.text(1));
-      },
-      program);
-  if (!run) return fail(run.error());
-  if (!*run) return {};
-  return fail(Errc::Busy, "program {} is used by the unfinished {}", program, **run);
-}
-
-}  // namespace
-
 Result<std::vector<ProgramSummary>> ProgramRepository::programs(Page page) {
   static const std::string kSql =
       "SELECT " + kRevisionColumns +
@@ -89,6 +71,17 @@ Result<void> ProgramRepository::remove(const std::string& program) {
                        "(SELECT max(number) FROM revision WHERE program = id) WHERE name = ?1",
                        program);
   });
+}
+
+Result<Revision> ProgramRepository::copy(const ProgramMove& move,
+                                         std::optional<std::uint64_t> number, UtcTime now) {
+  return connections_.write(
+      [&](sqlite::Database& database) { return copy_program(database, move, number, now); });
+}
+
+Result<void> ProgramRepository::rename(const ProgramMove& move, UtcTime now) {
+  return connections_.write(
+      [&](sqlite::Database& database) { return rename_program(database, move, now); });
 }
 
 Result<std::shared_ptr<const CachedChunk>> ProgramRepository::chunk(const Digest& content,

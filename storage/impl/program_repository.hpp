@@ -18,6 +18,8 @@ class ProgramRepository {
   Result<Revision> accept(const Judgement& judgement);
   Result<void> reject(const Judgement& judgement);
   Result<void> remove(const std::string& program);
+  Result<Revision> copy(const ProgramMove& move, std::optional<std::uint64_t> number, UtcTime now);
+  Result<void> rename(const ProgramMove& move, UtcTime now);
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length);
 

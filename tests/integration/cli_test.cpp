@@ -1,4 +1,5 @@
 // `dnc` as its users type it: what it prints, what it exits with, what it leaves behind.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <fstream>
 #include <sstream>
@@ -71,6 +72,41 @@ TEST_F(Cli, TheNewestSetupOfAMachineGoesWithTheStart) {
   EXPECT_EQ(dnc_json({"run", "show", "latest"}).at("setup"), 3);
   EXPECT_EQ(dnc({"setup", "pull", "lathe-1", "-r", "1"}).output,
             read("setup.toml").replace(34, 1, "7"));
+  EXPECT_EQ(dnc_json({"setup", "list", "lathe-1"}).at("setups").size(), 3u);
+}
+
+/// What a lathe's control keeps: parameters, tool table, work coordinates, power-on values.
+std::string lathe_memory(const std::string& value) {
+  return fmt::format(
+      "units = \"in\"\n[control]\npower_on_feed = 0.{0}\n[[variable]]\nname = \"P0\"\nvalue = "
+      "{0}\n[[variable]]\nname = \"P99\"\nvalue = -{0}\n[[offset]]\nname = \"G54\"\nZ = "
+      "-1{0}.0\n[[tool]]\nnumber = 3\nX = 0.{0}\nZ = {0}.25\nradius = 0.03\ntip = 3\n",
+      value);
+}
+
+/// CEN-220: a backup of all of it is one file.
+TEST_F(Cli, TheWholeMemoryOfALatheComesBackFromItsBackup) {
+  start_all();
+  const std::string text =
+      "POPEN P0\nG54\nT0303 M6\nDPRNT "
+      "[#0[21]#99[21]#232[31]#240[23]#241[23]#366[13]]\nPCLOS\nM30\n";
+  dnc({"program", "push", write("p.nc", text), "--name", "O1", "--control", "centurion"});
+  const auto state = [&] {
+    EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--follow"}).status, 0);
+    return dnc({"report", "export", "latest"}).output;
+  };
+  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("a.toml", lathe_memory("5"))}).status, 0);
+  const std::string before = state();
+  const auto backup = (system.folder() / "backup.toml").string();
+  EXPECT_EQ(dnc({"setup", "pull", "lathe-1", "-o", backup}).status, 0);
+  EXPECT_EQ(read("backup.toml"), lathe_memory("5"));
+
+  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("b.toml", lathe_memory("8"))}).status, 0);
+  const std::string changed = state();
+  EXPECT_EQ(dnc({"setup", "push", "lathe-1", backup, "-m", "from the backup"}).status, 0);
+  EXPECT_EQ(state(), before);
+  EXPECT_FALSE(before.empty());
+  EXPECT_NE(changed, before);
   EXPECT_EQ(dnc_json({"setup", "list", "lathe-1"}).at("setups").size(), 3u);
 }
 

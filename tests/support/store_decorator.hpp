@@ -50,6 +50,13 @@ class StoreDecorator : public storage::Store {
                                const std::string& who) override {
     return inner_.reject_revision(program, number, who);
   }
+  Result<storage::Revision> copy_program(const storage::ProgramMove& move,
+                                         std::optional<std::uint64_t> number) override {
+    return inner_.copy_program(move, number);
+  }
+  Result<void> rename_program(const storage::ProgramMove& move) override {
+    return inner_.rename_program(move);
+  }
   Result<void> remove_program(const std::string& program) override {
     return inner_.remove_program(program);
   }

@@ -39,6 +39,7 @@ template <class V, class P>
 void content_members(V& v, P& x) {
   v("size", x.size);
   v("sha256", x.sha256);
+  v("title", x.title);
   v("control", x.control);
   v("comment", x.comment);
   v("author", x.author);
@@ -202,6 +203,16 @@ void members(V& v, Is<Report> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Transfer> auto& x) {
+  v("id", x.id);
+  v("programs", x.programs);
+  v("size", x.size);
+  v("sent", x.sent);
+  v("state", x.state);
+  v("reason", x.reason);
+}
+
+template <class V>
 void members(V& v, Is<Port::Line> auto& x) {
   v("phase", x.phase);
   v("stopped", x.stopped);
@@ -224,6 +235,7 @@ void members(V& v, Is<Port> auto& x) {
   v("trouble", x.trouble);
   v("line", x.line);
   v("run", x.run);
+  v("transfer", x.transfer);
   v("sent", x.sent);
   v("received", x.received);
   v("waiting_since", x.waiting_since);

@@ -11,12 +11,10 @@ namespace {
 
 constexpr std::size_t kLongestHead = 256;  ///< an O word stands within this much of its line
 
-/// The number of the line's O word, or 0.
-std::uint32_t program_number(std::string_view line) {
+BlockHead head_of(std::string_view line) {
   std::string head(line.substr(0, kLongestHead));
   head += '\n';  // what read_head stops at
-  const BlockHead found = read_head(head.c_str());
-  return found.kind == BlockHead::Kind::Program ? found.number : 0;
+  return read_head(head.c_str());
 }
 
 bool is_blank_line(std::string_view line) {
@@ -26,27 +24,44 @@ bool is_blank_line(std::string_view line) {
 
 }  // namespace
 
+bool ProgramSplitter::begins_next(std::string_view line) {
+  const BlockHead head = head_of(line);
+  if (head.kind != BlockHead::Kind::Program || head.number == 0) {
+    has_blocks_ = has_blocks_ || head.kind != BlockHead::Kind::Empty;
+    return false;
+  }
+  const bool is_next = number_ != 0 || has_blocks_;
+  number_ = head.number;
+  has_blocks_ = false;
+  return is_next;
+}
+
 std::vector<ExtractedProgram> extract_programs(std::string_view text) {
   std::vector<ExtractedProgram> programs;
+  ProgramSplitter splitter;
   std::size_t begin = 0;
   std::size_t last = 0;  ///< behind the last line of the program in hand that is not blank
-  std::uint32_t number = 0;
-  const auto finish = [&] {
+  const auto finish = [&](std::uint32_t number) {
     if (last > begin) programs.push_back({number, text.substr(begin, last - begin)});
   };
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::size_t next = std::min(text.find_first_not_of("\r\n", end), text.size());
     const std::string_view line = text.substr(at, end - at);
-    if (const std::uint32_t found = program_number(line); found != 0) {
-      finish();
+    const std::uint32_t before = splitter.number();
+    if (splitter.begins_next(line)) {
+      finish(before);
       begin = at;
-      number = found;
     }
-    if (!is_blank_line(line)) last = next;
+    const bool is_empty = last <= begin;
+    if (is_blank_line(line)) {
+      if (is_empty) begin = last = next;
+    } else {
+      last = next;
+    }
     at = next;
   }
-  finish();
+  finish(splitter.number());
   return programs;
 }
 

@@ -269,5 +269,59 @@ TEST_F(DncPort, ShowsWhatWaitsForAcceptanceAndJudgesIt) {
   EXPECT_EQ(dnc({"program", "reject", "O1", "4"}).status, 1);
 }
 
+json transfer_json(const std::string& state, std::uint64_t sent, const json& reason) {
+  return {{"id", "transfer-1"}, {"programs", {"O1 revision 2", "O2 revision 1"}},
+          {"size", 640},        {"sent", sent},
+          {"state", state},     {"reason", reason}};
+}
+
+/// CEN-200.
+TEST_F(DncPort, SendsProgramsAndWaitsForTheEnd) {
+  auto port = port_json("line-1");
+  port["transfer"] = transfer_json("completed", 640, nullptr);
+  server.set_answer("POST /api/v1/ports/line-1/transfers", 201,
+                    transfer_json("sending", 0, nullptr).dump());
+  server.set_answer("GET /api/v1/ports/line-1", port);
+  const auto sent = dnc({"port", "send", "line-1", "O1@2", "O2"});
+  EXPECT_EQ(sent.status, 0) << sent.err;
+  EXPECT_EQ(sent.out, "Sent O1 revision 2, O2 revision 1: 640 B.\n");
+  EXPECT_EQ(last_body("POST /api/v1/ports/line-1/transfers"), (json{{"programs", {"O1@2", "O2"}}}));
+  const auto left = dnc({"port", "send", "line-1", "O1", "--no-wait", "--json"});
+  EXPECT_EQ(json::parse(left.out)["state"], "sending");
+  port["transfer"] = transfer_json("interrupted", 128, "the line is lost");
+  server.set_answer("GET /api/v1/ports/line-1", port);
+  const auto lost = dnc({"port", "send", "line-1", "O1"});
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_EQ(lost.out, "Not all was sent, 128 B of 640 B: interrupted: the line is lost\n");
+}
+
+TEST_F(DncPort, AsksTheControlForAProgramAndSaysWhatCame) {
+  server.set_answer("POST /api/v1/ports/line-1/receive", 204, "");
+  server.set_answer("GET /api/v1/ports/line-1", port_json("line-1"));
+  server.set_answer("GET /api/v1/ports/line-1/recording", 200, "");
+  const auto received = dnc({"port", "receive", "line-1"});
+  EXPECT_EQ(received.status, 0) << received.err;
+  EXPECT_NE(received.out.find("Asking the control on line-1"), std::string::npos);
+  server.set_answer("DELETE /api/v1/ports/line-1/transfers", 204, "");
+  EXPECT_EQ(dnc({"port", "stop", "line-1"}).out, "The transfer on line-1 is ended.\n");
+}
+
+/// CEN-211.
+TEST_F(DncPort, CopiesAndRenamesPrograms) {
+  auto copy = test_support::revision_json("O2", "program", 1, "O1\n");
+  copy["comment"] = "copy of O1 revision 3";
+  server.set_answer("POST /api/v1/programs/O1/copy", 201, copy.dump());
+  const auto copied = dnc({"program", "copy", "O1", "O2", "--revision", "3"});
+  EXPECT_EQ(copied.status, 0) << copied.err;
+  EXPECT_EQ(copied.out, "O2 revision 1: copy of O1 revision 3, 3 B\n");
+  EXPECT_EQ(last_body("POST /api/v1/programs/O1/copy"), (json{{"to", "O2"}, {"revision", 3}}));
+  auto renamed = test_support::revision_json("O3", "name", 1, "O1\n");
+  renamed["revisions"] = {test_support::revision_json("O3", "program", 1, "O1\n")};
+  server.set_answer("POST /api/v1/programs/O1/rename", renamed);
+  EXPECT_EQ(dnc({"program", "rename", "O1", "O3"}).out,
+            "O1 is now O3, with 1 revision; its runs and reports go with it.\n");
+  EXPECT_EQ(dnc({"program", "rename", "O9", "O3"}).status, 1);
+}
+
 }  // namespace
 }  // namespace dripline

@@ -8,11 +8,17 @@ using nlohmann::json;
 
 json revision_json(const std::string& program, const std::string& name_key, std::uint64_t number,
                    const std::string& content) {
-  return {{name_key, program},      {"revision", number},
-          {"size", content.size()}, {"sha256", sha256(content).hex()},
-          {"control", "centurion"}, {"comment", nullptr},
-          {"author", "test"},       {"created", "2026-11-21T07:40:06.123456Z"},
-          {"held", false},          {"accepted", nullptr}};
+  return {{name_key, program},
+          {"revision", number},
+          {"size", content.size()},
+          {"sha256", sha256(content).hex()},
+          {"title", nullptr},
+          {"control", "centurion"},
+          {"comment", nullptr},
+          {"author", "test"},
+          {"created", "2026-11-21T07:40:06.123456Z"},
+          {"held", false},
+          {"accepted", nullptr}};
 }
 
 json machine_json(const std::string& name) {
@@ -44,6 +50,7 @@ json port_json(const std::string& name) {
             {"waiting_for", nullptr},
             {"without_limit", false}}},
           {"run", nullptr},
+          {"transfer", nullptr},
           {"sent", 0},
           {"received", 0},
           {"waiting_since", nullptr}};

@@ -206,5 +206,54 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_TRUE(shown["sequence"].is_null());
 }
 
+/// CEN-211.
+TEST_F(ApiTest, CopiesAndRenamesPrograms) {
+  push("O0001", "O0001 (BUSH)\nM30\n");
+  const auto copied = post("/api/v1/programs/O0001/copy", {{"to", "O0002"}});
+  ASSERT_EQ(copied.status, 201) << copied.body;
+  EXPECT_EQ(json(copied)["program"], "O0002");
+  EXPECT_EQ(json(copied)["revision"], 1);
+  EXPECT_EQ(json(copied)["comment"], "copy of O0001 revision 1");
+  const auto renamed = post("/api/v1/programs/O0001/rename", {{"to", "O0003"}});
+  ASSERT_EQ(renamed.status, 200) << renamed.body;
+  EXPECT_EQ(json(renamed)["name"], "O0003");
+  EXPECT_EQ(json(renamed)["revisions"].size(), 1u);
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["who"], "admin");
+  expect_error(post("/api/v1/programs/O0003/copy", {{"to", "O0002"}}), 409, "modal_conflict",
+               "O0002 exists already");
+  expect_error(post("/api/v1/programs/O0009/rename", {{"to", "O0010"}}), 404, "not_found", "O0009");
+  expect_error(post("/api/v1/programs/O0003/rename", {{"to", ".hidden"}}), 400, "syntax",
+               ".hidden");
+  expect_error(post("/api/v1/programs/O0003/copy", Json::object()), 400, "syntax", "'to'");
+}
+
+/// CEN-212.
+TEST_F(ApiTest, ShowsWhatProgramsCallThemselves) {
+  push("O0001", "O0001 (BUSH 12)\nM30\n");
+  push("O0002", "O0002\nM30\n");
+  const Json list = json(get("/api/v1/programs"))["programs"];
+  EXPECT_EQ(list[0]["title"], "BUSH 12");
+  EXPECT_TRUE(list[1]["title"].is_null());
+  EXPECT_EQ(json(get("/api/v1/programs/O0001"))["revisions"][0]["title"], "BUSH 12");
+}
+
+/// CEN-213: for whoever knows the control's messages.
+TEST_F(ApiTest, RefusesMovesOfProgramsInTheWordsOfTheirControlToo) {
+  push("O0001", "O0001\n");
+  push("O0002", "O0002\n");
+  push("1.h", "0 BEGIN PGM 1 MM\n", "tnc155");
+  const auto message = [&](const std::string& from, const std::string& to) {
+    const auto refused = post("/api/v1/programs/" + from + "/rename", {{"to", to}});
+    return json(refused)["error"].value("message", "");
+  };
+  EXPECT_EQ(message("O0001", "O0002"),
+            "program O0002 exists already, with 1 revision (centurion error 300: program already "
+            "exists)");
+  EXPECT_NE(message("O0001", "O0001").find("(centurion error 309: can't copy or rename"),
+            std::string::npos);
+  EXPECT_EQ(message("1.h", "O0002"), "program O0002 exists already, with 1 revision")
+      << "another control has no such number";
+}
+
 }  // namespace
 }  // namespace dripline::server_test

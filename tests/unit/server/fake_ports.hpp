@@ -38,6 +38,28 @@ class FakePorts final : public ports::PortControl {
     if (auto known = port(name); !known) return fail(known.error());
     return ports::PortTest{false, {"CTS is off: is the cable plugged in?"}};
   }
+  Result<ports::PortTransfer> send(const std::string& name,
+                                   const std::vector<ports::ProgramChoice>& programs) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    ports::PortTransfer transfer{.id = "transfer-1", .size = 100};
+    for (const auto& choice : programs) {
+      transfer.programs.push_back(
+          fmt::format("{} revision {}", choice.program, choice.revision.value_or(1)));
+    }
+    return transfer;
+  }
+  Result<void> receive(const std::string& name) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    return {};
+  }
+  Result<void> stop_transfer(const std::string& name, const std::string& reason) override {
+    if (refusal) return fail(*refusal);
+    if (auto known = port(name); !known) return fail(known.error());
+    stop_reason = reason;
+    return {};
+  }
   Result<ports::RuleVerdict> test_rules(const std::string& name,
                                         const std::string& text) const override {
     if (auto known = port(name); !known) return fail(known.error());
@@ -56,6 +78,7 @@ class FakePorts final : public ports::PortControl {
   std::vector<ports::PortTraffic> traffic;
   std::function<void(const ports::PortTraffic&)> listener;
   std::optional<Error> refusal;
+  std::string stop_reason;
   mutable std::string tested_text;
 };
 

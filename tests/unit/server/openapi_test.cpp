@@ -43,6 +43,15 @@ class OpenApi : public ApiTest {
     expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
     expect_described("POST", "/api/v1/ports/{name}/test",
                      call("POST", "/api/v1/ports/line-1/test"));
+    expect_described("POST", "/api/v1/ports/{name}/transfers",
+                     post("/api/v1/ports/line-1/transfers", {{"programs", {"O1", "O2@3"}}}));
+    ports_.views[0].transfer =
+        ports::PortTransfer{.id = "transfer-1", .programs = {"O1 revision 1"}};
+    expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
+    expect_described("DELETE", "/api/v1/ports/{name}/transfers",
+                     call("DELETE", "/api/v1/ports/line-1/transfers"));
+    expect_described("POST", "/api/v1/ports/{name}/receive",
+                     call("POST", "/api/v1/ports/line-1/receive"));
     expect_described("POST", "/api/v1/ports/{name}/test-rules",
                      post("/api/v1/ports/line-1/test-rules", {{"text", "O1"}}));
     expect_described("GET", "/api/v1/ports/{name}/recording",
@@ -145,6 +154,10 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_setups_described();
   expect_ports_described();
   expect_judgement_described();
+  expect_described("POST", "/api/v1/programs/{name}/copy",
+                   post("/api/v1/programs/O2/copy", {{"to", "O20"}, {"revision", 1}}));
+  expect_described("POST", "/api/v1/programs/{name}/rename",
+                   post("/api/v1/programs/O20/rename", {{"to", "O21"}}));
   expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
   for (const auto& route : api_->router().routes()) {
     EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))

@@ -224,5 +224,34 @@ TEST_F(HeldRoutes, SayWhyOneCanNotBeJudged) {
   expect_error(call("POST", "/api/v1/programs/O1/revisions/x/accept"), 400, "syntax", "'x'");
 }
 
+/// CEN-200.
+TEST_F(PortRoutes, SendAndReceiveWithoutARunAndWriteItDown) {
+  add_port("line-1");
+  const auto sent = post("/api/v1/ports/line-1/transfers", {{"programs", {"O0001", "O0002@4"}}});
+  ASSERT_EQ(sent.status, 201) << sent.body;
+  EXPECT_EQ(json(sent)["programs"], (Json{"O0001 revision 1", "O0002 revision 4"}));
+  EXPECT_EQ(json(sent)["state"], "sending");
+  const Json entry = json(get("/api/v1/audit"))["entries"][0];
+  EXPECT_EQ(entry["action"], "port.send");
+  EXPECT_EQ(entry["detail"], "O0001 revision 1, O0002 revision 4: 100 bytes");
+  EXPECT_EQ(call("POST", "/api/v1/ports/line-1/receive").status, 204);
+  EXPECT_EQ(call("DELETE", "/api/v1/ports/line-1/transfers").status, 204);
+  EXPECT_EQ(ports_.stop_reason, "stopped by admin");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["action"], "port.stop");
+}
+
+TEST_F(PortRoutes, RefuseATransferThatNamesNoPrograms) {
+  add_port("line-1");
+  const std::string path = "/api/v1/ports/line-1/transfers";
+  expect_error(post(path, {{"programs", "O1"}}), 400, "syntax", "list");
+  expect_error(post(path, {{"programs", {1}}}), 400, "syntax", "strings");
+  expect_error(post(path, {{"programs", {"O1@x"}}}), 400, "syntax", "O1@x");
+  expect_error(post(path, {{"programs", {"../O1"}}}), 400, "syntax", "../O1");
+  expect_error(post(path, {{"programs", std::vector<std::string>(257, "O1")}}), 413,
+               "limit_exceeded", "256");
+  ports_.refusal = Error{Errc::Busy, "port line-1 is busy: it is receiving"};
+  expect_error(post(path, {{"programs", {"O1"}}}), 409, "busy", "receiving");
+}
+
 }  // namespace
 }  // namespace dripline::server_test

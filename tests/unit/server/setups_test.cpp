@@ -27,6 +27,15 @@ TEST_F(SetupsTest, SayWhetherSomethingChanged) {
   EXPECT_EQ(audit_->entries({})->at(0).action, "setup.save");
 }
 
+/// CEN-213.
+TEST_F(SetupsTest, AreRefusedInTheWordsOfTheirControlToo) {
+  const auto refused = setups_->save({"lathe-1", "centurion", "wrong = 1", ""}, "cam");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what,
+            "line 1: wrong is nothing a centurion knows (centurion error 311: parameter file not "
+            "valid)");
+}
+
 TEST_F(SetupsTest, HaveLimits) {
   EXPECT_EQ(save("a = 1", std::string(1025, 'x')).error().code, Errc::LimitExceeded);
   EXPECT_EQ(save(std::string(storage::kMaxSetup + 1, '#')).error().code, Errc::LimitExceeded);

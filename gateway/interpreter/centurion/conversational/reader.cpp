@@ -53,7 +53,10 @@ Result<Events> read_events(std::string_view text) {
     return fail(Errc::LimitExceeded, "the file has {} bytes: at most {}", text.size(), kMaxFile);
   }
   const auto document = read_document(text);
-  if (!document) return fail(document.error());
+  if (!document) {
+    return fail(document.error().code, "{} (centurion error 305: not formatted for conversational)",
+                document.error().what);
+  }
   Events events;
   UnitSystem units = UnitSystem::English;
   for (const auto& file_event : *document) {

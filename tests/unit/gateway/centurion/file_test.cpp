@@ -42,6 +42,29 @@ TEST(Extraction, TellsTextInFrontOfTheFirstNumber) {
   EXPECT_EQ(extract_programs("O5").size(), 1U) << "the last line may have no end";
 }
 
+TEST(Extraction, LeavesCommentsInFrontToTheFirstProgram) {
+  const auto programs = extract_programs("%\n\n(SHIFT 2)\nO3\nX2\n%\nO4\n");
+  ASSERT_EQ(programs.size(), 2U);
+  EXPECT_EQ(programs[0].number, 3U);
+  EXPECT_EQ(programs[0].text, "(SHIFT 2)\nO3\nX2\n");
+  EXPECT_EQ(programs[1].text, "O4\n");
+}
+
+TEST(Extraction, TellsLineByLine) {
+  ProgramSplitter splitter;
+  EXPECT_FALSE(splitter.begins_next("%"));
+  EXPECT_FALSE(splitter.begins_next("(A)"));
+  EXPECT_FALSE(splitter.begins_next("O1 (FIRST)"));
+  EXPECT_EQ(splitter.number(), 1U);
+  EXPECT_FALSE(splitter.begins_next("G65 P5 (O9)"));
+  EXPECT_TRUE(splitter.begins_next("O1"));
+  ProgramSplitter behind_blocks;
+  EXPECT_FALSE(behind_blocks.begins_next("G0 X1"));
+  EXPECT_TRUE(behind_blocks.begins_next("O2"));
+  EXPECT_FALSE(behind_blocks.begins_next("O"));
+  EXPECT_FALSE(behind_blocks.begins_next(std::string(5000, 'O')));
+}
+
 /// CEN-230.
 TEST(Charts, TheFirstTwelveCharactersNameThePage) {
   const auto lines = parse_chart_index(

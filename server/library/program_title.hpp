@@ -1,0 +1,40 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "protocol/base/digest.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+/// How much of a program is looked at for its title.
+inline constexpr std::size_t kTitleHead = 1024;
+inline constexpr std::size_t kMaxTitle = 64;
+
+/// What a program calls itself in its first block, as menus of controls show it: the comment there,
+/// or alone on a line in front of it or right behind it; the name behind a TNC's `BEGIN PGM`;
+/// without those, what the first block says behind its O number. At most kMaxTitle bytes of whole
+/// characters; empty: nothing. Pure.
+std::string program_title(std::string_view head);
+
+/// Titles of stored contents. Content never changes, so each is read once; the last 16384 are
+/// remembered. Any thread; the store must outlive it.
+class ProgramTitles {
+ public:
+  explicit ProgramTitles(storage::Store& store) : store_(store) {}
+  /// Empty also when the content can not be read: whoever reads all of it is told why.
+  std::string of(const Digest& content);
+
+ private:
+  static constexpr std::size_t kMaxKnown = 16384;
+  storage::Store& store_;
+  std::mutex mutex_;
+  std::map<Digest, std::string> known_;
+  std::deque<Digest> order_;  ///< in which they came
+};
+
+}  // namespace dripline::library

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "storage/store.hpp"
+
+namespace dripline::ports {
+
+/// A text that is sent as one, put together from pieces of stored programs and words of ours.
+/// Immutable; any thread.
+class ProgramStream {
+ public:
+  /// One program as it stands.
+  static ProgramStream of(const Digest& content, std::uint64_t size);
+  /// Several, for a control that tells them apart by their O lines. Blank lines and lines of `%`
+  /// around each are left out: the line's own start and end characters stand around the whole. A
+  /// program without an O line gets the number of its name. Errors: those of the store, Syntax
+  /// (nothing to send in it; no number), each with the program's name.
+  static Result<ProgramStream> of(storage::Store& store,
+                                  const std::vector<storage::Revision>& revisions);
+
+  std::uint64_t size() const { return size_; }
+  /// At most `length` bytes from `offset`; fewer do not mean the end. Errors: those of the store.
+  Result<std::string> read(storage::Store& store, std::uint64_t offset, std::uint64_t length) const;
+
+ private:
+  struct Piece {
+    Digest content;  ///< of `size` bytes from `first`, where there is no text
+    std::uint64_t first = 0, size = 0;
+    std::string text;
+  };
+  void add(const Digest& content, std::uint64_t first, std::uint64_t size);
+  void add(std::string text);
+  Result<void> add(storage::Store& store, const storage::Revision& revision);
+
+  std::vector<Piece> pieces_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace dripline::ports
