@@ -57,6 +57,7 @@ std::string shown(std::string_view text) {
 }  // namespace
 
 std::string program_title(std::string_view head) {
+  std::optional<std::string_view> front;  ///< comment alone in front of the first block
   std::optional<std::string_view> first;  ///< block, without its number
   while (!head.empty()) {
     const auto end = std::min(head.find('\n'), head.size());
@@ -69,10 +70,18 @@ std::string program_title(std::string_view head) {
     }
     const auto comment = comment_in(line);
     const bool is_alone = line.front() == '(' || line.front() == ';';
-    if (comment && (!first || is_alone)) return shown(*comment);
-    if (first) break;
+    if (first && !(is_alone && comment)) break;
+    if (first) return shown(front.value_or(*comment));
+    if (is_alone) {
+      if (!front) front = comment;
+      continue;
+    }
     first = behind_number(line);
+    const bool has_number = first->size() != line.size();
+    if (comment && (has_number || !front)) return shown(*comment);
+    if (!has_number && front) break;
   }
+  if (front) return shown(*front);
   return shown(first.value_or(std::string_view()));
 }
 

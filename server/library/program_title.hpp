@@ -15,9 +15,9 @@ namespace dripline::library {
 inline constexpr std::size_t kTitleHead = 1024;
 inline constexpr std::size_t kMaxTitle = 64;
 
-/// What a program calls itself in its first block, as menus of controls show it: the comment there,
-/// or alone on a line in front of it or right behind it; the name behind a TNC's `BEGIN PGM`;
-/// without those, what the first block says behind its O number. At most kMaxTitle bytes of whole
+/// What a program calls itself in its first block, as menus of controls show it: the comment beside
+/// its O number, or alone on a line in front of the block or right behind it; the name behind a
+/// TNC's `BEGIN PGM`; without those, what the first block says. At most kMaxTitle bytes of whole
 /// characters; empty: nothing. Pure.
 std::string program_title(std::string_view head);
 

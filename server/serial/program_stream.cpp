@@ -1,6 +1,7 @@
 #include "server/serial/program_stream.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "gateway/interpreter/centurion/program_extraction.hpp"
 #include "server/serial/program_head.hpp"
@@ -38,18 +39,34 @@ std::size_t lines_behind(std::string_view text) {
   return end == std::string_view::npos ? 0 : text.size() - end - 1;
 }
 
-/// Whether the first block of `head` is an O line; comments may stand in front of it.
-bool has_number(std::string_view head) {
+/// Made from a program's name. Errors: Syntax (it has no number).
+Result<std::string> o_line_of(const std::string& program) {
+  const std::string number = program_number(program);
+  if (!number.empty()) return fmt::format("O{:0>4}\n", number);
+  return fail(Errc::Syntax,
+              "program '{}' has no O number, in its text or as its name: among several the control "
+              "could not tell it apart; send it alone",
+              program);
+}
+
+/// Where the O line of a text stands; comments may stand in front of it.
+struct NumberLine {
+  std::size_t begin = 0, end = 0;  ///< with its LF
+};
+
+std::optional<NumberLine> number_line(std::string_view head) {
   interpreter::centurion::ProgramSplitter splitter;
-  while (!head.empty() && splitter.number() == 0) {
-    const auto end = std::min(head.find('\n'), head.size());
-    std::string line(head.substr(0, end));
+  for (std::size_t at = 0; at < head.size();) {
+    const auto end = std::min(head.find('\n', at), head.size());
+    std::string line(head.substr(at, end - at));
     const auto first = line.find_first_not_of(" \t");
     if (first != std::string::npos && line[first] == ':') line[first] = 'O';
-    if (splitter.begins_next(line)) return false;  // blocks stand in front of it
-    head.remove_prefix(std::min(end + 1, head.size()));
+    if (splitter.begins_next(line)) return std::nullopt;  // blocks stand in front of it
+    const std::size_t next = std::min(end + 1, head.size());
+    if (splitter.number() != 0) return NumberLine{.begin = at, .end = next};
+    at = next;
   }
-  return splitter.number() != 0;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -91,17 +108,21 @@ Result<void> ProgramStream::add(storage::Store& store, const storage::Revision& 
   if (front + behind >= revision.size) {
     return fail(Errc::Syntax, "program '{}' has nothing but blank lines and %", revision.program);
   }
-  if (!has_number(std::string_view(*head).substr(front))) {
-    const std::string number = program_number(revision.program);
-    if (number.empty()) {
-      return fail(Errc::Syntax,
-                  "program '{}' has no O number, in its text or as its name: among several the "
-                  "control could not tell it apart; send it alone",
-                  revision.program);
-    }
-    add(fmt::format("O{:0>4}\n", number));
+  const std::uint64_t end = revision.size - behind;
+  const auto line = number_line(*head);
+  if (!line) {
+    const auto number = o_line_of(revision.program);
+    if (!number) return fail(number.error());
+    add(*number);
+    add(revision.content, front, end - front);
+  } else if (line->begin > front && (*head)[line->end - 1] == '\n') {
+    // What stands in front of its O line would be the end of the program before.
+    add(revision.content, line->begin, line->end - line->begin);
+    add(revision.content, front, line->begin - front);
+    add(revision.content, line->end, end - line->end);
+  } else {
+    add(revision.content, front, end - front);
   }
-  add(revision.content, front, revision.size - front - behind);
   if (behind == 0 && !tail->ends_with('\n')) add("\n");
   return {};
 }

@@ -14,9 +14,10 @@ class ProgramStream {
   /// One program as it stands.
   static ProgramStream of(const Digest& content, std::uint64_t size);
   /// Several, for a control that tells them apart by their O lines. Blank lines and lines of `%`
-  /// around each are left out: the line's own start and end characters stand around the whole. A
-  /// program without an O line gets the number of its name. Errors: those of the store, Syntax
-  /// (nothing to send in it; no number), each with the program's name.
+  /// around each are left out: the line's own start and end characters stand around the whole. Each
+  /// begins with its O line, comments in front of it follow it; without one it gets the number of
+  /// its name. Errors: those of the store, Syntax (nothing to send in it; no number), each with the
+  /// program's name.
   static Result<ProgramStream> of(storage::Store& store,
                                   const std::vector<storage::Revision>& revisions);
 

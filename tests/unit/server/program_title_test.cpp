@@ -12,6 +12,9 @@ TEST(ProgramTitle, IsTheCommentOfTheFirstBlock) {
   EXPECT_EQ(program_title("%\nO0100 (FLANGE 40)\n(OTHER)\nG0\n"), "FLANGE 40");
   EXPECT_EQ(program_title("O0100\r\n( FLANGE )\r\nG0\r\n"), "FLANGE");
   EXPECT_EQ(program_title("(FLANGE)\nO0100\n"), "FLANGE");
+  EXPECT_EQ(program_title("(SHIFT 2)\nO0100 (FLANGE)\n"), "FLANGE");
+  EXPECT_EQ(program_title("(FLANGE)\nG0 X1 (FAST)\n"), "FLANGE");
+  EXPECT_EQ(program_title("(FLANGE)\nO0100\n(SIDE 2)\n"), "FLANGE");
   EXPECT_EQ(program_title("O0100 ; flange\n"), "flange");
   EXPECT_EQ(program_title(":12(FLANGE)\n"), "FLANGE");
   EXPECT_EQ(program_title("O0100 (UNFINISHED"), "UNFINISHED");

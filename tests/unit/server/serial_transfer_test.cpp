@@ -135,7 +135,7 @@ TEST_F(SerialTransferTest, SendsSeveralProgramsAsOneText) {
   EXPECT_EQ(sent->programs,
             (std::vector<std::string>{"O0001 revision 1", "15.nc revision 1", "O0003 revision 1"}));
   EXPECT_EQ(line().read_until("M99\n%"),
-            "%\nO0001 (A)\nG0 X1\nM30\nO0015\n(NO NUMBER)\nG0 X2\nM30\n(C)\n:3\nM99\n%");
+            "%\nO0001 (A)\nG0 X1\nM30\nO0015\n(NO NUMBER)\nG0 X2\nM30\n:3\n(C)\nM99\n%");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == "completed"; }));
   EXPECT_EQ(ports_->port("com1")->transfer->sent, sent->size);
   EXPECT_TRUE(wait([&] { return is_noted("completed"); }));
