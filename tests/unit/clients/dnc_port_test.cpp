@@ -316,7 +316,7 @@ TEST_F(DncPort, CopiesAndRenamesPrograms) {
   EXPECT_EQ(copied.out, "O2 revision 1: copy of O1 revision 3, 3 B\n");
   EXPECT_EQ(last_body("POST /api/v1/programs/O1/copy"), (json{{"to", "O2"}, {"revision", 3}}));
   auto renamed = test_support::revision_json("O3", "name", 1, "O1\n");
-  renamed["revisions"] = {test_support::revision_json("O3", "program", 1, "O1\n")};
+  renamed["revisions"] = json::array({test_support::revision_json("O3", "program", 1, "O1\n")});
   server.set_answer("POST /api/v1/programs/O1/rename", renamed);
   EXPECT_EQ(dnc({"program", "rename", "O1", "O3"}).out,
             "O1 is now O3, with 1 revision; its runs and reports go with it.\n");
