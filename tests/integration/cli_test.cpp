@@ -1,6 +1,6 @@
 // `dnc` as its users type it: what it prints, what it exits with, what it leaves behind.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -76,12 +76,28 @@ TEST_F(Cli, TheNewestSetupOfAMachineGoesWithTheStart) {
 }
 
 /// What a lathe's control keeps: parameters, tool table, work coordinates, power-on values.
-std::string lathe_memory(const std::string& value) {
-  return fmt::format(
-      "units = \"in\"\n[control]\npower_on_feed = 0.{0}\n[[variable]]\nname = \"P0\"\nvalue = "
-      "{0}\n[[variable]]\nname = \"P99\"\nvalue = -{0}\n[[offset]]\nname = \"G54\"\nZ = "
-      "-1{0}.0\n[[tool]]\nnumber = 3\nX = 0.{0}\nZ = {0}.25\nradius = 0.03\ntip = 3\n",
-      value);
+std::string lathe_memory(char digit) {
+  std::string text = R"(units = "in"
+[control]
+power_on_feed = 0.#
+[[variable]]
+name = "P0"
+value = #
+[[variable]]
+name = "P99"
+value = -#
+[[offset]]
+name = "G54"
+Z = -1#.0
+[[tool]]
+number = 3
+X = 0.#
+Z = #.25
+radius = 0.03
+tip = 3
+)";
+  std::replace(text.begin(), text.end(), '#', digit);
+  return text;
 }
 
 /// CEN-220: a backup of all of it is one file.
@@ -95,13 +111,13 @@ TEST_F(Cli, TheWholeMemoryOfALatheComesBackFromItsBackup) {
     EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--follow"}).status, 0);
     return dnc({"report", "export", "latest"}).output;
   };
-  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("a.toml", lathe_memory("5"))}).status, 0);
+  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("a.toml", lathe_memory('5'))}).status, 0);
   const std::string before = state();
   const auto backup = (system.folder() / "backup.toml").string();
   EXPECT_EQ(dnc({"setup", "pull", "lathe-1", "-o", backup}).status, 0);
-  EXPECT_EQ(read("backup.toml"), lathe_memory("5"));
+  EXPECT_EQ(read("backup.toml"), lathe_memory('5'));
 
-  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("b.toml", lathe_memory("8"))}).status, 0);
+  EXPECT_EQ(dnc({"setup", "push", "lathe-1", write("b.toml", lathe_memory('8'))}).status, 0);
   const std::string changed = state();
   EXPECT_EQ(dnc({"setup", "push", "lathe-1", backup, "-m", "from the backup"}).status, 0);
   EXPECT_EQ(state(), before);
