@@ -267,7 +267,7 @@ void show_machine_state(Run& run) {
   }
   if (run.state.spindle.state != SpindleState::Off) emit_spindle(run);
   if (run.state.coolant.flood) emit_coolant(run);
-  run.events().on_panel_lock(panel_lock(run));
+  if (run.state.modes.path == PathMode::Tapping) run.events().on_panel_lock(panel_lock(run));
 }
 
 PanelLock panel_lock(const Run& run) {
