@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+#include <charconv>
 #include <memory>
 
 #include "clients/cli/check_report.hpp"
@@ -10,6 +12,10 @@
 
 namespace dripline::cli {
 namespace {
+
+struct CheckCommand : OfflineCommand {
+  std::string to;  ///< empty: the whole program
+};
 
 /// Shows how far into the text the check has come, looking at the clock only now and then.
 class CheckProgress final : public interpreter::EventSink {
@@ -28,36 +34,95 @@ class CheckProgress final : public interpreter::EventSink {
   std::uint64_t blocks_ = 0;
 };
 
-/// Runs the program into `summary`, with a progress bar on a terminal.
-Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const std::string& label,
-                                        interpreter::CheckSummary& summary, const Clock& clock) {
+/// "120" and "N120": a block number; "L7": a line.
+Result<interpreter::OfflineLimits> limits_of(const std::string& to) {
+  interpreter::OfflineLimits limits;
+  if (to.empty()) return limits;
+  const bool is_line = to.front() == 'L' || to.front() == 'l';
+  const std::size_t digits = is_line || to.front() == 'N' || to.front() == 'n' ? 1 : 0;
+  std::uint32_t number = 0;
+  const char* end = to.data() + to.size();
+  const auto read = std::from_chars(to.data() + digits, end, number);
+  if (read.ec != std::errc{} || read.ptr != end) {
+    return fail(Errc::Syntax, "--to {}: expected a block number as 120 or N120, or a line as L7",
+                to);
+  }
+  if (is_line) {
+    limits.stop = interpreter::StopPoint{.sequence = {}, .line = number};
+  } else {
+    limits.stop = interpreter::StopPoint{.sequence = number, .line = {}};
+  }
+  return limits;
+}
+
+/// What the control's own memory says of the program: warnings, or the alarm where its setup says
+/// that it keeps its programs. False: it would not take the program.
+Result<bool> check_memory(const OfflineProgram& program, interpreter::EventSink& sink) {
+  const auto* keeping = program.dialect().keeping;
+  if (keeping == nullptr) return true;
+  auto source = program.source();
+  const auto verdict = keeping->fit(program.setup(), source);
+  if (!verdict) return fail(verdict.error());
+  for (const auto& refused : verdict->refused) {
+    if (!verdict->is_binding) {
+      sink.on_warning({{}, refused});
+      continue;
+    }
+    sink.on_program({.control = program.dialect().name, .name = {}});
+    sink.on_alarm({{}, refused});
+    return false;
+  }
+  return true;
+}
+
+/// Runs the program into `sink`, with a progress bar on a terminal.
+Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const CheckCommand& command,
+                                        interpreter::EventSink& sink, const Clock& clock) {
+  const auto limits = limits_of(command.to);
+  if (!limits) return fail(limits.error());
+  const auto fits = check_memory(program, sink);
+  if (!fits) return fail(fits.error());
+  if (!*fits) return interpreter::OfflineOutcome{};
   auto source = program.source();
   LiveArea area = LiveArea::on_stderr();
   if (!area.is_live()) {
-    return interpreter::run_offline(program.dialect(), program.setup(), source, summary);
+    return interpreter::run_offline(program.dialect(), program.setup(), source, sink, *limits);
   }
-  Progress bar(area, clock, label);
+  Progress bar(area, clock, command.file);
   CheckProgress progress(bar, program.text().size());
-  interpreter::EventTee both(summary, progress);
-  return interpreter::run_offline(program.dialect(), program.setup(), source, both);
+  interpreter::EventTee both(sink, progress);
+  return interpreter::run_offline(program.dialect(), program.setup(), source, both, *limits);
 }
 
-int check(Context& context, const OfflineCommand& command) {
+/// The program went to its end past the block that was to be looked at.
+int never_there(const CheckCommand& command) {
+  fmt::print(stderr, "dnc: {}: block {} is not met before the end of the program\n", command.file,
+             command.to);
+  return kExitNo;
+}
+
+int check(Context& context, const CheckCommand& command) {
   auto program = OfflineProgram::open(command);
   if (!program) return complain(program.error());
   SystemClock clock;
   const SteadyTime begun = clock.steady_now();
   interpreter::CheckSummary summary(program->setup().start);
-  const auto outcome = run(*program, command.file, summary, clock);
+  interpreter::MachineState state(program->setup().start);
+  interpreter::EventTee both(summary, state);
+  const bool stops = !command.to.empty();
+  auto& sink = stops ? static_cast<interpreter::EventSink&>(both) : summary;
+  const auto outcome = run(*program, command, sink, clock);
   if (!outcome) return complain_offline(outcome.error());
   const double elapsed = std::chrono::duration<double>(clock.steady_now() - begun).count();
-  const CheckReport report{command.file, summary.summary(), elapsed};
+  CheckReport report{command.file, summary.summary(), elapsed};
+  if (outcome->has_stopped) report.stopped = state;
   if (context.wants_json) {
     context.print(json_text(check_json(report)));
   } else {
     context.print(check_text(report, context.has_colour()));
   }
-  return outcome->ended ? kExitOk : kExitNo;
+  if (stops && outcome->ended) return never_there(command);
+  return outcome->ended || outcome->has_stopped ? kExitOk : kExitNo;
 }
 
 }  // namespace
@@ -65,14 +130,21 @@ int check(Context& context, const OfflineCommand& command) {
 void add_check_command(CLI::App& app, Context& context) {
   auto* command = app.add_subcommand(
       "check", "Interpret a program on disk: warnings, alarm, lengths, time, extents");
-  auto options = std::make_shared<OfflineCommand>();
+  auto options = std::make_shared<CheckCommand>();
   add_offline_options(*command, *options);
+  command
+      ->add_option("--to", options->to,
+                   "End behind the first block with this number (120, N120), or that begins in "
+                   "this line (L7), and say how the machine stands there")
+      ->type_name("BLOCK");
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
-      "folder.\n\nExit status: 0 the end was reached, 1 an alarm, 2 usage, unreadable file, "
-      "unknown "
-      "control.\n\nExample:\n  dnc check --control centurion shaft.nc");
+      "folder.\nA program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
+      "program, 32 programs)\nis warned of; with memory_limits = true in the setup's [control] it "
+      "is an alarm.\n\nExit status: 0 the end was reached, or the block of --to; 1 an alarm, or "
+      "that block was not met;\n2 usage, unreadable file, unknown control.\n\nExamples:\n  dnc "
+      "check --control centurion shaft.nc\n  dnc check --to 40 15.h");
   command->callback([&context, options] { context.status = check(context, *options); });
 }
 

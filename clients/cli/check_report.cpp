@@ -6,6 +6,7 @@
 
 #include "clients/cli/table.hpp"
 #include "clients/cli/value_text.hpp"
+#include "gateway/interpreter/trace/event_words.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using interpreter::Axis;
 using interpreter::AxisExtent;
 using interpreter::Diagnostic;
+using interpreter::MachineState;
 using interpreter::Summary;
 using Json = nlohmann::ordered_json;
 
@@ -67,12 +69,54 @@ void add_extents(Details& details, const Summary& summary) {
   }
 }
 
+std::string block_name(const interpreter::Origin& origin) {
+  if (origin.sequence < 0) return fmt::format("line {}", origin.line);
+  return fmt::format("block {} in line {}", origin.sequence, origin.line);
+}
+
 std::string verdict(const CheckReport& report, bool has_colour) {
   const auto& summary = report.summary;
+  if (report.stopped) {
+    return styled("comes to " + block_name(report.stopped->block()), Style::Good, has_colour);
+  }
   const auto place_text = summary.alarm ? fmt::format(" in line {}", summary.alarm->line) : "";
   const std::string text =
       summary.ended ? "reaches its end" : fmt::format("raises an alarm{}", place_text);
   return styled(text, summary.ended ? Style::Good : Style::Bad, has_colour);
+}
+
+std::string feed_text(const Summary& summary, const Feed& feed) {
+  switch (feed.per()) {
+    case Feed::Per::Minute:
+      return fmt::format("{:.1f} {}/min", length(summary, feed.length()), unit_name(summary));
+    case Feed::Per::Revolution:
+      return fmt::format("{:.4f} {}/rev", length(summary, feed.length()), unit_name(summary));
+    case Feed::Per::Move:
+      break;
+  }
+  return fmt::format("{:.3f} moves/min", feed.moves_per_minute());
+}
+
+void add_state(Details& details, const Summary& summary, const MachineState& state) {
+  std::string position;
+  for (const Axis axis : interpreter::kAllAxes) {
+    if (!state.position().has(axis)) continue;
+    const double raw = state.position().raw(axis);
+    position += fmt::format("{}{} {:.4f}", position.empty() ? "" : "  ", interpreter::letter(axis),
+                            programmed(summary, axis, {raw, raw}).least);
+  }
+  details.add("position", position);
+  details.add("tool", state.tool() ? std::to_string(*state.tool()) : "");
+  details.add("feed", state.feed() ? feed_text(summary, *state.feed()) : "");
+  const auto& spindle = state.spindle();
+  std::string turning(word_of(spindle.state));
+  if (spindle.state != interpreter::SpindleState::Off && !spindle.surface_speed) {
+    turning += fmt::format(" {:.0f} rpm", spindle.revolutions_per_minute);
+  }
+  details.add("spindle", turning);
+  const auto& coolant = state.coolant();
+  details.add("coolant", coolant.flood ? (coolant.mist ? "flood, mist" : "flood")
+                                       : (coolant.mist ? "mist" : "off"));
 }
 
 Json diagnostic_json(const Diagnostic& diagnostic) {
@@ -99,6 +143,24 @@ Json extents_json(const Summary& summary) {
   return extents;
 }
 
+Json state_json(const Summary& summary, const MachineState& state) {
+  Json json{{"block", nullptr}, {"line", state.block().line}, {"position", Json::object()}};
+  if (state.block().sequence >= 0) json["block"] = state.block().sequence;
+  for (const Axis axis : interpreter::kAllAxes) {
+    if (!state.position().has(axis)) continue;
+    const double raw = state.position().raw(axis);
+    json["position"][std::string(1, interpreter::letter(axis))] =
+        rounded(programmed(summary, axis, {raw, raw}).least);
+  }
+  json["tool"] = state.tool() ? Json(*state.tool()) : Json(nullptr);
+  json["spindle"] = std::string(word_of(state.spindle().state));
+  json["speed"] = rounded(state.spindle().revolutions_per_minute);
+  json["feed"] = state.feed() ? Json(feed_text(summary, *state.feed())) : Json(nullptr);
+  json["flood"] = state.coolant().flood;
+  json["mist"] = state.coolant().mist;
+  return json;
+}
+
 }  // namespace
 
 std::string check_text(const CheckReport& report, bool has_colour) {
@@ -122,6 +184,7 @@ std::string check_text(const CheckReport& report, bool has_colour) {
   details.add("time", duration_text(std::round(summary.seconds)) +
                           " estimated, without acceleration, stops and tool changes");
   add_extents(details, summary);
+  if (report.stopped) add_state(details, summary, *report.stopped);
   details.add("warnings", std::to_string(summary.warning_count));
   details.add("checked in", fmt::format("{:.2f} s, {:.0f} blocks/s", report.elapsed_seconds,
                                         blocks_per_second(report)));
@@ -141,6 +204,7 @@ Json check_json(const CheckReport& report) {
   json["feed_length"] = rounded(length(summary, summary.feed_length));
   json["seconds"] = rounded(summary.seconds);
   json["extents"] = extents_json(summary);
+  if (report.stopped) json["stopped"] = state_json(summary, *report.stopped);
   json["warnings"] = Json::array();
   for (const auto& warning : summary.warnings) json["warnings"].push_back(diagnostic_json(warning));
   json["warning_count"] = summary.warning_count;

@@ -20,6 +20,7 @@ void add_report_commands(CLI::App& app, Context& context);
 void add_server_commands(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);
 void add_trace_command(CLI::App& app, Context& context);
+void add_edit_command(CLI::App& app, Context& context);
 void add_approximate_command(CLI::App& app, Context& context);
 void add_forecast_command(CLI::App& app, Context& context);
 void add_graphics_command(CLI::App& app, Context& context);

@@ -25,6 +25,7 @@ Examples:
   dnc check shaft.nc
   dnc trace --control centurion --setup lathe.toml shaft.nc
   dnc convert shaft.ptp -o shaft.nc
+  dnc edit 15.h --delete 5..7
 
 Exit status:
   0    it went well
@@ -92,6 +93,7 @@ int run(int argc, char** argv) {
   add_server_commands(app, context);
   add_check_command(app, context);
   add_trace_command(app, context);
+  add_edit_command(app, context);
   add_forecast_command(app, context);
   add_touch_command(app, context);
   add_graphics_command(app, context);

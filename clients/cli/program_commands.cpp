@@ -106,12 +106,18 @@ int show_program(Context& context, const std::string& name) {
   return kExitOk;
 }
 
-int remove_program(Context& context, const std::string& name) {
+struct RemoveCommand {
+  std::string name;
+  bool overrides_protection = false;
+};
+
+int remove_program(Context& context, const RemoveCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
-  auto removed = client->remove_program(name);
+  auto removed = client->remove_program(command.name, command.overrides_protection);
   if (!removed) return complain(removed.error());
-  context.print(fmt::format("Removed {} from the library; its runs and reports stay.\n", name));
+  context.print(
+      fmt::format("Removed {} from the library; its runs and reports stay.\n", command.name));
   return kExitOk;
 }
 
@@ -181,6 +187,8 @@ void add_push(CLI::App& group, Context& context) {
       "--control", options->control,
       "The control it is written for, e.g. centurion (default: the server finds out)");
   command->add_option("--comment", options->comment, "What changed; kept with the revision");
+  command->add_flag("--force", options->overrides_protection,
+                    "Also where the program there is protected against change (tnc155: P, G50)");
   add_json_flag(*command, context);
   command->footer(
       "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
@@ -204,13 +212,21 @@ void add_pull(CLI::App& group, Context& context) {
   command->callback([&context, options] { context.status = pull(context, *options); });
 }
 
-void add_by_name(CLI::App& group, Context& context, const char* verb, const char* help,
-                 int (*action)(Context&, const std::string&)) {
-  auto* command = group.add_subcommand(verb, help);
+void add_show(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("show", "One program and all its revisions");
   auto name = std::make_shared<std::string>();
   command->add_option("NAME", *name, "The program")->required();
-  if (action == show_program) add_json_flag(*command, context);
-  command->callback([&context, name, action] { context.status = action(context, *name); });
+  add_json_flag(*command, context);
+  command->callback([&context, name] { context.status = show_program(context, *name); });
+}
+
+void add_remove(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("remove", "Take a program out of the library");
+  auto options = std::make_shared<RemoveCommand>();
+  command->add_option("NAME", options->name, "The program")->required();
+  command->add_flag("--force", options->overrides_protection,
+                    "Also a program that is protected against erasing (tnc155: P, G50)");
+  command->callback([&context, options] { context.status = remove_program(context, *options); });
 }
 
 void add_copy(CLI::App& group, Context& context) {
@@ -248,12 +264,12 @@ void add_program_commands(CLI::App& app, Context& context) {
   auto* list = group->add_subcommand("list", "All programs with their latest revision");
   add_json_flag(*list, context);
   list->callback([&context] { context.status = list_programs(context); });
-  add_by_name(*group, context, "show", "One program and all its revisions", show_program);
+  add_show(*group, context);
   add_judgement(*group, context, "accept", "Put a held revision in force", accept_revision);
   add_judgement(*group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_remove(*group, context);
   add_copy(*group, context);
   add_rename(*group, context);
-  add_by_name(*group, context, "remove", "Take a program out of the library", remove_program);
 }
 
 }  // namespace dripline::cli

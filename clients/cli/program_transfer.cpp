@@ -50,7 +50,8 @@ int push(Context& context, const PushCommand& command) {
   catch_interrupts();
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
-  client::PushOptions options{{name, command.control, command.comment}, retry_policy(), {}};
+  client::PushOptions options{
+      {name, command.control, command.comment, command.overrides_protection}, retry_policy(), {}};
   const SteadyTime begun = clock.steady_now();
   const auto pushed = [&] {
     Progress progress(area, clock, name);

@@ -10,6 +10,7 @@ namespace dripline::cli {
 
 struct PushCommand {
   std::string file, name, control, comment;  ///< empty: not said
+  bool overrides_protection = false;
 };
 struct PullCommand {
   std::string name, output;  ///< output empty: `name` in this folder; "-": standard output

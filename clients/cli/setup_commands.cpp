@@ -19,6 +19,7 @@ struct SetupCommand {
   std::string machine, file, comment, control;
   std::optional<std::uint64_t> revision;
   std::uint64_t limit = 20;
+  bool wants_parameters = false;
 };
 
 int list(Context& context, const SetupCommand& command) {
@@ -117,7 +118,9 @@ int export_form(Context& context, const SetupCommand& command) {
   if (!client) return context.status;
   auto setup = client->setup(command.machine, command.revision);
   if (!setup) return complain(setup.error());
-  const auto text = control_form_of(setup->text, control_of(*client, command));
+  const auto text = command.wants_parameters
+                        ? machine_parameters_text(setup->text)
+                        : control_form_of(setup->text, control_of(*client, command));
   if (!text) return complain(text.error());
   return put_out(
       command.file, *text,
@@ -134,10 +137,11 @@ int import_form(const std::string& path, const std::string& output) {
 
 void add_import(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
-      "import", "Make a setup from what a control sent: TNC tools, Centurion parameters");
+      "import", "Make a setup from what a control sent: TNC tools or MP, Centurion parameters");
   auto files = std::make_shared<std::pair<std::string, std::string>>();
   command
-      ->add_option("FILE", files->first, "A TNC's program 0, or P... = values between G10 and G11")
+      ->add_option("FILE", files->first,
+                   "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
       ->required();
   command->add_option("-o,--output", files->second,
                       "TOML file to write, - for standard output [-]");
@@ -217,6 +221,8 @@ void add_setup_commands(CLI::App& app, Context& context) {
                             export_form);
   exporting.command->add_option("--control", exporting.options->control,
                                 "tnc155 or centurion [the machine's]");
+  exporting.command->add_flag("--parameters", exporting.options->wants_parameters,
+                              "Of a TNC the machine parameters instead: MP0: ...");
   exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");

@@ -1,13 +1,16 @@
 #include "clients/cli/setup_forms.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "gateway/interpreter/centurion/parameter_text.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
 #include "gateway/interpreter/tnc155/options.hpp"
 
 namespace dripline::cli {
+namespace {
 
+/// Tools as the TOML of a setup, in millimetres.
 std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
   std::string text = "units = \"mm\"\n";
   for (const auto& tool : tools) {
@@ -18,6 +21,40 @@ std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
     if (tool.is_special) text += "special = true\n";
   }
   return text;
+}
+
+std::string parameters_toml(const interpreter::tnc155::MachineParameters& parameters) {
+  std::string text = "[control.machine_parameters]\n";
+  for (const auto& [number, value] : parameters) {
+    text += fmt::format("MP{} = {:.12g}\n", number, value);
+  }
+  return text;
+}
+
+/// What a TNC sends of its memory: program 0, or its machine parameters (MP0: ...).
+Result<std::string> setup_of_memory_file(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(" \r\n\t\2"), text.size());
+  if (text.substr(begin).starts_with("MP")) {
+    const auto parameters = interpreter::tnc155::read_machine_parameters(text);
+    if (!parameters) return fail(parameters.error());
+    return parameters_toml(*parameters);
+  }
+  const auto tools = interpreter::tnc155::read_tool_store(text);
+  if (!tools) return fail(tools.error());
+  return tools_toml(*tools);
+}
+
+}  // namespace
+
+Result<std::string> machine_parameters_text(std::string_view toml) {
+  const auto data = interpreter::parse_control_data(toml);
+  if (!data) return fail(data.error());
+  const auto parameters = interpreter::tnc155::machine_parameters_of(data->control);
+  if (!parameters) return fail(parameters.error());
+  if (parameters->empty()) {
+    return fail(Errc::NotFound, "the setup has no [control.machine_parameters]");
+  }
+  return interpreter::tnc155::write_machine_parameters(*parameters);
 }
 
 Result<std::string> tool_store_of(std::string_view toml) {
@@ -38,8 +75,7 @@ Result<std::string> control_form_of(std::string_view toml, std::string_view cont
 Result<std::string> setup_of_control_form(std::string_view text) {
   if (text.find("G10") != std::string_view::npos)
     return interpreter::centurion::setup_of_parameter_text(text);
-  const auto tools = interpreter::tnc155::read_tool_store(text);
-  return tools ? tools_toml(*tools) : Result<std::string>(fail(tools.error()));
+  return setup_of_memory_file(text);
 }
 
 }  // namespace dripline::cli

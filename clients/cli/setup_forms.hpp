@@ -2,14 +2,14 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "gateway/interpreter/setup.hpp"
+#include "protocol/base/result.hpp"
 
 namespace dripline::cli {
 
-/// Tools as the TOML of a setup, in millimetres.
-std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools);
+/// The machine parameters in a setup's text, as the control takes them. Errors: those of
+/// parse_control_data; Syntax, LimitExceeded (a parameter), NotFound (none is there).
+Result<std::string> machine_parameters_text(std::string_view toml);
 
 /// The tool store of a TNC 151/155 (its program 0) from a setup's text, in the setup's units.
 /// Errors: those of parse_control_data and write_tool_store.
@@ -20,7 +20,7 @@ Result<std::string> tool_store_of(std::string_view toml);
 Result<std::string> control_form_of(std::string_view toml, std::string_view control);
 
 /// The text of a setup from what a control sent: a Centurion's parameters (they hold a G10), else a
-/// TNC's tool store. Errors: Syntax.
+/// TNC's tool store or machine parameters (MP0: ...). Errors: Syntax, LimitExceeded; with the line.
 Result<std::string> setup_of_control_form(std::string_view text);
 
 }  // namespace dripline::cli

@@ -169,8 +169,10 @@ Reply<ProgramHistory> Client::program(std::string_view name) {
   return fetch<ProgramHistory>(get(path_of("programs", name)));
 }
 
-Reply<void> Client::remove_program(std::string_view name) {
-  auto response = exchange(with_method("DELETE", path_of("programs", name)));
+Reply<void> Client::remove_program(std::string_view name, bool overrides_protection) {
+  std::string path = path_of("programs", name);
+  if (overrides_protection) path = with_query(std::move(path), "force", "true");
+  auto response = exchange(with_method("DELETE", path));
   if (!response) return failed(response.error());
   return {};
 }
@@ -248,9 +250,10 @@ Reply<Upload> Client::put_piece(std::string_view id, const Piece& piece) {
   return fetch<Upload>(http);
 }
 
-Reply<Revision> Client::commit_upload(std::string_view id, std::string_view sha256) {
+Reply<Revision> Client::commit_upload(std::string_view id, const CommitRequest& request) {
   Json json = Json::object();
-  if (!sha256.empty()) json["sha256"] = sha256;
+  if (!request.sha256.empty()) json["sha256"] = request.sha256;
+  if (request.overrides_protection) json["force"] = true;
   const std::string body = dumped(json);
   HttpRequest http = with_method("POST", path_of("uploads", id) + "/commit");
   http.body = body;

@@ -21,7 +21,13 @@ struct Page {
 
 struct UploadRequest {
   std::string program;
-  std::string control, comment;  ///< empty: not said
+  std::string control, comment;       ///< empty: not said
+  bool overrides_protection = false;  ///< replaces also a program that is protected
+};
+
+struct CommitRequest {
+  std::string sha256;  ///< empty: not said
+  bool overrides_protection = false;
 };
 
 struct Piece {
@@ -96,7 +102,8 @@ class Client {
 
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);
-  Reply<void> remove_program(std::string_view name);
+  /// `overrides_protection`: also one that is protected against erasing.
+  Reply<void> remove_program(std::string_view name, bool overrides_protection = false);
   /// The latest revision unless one is named.
   Reply<Revision> copy_program(std::string_view from, const std::string& to,
                                std::optional<std::uint64_t> revision);
@@ -109,7 +116,7 @@ class Client {
   Reply<Upload> open_upload(const UploadRequest& request);
   Reply<Upload> upload(std::string_view id);
   Reply<Upload> put_piece(std::string_view id, const Piece& piece);
-  Reply<Revision> commit_upload(std::string_view id, std::string_view sha256);
+  Reply<Revision> commit_upload(std::string_view id, const CommitRequest& request);
   Reply<void> drop_upload(std::string_view id);
 
   Reply<std::vector<Machine>> machines();

@@ -120,7 +120,7 @@ class Push {
     back_off_.reset();
     bool is_repeated = false;
     while (true) {
-      auto revision = client_.commit_upload(id_, sha256);
+      auto revision = client_.commit_upload(id_, {sha256, options_.upload.overrides_protection});
       if (revision) return revision;
       if (is_repeated && revision.error().code == Errc::NotFound) {
         return find_committed(sha256, revision.error());

@@ -8,6 +8,7 @@
 
 #include "gateway/interpreter/interpreter.hpp"
 #include "gateway/interpreter/panel_tables.hpp"
+#include "gateway/interpreter/program_keeping.hpp"
 #include "gateway/interpreter/setup.hpp"
 
 namespace dripline::interpreter {
@@ -44,6 +45,8 @@ struct Dialect {
   /// Switches of the panel that a setup can be given tables for; nullptr: the panel is as
   /// `feed_dial` says. Errors: Syntax, LimitExceeded.
   Result<PanelTables> (*panel_tables)(const Setup& setup) = nullptr;
+  /// Of a control that keeps programs in numbered blocks; nullptr: a program is its lines.
+  const ProgramKeeping* keeping = nullptr;
 };
 
 std::span<const Dialect> dialects();

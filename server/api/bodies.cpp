@@ -74,11 +74,14 @@ Result<CommitBody> decode_commit(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());
   const auto text = object->optional_text("sha256", kMaxName);
+  CommitBody commit;
+  commit.force = object->optional_flag("force").value_or(false);
   if (auto good = object->finish(); !good) return fail(good.error());
-  if (!text) return CommitBody{};
+  if (!text) return commit;
   const auto digest = parse_digest(*text);
   if (!digest) return fail(Errc::Syntax, "member 'sha256': {}", digest.error().what);
-  return CommitBody{.sha256 = *digest};
+  commit.sha256 = *digest;
+  return commit;
 }
 
 Result<CopyBody> decode_copy(std::string_view body) {

@@ -15,6 +15,7 @@ Result<library::UploadRequest> decode_upload(std::string_view body);
 
 struct CommitBody {
   std::optional<Digest> sha256;
+  bool force = false;  ///< also in the place of a protected program
 };
 /// An empty body is an empty object: everything in it is optional.
 Result<CommitBody> decode_commit(std::string_view body);

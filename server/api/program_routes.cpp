@@ -65,7 +65,16 @@ Response rename_program(Services& services, const Request& request) {
 }
 
 Response remove_program(Services& services, const Request& request) {
-  const auto removed = services.programs.remove(request.parameter("name"), request.who);
+  QueryReader query(request);
+  const std::string force = query.text("force").value_or("false");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (force != "true" && force != "false") {
+    return error_response(
+        {Errc::Syntax, fmt::format("query parameter 'force' is '{}': true or false", force)});
+  }
+  const auto protection =
+      force == "true" ? library::Protection::Override : library::Protection::Respect;
+  const auto removed = services.programs.remove(request.parameter("name"), request.who, protection);
   return removed ? no_content() : error_response(removed.error());
 }
 

@@ -35,8 +35,10 @@ Response append_upload(Services& services, const Request& request) {
 Response commit_upload(Services& services, const Request& request) {
   const auto body = decode_commit(request.body);
   if (!body) return error_response(body.error());
+  const auto protection =
+      body->force ? library::Protection::Override : library::Protection::Respect;
   const auto committed =
-      services.programs.commit(request.parameter("id"), body->sha256, request.who);
+      services.programs.commit(request.parameter("id"), body->sha256, request.who, protection);
   if (!committed) return error_response(committed.error());
   auto view = revision_json(committed->revision, services.programs.title(committed->revision));
   if (!committed->is_unchanged) return json_response(201, view);

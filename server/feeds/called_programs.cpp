@@ -9,7 +9,8 @@
 namespace dripline::feeds {
 namespace {
 
-constexpr std::string_view kExtensions[] = {"", ".nc", ".NC", ".txt", ".tap", ".cnc"};
+constexpr std::string_view kExtensions[] = {"",   ".nc", ".NC",  ".h",   ".H",
+                                            ".i", ".I",  ".txt", ".tap", ".cnc"};
 
 /// The digits of `O0002` without leading zeros ("2"), or empty when `name` is not of this form.
 std::string program_number(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <set>
 
+#include "server/feeds/control_memory.hpp"
 #include "server/feeds/identifiers.hpp"
 #include "server/feeds/start_point.hpp"
 
@@ -182,6 +183,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   }
   auto run = make_run(request, *view);
   if (!run) return run;
+  if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
   const auto setup = setup_of(*run);
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;

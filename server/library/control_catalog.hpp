@@ -20,6 +20,10 @@ class ControlCatalog {
   /// Would the control take this as its tools, offsets and parameters? Errors: Syntax, Unsupported,
   /// LimitExceeded: which key, which line.
   virtual Result<void> check_setup(std::string_view control, std::string_view toml) const = 0;
+  /// Does a program that begins with `head` say that it must be neither erased nor changed?
+  virtual bool is_protected(std::string_view /*control*/, std::string_view /*head*/) const {
+    return false;
+  }
 };
 
 /// Errors: Unsupported, naming the known controls.

@@ -63,7 +63,7 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
 }
 
 Result<Committed> Programs::commit(const std::string& id, const std::optional<Digest>& expected,
-                                   const std::string& who) {
+                                   const std::string& who, Protection protection) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
   auto upload = store_.upload(id);
@@ -72,6 +72,11 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
   if (upload->control.empty()) {
     if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
+  }
+  if (protection == Protection::Respect && !upload->is_held) {
+    if (auto free = check_protection(upload->program, expected); !free) {
+      return drop(*upload, free.error());
+    }
   }
   const auto before = store_.revisions(upload->program);
   auto revision = store_.commit_upload(id, expected);
@@ -113,7 +118,28 @@ Result<void> Programs::reject(const std::string& program, std::uint64_t number,
   return rejected;
 }
 
-Result<void> Programs::remove(const std::string& program, const std::string& who) {
+/// A program with the content that is to replace it may stay.
+Result<void> Programs::check_protection(const std::string& program,
+                                        const std::optional<Digest>& replacement) {
+  const auto revision = store_.revision(program, std::nullopt);
+  if (!revision) return {};  // nothing in force
+  if (replacement && *replacement == revision->content) return {};
+  const auto head = store_.read_content(revision->content, 0, std::min(revision->size, kHead));
+  if (!head) return fail(head.error());
+  const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
+  if (!catalog_.is_protected(revision->control, text)) return {};
+  return fail(Errc::ModalConflict,
+              "revision {} is protected against change and erasure; force overrides that",
+              revision->number);
+}
+
+Result<void> Programs::remove(const std::string& program, const std::string& who,
+                              Protection protection) {
+  if (protection == Protection::Respect) {
+    if (auto free = check_protection(program, std::nullopt); !free) {
+      return fail(free.error().code, "program '{}' stays: {}", program, free.error().what);
+    }
+  }
   if (auto removed = store_.remove_program(program); !removed) return removed;
   spdlog::info("removed program={}", program);
   audit_.write({.who = who, .action = "program.remove", .subject = program, .detail = {}});

@@ -30,6 +30,10 @@ struct Committed {
   bool is_unchanged = false;  ///< the latest revision had the same content already
 };
 
+/// What to do about a program that says that it must be neither changed nor erased (the P of a
+/// TNC's BEGIN PGM block).
+enum class Protection : std::uint8_t { Respect, Override };
+
 /// The program library: uploads that become immutable revisions, and what can be done with those.
 /// Every byte is checked when it arrives; a bad one drops the upload and changes nothing else.
 /// Any thread; pieces of one upload are taken one after the other.
@@ -45,9 +49,11 @@ class Programs {
   /// ModalConflict (a gap or an overlap).
   Result<storage::Upload> append(const std::string& id, std::uint64_t offset,
                                  std::span<const std::byte> bytes);
-  /// Errors: those of append, Syntax (empty), Corrupt (the digest is another one).
+  /// What a machine sent is not stopped by protection: it waits for acceptance anyway. Errors:
+  /// those of append, Syntax (empty), Corrupt (the digest is another one), ModalConflict (the
+  /// newest revision is protected; the upload is dropped).
   Result<Committed> commit(const std::string& id, const std::optional<Digest>& expected,
-                           const std::string& who);
+                           const std::string& who, Protection protection = Protection::Respect);
   Result<void> abandon(const std::string& id);
 
   Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
@@ -69,7 +75,9 @@ class Programs {
                                    const std::string& who);
   /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is in force).
   Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
-  Result<void> remove(const std::string& program, const std::string& who);
+  /// Errors: NotFound, Busy, ModalConflict (protected).
+  Result<void> remove(const std::string& program, const std::string& who,
+                      Protection protection = Protection::Respect);
   /// Promises of both: storage::Store.
   Result<storage::Revision> copy(const storage::ProgramMove& move,
                                  std::optional<std::uint64_t> number);
@@ -90,6 +98,8 @@ class Programs {
   void forget(const std::string& id);
   Result<void> catch_up(Session& session, const storage::Upload& upload);
   Result<void> settle_control(storage::Upload& upload);
+  Result<void> check_protection(const std::string& program,
+                                const std::optional<Digest>& replacement);
   Error in_control_words(const storage::ProgramMove& move, const Error& error);
   tl::unexpected<Error> drop(const storage::Upload& upload, const Error& error);
 

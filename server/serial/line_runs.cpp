@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "protocol/dds/record_text.hpp"
+#include "server/feeds/control_memory.hpp"
 #include "server/feeds/identifiers.hpp"
 #include "server/serial/program_stream.hpp"
 #include "server/serial/start_finder.hpp"
@@ -75,6 +76,7 @@ Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
   run.size = revision->size;
   run.control = machine.control.empty() ? revision->control : machine.control;
   run.author = request.author;
+  if (auto fits = feeds::check_control_memory(store_, run); !fits) return fail(fits.error());
   if (auto created = store_.create_run(run); !created) return fail(created.error());
   return run;
 }

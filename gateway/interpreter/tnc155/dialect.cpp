@@ -3,6 +3,8 @@
 #include <string>
 
 #include "gateway/interpreter/tnc155/interpreter.hpp"
+#include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/program_keeping.hpp"
 #include "gateway/interpreter/tnc155/tools.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -38,6 +40,13 @@ Result<void> load_parameters(const Setup& setup, State& state) {
   return {};
 }
 
+/// The central tool file has fewer tools than programs may define.
+Result<void> check_tool_store(const Setup& setup) {
+  const auto store = write_tool_store(setup.tools, Units::Millimetre);
+  if (!store) return fail(store.error().code, "central_tool_file: {}", store.error().what);
+  return {};
+}
+
 void stand_at_start(const Setup& setup, State& state) {
   state.machine = setup.start;
   state.machine.unmark_all();
@@ -55,6 +64,9 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   std::vector<ToolDefinition> tools;
   if (auto done = load_datum(setup, state); !done) return fail(done.error());
   if (auto done = load_parameters(setup, state); !done) return fail(done.error());
+  if (options->central_tool_file) {
+    if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());
+  }
   if (auto done = load_tools(setup, tools); !done) return fail(done.error());
   state.transformation.basic_rotation = options->basic_rotation;
   stand_at_start(setup, state);
@@ -100,8 +112,10 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kTnc155Dialect{"tnc155",          "HEIDENHAIN TNC 151/155 (plain language and ISO)",
-                             &likelihood,       &make,
-                             Units::Millimetre, MachineKind::Mill};
+const Dialect kTnc155Dialect{.name = "tnc155",
+                             .title = "HEIDENHAIN TNC 151/155 (plain language and ISO)",
+                             .likelihood = &likelihood,
+                             .make = &make,
+                             .keeping = &kTncKeeping};
 
 }  // namespace dripline::interpreter

@@ -107,6 +107,19 @@ Result<ToolRecord> read_tool(std::string_view line, Units units) {
   return tool;
 }
 
+/// Of "MP71".
+Result<int> parameter_number(std::string_view key) {
+  Words words(key);
+  const auto number = words.take("MP") ? words.number() : std::nullopt;
+  if (!number || !words.is_at_end()) {
+    return fail(Errc::Syntax, "\"{}\": expected MP and a number", key);
+  }
+  if (*number < 0 || *number > kLastMachineParameter || *number != std::floor(*number)) {
+    return fail(Errc::LimitExceeded, "{}: there are MP0 to MP{}", key, kLastMachineParameter);
+  }
+  return static_cast<int>(*number);
+}
+
 }  // namespace
 
 Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units units,
@@ -173,6 +186,33 @@ Result<MachineParameters> read_machine_parameters(std::string_view text) {
     return {};
   });
   if (!read) return fail(read.error());
+  return parameters;
+}
+
+Result<MachineParameters> machine_parameters_of(const Options& options) {
+  MachineParameters parameters;
+  const OptionValue* found = options.find("machine_parameters");
+  if (found == nullptr) return parameters;
+  const auto* table = std::get_if<OptionTable>(&found->value);
+  if (table == nullptr) {
+    return fail(Errc::Syntax,
+                "option machine_parameters, line {}: expected a table, MP71 = 515 ...",
+                found->line);
+  }
+  for (const auto& [key, value] : *table) {
+    const auto* whole = std::get_if<std::int64_t>(&value.value);
+    const auto* broken = std::get_if<double>(&value.value);
+    if (whole == nullptr && broken == nullptr) {
+      return fail(Errc::Syntax, "option machine_parameters, line {}: {} is not a number",
+                  value.line, key);
+    }
+    const auto number = parameter_number(key);
+    if (!number) {
+      return fail(number.error().code, "option machine_parameters, line {}: {}", value.line,
+                  number.error().what);
+    }
+    parameters[*number] = whole != nullptr ? static_cast<double>(*whole) : *broken;
+  }
   return parameters;
 }
 

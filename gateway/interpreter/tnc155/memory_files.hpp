@@ -28,5 +28,9 @@ using MachineParameters = std::map<int, double>;
 std::string write_machine_parameters(const MachineParameters& parameters);
 /// Errors: Syntax, LimitExceeded; with the line.
 Result<MachineParameters> read_machine_parameters(std::string_view text);
+/// Of a setup: the table `machine_parameters` among the control's options, MP71 = 515 ... They are
+/// kept for the control; what a program can feel of them has options of its own. Errors: Syntax,
+/// LimitExceeded; naming the key.
+Result<MachineParameters> machine_parameters_of(const Options& options);
 
 }  // namespace dripline::interpreter::tnc155

@@ -1,11 +1,19 @@
 #include "gateway/interpreter/tnc155/options.hpp"
 
+#include <charconv>
+
+#include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/ranges.hpp"
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
 /// Reads options one after the other; the first error stays.
 class Reader {
  public:
+  struct Bounds {
+    int least, most;
+  };
   explicit Reader(const Options& options) : options_(options) {}
 
   void flag(std::string_view key, bool& value) { take(options_.flag(key, value), value); }
@@ -15,11 +23,13 @@ class Reader {
     take(options_.length(key, read), read);
     value = read.mm();
   }
-  void integer(std::string_view key, int& value, std::int64_t most) {
+  void integer(std::string_view key, int& value, Bounds bounds) {
     std::int64_t read = value;
     take(options_.integer(key, read), read);
-    if (read < -1 || read > most) {
-      refuse(fail(Errc::Syntax, "option {}: {} is not a number from -1 to {}", key, read, most));
+    if (read < bounds.least || read > bounds.most) {
+      refuse(fail(Errc::Syntax, "option {}: {} is not a number from {} to {}", key, read,
+                  bounds.least, bounds.most));
+      return;
     }
     value = static_cast<int>(read);
   }
@@ -31,6 +41,14 @@ class Reader {
   }
   void not_negative(std::string_view key, double value) {
     if (value < 0) refuse(fail(Errc::Syntax, "option {}: {} is less than 0", key, value));
+  }
+  void positive(std::string_view key, double value) {
+    if (!(value > 0)) refuse(fail(Errc::Syntax, "option {}: {} is not more than 0", key, value));
+  }
+  void within(std::string_view key, double value, Bounds bounds) {
+    if (value >= bounds.least && value <= bounds.most) return;
+    refuse(
+        fail(Errc::Syntax, "option {}: {} is not {} to {}", key, value, bounds.least, bounds.most));
   }
   void refuse(Result<void> error) {
     if (!error_ && !error) error_ = error.error();
@@ -49,6 +67,26 @@ class Reader {
   const Options& options_;
   std::optional<Error> error_;
 };
+
+/// `start_at`, as a start names it: "N400" or "400". It goes before `start_block`.
+Result<void> read_start(const Options& options, int& start_block) {
+  const auto text = options.text("start_at", "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
+  int number = -1;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
+      number > kMostBlockNumber) {
+    return fail(Errc::Syntax,
+                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
+                kMostBlockNumber);
+  }
+  start_block = number;
+  return {};
+}
+
+constexpr int kFastestSpindle = 30'000;
 
 /// The preferred numbers of coded speeds: a twentieth of a decade apart, five decades.
 std::vector<double> preferred_speeds() {
@@ -76,6 +114,28 @@ Result<std::vector<double>> read_speeds(const Options& options) {
   return speeds;
 }
 
+/// Values that exclude each other, or that no control has.
+void check_limits(const ControlOptions& read, Reader& reader) {
+  reader.not_negative("probe_clearance", read.probe_clearance);
+  reader.not_negative("probe_travel", read.probe_travel);
+  reader.not_negative("circle_tolerance", read.circle_tolerance);
+  reader.positive("probe_feed", read.probe_feed);
+  reader.positive("pocket_overlap", read.pocket_overlap);
+  reader.within("basic_rotation", read.basic_rotation, {-360, 360});
+  reader.within("spindle_minimum", read.spindle_minimum, {0, kFastestSpindle});
+  reader.within("spindle_maximum", read.spindle_maximum, {0, kFastestSpindle});
+  if (read.spindle_minimum > read.spindle_maximum) {
+    reader.refuse(fail(Errc::Syntax, "option spindle_minimum: {} is more than spindle_maximum, {}",
+                       read.spindle_minimum, read.spindle_maximum));
+  }
+  for (const Axis axis : kAllAxes) {
+    if (!read.limit_low.has(axis) || !read.limit_high.has(axis)) continue;
+    if (read.limit_low.raw(axis) <= read.limit_high.raw(axis)) continue;
+    reader.refuse(fail(Errc::Syntax, "option limit_low: {} {} is above limit_high, {}",
+                       letter(axis), read.limit_low.raw(axis), read.limit_high.raw(axis)));
+  }
+}
+
 }  // namespace
 
 Result<char> decimal_sign_of(const Options& options) {
@@ -86,20 +146,22 @@ Result<char> decimal_sign_of(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known({"probe_clearance",  "probe_travel",
-                                    "probe_feed",       "basic_rotation",
-                                    "pocket_overlap",   "m89_modal",
-                                    "m06_stop",         "central_tool_file",
-                                    "decimal_sign",     "iso_continuation",
-                                    "strict_numbers",   "blockwise_restrictions",
-                                    "heading_letter",   "cancel_transformations",
-                                    "scale_three_axes", "spindle",
-                                    "spindle_table",    "spindle_minimum",
-                                    "spindle_maximum",  "rotary_feed",
-                                    "circle_tolerance", "fourth_axis",
-                                    "limit_low",        "limit_high",
-                                    "m92_position",     "start_block",
-                                    "program_check",    "iso_modes"});
+  auto known = options.check_known({"probe_clearance",    "probe_travel",
+                                    "probe_feed",         "basic_rotation",
+                                    "pocket_overlap",     "m89_modal",
+                                    "m06_stop",           "central_tool_file",
+                                    "decimal_sign",       "iso_continuation",
+                                    "strict_numbers",     "blockwise_restrictions",
+                                    "heading_letter",     "cancel_transformations",
+                                    "scale_three_axes",   "spindle",
+                                    "spindle_table",      "spindle_minimum",
+                                    "spindle_maximum",    "rotary_feed",
+                                    "circle_tolerance",   "fourth_axis",
+                                    "limit_low",          "limit_high",
+                                    "m92_position",       "start_block",
+                                    "memory_limits",      "memory_blocks",
+                                    "machine_parameters", "start_at",
+                                    "program_check",      "iso_modes"});
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
@@ -122,6 +184,10 @@ Result<ControlOptions> read_options(const Setup& setup) {
   read.decimal_sign = *sign;
   read.modes_go_over_calls = reader.choice("iso_modes", {"program", "run"}, 0) == 1;
   read.checks_calls = reader.choice("program_check", {"start", "call"}, 0) == 0;
+  reader.flag("memory_limits", read.memory_limits);
+  int memory_blocks = static_cast<int>(read.memory_blocks);
+  reader.integer("memory_blocks", memory_blocks, {1, 100'000});
+  read.memory_blocks = static_cast<std::size_t>(memory_blocks);
   read.spindle_coded = reader.choice("spindle", {"analogue", "coded"}, 0) == 1;
   reader.number("spindle_minimum", read.spindle_minimum);
   reader.number("spindle_maximum", read.spindle_maximum);
@@ -133,11 +199,11 @@ Result<ControlOptions> read_options(const Setup& setup) {
   reader.position("limit_low", read.limit_low);
   reader.position("limit_high", read.limit_high);
   reader.position("m92_position", read.m92_position);
-  reader.integer("start_block", read.start_block, 65'534);
-  reader.not_negative("probe_clearance", read.probe_clearance);
-  reader.not_negative("probe_travel", read.probe_travel);
-  reader.not_negative("circle_tolerance", read.circle_tolerance);
+  reader.integer("start_block", read.start_block, {-1, 65'534});
+  check_limits(read, reader);
   if (reader.error()) return fail(*reader.error());
+  if (auto start = read_start(options, read.start_block); !start) return fail(start.error());
+  if (auto kept = machine_parameters_of(options); !kept) return fail(kept.error());
   auto speeds = read_speeds(options);
   if (!speeds) return fail(speeds.error());
   read.spindle_table = std::move(*speeds);

@@ -28,6 +28,10 @@ struct ControlOptions {
   bool modes_go_over_calls = false;
   bool strict_numbers = false;          ///< blocks of plain language are numbered without gaps
   char decimal_sign = ',';              ///< of texts that are written
+  /// The control keeps its programs: one that does not fit its memory does not run. Otherwise they
+  /// are drip-fed, and that is only worth a warning.
+  bool memory_limits = false;
+  std::size_t memory_blocks = 3'100;    ///< of all programs; a TNC 151 may have 1200
   bool cancels_transformations = true;  ///< M02, M30 and END PGM do (MP 173)
   bool scales_three_axes = true;        ///< cycle 11: all main axes, else those of the plane
 
@@ -44,7 +48,8 @@ struct ControlOptions {
   /// MOD function LIMIT: machine coordinates that a move may reach, of the axes that are marked.
   Position limit_low, limit_high;
   Position m92_position;  ///< what coordinates of M92 refer to
-  int start_block = -1;   ///< GOTO before the start: number of the first block; -1: none
+  int start_block =
+      -1;  ///< GOTO before the start: number of the first block; -1: none (`start_at` too)
 };
 
 /// Errors: Syntax, Unsupported; naming the option.

@@ -79,6 +79,16 @@ Result<StoredProgram> describe(const AnyProgram& program) {
   return program.form == Form::Plain ? describe_plain(program.plain) : describe_iso(program.iso);
 }
 
+std::string name_of(const StoredProgram& program) {
+  return program.number < 0 ? "the program" : fmt::format("program {}", program.number);
+}
+
+std::string blocks_text(const StoredProgram& program) {
+  constexpr std::size_t kMost = MemoryLimits::kMostCounted;
+  return program.blocks > kMost ? fmt::format("more than {} blocks", kMost)
+                                : fmt::format("{} blocks", program.blocks);
+}
+
 }  // namespace
 
 Result<StoredProgram> describe_program(std::string_view text) {
@@ -134,25 +144,24 @@ Result<void> ProgramMemory::store(const StoredProgram& program) {
   const auto place = find(program.number);
   const bool replaces = place != programs_.end() && place->number == program.number;
   if (replaces && place->is_protected) {
-    return fail(Errc::Denied, "program {} is protected", program.number);
+    return fail(Errc::Denied, "{} is protected", name_of(program));
   }
-  if (program.number < 0 || program.number > MemoryLimits::kHighestNumber) {
+  if (program.number > MemoryLimits::kHighestNumber) {
     return fail(Errc::LimitExceeded, "program number {} has more than 8 digits", program.number);
   }
   if (!replaces && programs_.size() >= limits_.programs) {
-    return fail(Errc::LimitExceeded, "program {} is more than the {} the control keeps",
-                program.number, limits_.programs);
+    return fail(Errc::LimitExceeded,
+                "PROGRAM MEMORY EXCEEDED: {} is more than the {} programs the control keeps",
+                name_of(program), limits_.programs);
   }
   if (program.blocks > limits_.blocks_per_program) {
-    return fail(Errc::LimitExceeded,
-                "PROGRAM MEMORY EXCEEDED: program {} has {} blocks, {} is most", program.number,
-                program.blocks, limits_.blocks_per_program);
+    return fail(Errc::LimitExceeded, "PROGRAM MEMORY EXCEEDED: {} has {}, {} is most",
+                name_of(program), blocks_text(program), limits_.blocks_per_program);
   }
   const std::size_t vacant = vacant_blocks() + (replaces ? place->blocks : 0);
   if (program.blocks > vacant) {
-    return fail(Errc::LimitExceeded,
-                "PROGRAM MEMORY EXCEEDED: program {} has {} blocks, {} are vacant", program.number,
-                program.blocks, vacant);
+    return fail(Errc::LimitExceeded, "PROGRAM MEMORY EXCEEDED: {} has {}, {} are vacant",
+                name_of(program), blocks_text(program), vacant);
   }
   if (replaces) {
     *place = program;

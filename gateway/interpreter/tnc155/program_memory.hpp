@@ -15,6 +15,8 @@ struct MemoryLimits {
   std::size_t programs = 32;
   std::size_t blocks = 3'100;  ///< of all programs; a TNC 151 may have 1200
   std::size_t blocks_per_program = 999;
+  /// Who counts may stop behind this many, the highest number of a block there is.
+  static constexpr std::size_t kMostCounted = 65'534;
   static constexpr std::int32_t kHighestNumber = 99'999'999;
 };
 

@@ -60,11 +60,15 @@ Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
   return interpreter.answer(*answer);
 }
 
-/// Steps until the program has ended or raised its alarm.
-Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, OfflineLimits limits) {
+/// Steps until the program has ended or raised its alarm, or the gate has stopped it.
+Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, const OfflineLimits& limits,
+                      const StopGate& gate) {
+  const std::uint64_t stride = limits.stop ? 1 : kStride;
   while (interpreter.blocks() < limits.max_blocks) {
     const std::uint64_t left = limits.max_blocks - interpreter.blocks();
-    switch (const StepState state = interpreter.step(std::min(left, kStride))) {
+    const StepState state = interpreter.step(std::min(left, stride));
+    if (gate.has_stopped()) return StepState::Ran;
+    switch (state) {
       case StepState::Ended:
       case StepState::Alarmed:
         return state;
@@ -92,13 +96,15 @@ Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
   if (!pins) return fail(pins.error());
   Diagnostics diagnostics;
   EventTee tee(sink, diagnostics);
-  auto interpreter = dialect.make(setup, source, tee);
+  StopGate gate(tee, limits.stop.value_or(StopPoint{}));
+  EventSink& first = limits.stop ? static_cast<EventSink&>(gate) : tee;
+  auto interpreter = dialect.make(setup, source, first);
   if (!interpreter) return fail(interpreter.error());
   SetupAnswers answers(setup, *std::move(pins));
-  const auto state = run(**interpreter, answers, limits);
+  const auto state = run(**interpreter, answers, limits, gate);
   if (!state) return fail(state.error());
-  return OfflineOutcome{*state == StepState::Ended, (*interpreter)->blocks(), diagnostics.warnings,
-                        diagnostics.alarm};
+  return OfflineOutcome{*state == StepState::Ended, gate.has_stopped(), (*interpreter)->blocks(),
+                        diagnostics.warnings, diagnostics.alarm};
 }
 
 }  // namespace dripline::interpreter

@@ -4,15 +4,18 @@
 #include <optional>
 
 #include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/trace/stop_point.hpp"
 
 namespace dripline::interpreter {
 
 struct OfflineLimits {
   std::uint64_t max_blocks = 1'000'000'000;  ///< executed; a program that never ends is told so
+  std::optional<StopPoint> stop = {};        ///< the run ends behind that block
 };
 
 struct OfflineOutcome {
-  bool ended = false;  ///< the end of the program was reached; otherwise `alarm` says why not
+  bool ended = false;        ///< the end of the program was reached; otherwise `alarm` says why not
+  bool has_stopped = false;  ///< or the run met the limits' stop point
   std::uint64_t blocks = 0;
   std::uint64_t warnings = 0;
   std::optional<Diagnostic> alarm;

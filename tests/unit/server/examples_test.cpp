@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "server/app/settings.hpp"
+#include "server/library/dialect_catalog.hpp"
 #include "server/serial/port_settings.hpp"
 #include "server/serial/rule_reader.hpp"
 
@@ -51,6 +52,14 @@ TEST(Examples, CallsDoWhatTheirCommentsSay) {
   EXPECT_TRUE(verdict("%\nO9999\n(DIR=)\nM30\n%\n").starts_with("directory"));
   EXPECT_TRUE(verdict("%\nO9999\n(BLOCK=N1200)\nM30\n%\n").starts_with("restart"));
   EXPECT_TRUE(verdict("PROBE X1.5\n").starts_with("report"));
+}
+
+// HD-081, HD-086: every option of the control is in it.
+TEST(Examples, SetupOfATncIsTaken) {
+  const std::string text = read("deploy/examples/tnc155.toml");
+  ASSERT_FALSE(text.empty());
+  const auto taken = library::DialectCatalog().check_setup("tnc155", text);
+  EXPECT_TRUE(taken) << taken.error().what;
 }
 
 }  // namespace

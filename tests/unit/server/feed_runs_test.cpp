@@ -268,5 +268,39 @@ TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
   EXPECT_EQ(machine->control, "centurion");
 }
 
+// HD-052, HD-053: only where the setup says that the control keeps its programs.
+TEST_F(FeedRuns, AreRefusedWhereTheControlCanNotKeepWhatTheProgramCalls) {
+  std::string called = "BEGIN PGM 8 MM\n";
+  for (int i = 1; i < 1000; ++i) called += "CC\n";
+  push("8.h", called, "tnc155");
+  push("7.h", "0 BEGIN PGM 7 MM\n1 CALL PGM 8\n2 END PGM 7 MM\n", "tnc155");
+  add_machine("mill-1", "tnc155");
+  start_service();
+  dds::Announce mill;
+  mill.machine = "mill-1";
+  mill.control = "tnc155";
+  mill.version = "1";
+  mill.epoch = kEpoch;
+  mill.session = kSession;
+  network_.on_announce(mill);
+  answer_orders(true);
+  const auto set = [&](const std::string& text) {
+    EXPECT_TRUE(setups_->save({"mill-1", "tnc155", text, ""}, "cam"));
+  };
+  const auto start_it = [&] {
+    return service_->start(
+        {.machine = "mill-1", .program = "7.h", .revision = {}, .author = "cam"});
+  };
+  set("[control]\nmemory_limits = true\n");
+  const auto refused = start_it();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
+  EXPECT_EQ(refused.error().what,
+            "machine 'mill-1' can not keep program '7.h': line 2: PROGRAM MEMORY EXCEEDED: program "
+            "8 has 1000 blocks, 999 is most (in program 8, which is called here)");
+  set("[control]\nmemory_limits = false\n");
+  EXPECT_TRUE(start_it());
+}
+
 }  // namespace
 }  // namespace dripline::server_test

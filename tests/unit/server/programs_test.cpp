@@ -1,5 +1,6 @@
 #include "server/library/programs.hpp"
 
+#include "server/library/dialect_catalog.hpp"
 #include "tests/unit/server/server_fixture.hpp"
 
 namespace dripline::server_test {
@@ -108,6 +109,40 @@ TEST_F(ProgramsTest, RefuseNamesThatLeaveTheirFolder) {
   ASSERT_FALSE(upload);
   EXPECT_EQ(upload.error().code, Errc::Syntax);
   EXPECT_NE(upload.error().what.find("../O1"), std::string::npos);
+}
+
+// HD-056: the control refuses to change or erase such a program.
+TEST_F(ProgramsTest, KeepAProtectedProgramUntilTheCallerInsists) {
+  push("7", "%2 LOCKED\nA\n", "tnc155");
+  const auto replace = [&](std::string_view text, library::Protection protection) {
+    const std::string id = begin("7", "tnc155");
+    EXPECT_TRUE(programs_->append(id, 0, bytes_of(text)));
+    return programs_->commit(id, sha256(text), "cam", protection);
+  };
+  const auto refused = replace("%2 LOCKED\nB\n", library::Protection::Respect);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_EQ(refused.error().what,
+            "program '7' is refused: revision 1 is protected against change and erasure; force "
+            "overrides that; nothing was changed");
+  EXPECT_EQ(programs_->revision("7", std::nullopt)->number, 1u);
+  EXPECT_TRUE(replace("%2 LOCKED\nA\n", library::Protection::Respect)->is_unchanged);
+  EXPECT_EQ(programs_->remove("7", "cam").error().code, Errc::ModalConflict);
+
+  EXPECT_TRUE(replace("%2 free\n", library::Protection::Override));
+  EXPECT_TRUE(replace("%2 LOCKED\n", library::Protection::Respect));
+  EXPECT_TRUE(programs_->remove("7", "cam", library::Protection::Override));
+}
+
+// HD-056
+TEST(DialectCatalog, KnowsTheMarksOfProtectedPrograms) {
+  const library::DialectCatalog catalog;
+  EXPECT_TRUE(catalog.is_protected("tnc155", "0 BEGIN PGM 7 MM P\n1 CC\n"));
+  EXPECT_FALSE(catalog.is_protected("tnc155", "0 BEGIN PGM 7 MM\n1 CC\n"));
+  EXPECT_TRUE(catalog.is_protected("tnc155", "%7 G71 G50 *\nN1 G29 *\n"));
+  EXPECT_FALSE(catalog.is_protected("tnc155", "%7 G71 *\nN1 G29 *\n"));
+  EXPECT_FALSE(catalog.is_protected("centurion", "O7 P\n"));
+  EXPECT_FALSE(catalog.is_protected("", ""));
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ class FakeCatalog final : public library::ControlCatalog {
     if (toml.find("wrong") == std::string_view::npos) return {};
     return fail(Errc::Syntax, "line 1: wrong is nothing a {} knows", control);
   }
+  bool is_protected(std::string_view control, std::string_view head) const override {
+    return control == "tnc155" && head.starts_with("%2 LOCKED");
+  }
 };
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {

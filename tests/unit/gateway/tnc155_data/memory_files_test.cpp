@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/tnc155/options.hpp"
+
 // Rows: HD-067 (tool store), HD-068 (special tools), HD-234 (both files on the line).
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -75,6 +79,63 @@ TEST(MachineParameters, AreALineEach) {
   EXPECT_EQ(read_machine_parameters("MP1: 0\nMP1: 0").error().what, "line 2: MP1 is there twice");
   EXPECT_FALSE(read_machine_parameters("MP1 0"));
   EXPECT_FALSE(read_machine_parameters("MP1: x"));
+}
+
+// HD-234: kept in a setup, and sent to the control as they are.
+TEST(MachineParameters, AreAnOptionOfASetup) {
+  const auto of = [](const std::string& text) {
+    return machine_parameters_of(parse_setup("[control.machine_parameters]\n" + text)->control);
+  };
+  EXPECT_EQ(*of("MP71 = 515\nMP7 = 1.5\n"), (MachineParameters{{7, 1.5}, {71, 515}}));
+  EXPECT_EQ(of("MP237 = 1\n").error().what,
+            "option machine_parameters, line 2: MP237: there are MP0 to MP236");
+  EXPECT_EQ(of("MP7 = true\n").error().what,
+            "option machine_parameters, line 2: MP7 is not a number");
+  EXPECT_EQ(of("P7 = 1\n").error().what,
+            "option machine_parameters, line 2: \"P7\": expected MP and a number");
+  EXPECT_TRUE(machine_parameters_of(Options{})->empty());
+}
+
+// HD-067
+TEST(ToolStore, OfASetupHas99Tools) {
+  const auto made = [](const std::string& text) {
+    MemorySource source("");
+    EventSink sink;
+    return kTnc155Dialect.make(*parse_setup(text), source, sink).error().what;
+  };
+  EXPECT_EQ(made("[[tool]]\nnumber = 100\n[control]\ncentral_tool_file = true\n"),
+            "central_tool_file: tool 100: the store has tools 1 to 99");
+  EXPECT_EQ(made("[[tool]]\nnumber = 255\n"), "tool 255: this control has tools 1 to 254");
+}
+
+// HD-228: a start over the network says it so.
+TEST(ControlOptionsOfATnc, TakeTheBlockAStartBeginsAt) {
+  const auto of = [](const std::string& text) {
+    interpreter::Setup setup;
+    setup.control.set("start_at", {text, 0});
+    return read_options(setup);
+  };
+  EXPECT_EQ(of("N400")->start_block, 400);
+  EXPECT_EQ(of("65534")->start_block, 65'534);
+  EXPECT_EQ(of("L7").error().what,
+            "option start_at: \"L7\" is no block of this control: it goes to N0 to N65534");
+  EXPECT_FALSE(of("N65535"));
+}
+
+// What is wrong is told with its value and its limit.
+TEST(ControlOptionsOfATnc, NameTheValueAndTheLimit) {
+  const auto wrong = [](const std::string& option) {
+    return read_options(*parse_setup("[control]\n" + option)).error().what;
+  };
+  EXPECT_EQ(wrong("probe_feed = 0"), "option probe_feed: 0 is not more than 0");
+  EXPECT_EQ(wrong("probe_travel = -1"), "option probe_travel: -1 is less than 0");
+  EXPECT_EQ(wrong("start_block = 65535"),
+            "option start_block: 65535 is not a number from -1 to 65534");
+  EXPECT_EQ(wrong("spindle_maximum = 40000"), "option spindle_maximum: 40000 is not 0 to 30000");
+  EXPECT_EQ(wrong("spindle_minimum = 500\nspindle_maximum = 100"),
+            "option spindle_minimum: 500 is more than spindle_maximum, 100");
+  EXPECT_EQ(wrong("limit_low = { X = 5 }\nlimit_high = { X = 2 }"),
+            "option limit_low: X 5 is above limit_high, 2");
 }
 
 }  // namespace

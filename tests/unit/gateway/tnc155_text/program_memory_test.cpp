@@ -19,7 +19,7 @@ TEST(Tnc155ProgramMemory, Keeps32Programs) {
     ASSERT_TRUE(memory.store(program_of(number, 2)));
   }
   EXPECT_EQ(memory.store(program_of(33, 2)).error().what,
-            "program 33 is more than the 32 the control keeps");
+            "PROGRAM MEMORY EXCEEDED: program 33 is more than the 32 programs the control keeps");
   EXPECT_TRUE(memory.store(program_of(7, 40)));  // replaces
   EXPECT_EQ(memory.directory().size(), 32u);
 }

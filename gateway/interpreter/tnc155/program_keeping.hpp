@@ -1,0 +1,14 @@
+#pragma once
+
+#include "gateway/interpreter/program_keeping.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// The program memory of the TNC 151/155: 32 programs, 3100 blocks, protection, editing.
+extern const ProgramKeeping kTncKeeping;
+
+/// As ProgramKeeping says. In `memory_check.cpp` and `program_editing.cpp`.
+Result<MemoryVerdict> check_memory(const Setup& setup, ProgramSource& source);
+Result<EditedProgram> edit_program(std::string_view text, std::span<const BlockChange> changes);
+
+}  // namespace dripline::interpreter::tnc155
