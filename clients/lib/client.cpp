@@ -147,6 +147,7 @@ template Reply<Setup> Client::fetch(const HttpRequest&);
 template Reply<std::vector<Setup>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(const HttpRequest&);
 template Reply<PortTest> Client::fetch(const HttpRequest&);
+template Reply<Transfer> Client::fetch(const HttpRequest&);
 template Reply<RuleVerdict> Client::fetch(const HttpRequest&);
 template Reply<PortTemplates> Client::fetch(const HttpRequest&);
 template Reply<std::vector<Port>> Client::fetch_list(const std::string&, const char*);
