@@ -86,10 +86,10 @@ TEST(ApiJson, ReadsRevisionsOfAServerThatKnowsNoHeldOnes) {
 
 TEST(ApiJson, ReadsAHistory) {
   const auto json = nlohmann::json::parse(
-      R"({"name":"p","revision":1,"size":4,"sha256":"ab","control":null,"comment":null,
+      R"({"name":"p","revision":1,"size":4,"sha256":"ab","control":null,"comment":null,"title":null,
           "author":null,"created":"t","held":false,"accepted":null,"held_revisions":1,
           "revisions":[{"program":"p","revision":1,"size":4,
-          "sha256":"ab","control":null,"comment":"c","author":null,"created":"t",
+          "sha256":"ab","control":null,"comment":"c","title":"FLANGE","author":null,"created":"t",
           "held":true,"accepted":"u"}]})");
   const auto history = from_json<ProgramHistory>(json);
   ASSERT_TRUE(history) << history.error().what;
