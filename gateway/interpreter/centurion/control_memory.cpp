@@ -42,22 +42,6 @@ Result<void> load_place(const Position& place, std::string_view what, int first,
   return {};
 }
 
-struct PlaceOption {
-  std::string_view name;
-  int parameter;
-};
-constexpr PlaceOption kPlaceOptions[] = {
-    {"home", kHomePosition},
-    {"tool_change", kToolChangePoint},
-    {"positive_zone", kPositiveZone},
-    {"negative_zone", kNegativeZone},
-    {"positive_limit", kPositiveLimit},
-    {"negative_limit", kNegativeLimit},
-    {"g60_overrun", kSingleOverrun},
-    {"g0_overrun", kRapidOverrun},
-    {"maximum_feed", kMaximumFeed},
-};
-
 bool is_zero(const OptionValue& option) {
   const auto* number = std::get_if<std::int64_t>(&option.value);
   return number != nullptr && *number == 0;

@@ -12,21 +12,6 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-struct Pair {
-  std::string_view name;
-  int number;
-};
-constexpr Pair kPlaces[] = {
-    {"home", kHomePosition},
-    {"tool_change", kToolChangePoint},
-    {"positive_zone", kPositiveZone},
-    {"negative_zone", kNegativeZone},
-    {"positive_limit", kPositiveLimit},
-    {"negative_limit", kNegativeLimit},
-    {"g60_overrun", kSingleOverrun},
-    {"g0_overrun", kRapidOverrun},
-    {"maximum_feed", kMaximumFeed},
-};
 constexpr int kWorkSystems = 6, kReferences = 4, kFirstUnnamed = 200;
 constexpr int kLastToolField = static_cast<int>(ToolField::WearRadius);
 
@@ -65,7 +50,8 @@ std::string without_comment(std::string_view line) {
   bool in_comment = false;
   for (const char c : line) {
     if (c == '(') in_comment = true;
-    if (!in_comment && !is_blank(c) && c != '\r') text += kind_of(c) == CharKind::Letter ? upper(c) : c;
+    if (!in_comment && !is_blank(c) && c != '\r')
+      text += kind_of(c) == CharKind::Letter ? upper(c) : c;
     if (c == ')') in_comment = false;
   }
   return text;
@@ -125,7 +111,7 @@ class SetupText {
       text_ += fmt::format("\n[[variable]]\nname = \"P{}\"\nvalue = {}\n", number, value(number));
     }
     text_ += "\n[control]\nstored_x = \"radius\"\n";
-    for (const Pair& place : kPlaces) add_place(place.name, place.number);
+    for (const PlaceOption& place : kPlaceOptions) add_place(place.name, place.parameter);
     add_references();
     add_machine();
     return std::move(text_);

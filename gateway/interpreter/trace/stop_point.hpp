@@ -49,6 +49,7 @@ class StopGate final : public EventSink {
   void on_message(const Message& event) override { pass(&EventSink::on_message, event); }
   void on_prompt(const Prompt& event) override { pass(&EventSink::on_prompt, event); }
   void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
+  void on_panel_lock(const PanelLock& event) override { pass(&EventSink::on_panel_lock, event); }
   void on_warning(const Warning& event) override { pass(&EventSink::on_warning, event); }
   void on_alarm(const Alarm& event) override { pass(&EventSink::on_alarm, event); }
   void on_end(const End& event) override { pass(&EventSink::on_end, event); }
