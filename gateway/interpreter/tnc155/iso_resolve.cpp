@@ -96,9 +96,11 @@ class Resolver {
   }
 
   bool resolve_functions() {
-    if (std::popcount(block_.groups &
-                      (bit(IsoGroup::Cycle) | bit(IsoGroup::Blank) | bit(IsoGroup::Probe))) > 1) {
-      return wrong("two definitions in one block");
+    const unsigned definitions =
+        block_.groups & (bit(IsoGroup::Cycle) | bit(IsoGroup::Blank) | bit(IsoGroup::Probe));
+    if (std::popcount(definitions) > 1) return wrong("two definitions in one block");
+    if (definitions != 0 && block_.has(IsoGroup::Corner)) {
+      return wrong("a definition stands between the corner and its move");
     }
     if ((block_.m == 91 || block_.m == 92) &&
         (block_.has(IsoGroup::Blank) || block_.has(IsoGroup::Probe) ||

@@ -26,17 +26,17 @@ bool is_plain_joint(std::string_view text) {
   return is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
 }
 
-/// Letters of words that are for a move or a centre.
-constexpr auto kIsMoveWord = [] {
+/// Letters of words that the control does before a corner: a move, a centre, a tool, a label.
+constexpr auto kComesFirst = [] {
   std::array<bool, 256> is{};
-  for (const char c : std::string_view("XYZABCUVWHIJK")) is[static_cast<unsigned char>(c)] = true;
+  for (const char c : std::string_view("XYZABCUVWHIJKTL")) is[static_cast<unsigned char>(c)] = true;
   return is;
 }();
 
-/// G24 to G27 without a move of its own.
+/// G24 to G27 with nothing to do before it.
 bool is_iso_joint(std::string_view text) {
-  const auto is_move_word = [](char c) { return kIsMoveWord[static_cast<unsigned char>(c)]; };
-  if (std::any_of(text.begin(), text.end(), is_move_word)) return false;
+  const auto comes_first = [](char c) { return kComesFirst[static_cast<unsigned char>(c)]; };
+  if (std::any_of(text.begin(), text.end(), comes_first)) return false;
   for (std::size_t at = text.find('G'); at != std::string_view::npos; at = text.find('G', at + 1)) {
     const std::size_t tens = skip_blanks(text, at + 1);
     if (tens == text.size() || text[tens] != '2') continue;

@@ -75,6 +75,8 @@ const IsoCase kWords[] = {
     {"BareCoordinate", "N20 X", "3:6 BLOCK FORMAT INCORRECT: a coordinate has no value"},
     {"CornerAndPolarMove", "N20 G11 G25 R5 H10",
      "3:1 BLOCK FORMAT INCORRECT: a corner and a polar move need R both"},
+    {"CornerBehindADefinition", "N20 G04 F1 G25 R5",
+     "3:1 BLOCK FORMAT INCORRECT: a definition stands between the corner and its move"},
     {"PocketWithoutSides", "N20 G75 P01 -1 P02 -9 P03 -3 P04 40 P05 18,5 P06 100",
      "3:1 BLOCK FORMAT INCORRECT: P05 of G75 is an axis and a length"},
     {"MissingParameter", "N20 G84 P01 -1 P02 -9 P03 0",
