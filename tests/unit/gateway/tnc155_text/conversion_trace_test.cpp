@@ -51,14 +51,13 @@ TEST(Tnc155ConversionTrace, OfGoldenProgramsIsTheSame) {
   EXPECT_GE(converted, 20);
 }
 
-TEST(Tnc155ConversionTrace, OfACornerBehindALabelOrToolIsTheSame) {
-  for (const char* before : {"G98 L4", "T0 S80", "G99 T3 L+0 R+1"}) {
-    const std::string text = fmt::format(
-        "%7 G71\nN1 T0 G17 S70\nN2 G01 G40 G90 X+59 Y-8 F90\nN3 {} G25 R2\nN4 X+9 Y+9\n", before);
-    SCOPED_TRACE(text);
-    does_the_same(text);
-    EXPECT_NE(tnc155_trace(text).find("no move directly before"), std::string::npos);
-  }
+TEST(Tnc155ConversionTrace, OfACornerInTheBlockOfAToolIsTheSame) {
+  const std::string corner =
+      "%7 G71\nN1 T0 G17 S70\nN2 G01 G40 G90 X+59 Y-8 F90\nN3 T0 S80 G25 R2\nN4 X+9 Y+9\n";
+  EXPECT_TRUE(does_the_same(corner));
+  const std::string approach =
+      "%7 G71\nN1 T0 G17 S70\nN2 G01 G41 G90 X+59 Y-8 F90\nN3 T0 S80 G26 R2\nN4 X+9 Y+9\n";
+  does_the_same(approach);
 }
 
 /// Programs of plain language whose blocks all can be read.
