@@ -347,7 +347,7 @@ void Compensator::begin_alone(Element& element) {
 }
 
 void Compensator::finish(PlaneVector end) {
-  PathWriter writer(sink_, state_);
+  PathWriter writer(sink_, state_, policy_.arc_at_rapid);
   const Element& element = state_.waiting();
   if (!element.is_silent && !writer.put_out(element, end)) {
     refuse({FaultKind::Reversed, element.origin, element.origin, {}, {}});
@@ -367,7 +367,7 @@ void Compensator::go_off(const Element& element) {
   PlaneVector tip = element.end;
   if (element.role == Role::Parallel)
     tip = tip + in_plane(state_.tool, axes_of(state_.plane)) - element.from;
-  PathWriter(sink_, state_).put_out_straight(element, tip);
+  PathWriter(sink_, state_, policy_.arc_at_rapid).put_out_straight(element, tip);
   state_.is_displaced = element.role == Role::Parallel;
   state_.phase = state_.begins_contour ? Phase::On : Phase::Off;
   state_.begins_contour = false;

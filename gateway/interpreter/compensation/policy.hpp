@@ -60,6 +60,8 @@ struct Policy {
   /// So many blocks in a row without motion in the plane are looked across; one more ends the
   /// element before them on its own normal.
   int blocks_without_motion = 1;
+  /// Of an arc that leads to or from a contour whose element there is a rapid move.
+  Feed arc_at_rapid;
 };
 
 /// What is offset, by how much, to which side. A negative radius swaps the side. `tip_first` and

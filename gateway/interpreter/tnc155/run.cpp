@@ -14,6 +14,7 @@ compensation::Policy policy() {
   policy.sharpest = Angle::degrees(180);
   policy.resume = compensation::Resume::OwnNormal;
   policy.blocks_without_motion = std::numeric_limits<int>::max();
+  policy.arc_at_rapid = Feed::per_minute(Length::mm(15'999));  // the highest that can be entered
   return policy;
 }
 

@@ -53,11 +53,11 @@ void PathWriter::lead_in(const Element& element, const Feed& feed) {
     const bool leads_away = element.role == Role::Cancel && piece.origin;
     Feed own;
     if (is_paced) own = Feed::inverse_time(feed.moves_per_minute() / length_of(piece, nose()));
-    const Company with{state_.tool, leads_away ? state_.waiting().feed : is_paced ? own : feed};
+    const Feed& pace = leads_away ? state_.waiting().feed : is_paced ? own : feed;
     if (piece.is_arc) {
-      arc(element, piece, with);
+      arc(element, piece, {state_.tool, pace.is_zero() ? arc_at_rapid_ : pace});
     } else {
-      straight(element, piece.to + state_.tip, with);
+      straight(element, piece.to + state_.tip, {state_.tool, pace});
     }
   }
 }

@@ -7,8 +7,8 @@ namespace dripline::interpreter::compensation::impl {
 /// Gives decided moves to the sink and keeps `State::tool` where they lead. Lives for one call.
 class PathWriter {
  public:
-  PathWriter(EventSink& sink, State& state)
-      : sink_(sink), state_(state), axes_(axes_of(state.plane)) {}
+  PathWriter(EventSink& sink, State& state, const Feed& arc_at_rapid)
+      : sink_(sink), state_(state), arc_at_rapid_(arc_at_rapid), axes_(axes_of(state.plane)) {}
 
   /// The way to the element and the element itself, to `end`. False, and nothing given out, when
   /// it would run against its programmed direction.
@@ -34,6 +34,7 @@ class PathWriter {
 
   EventSink& sink_;
   State& state_;
+  const Feed& arc_at_rapid_;
   PlaneAxes axes_;
 };
 

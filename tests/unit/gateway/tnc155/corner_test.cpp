@@ -107,6 +107,15 @@ TEST(TncCorner, ARunOffArcKeepsTheFeedOfTheContour) {
                           "A X46.494 Y7.328 c40,12 ccw54.267 F100", "R X70 Y40"));
 }
 
+// HD-108, HD-109: an arc is not made at rapid traverse, but at the highest feed there is.
+TEST(TncCorner, ArcsToAndFromARapidContourHaveTheHighestFeed) {
+  EXPECT_THAT(
+      path("+4", {"L X-30 Y+40 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0 F MAX", "RND R8",
+                  "L X+70 Y+40 R0 F100"}),
+      ElementsAre("L X-30 Y40 F100", "L X-6.494 Y7.328 F100", "A X0 Y4 c0,12 ccw54.267 F15999",
+                  "R X40 Y4", "A X46.494 Y7.328 c40,12 ccw54.267 F15999", "L X70 Y40 F100"));
+}
+
 // HD-108, HD-109: in ISO the words say which one it is, and the place has to agree.
 TEST(TncCorner, ApproachAndDepartureStandWhereTheySay) {
   const auto iso = [](const std::string& blocks) {
