@@ -171,4 +171,13 @@ void Shop::serve() {
                      clock.steady);
 }
 
+std::string with_reports(int lines, int moves) {
+  std::string text;
+  for (int i = 0; i < lines; ++i) {
+    for (int m = 0; m < moves; ++m) text += "X" + std::to_string((i + m) % 9) + "\n";
+    text += "OUT LINE " + std::to_string(i) + "\n";
+  }
+  return text + "END\n";
+}
+
 }  // namespace dripline::gateway

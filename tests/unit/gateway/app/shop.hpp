@@ -86,4 +86,7 @@ class Shop : public dds::GatewayEndpoint {
   int orders_ = 0, runs_ = 0, sessions_ = 0;
 };
 
+/// A program of so many lines of output, each behind so many moves.
+std::string with_reports(int lines, int moves);
+
 }  // namespace dripline::gateway
