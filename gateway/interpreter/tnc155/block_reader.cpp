@@ -67,9 +67,11 @@ ReadState BlockReader::load(ReadingState& state) {
     case Form::Unknown:
       return find_form(state);
   }
+  return loaded == WindowState::Ready ? show(state.program.form) : complain_of(loaded);
+}
+
+ReadState BlockReader::complain_of(WindowState loaded) {
   switch (loaded) {
-    case WindowState::Ready:
-      return show(state.program.form);
     case WindowState::NotYet:
       return ReadState::NotYet;
     case WindowState::EndOfText:
@@ -78,26 +80,22 @@ ReadState BlockReader::load(ReadingState& state) {
       fault_ = {ErrorCode::BlockTooLong, 0, fmt::format("over {} characters", kLongestBlock)};
       fault_line_ = place_.line;
       return ReadState::Wrong;
-    case WindowState::Failed:
-      break;
+    default:
+      return ReadState::Failed;
   }
-  return ReadState::Failed;
 }
 
 ReadState BlockReader::find_form(ReadingState& state) {
-  ReadingState tried = state;
-  tried.program.form = Form::Plain;
   const WindowState loaded = window_.load(place_.program, place_.offset, FirstLineEnd{});
-  if (loaded == WindowState::NotYet) return ReadState::NotYet;
-  if (loaded != WindowState::Ready) return load(tried);  // says it in the reader's words
+  if (loaded != WindowState::Ready) return complain_of(loaded);
   if (skip_blanks(window_.begin(), window_.end()) == window_.end()) return ReadState::End;
-  tried.program.form = detect_form({window_.begin(), window_.end()});
-  if (tried.program.form == Form::Unknown) {
+  const Form form = detect_form({window_.begin(), window_.end()});
+  if (form == Form::Unknown) {
     fault_ = {ErrorCode::BlockFormatIncorrect, 1, "neither plain language nor ISO"};
     fault_line_ = place_.line;
     return ReadState::Wrong;
   }
-  state.program.form = tried.program.form;
+  state.program.form = form;
   return load(state);
 }
 

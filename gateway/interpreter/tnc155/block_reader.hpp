@@ -84,6 +84,7 @@ class BlockReader {
   void find_place();
   bool read(ReadingState& state, BlockParts& parts);
   ReadState complain();
+  ReadState complain_of(language::LineWindow::State loaded);
   void move_on();
 
   ProgramSource* source_;

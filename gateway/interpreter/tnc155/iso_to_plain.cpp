@@ -120,6 +120,9 @@ class IsoToPlain {
     if (block.kind == BlockKind::Line && block.compensation > Compensation::Right) {
       return refuse(lines_[i], "G43 or G44 without an axis has no counterpart in plain language");
     }
+    if (block.kind == BlockKind::Arc && block.coordinates[0].axis == Axis::C) {
+      return refuse(lines_[i], "an arc that names C alone can not be told from CC");
+    }
     if (block.kind == BlockKind::CycleDefinition && block.cycle == 10 && block.axis &&
         block.axis != axis_) {
       return refuse(lines_[i],

@@ -171,6 +171,8 @@ TEST(Tnc155ConversionRefuses, WhatHasNoCounterpart) {
   EXPECT_EQ(converted("0 BEGIN PGM 7 MM\n1 L X1 R0 F9 M03\n2 CYCL CALL", Form::Iso),
             "! line 3: this needs a TOOL CALL with the spindle axis before all moves, labels and "
             "calls");
+  EXPECT_EQ(converted("%7 G71\nN1 G17 G40 G90 G01 X0 Y0 F9\nN2 I1 J1\nN3 G02 C+5", Form::Plain),
+            "! line 4: an arc that names C alone can not be told from CC");
   EXPECT_EQ(converted("%7 G71\nN1 G17 G40 G90 G01 X0 Y0 F9\nN2 X5\nN3 G91\nN4 G25 R1\nN5 Y5",
                       Form::Plain),
             "! line 5: a corner behind a block that plain language has none for");
