@@ -16,7 +16,12 @@ void AheadSearch::begin() {
 /// Of an ISO program only the words are read: what they mean in their place is the run's.
 AheadSearch::Step AheadSearch::next() {
   reader_.seek(at_);
-  const ReadState read = is_iso() ? reader_.next_words(state_) : reader_.next(state_, parts_);
+  const bool knew_form = state_.program.form != Form::Unknown;
+  ReadState read = is_iso() ? reader_.next_words(state_) : reader_.next(state_, parts_);
+  if (read == ReadState::Wrong && is_iso() && !knew_form) {
+    reader_.seek(at_);
+    read = reader_.next_words(state_);
+  }
   switch (read) {
     case ReadState::Ready:
       at_ = reader_.place();
@@ -86,6 +91,7 @@ std::int32_t AheadSearch::called_program() const {
     return calls ? block.target : Block::kNone;
   }
   const IsoBlock& block = reader_.iso_block();
+  if (blocks_ == 1) return Block::kNone;  // the program's own number
   if (block.has_code(IsoGroup::Cycle, 39) && block.has_parameter(1)) {
     const Value& number = block.cycle[1].value;
     return number.kind == Value::Kind::Number ? number.number / Value::kStepsPerUnit : Block::kNone;

@@ -23,8 +23,9 @@ void check_conversion(const std::string& text, Form form) {
   const auto there = convert_program(*program, form == Form::Plain ? Form::Iso : Form::Plain);
   if (!there) return;
   const std::string trace = tnc155_trace(*program);
-  if (trace.ends_with("...")) return;  // cut off, and the forms count blocks differently
-  insist(tnc155_trace(*there) == trace);
+  const std::string trace_there = tnc155_trace(*there);
+  const bool is_cut_off = trace.ends_with("...") || trace_there.ends_with("...");
+  insist(is_cut_off || trace_there == trace);  // the forms count blocks differently
 }
 
 }  // namespace
