@@ -120,8 +120,9 @@ TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
   if (parts.count == 0) return BlockOutcome::Finished;
   const bool is_move = is_positioning(parts.blocks[parts.count - 1]);
   if (!is_move || parts.count > 1) {
-    const BlockOutcome outcome = find_definition();
-    if (outcome != BlockOutcome::Finished || !is_move) return outcome;
+    const BlockOutcome outcome = is_definition_known_ ? BlockOutcome::Finished : find_definition();
+    is_definition_known_ = outcome == BlockOutcome::Finished;
+    if (!is_definition_known_ || !is_move) return outcome;
   }
   // A corner is known from the block behind it: that block is looked at first.
   std::string_view next;
@@ -136,6 +137,7 @@ TncInterpreter::BlockOutcome TncInterpreter::read() {
   const ReadingState before = run_.state.reading;
   const bool was_kept = std::exchange(has_kept_block_, false);
   if (was_kept) run_.state.reading = behind_kept_block_;
+  is_definition_known_ &= was_kept;
   switch (was_kept ? ReadState::Ready : run_.reader.next(run_.state.reading, run_.parts)) {
     case ReadState::Ready:
       break;

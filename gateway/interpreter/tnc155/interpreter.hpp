@@ -42,7 +42,8 @@ class TncInterpreter final : public Interpreter {
   AheadSearch definitions_ahead_;
   std::size_t part_ = 0;  ///< of the block in hand, to be done next
   bool peeked_joint_ = false;
-  bool has_kept_block_ = false;  ///< read, but its successor has not arrived
+  bool has_kept_block_ = false;       ///< read, but its successor has not arrived
+  bool is_definition_known_ = false;  ///< of the kept block: the search ahead is done
   ReadingState behind_kept_block_;
   bool is_asking_ = false;
 };
