@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/centurion/event_filter.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -32,14 +32,14 @@ void PatternRecorder::record(const PatternMove& move) {
 }
 
 void PatternRecorder::on_rapid(const Rapid& event) {
-  if (!is_reading()) return next().on_rapid(event);
+  if (!is_reading()) return out().on_rapid(event);
   PatternMove move = move_of(PatternMove::Kind::Rapid, event.origin);
   move.to = point_of(event.to);
   record(move);
 }
 
 void PatternRecorder::on_line(const Line& event) {
-  if (!is_reading()) return next().on_line(event);
+  if (!is_reading()) return out().on_line(event);
   PatternMove move = move_of(PatternMove::Kind::Line, event.origin);
   move.to = point_of(event.to);
   set_feed(move, event.feed);
@@ -47,7 +47,7 @@ void PatternRecorder::on_line(const Line& event) {
 }
 
 void PatternRecorder::on_arc(const Arc& event) {
-  if (!is_reading()) return next().on_arc(event);
+  if (!is_reading()) return out().on_arc(event);
   PatternMove move = move_of(PatternMove::Kind::Arc, event.origin);
   move.to = point_of(event.to);
   move.center = {event.center_second.mm(), event.center_first.mm()};
@@ -58,17 +58,17 @@ void PatternRecorder::on_arc(const Arc& event) {
 }
 
 void PatternRecorder::on_thread(const Thread& event) {
-  if (!is_reading()) return next().on_thread(event);
+  if (!is_reading()) return out().on_thread(event);
   refuse(PatternFault::Thread);
 }
 
 void PatternRecorder::on_probe(const Probe& event) {
-  if (!is_reading()) return next().on_probe(event);
+  if (!is_reading()) return out().on_probe(event);
   refuse(PatternFault::Probe);
 }
 
 void PatternRecorder::on_spindle(const Spindle& event) {
-  if (!is_reading()) return next().on_spindle(event);
+  if (!is_reading()) return out().on_spindle(event);
   PatternMove move = move_of(PatternMove::Kind::Spindle, event.origin);
   move.spindle = event.state;
   move.revolutions = event.revolutions_per_minute;

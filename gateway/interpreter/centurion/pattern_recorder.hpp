@@ -1,16 +1,16 @@
 #pragma once
 
 #include "gateway/interpreter/centurion/modal_state.hpp"
-#include "gateway/interpreter/centurion/passing_sink.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 
 namespace dripline::interpreter::centurion {
 
 /// The last stage before the sink: while a cycle reads its pattern (G71-G73) the moves become the
 /// pattern's, and what else touches the machine waits for G70; otherwise everything passes.
-class PatternRecorder final : public PassingSink {
+class PatternRecorder final : public EventFilter {
  public:
   /// Both must outlive it.
-  PatternRecorder(EventSink& next, ModalState& state) : PassingSink(next), state_(state) {}
+  PatternRecorder(EventSink& next, ModalState& state) : EventFilter(next), state_(state) {}
 
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
@@ -32,7 +32,7 @@ class PatternRecorder final : public PassingSink {
   bool is_reading() const { return state_.pattern.phase == PatternPhase::Reading; }
   template <class Event>
   void pass(void (EventSink::*deliver)(const Event&), const Event& event) {
-    if (!is_reading()) (next().*deliver)(event);
+    if (!is_reading()) (out().*deliver)(event);
   }
   void record(const PatternMove& move);
   void refuse(PatternFault fault);

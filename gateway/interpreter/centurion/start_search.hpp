@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/centurion/event_filter.hpp"
 #include "gateway/interpreter/centurion/modal_state.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -30,9 +30,9 @@ Result<StartAt> parse_start_at(std::string_view text);
 /// and coolant are shown, and the machine moves from where it stands to where the program is by way
 /// of the clearance plane (spec 24.3). A program that has no such place begins at its first block,
 /// with a message.
-class StartSearch final : public EventFilter {
+class StartSearch final : public EventGate {
  public:
-  StartSearch(EventSink& out, StartAt start) : EventFilter(out), start_(std::move(start)) {}
+  StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}
   /// `state` holds what has to survive a snapshot; it must outlive this.
   void attach(ModalState& state) { state_ = &state; }
 
@@ -47,31 +47,14 @@ class StartSearch final : public EventFilter {
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
   void on_thread(const Thread& event) override;
-  void on_dwell(const Dwell& event) override { pass(&EventSink::on_dwell, event); }
-  void on_spindle(const Spindle& event) override { pass(&EventSink::on_spindle, event); }
-  void on_coolant(const Coolant& event) override { pass(&EventSink::on_coolant, event); }
-  void on_tool(const ToolChange& event) override { pass(&EventSink::on_tool, event); }
-  void on_miscellaneous(const Miscellaneous& event) override {
-    pass(&EventSink::on_miscellaneous, event);
-  }
-  void on_pin(const PinChange& event) override { pass(&EventSink::on_pin, event); }
-  void on_probe(const Probe& event) override { pass(&EventSink::on_probe, event); }
-  void on_output(const Output& event) override { pass(&EventSink::on_output, event); }
-  void on_open(const Open& event) override { pass(&EventSink::on_open, event); }
-  void on_close(const Close& event) override { pass(&EventSink::on_close, event); }
-  void on_message(const Message& event) override { pass(&EventSink::on_message, event); }
-  void on_prompt(const Prompt& event) override { pass(&EventSink::on_prompt, event); }
-  void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
-  void on_panel_lock(const PanelLock& event) override { pass(&EventSink::on_panel_lock, event); }
-  void on_warning(const Warning& event) override { pass(&EventSink::on_warning, event); }
-  void on_end(const End& event) override { pass(&EventSink::on_end, event); }
-  void on_block_end(const Origin& event) override { pass(&EventSink::on_block_end, event); }
+  // What a program says of itself, and its alarm, are shown all the same.
+  void on_program(const ProgramHeader& event) override { out().on_program(event); }
+  void on_units(const UnitsChange& event) override { out().on_units(event); }
+  void on_blank(const Blank& event) override { out().on_blank(event); }
+  void on_alarm(const Alarm& event) override { out().on_alarm(event); }
 
  private:
-  template <class Event>
-  void pass(void (EventSink::*deliver)(const Event&), const Event& event) {
-    if (!state_->is_searching) (out().*deliver)(event);
-  }
+  bool is_open() const override { return !state_->is_searching; }
   template <class Event>
   void move(void (EventSink::*deliver)(const Event&), const Event& event);
   void approach(Run& run, const Point& from, const Point& to);

@@ -41,11 +41,11 @@ Position TransformStage::moved(const Position& to) const {
 }
 
 void TransformStage::on_rapid(const Rapid& event) {
-  next().on_rapid({event.origin, moved(event.to)});
+  out().on_rapid({event.origin, moved(event.to)});
 }
 
 void TransformStage::on_line(const Line& event) {
-  next().on_line({event.origin, moved(event.to), event.feed, event.rests});
+  out().on_line({event.origin, moved(event.to), event.feed, event.rests});
 }
 
 /// Different factors would make an ellipse: the arc keeps a radius, scaled as Z is, and its ends.
@@ -82,7 +82,7 @@ bool TransformStage::transform(Arc& arc) const {
 void TransformStage::on_arc(const Arc& event) {
   Arc arc = event;
   if (transform(arc)) {
-    next().on_arc(arc);
+    out().on_arc(arc);
   } else {
     misfit_ = event.origin;
   }
@@ -99,7 +99,7 @@ void TransformStage::on_thread(const Thread& event) {
     }
     thread.arc = ThreadArc{arc.center_first, arc.center_second, arc.plane, arc.turn, arc.sweep};
   }
-  next().on_thread(thread);
+  out().on_thread(thread);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/centurion/passing_sink.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 #include "gateway/interpreter/centurion/transformation.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -15,9 +15,9 @@ Point machine_of(const Run& run, const Point& programmed);
 Point programmed_of(const Run& run, const Point& machine);
 
 /// The first stage while anything is transformed. An arc begins at the run's position.
-class TransformStage final : public PassingSink {
+class TransformStage final : public EventFilter {
  public:
-  TransformStage(const Run& run, EventSink& next) : PassingSink(next), run_(run) {}
+  TransformStage(const Run& run, EventSink& next) : EventFilter(next), run_(run) {}
 
   /// The radius that different factors left an arc is too small for its ends; it was not given on.
   const std::optional<Origin>& misfit() const { return misfit_; }

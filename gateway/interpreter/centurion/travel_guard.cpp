@@ -163,32 +163,32 @@ double TravelGuard::most_on_line(const Position& to) const {
 }
 
 void TravelGuard::on_rapid(const Rapid& event) {
-  if (!is_active_) return next().on_rapid(event);
-  if (allows_line(event.origin, event.to)) next().on_rapid(event);
+  if (!is_active_) return out().on_rapid(event);
+  if (allows_line(event.origin, event.to)) out().on_rapid(event);
 }
 void TravelGuard::on_line(const Line& event) {
-  if (!is_active_) return next().on_line(event);
+  if (!is_active_) return out().on_line(event);
   Line line = event;
   line.feed = followed(event.feed, most_on_line(event.to));
-  if (allows_line(event.origin, event.to)) next().on_line(line);
+  if (allows_line(event.origin, event.to)) out().on_line(line);
 }
 void TravelGuard::on_arc(const Arc& event) {
-  if (!is_active_) return next().on_arc(event);
+  if (!is_active_) return out().on_arc(event);
   const bool has_both = most_.x > 0 && most_.z > 0;
   Arc arc = event;
   arc.feed = followed(event.feed, has_both ? std::min(most_.x, most_.z) : most_.x + most_.z);
-  if (allows_arc(event)) next().on_arc(arc);
+  if (allows_arc(event)) out().on_arc(arc);
 }
 void TravelGuard::on_thread(const Thread& event) {
-  if (!is_active_) return next().on_thread(event);
+  if (!is_active_) return out().on_thread(event);
   const bool is_allowed =
       event.arc ? allows_arc(arc_of(event)) : allows_line(event.origin, event.to);
-  if (is_allowed) next().on_thread(event);
+  if (is_allowed) out().on_thread(event);
 }
 void TravelGuard::on_probe(const Probe& event) {
-  if (!is_active_) return next().on_probe(event);
+  if (!is_active_) return out().on_probe(event);
   const Position& end = event.result ? event.result->at : event.to;
-  if (allows_line(event.origin, end)) next().on_probe(event);
+  if (allows_line(event.origin, end)) out().on_probe(event);
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gateway/interpreter/centurion/errors.hpp"
-#include "gateway/interpreter/centurion/passing_sink.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -29,9 +29,9 @@ struct MaximumFeed {
 /// The last stage before the sink: stops a move that leaves the software limits (401, 403) or
 /// enters the safe zone (413), before it is made. The whole path counts. Positions are those of
 /// events: tool lengths left out. A feed per minute that an axis can not follow is lowered.
-class TravelGuard final : public PassingSink {
+class TravelGuard final : public EventFilter {
  public:
-  explicit TravelGuard(EventSink& sink) : PassingSink(sink) {}
+  explicit TravelGuard(EventSink& sink) : EventFilter(sink) {}
 
   /// Without a limit, a zone or a maximum everything passes; `place` is due before that ends.
   void set_active(bool active) { is_active_ = active; }
