@@ -12,7 +12,7 @@
 namespace dripline::interpreter::compensation {
 
 /// More than any state takes.
-inline constexpr std::size_t kMaxStateBytes = 16 * 1024;
+inline constexpr std::size_t kMaxStateBytes = 24 * 1024;
 
 /// The last stage of a dialect before its sink: takes the programmed events, in machine
 /// coordinates, and gives out the same events with the tool's path offset by the cutter radius.

@@ -12,7 +12,7 @@
 /// What stages that look one move ahead share: the events that wait with the move.
 namespace dripline::interpreter::look_ahead {
 
-inline constexpr std::size_t kMaxHeldEvents = 64;
+inline constexpr std::size_t kMaxHeldEvents = 64;  ///< ends of blocks do not count
 inline constexpr std::size_t kMaxHeldText = 4096;
 
 /// An event with a text, whose characters are kept apart.
@@ -26,6 +26,11 @@ struct HeldText {
 struct BlockEnd {
   Origin origin;
 };
+/// Events that only say that a block is over. A stage that has a kind of its own names it here.
+template <class Event>
+inline constexpr bool kIsBlockEnd = false;
+template <>
+inline constexpr bool kIsBlockEnd<BlockEnd> = true;
 
 /// What came after the move that waits, in order; Rapid and Line are moves of axes outside the
 /// plane, `Own` what only one stage knows. Fixed size.
@@ -45,20 +50,10 @@ class HeldEvents {
   /// False when there is no room.
   template <class One>
   bool push(const One& event) {
-    if (count_ == kMaxHeldEvents) return false;
-    events_[count_++].template emplace<One>(event);
+    if constexpr (kIsBlockEnd<One>) return push_end(event);
+    if (counted_ == kMaxHeldEvents || !put(event)) return false;
+    ++counted_;
     return true;
-  }
-  /// While much waits, ends of blocks that did nothing in between are told by the last of them: a
-  /// long calculation between two moves needs no room.
-  bool push(const BlockEnd& end) {
-    if (count_ >= kMaxHeldEvents / 2) {
-      if (auto* last = std::get_if<BlockEnd>(&events_[count_ - 1])) {
-        *last = end;
-        return true;
-      }
-    }
-    return push<BlockEnd>(end);
   }
   bool push(HeldText text, std::string_view content) {
     if (content.size() > kMaxHeldText - text_size_) return false;
@@ -69,12 +64,36 @@ class HeldEvents {
     text_size_ += content.size();
     return true;
   }
-  void clear() { count_ = text_size_ = 0; }
+  void clear() { count_ = counted_ = text_size_ = 0; }
 
  private:
-  std::array<Event, kMaxHeldEvents> events_;
+  /// So many places are used before ends of blocks in a row share one.
+  static constexpr std::size_t kApart = kMaxHeldEvents / 2;
+  /// One end behind every other event, and those that stood apart.
+  static constexpr std::size_t kPlaces = kApart + 2 * kMaxHeldEvents;
+
+  /// While much waits, ends of blocks that did nothing in between are told by the last of them: a
+  /// long calculation between two moves needs no room, however many blocks a form takes for it.
+  template <class End>
+  bool push_end(const End& end) {
+    if (count_ >= kApart) {
+      if (auto* last = std::get_if<End>(&events_[count_ - 1])) {
+        *last = end;
+        return true;
+      }
+    }
+    return put(end);
+  }
+  template <class One>
+  bool put(const One& event) {
+    if (count_ == kPlaces) return false;
+    events_[count_++].template emplace<One>(event);
+    return true;
+  }
+
+  std::array<Event, kPlaces> events_;
   std::array<char, kMaxHeldText> text_{};
-  std::size_t count_ = 0, text_size_ = 0;
+  std::size_t count_ = 0, counted_ = 0, text_size_ = 0;
 };
 
 /// Gives an event to a sink as what it was.

@@ -19,6 +19,14 @@ struct CompensationCall {
 struct UncountedEnd {
   Origin origin;
 };
+}  // namespace dripline::interpreter::joining::impl
+
+template <>
+inline constexpr bool dripline::interpreter::look_ahead::kIsBlockEnd<
+    dripline::interpreter::joining::impl::UncountedEnd> = true;
+
+namespace dripline::interpreter::joining::impl {
+
 /// Where the piece of a corner belongs that a block of its own told.
 struct CornerPlace {
   Origin origin;

@@ -62,7 +62,9 @@ TEST(Fault, MoreBetweenTwoMovesThanFitsIsRefused) {
   policy.blocks_without_motion = 1'000;
   Contour contour{policy, {-20, 0}};
   contour.left(2).line(-10, 0).line(0, 0);
-  for (int i = 0; i < 40; ++i) contour.misc(8);
+  for (std::size_t i = 0; i < look_ahead::kMaxHeldEvents; ++i) contour.misc(8);
+  EXPECT_EQ(contour.fault(), std::nullopt);
+  contour.misc(8);
   EXPECT_EQ(contour.fault(), FaultKind::TooMuchBetween);
 }
 

@@ -67,6 +67,27 @@ TEST(Order, StatementsAreNoBlocksWithoutMotion) {
   EXPECT_THAT(contour.log.words, testing::IsSupersetOf({"/3", "/4", "/1002", "M8", "/1004"}));
 }
 
+/// What blocks do decides how much may wait, not how many blocks say it.
+TEST(Order, EndsOfBlocksTakeNoRoom) {
+  Policy policy;
+  policy.blocks_without_motion = 1'000;
+  for (const std::size_t per_block : {1u, 4u}) {
+    Contour contour{policy, {-10, 0}};
+    contour.left(2).line(0, 0).line(10, 0);
+    for (std::size_t i = 0; i < look_ahead::kMaxHeldEvents; ++i) {
+      contour.compensator.on_miscellaneous({Origin{}, 8});
+      if (i % per_block == per_block - 1) contour.empty_block().empty_block();
+    }
+    EXPECT_EQ(contour.fault(), std::nullopt) << per_block;
+    EXPECT_TRUE(contour.compensator.is_waiting()) << per_block;
+    const std::vector<std::byte> bytes = contour.compensator.state();
+    EXPECT_TRUE(contour.compensator.restore(bytes));
+    EXPECT_EQ(contour.compensator.state(), bytes);
+    contour.compensator.on_miscellaneous({Origin{}, 9});
+    EXPECT_EQ(contour.fault(), FaultKind::TooMuchBetween) << per_block;
+  }
+}
+
 TEST(Order, TheEndOfTheProgramEndsTheWait) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
@@ -151,10 +172,11 @@ TEST(Order, TheLargestStateKeepsItsBound) {
   Contour contour{policy, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
   const std::string text(100, 'x');
+  for (int i = 0; i < 32; ++i) contour.empty_block();
   for (int i = 0; i < 40; ++i) say(contour, text);
-  for (int i = 0; i < 11; ++i) contour.aside(i + 1.0);
+  for (int i = 0; i < 24; ++i) contour.aside(i + 1.0);
   EXPECT_EQ(contour.fault(), std::nullopt);
-  EXPECT_GT(contour.compensator.state().size(), 8'000u);
+  EXPECT_GT(contour.compensator.state().size(), 11'000u);
   EXPECT_LT(contour.compensator.state().size(), kMaxStateBytes);
 }
 
