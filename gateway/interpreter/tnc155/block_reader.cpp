@@ -54,6 +54,13 @@ ReadState BlockReader::peek(const ReadingState& state, std::string_view& next) {
   return loaded;
 }
 
+bool BlockReader::read_peeked(ReadingState state, BlockParts& parts) {
+  const TextPlace before = block_place_;
+  const bool is_read = read(state, parts);
+  block_place_ = before;
+  return is_read;
+}
+
 ReadState BlockReader::load(ReadingState& state) {
   WindowState loaded = WindowState::Ready;
   switch (state.program.form) {

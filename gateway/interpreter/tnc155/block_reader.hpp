@@ -45,6 +45,9 @@ class BlockReader {
   /// The text of the block that comes next, which stays the next one; `text` of the block read
   /// last is gone.
   ReadState peek(const ReadingState& state, std::string_view& next);
+  /// What that block does, in what is in force behind the one before it. Behind a `peek` that was
+  /// Ready. False: it can not be read, as its own turn will say.
+  bool read_peeked(ReadingState state, BlockParts& parts);
 
   /// The next block of a program in ISO form, only its words: see `iso_block`. Of `state` only the
   /// program changes, and only by its % block.

@@ -128,8 +128,16 @@ TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
   std::string_view next;
   const ReadState state = run_.reader.peek(run_.state.reading, next);
   if (state == ReadState::NotYet) return BlockOutcome::NeedsText;
-  peeked_joint_ = state == ReadState::Ready && is_joint(next, run_.state.reading.program.form);
+  peeked_joint_ = state == ReadState::Ready && is_joint_next(next);
   return BlockOutcome::Finished;
+}
+
+/// In ISO a corner may stand behind other words, whose own blocks of plain language come first.
+bool TncInterpreter::is_joint_next(std::string_view text) {
+  const ReadingState& reading = run_.state.reading;
+  return may_be_joint(text, reading.program.form) &&
+         run_.reader.read_peeked(reading, parts_ahead_) && parts_ahead_.count != 0 &&
+         is_joint(parts_ahead_.blocks[0]);
 }
 
 /// A block whose successor has not arrived is kept, and the run stays in front of it.

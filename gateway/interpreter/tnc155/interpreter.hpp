@@ -29,6 +29,7 @@ class TncInterpreter final : public Interpreter {
   BlockOutcome read();
   bool check_number();
   BlockOutcome look_ahead();
+  bool is_joint_next(std::string_view text);
   BlockOutcome find_definition();
   BlockOutcome meet_end();
   bool execute_parts();
@@ -42,6 +43,7 @@ class TncInterpreter final : public Interpreter {
   AheadSearch definitions_ahead_;
   std::size_t part_ = 0;  ///< of the block in hand, to be done next
   bool peeked_joint_ = false;
+  BlockParts parts_ahead_;            ///< of the block behind the one in hand, where it was read
   bool has_kept_block_ = false;       ///< read, but its successor has not arrived
   bool is_definition_known_ = false;  ///< of the kept block: the search ahead is done
   ReadingState behind_kept_block_;

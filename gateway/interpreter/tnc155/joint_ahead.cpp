@@ -1,8 +1,5 @@
 #include "gateway/interpreter/tnc155/joint_ahead.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -14,7 +11,7 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
   return at;
 }
 
-bool is_plain_joint(std::string_view text) {
+bool begins_as_joint(std::string_view text) {
   std::size_t at = skip_blanks(text, 0);
   while (at < text.size() && (is_digit(text[at]) || text[at] == ' ')) ++at;
   if (at == text.size()) return false;
@@ -26,19 +23,11 @@ bool is_plain_joint(std::string_view text) {
   return is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
 }
 
-/// Letters of words that the control does before a corner: a move, a centre, a tool, a label.
-constexpr auto kComesFirst = [] {
-  std::array<bool, 256> is{};
-  for (const char c : std::string_view("XYZABCUVWHIJKTL")) is[static_cast<unsigned char>(c)] = true;
-  return is;
-}();
-
-/// G24 to G27 with nothing to do before it.
-bool is_iso_joint(std::string_view text) {
-  const auto comes_first = [](char c) { return kComesFirst[static_cast<unsigned char>(c)]; };
-  if (std::any_of(text.begin(), text.end(), comes_first)) return false;
+/// G24 to G27 stand anywhere in a block.
+bool has_iso_joint(std::string_view text) {
   for (std::size_t at = text.find('G'); at != std::string_view::npos; at = text.find('G', at + 1)) {
-    const std::size_t tens = skip_blanks(text, at + 1);
+    std::size_t tens = skip_blanks(text, at + 1);
+    while (tens != text.size() && text[tens] == '0') tens = skip_blanks(text, tens + 1);
     if (tens == text.size() || text[tens] != '2') continue;
     const std::size_t ones = skip_blanks(text, tens + 1);
     if (ones != text.size() && text[ones] >= '4' && text[ones] <= '7') return true;
@@ -48,8 +37,8 @@ bool is_iso_joint(std::string_view text) {
 
 }  // namespace
 
-bool is_joint(std::string_view text, Form form) {
-  return form == Form::Iso ? is_iso_joint(text) : is_plain_joint(text);
+bool may_be_joint(std::string_view text, Form form) {
+  return form == Form::Iso ? has_iso_joint(text) : begins_as_joint(text);
 }
 
 }  // namespace dripline::interpreter::tnc155

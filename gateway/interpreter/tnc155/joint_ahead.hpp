@@ -7,9 +7,9 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// Whether a block's text is a rounding or a chamfer by itself, which says something about the
-/// move before it.
-bool is_joint(std::string_view text, Form form);
+/// Whether a block's text may begin with a rounding or a chamfer, which says something about the
+/// move before it: cheap, and true of some others. `is_joint` of what the text reads as decides.
+bool may_be_joint(std::string_view text, Form form);
 
 inline bool is_joint(const Block& block) {
   return block.kind == BlockKind::Rounding || block.kind == BlockKind::Chamfer;

@@ -60,6 +60,27 @@ TEST(Tnc155ConversionTrace, OfACornerInTheBlockOfAToolIsTheSame) {
   does_the_same(approach);
 }
 
+/// In plain language what stands in front of the corner is a block between it and its move: which
+/// of two alarms is the first depends on it.
+TEST(Tnc155ConversionTrace, OfACornerBehindOtherWordsIsTheSame) {
+  for (const char* words : {"G40", "G41", "F70", "M08", "G90 F70"}) {
+    for (const char* move : {"X+59 Y-8", "X+59", "X+Q1 Y-8 Z+1"}) {
+      EXPECT_TRUE(
+          does_the_same(fmt::format("%7 G71\nN1 G99 T1 L+0 R+2\nN2 T1 G17 S70\nN3 G01 G40 "
+                                    "G90 X+0 Y+0 F90\nN4 {}\nN5 {} G25 R1\nN6 X+9 Y+9\n",
+                                    move, words)));
+    }
+  }
+}
+
+/// Ends of blocks take no room between two moves: a loop has more of them in plain language.
+TEST(Tnc155ConversionTrace, OfALongWaitBetweenMovesIsTheSame) {
+  EXPECT_TRUE(
+      does_the_same("%7 G71\nN1 G99 T1 L+0 R+2\nN2 T1 G17 S70\nN3 G01 G40 G90 X+0 Y+0 F90\n"
+                    "N4 G41 X+20 Y+0\nN5 X+20 Y+20\nN6 G98 L1\nN7 G04 F0,1 M08\nN8 L1.23\n"
+                    "N9 X+0 Y+20\nN10 G40 X+0 Y+0\n"));
+}
+
 /// Programs of plain language whose blocks all can be read.
 class ProgramMaker {
  public:
