@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::centurion {
 
-inline constexpr std::uint32_t kSnapshotVersion = 3;
+inline constexpr std::uint32_t kSnapshotVersion = 4;
 
 /// The run's state between two blocks.
 Snapshot take_snapshot(const Run& run);

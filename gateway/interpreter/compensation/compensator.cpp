@@ -134,6 +134,13 @@ void Compensator::leave() {
   state_.phase = Phase::Off;
 }
 
+void Compensator::leave(PlaneVector programmed) {
+  leave();
+  const PlaneAxes axes = axes_of(state_.plane);
+  set_in_plane(state_.programmed, axes, programmed);
+  state_.is_displaced = in_plane(state_.tool, axes) != programmed;
+}
+
 void Compensator::leave_in_parallel() {
   settle();
   state_.phase = Phase::Parallel;

@@ -12,7 +12,7 @@
 namespace dripline::interpreter::compensation {
 
 /// More than any state takes.
-inline constexpr std::size_t kMaxStateBytes = 24 * 1024;
+inline constexpr std::size_t kMaxStateBytes = 64 * 1024;
 
 /// The last stage of a dialect before its sink: takes the programmed events, in machine
 /// coordinates, and gives out the same events with the tool's path offset by the cutter radius.
@@ -43,6 +43,8 @@ class Compensator final : public EventSink {
   /// where the tool is to its programmed end, whatever it is. What interrupts compensation does
   /// this, then `turn_on` again.
   void leave();
+  /// As above, with the program at this point of the plane, and the tool left where it is.
+  void leave(PlaneVector programmed);
   /// As `leave`, but the next move in the plane, a straight one, keeps the distance the tool has
   /// from the programmed point now, at its end as well.
   void leave_in_parallel();

@@ -11,8 +11,8 @@ namespace dripline::interpreter::compensation {
 /// Of the path, looking along it, with the plane's third axis pointing at the viewer.
 enum class Side : std::uint8_t { Left, Right };
 
-/// How the tool goes round the outside of a corner. Rapid moves get no corner arc: where one
-/// follows, `Arc` means `ExtendTangents`.
+/// How the tool goes round the outside of a corner. Where a rapid move follows, `Arc` means
+/// `ExtendTangents` unless `Policy::rounds_at_rapid`.
 enum class OutsideCorner : std::uint8_t {
   ExtendTangents,   ///< both offset elements go on along their tangents: to their intersection, or
                     ///< beyond `Policy::sharpest` each by one radius, joined by a straight piece
@@ -60,7 +60,10 @@ struct Policy {
   /// So many blocks in a row without motion in the plane are looked across; one more ends the
   /// element before them on its own normal.
   int blocks_without_motion = 1;
-  /// Of an arc that leads to or from a contour whose element there is a rapid move.
+  /// A rapid move is a fast feed move: it gets the corner arcs of any other.
+  bool rounds_at_rapid = false;
+  /// Of an arc that leads to or from a contour, or round a corner, whose element there is a rapid
+  /// move.
   Feed arc_at_rapid;
 };
 

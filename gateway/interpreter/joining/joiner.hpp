@@ -14,7 +14,7 @@
 namespace dripline::interpreter::joining {
 
 /// More than any state takes.
-inline constexpr std::size_t kMaxStateBytes = 24 * 1024;
+inline constexpr std::size_t kMaxStateBytes = 64 * 1024;
 
 /// The stage of a dialect that joins the moves of a contour, in front of compensation: roundings
 /// and chamfers at corners, joins that the program only estimates, lines that are led back to the

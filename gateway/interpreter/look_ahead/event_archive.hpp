@@ -185,7 +185,7 @@ void visit(Archive& archive, HeldText& text) {
 
 template <class Held>
 void write_held(StateWriter& archive, const Held& held) {
-  auto count = static_cast<std::uint8_t>(held.size());
+  auto count = static_cast<std::uint16_t>(held.size());
   archive(count);
   for (std::size_t i = 0; i < held.size(); ++i) {
     typename Held::Event event = held[i];
@@ -225,10 +225,10 @@ void read_kind(StateReader& archive, Held& held, std::size_t kind, std::index_se
 template <class Held>
 void read_held(StateReader& archive, Held& held) {
   constexpr std::size_t kKinds = std::variant_size_v<typename Held::Event>;
-  std::uint8_t count = 0;
+  std::uint16_t count = 0;
   archive(count);
   held.clear();
-  for (std::uint8_t i = 0; i < count && !archive.is_damaged(); ++i) {
+  for (std::uint16_t i = 0; i < count && !archive.is_damaged(); ++i) {
     std::uint8_t kind = 0;
     archive(kind);
     read_kind(archive, held, kind, std::make_index_sequence<kKinds>{});

@@ -12,7 +12,7 @@
 /// What stages that look one move ahead share: the events that wait with the move.
 namespace dripline::interpreter::look_ahead {
 
-inline constexpr std::size_t kMaxHeldEvents = 64;  ///< ends of blocks do not count
+inline constexpr std::size_t kMaxHeldEvents = 256;  ///< ends of blocks do not count
 inline constexpr std::size_t kMaxHeldText = 4096;
 
 /// An event with a text, whose characters are kept apart.
@@ -68,7 +68,7 @@ class HeldEvents {
 
  private:
   /// So many places are used before ends of blocks in a row share one.
-  static constexpr std::size_t kApart = kMaxHeldEvents / 2;
+  static constexpr std::size_t kApart = 32;
   /// One end behind every other event, and those that stood apart.
   static constexpr std::size_t kPlaces = kApart + 2 * kMaxHeldEvents;
 

@@ -125,7 +125,7 @@ CornerEnd outside_corner(const Policy& policy, const Turning& turn, const Elemen
     case OutsideCorner::IntersectCurves:
       return intersection(first, second);
     case OutsideCorner::Arc:
-      if (!second.is_rapid) return rounded(first, second);
+      if (!second.is_rapid || policy.rounds_at_rapid) return rounded(first, second);
       break;
     case OutsideCorner::ExtendTangents:
       break;

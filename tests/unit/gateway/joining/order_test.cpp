@@ -61,20 +61,22 @@ TEST(JoinOrder, ARapidMoveEndsTheWait) {
   EXPECT_THAT(path.log.words, ElementsAre("move1", "/1", "move2", "/2"));
 }
 
+constexpr std::size_t kTooMany = look_ahead::kMaxHeldEvents + 36;
+
 TEST(JoinOrder, WhereThereIsNoRoomAMoveEndsAsProgrammed) {
   Path path;
   path.line(10, 0);
-  for (int i = 0; i < 100; ++i) say(path, "row");
+  for (std::size_t i = 0; i < kTooMany; ++i) say(path, "row");
   EXPECT_FALSE(path.joiner.is_waiting());
   path.line(10, 10).end();
   EXPECT_EQ(path.fault(), std::nullopt);
-  EXPECT_EQ(path.log.words.size(), 1 + 1 + 100 + 1 + 1 + 1u);
+  EXPECT_EQ(path.log.words.size(), 1 + 1 + kTooMany + 1 + 1 + 1);
 }
 
 TEST(JoinOrder, ACornerNeedsRoomForAllThatStandsAtIt) {
   Path path;
   path.round(1).line(10, 0);
-  for (int i = 0; i < 100; ++i) say(path, "row");
+  for (std::size_t i = 0; i < kTooMany; ++i) say(path, "row");
   EXPECT_EQ(path.fault(), FaultKind::TooMuchBetween);
 }
 
