@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/tnc155/target.hpp"
 
@@ -52,6 +53,10 @@ bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutt
   return true;
 }
 
+void note_contour(State& state) {
+  state.is_first_contour = !std::exchange(state.has_compensated, true);
+}
+
 bool start_contour(Run& run, const Block& block, const PlaneMove& move, Compensation side) {
   State& state = run.state;
   if (move.is_arc) return refuse_start(run, "a contour begins with a straight block");
@@ -59,7 +64,7 @@ bool start_contour(Run& run, const Block& block, const PlaneMove& move, Compensa
   run.use_stages();
   release_corner(run);
   const compensation::Cutter cutter = cutter_of(state, side);
-  state.has_compensated = true;
+  note_contour(state);
   state.compensation = side;
   if (block.m == 96) return start_from_offset(run, move, cutter);
   run.compensator.turn_on(cutter);
@@ -79,6 +84,7 @@ bool go_parallel(Run& run, const Block& block, const PlaneMove& move, Compensati
   if (begins) {
     if (move.is_arc) return refuse_start(run, "a contour begins with a straight block");
     const compensation::Cutter cutter = cutter_of(state, side);
+    note_contour(state);
     if (move.has_way) {
       run.compensator.turn_on_in_parallel(cutter);
     } else {
@@ -93,8 +99,8 @@ bool go_parallel(Run& run, const Block& block, const PlaneMove& move, Compensati
 /// M95: the block before begins the contour once more, without compensation.
 bool start_again(Run& run, const Block& block) {
   if (block.m != 95) return true;
-  if (!run.state.last.starts_contour) {
-    return refuse_start(run, "M95 is for the first compensated block");
+  if (!run.state.last.starts_contour || !run.state.is_first_contour) {
+    return refuse_start(run, "M95 is for the first compensated block of the run");
   }
   release_corner(run);
   run.compensator.start_again();
@@ -121,6 +127,10 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
   Compensation side = block.compensation;
   if (side == Compensation::NotProgrammed) side = state.compensation;
   const bool is_side = side == Compensation::Left || side == Compensation::Right;
+  const bool is_offset = side == Compensation::Longer || side == Compensation::Shorter;
+  if (is_offset && (state.is_parallel || state.is_compensating())) {
+    return refuse_start(run, "R+ and R- stand between blocks with R0");
+  }
   if (state.is_parallel) return go_parallel(run, block, move, side);
   if (!state.is_compensating()) {
     if (is_side) return start_contour(run, block, move, side);
@@ -243,6 +253,10 @@ bool make_joint(Run& run, const Block& block) {
   State& state = run.state;
   const LastMove& last = state.last;
   Joint joint;
+  if (state.joint.kind != JointKind::None) {
+    return run.fail(ErrorCode::PlaneWronglyDefined,
+                    "RND and chamfers stand directly behind a move");
+  }
   joint.origin = run.origin;
   joint.size = run.length(block.radius);
   joint.kind = block.kind == BlockKind::Chamfer ? JointKind::Chamfer : JointKind::Round;
@@ -318,6 +332,13 @@ void interrupt_contour(Run& run) {
 void resume_contour(Run& run) {
   State& state = run.state;
   if (state.is_compensating()) run.compensator.turn_on(cutter_of(state, state.compensation));
+}
+
+void go_on_with_contour(Run& run, const Position& programmed) {
+  const State& state = run.state;
+  const PlaneVector at = in_plane(programmed, axes_of(state.plane));
+  if (!state.is_compensating()) return run.compensator.leave(at);
+  run.compensator.begin_contour(cutter_of(state, state.compensation), at);
 }
 
 bool check_stages(Run& run) {

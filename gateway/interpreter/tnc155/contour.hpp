@@ -30,10 +30,13 @@ bool make_joint(Run& run, const Block& block);
 /// What ends a contour besides R0: TOOL CALL and plane functions; with `keeps_distance`, as M98
 /// does, transformations.
 void end_contour(Run& run, bool keeps_distance);
-/// For moves in between that know no compensation (M91, a cycle): the contour ends, and after
-/// `resume_contour` the next block begins one.
+/// For moves in between that know no compensation: the block before ends on its own normal. After
+/// them the tool is elsewhere and the next block begins a contour (`resume_contour`: M91, the
+/// probe), or it is back and the contour goes on from where its block pointed to
+/// (`go_on_with_contour`: a cycle).
 void interrupt_contour(Run& run);
 void resume_contour(Run& run);
+void go_on_with_contour(Run& run, const Position& programmed);
 
 /// False after an alarm: a stage found that the contour can not be run.
 bool check_stages(Run& run);

@@ -18,12 +18,18 @@ constexpr double kLongestDwell = 19'999.999;
 constexpr double kMostRotation = 360;
 
 bool refuse_incomplete(Run& run, const Block& block) {
+  const CycleState& cycle = run.state.cycle;
+  if (block.cycle == cycle.defining && block.part == cycle.next_part) {
+    return run.fail(ErrorCode::CycleIncomplete,
+                    fmt::format("CYCL DEF {0}.{1} does not stand behind {0}.{2}", block.cycle,
+                                block.part, block.part - 1));
+  }
   return run.fail(ErrorCode::CycleIncomplete,
                   fmt::format("CYCL DEF {}.{} where {}.{} was due", block.cycle, block.part,
-                              run.state.cycle.defining, run.state.cycle.next_part));
+                              cycle.defining, cycle.next_part));
 }
 
-/// Sub-blocks come in their order; of the datum shift only the first has to.
+/// Sub-blocks come in their order, one behind the other; of the datum shift only the first has to.
 bool take_place(Run& run, const Block& block) {
   CycleState& cycle = run.state.cycle;
   if (block.part == 0) {
@@ -31,9 +37,11 @@ bool take_place(Run& run, const Block& block) {
     cycle.defining = block.cycle;
     cycle.draft = MachiningCycle{};
     cycle.draft.number = block.cycle;
-  } else if (block.cycle != cycle.defining || block.part != cycle.next_part) {
+  } else if (block.cycle != cycle.defining || block.part != cycle.next_part ||
+             run.state.blocks > cycle.block + 1) {
     return refuse_incomplete(run, block);
   }
+  cycle.block = run.state.blocks;
   cycle.next_part = static_cast<std::uint8_t>(block.part + 1);
   const bool is_last = cycle.next_part >= cycle_parts(block.cycle).size();
   cycle.is_complete = is_last || (block.cycle == kDatumShift && block.part > 0);

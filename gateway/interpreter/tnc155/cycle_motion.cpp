@@ -9,7 +9,6 @@ namespace {
 /// Where a contour has led the tool the cycle begins, not where its block pointed to.
 void stand_where_the_tool_is(Run& run) {
   State& state = run.state;
-  if (!state.uses_stages) return;
   interrupt_contour(run);
   state.machine = run.compensator.tool();
   AxisValues machine{};
@@ -19,9 +18,13 @@ void stand_where_the_tool_is(Run& run) {
 
 }  // namespace
 
-CycleMotion::CycleMotion(Run& run)
-    : run_(run), axes_(axes_of(run.state.plane)), nominal_(run.state.nominal) {
-  stand_where_the_tool_is(run);
+CycleMotion::CycleMotion(Run& run, Way way)
+    : run_(run),
+      leaves_contour_(run.state.uses_stages && way == Way::InThePlane),
+      axes_(axes_of(run.state.plane)),
+      machine_(run.state.machine),
+      nominal_(run.state.nominal) {
+  if (leaves_contour_) stand_where_the_tool_is(run);
   start_ = nominal_in_plane(run.state);
   start_height_ = run.state.nominal_of(run.state.tool.axis);
   tool_radius_ = run.state.tool.data.radius / run.state.transformation.factor(run.state.plane);
@@ -29,7 +32,10 @@ CycleMotion::CycleMotion(Run& run)
 
 void CycleMotion::end() {
   run_.state.nominal = nominal_;
-  resume_contour(run_);
+  if (leaves_contour_) {
+    run_.state.machine = machine_;
+    go_on_with_contour(run_, machine_);
+  }
   run_.state.last = LastMove{};
 }
 

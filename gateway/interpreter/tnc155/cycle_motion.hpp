@@ -8,8 +8,11 @@ namespace dripline::interpreter::tnc155 {
 /// what transforms the program transforms the cycle. `u` and `v` are the plane's axes.
 class CycleMotion {
  public:
-  /// Leaves the contour; `end` takes it up again.
-  explicit CycleMotion(Run& run);
+  /// A hole is made at the corner that the contour has there. A pocket is milled where the block
+  /// before ends by itself; the contour goes on at `end`.
+  enum class Way : std::uint8_t { AlongTheToolAxis, InThePlane };
+
+  CycleMotion(Run& run, Way way);
   void end();
 
   PlaneVector start() const { return start_; }
@@ -34,7 +37,9 @@ class CycleMotion {
   void move(PlaneVector to, Pace pace);
 
   Run& run_;
+  bool leaves_contour_;
   PlaneAxes axes_;
+  Position machine_;    ///< before compensation
   AxisValues nominal_;  ///< as the program left it
   PlaneVector start_;
   double start_height_ = 0;

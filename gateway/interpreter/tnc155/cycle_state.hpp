@@ -42,6 +42,7 @@ struct CycleState {
   std::uint8_t defining = 0;   ///< cycle whose sub-blocks come now
   std::uint8_t next_part = 0;  ///< which one comes next
   bool is_complete = true;     ///< no sub-block is missing
+  std::uint64_t block = 0;     ///< of the run: the last sub-block
   MachiningCycle machining;    ///< what a call runs
   MachiningCycle draft;        ///< what has been said of the one being defined
   ProbeState probe;
@@ -89,6 +90,7 @@ void visit_cycle_state(Archive& archive, CycleState& cycle) {
   archive(cycle.defining);
   archive(cycle.next_part);
   archive(cycle.is_complete);
+  archive(cycle.block);
   visit_machining_cycle(archive, cycle.machining);
   visit_machining_cycle(archive, cycle.draft);
   visit_probe_state(archive, cycle.probe);

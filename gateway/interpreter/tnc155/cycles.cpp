@@ -89,8 +89,7 @@ bool check_bounds(Run& run, const MachiningCycle& cycle) {
                               cycle.number, moves, kMostMoves));
 }
 
-void run_machining(Run& run, const MachiningCycle& cycle) {
-  CycleMotion motion(run);
+void make(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
   switch (cycle.number) {
     case kPecking:
       drill_by_pecks(motion, cycle);
@@ -108,7 +107,32 @@ void run_machining(Run& run, const MachiningCycle& cycle) {
       mill_circle(motion, cycle, stepover(run));
       break;
   }
+}
+
+/// A cycle that does not keep to the limits is not begun.
+bool stays_within_limits(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
+  if (!run.limits.has_any()) return true;
+  const Position machine = run.state.machine;
+  const auto nominal = run.state.nominal;
+  run.is_measuring = true;
+  if (cycle.number < kSlot) {
+    motion.feed_to_height(motion.start_height() + cycle.clearance + cycle.depth, cycle.feed);
+  } else {
+    make(run, motion, cycle);
+  }
+  run.is_measuring = false;
+  run.state.machine = machine;
+  run.state.nominal = nominal;
+  return !run.limits.reached();
+}
+
+bool run_machining(Run& run, const MachiningCycle& cycle) {
+  using Way = CycleMotion::Way;
+  CycleMotion motion(run, cycle.number < kSlot ? Way::AlongTheToolAxis : Way::InThePlane);
+  if (!stays_within_limits(run, motion, cycle)) return run.fail_at_limit();
+  make(run, motion, cycle);
   motion.end();
+  return true;
 }
 
 }  // namespace
@@ -131,8 +155,7 @@ bool call_cycle(Run& run) {
   if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
   if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
   if (!check_machining(run, cycle)) return false;
-  run_machining(run, cycle);
-  return true;
+  return run_machining(run, cycle);
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -227,10 +227,8 @@ bool TncInterpreter::execute_parts() {
 }
 
 bool TncInterpreter::finish_block() {
-  if (run_.limit) [[unlikely]] {
-    return run_.fail(ErrorCode::LimitSwitch, fmt::format("{}{}", letter(run_.limit->axis),
-                                                         run_.limit->is_positive ? '+' : '-'));
-  }
+  if (run_.limits.reached()) [[unlikely]]
+    return run_.fail_at_limit();
   if (run_.state.uses_stages) [[unlikely]] {
     if (!check_stages(run_)) return false;
   }

@@ -28,25 +28,12 @@ Feed feed_to(const Run& run, const Target& target, const Position& to, const Pac
   return Feed::per_minute(Length::mm(turns ? linear_feed(run, to, pace.feed) : pace.feed));
 }
 
-/// The move is left out, and its block fails when it is finished.
-bool stays_within_limits(Run& run, const Position& to) {
-  if (run.limit) return false;
-  for (const Axis axis : kAllAxes) {
-    const bool is_low =
-        run.options.limit_low.has(axis) && to.raw(axis) < run.options.limit_low.raw(axis) - kSame;
-    const bool is_high =
-        run.options.limit_high.has(axis) && to.raw(axis) > run.options.limit_high.raw(axis) + kSame;
-    if (is_low || is_high) run.limit = LimitReached{axis, is_high};
-  }
-  return !run.limit;
-}
-
 void put_out(Run& run, const Line& move, bool is_rapid) {
   State& state = run.state;
-  if (run.has_limits && !stays_within_limits(run, move.to)) [[unlikely]]
-    return;
   const bool moves = !move.to.same_point(state.machine);
-  if (moves && is_rapid) {
+  if (run.is_measuring) [[unlikely]] {
+    run.limits.check_line(move.origin, state.machine, move.to);
+  } else if (moves && is_rapid) {
     run.events().on_rapid({move.origin, move.to});
   } else if (moves) {
     run.events().on_line(move);
@@ -112,9 +99,11 @@ void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
       (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise : Turn::CounterClockwise;
   arc.sweep = Angle::degrees(target.sweep);
   arc.feed = Feed::per_minute(Length::mm(pace.feed));
-  if (run.has_limits && !stays_within_limits(run, arc.to)) [[unlikely]]
-    return;
-  run.events().on_arc(arc);
+  if (run.is_measuring) [[unlikely]] {
+    run.limits.check_arc(arc, state.machine);
+  } else {
+    run.events().on_arc(arc);
+  }
   state.machine = arc.to;
   state.nominal = target.to.at;
 }

@@ -1,7 +1,6 @@
 #include "gateway/interpreter/tnc155/run.hpp"
 
 #include <fmt/core.h>
-#include <algorithm>
 #include <limits>
 
 namespace dripline::interpreter::tnc155 {
@@ -14,6 +13,7 @@ compensation::Policy policy() {
   policy.sharpest = Angle::degrees(180);
   policy.resume = compensation::Resume::OwnNormal;
   policy.blocks_without_motion = std::numeric_limits<int>::max();
+  policy.rounds_at_rapid = true;
   policy.arc_at_rapid = Feed::per_minute(Length::mm(15'999));  // the highest that can be entered
   return policy;
 }
@@ -35,19 +35,14 @@ Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_vi
   return made;
 }
 
-bool has_any(const Position& position) {
-  return std::any_of(kAllAxes.begin(), kAllAxes.end(),
-                     [&](Axis axis) { return position.has(axis); });
-}
-
 }  // namespace
 
 Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
     : options(std::move(control_options)),
-      has_limits(has_any(options.limit_low) || has_any(options.limit_high)),
       source(program_source),
-      sink(event_sink),
-      compensator(policy(), event_sink),
+      limits(event_sink, options.limit_low, options.limit_high),
+      sink(limits.has_any() ? static_cast<EventSink&>(limits) : event_sink),
+      compensator(policy(), sink),
       joiner(corner_policy(), compensator),
       reader(program_source, ReaderOptions{options.iso_continuation}) {}
 
@@ -79,6 +74,7 @@ void Run::begin_joining() {
 void Run::reset_stages() {
   compensator.reset(state.machine);
   joiner.reset(state.machine);
+  limits.place(state.machine);
 }
 
 bool Run::fail(ErrorCode code, std::string_view detail) {
@@ -94,7 +90,16 @@ bool Run::fail_as(ErrorCode code, std::string_view text) {
   return false;
 }
 
+bool Run::fail_at_limit() {
+  const LimitReached& limit = *limits.reached();
+  origin.line = limit.origin.line;
+  return fail_as(ErrorCode::LimitSwitch,
+                 fmt::format("{} {}{}", error_row(ErrorCode::LimitSwitch).text, letter(limit.axis),
+                             limit.is_positive ? '+' : '-'));
+}
+
 bool Run::ask(Question asked) {
+  if (limits.reached()) return fail_at_limit();
   pause = Pause::Question;
   question = std::move(asked);
   return false;

@@ -11,17 +11,12 @@
 #include "gateway/interpreter/tnc155/errors.hpp"
 #include "gateway/interpreter/tnc155/options.hpp"
 #include "gateway/interpreter/tnc155/state.hpp"
+#include "gateway/interpreter/tnc155/travel_limits.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
 /// Why a function gave false.
 enum class Pause : std::uint8_t { None, Alarm, Question };
-
-/// A move would lead beyond the limits set by hand.
-struct LimitReached {
-  Axis axis = Axis::X;
-  bool is_positive = false;
-};
 
 /// A TOOL DEF the run has not come to, and the units of its program.
 struct DefinitionAhead {
@@ -61,6 +56,7 @@ struct Run {
   [[gnu::cold]] bool fail(ErrorCode code, std::string_view detail = {});
   /// With a text in place of the control's.
   [[gnu::cold]] bool fail_as(ErrorCode code, std::string_view text);
+  [[gnu::cold]] bool fail_at_limit();
   [[gnu::cold]] bool ask(Question asked);
   [[gnu::cold]] void warn(std::string_view id, std::string_view text);
 
@@ -78,9 +74,9 @@ struct Run {
   double length(const Value& value) const { return number(value) * state.mm_per_unit(); }
 
   const ControlOptions options;
-  const bool has_limits;
   ProgramSource& source;
-  EventSink& sink;
+  TravelLimits limits;
+  EventSink& sink;  ///< behind the limits, where there are any
   compensation::Compensator compensator;
   joining::Joiner joiner;
   BlockReader reader;
@@ -90,12 +86,12 @@ struct Run {
 
   BlockParts parts;             ///< of the block in hand
   bool is_in_block = false;     ///< read, and not finished
+  bool is_measuring = false;    ///< moves are held against the limits and not made
   bool joint_follows = false;   ///< RND or a chamfer stands behind the part in hand
   bool starts_contour = false;  ///< the part in hand is the first with RL or RR
   Origin origin;
   std::optional<Answer> answer;  ///< to the question of the part in hand
   Question question;
-  std::optional<LimitReached> limit;
   Diagnostic alarm;
   Pause pause = Pause::None;
 

@@ -132,7 +132,7 @@ template <class Archive>
 void visit_contour(Archive& archive, State& state) {
   up_to(archive, state.compensation, Compensation::Shorter);
   visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.has_compensated,
-            state.awaits_contour);
+            state.is_first_contour, state.awaits_contour);
   Joint& joint = state.joint;
   up_to(archive, joint.kind, JointKind::RunOff);
   visit_all(archive, joint.is_stated, joint.is_lost);
@@ -263,6 +263,8 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
     run.joiner.reset(state.machine);
   }
   state.transformation.update();
+  run.limits.place(state.uses_stages ? run.compensator.tool() : state.machine);
+  run.limits.reset();
   run.state = std::move(state);
   run.origin = origin;
   return {};

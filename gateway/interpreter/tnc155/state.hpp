@@ -147,11 +147,12 @@ struct State {
   double feed = 0;  ///< millimetres or degrees per minute; 0: none yet
 
   Compensation compensation = Compensation::Off;
-  bool uses_stages = false;      ///< from the first RL, RR, RND or chamfer on
-  bool joins = false;            ///< moves pass the corner stage: one waits there
-  bool is_parallel = false;      ///< after M98: compensation has to be programmed anew
-  bool has_compensated = false;  ///< a contour was started in this run
-  bool awaits_contour = false;   ///< RL or RR is on, and no block in the plane has followed
+  bool uses_stages = false;       ///< from the first RL, RR, RND or chamfer on
+  bool joins = false;             ///< moves pass the corner stage: one waits there
+  bool is_parallel = false;       ///< after M98: compensation has to be programmed anew
+  bool has_compensated = false;   ///< a contour was started in this run
+  bool is_first_contour = false;  ///< the one that was started last is that one
+  bool awaits_contour = false;    ///< RL or RR is on, and no block in the plane has followed
   Joint joint;
   LastMove last;
   std::array<double, 3> pole{};  ///< X, Y, Z; program coordinates

@@ -114,6 +114,11 @@ TEST(TncCompensation, M95GoesStraightToTheFirstPoint) {
   EXPECT_THAT(
       path("+4", {"L X-40 Y+10 R0 F100", "L X-20 Y+10 RL", "L X+0 Y+0", "L X+40 Y+0 M95"}).back(),
       "! PATH OFFSET WRONGLY STARTED");
+  // for the first contour of the run only
+  EXPECT_THAT(path("+4", {"L X-40 Y+30 R0 F100", "L X-60 Y+30 RL", "L X-40 Y+40 R0",
+                          "L X-20 Y+10 RL", "L X+0 Y+0 M95", "L X+40 Y+0"})
+                  .back(),
+              "! PATH OFFSET WRONGLY STARTED");
 }
 
 // HD-116: the element ends complete, the next block keeps the offset (0, 4), and the contour that
@@ -158,6 +163,76 @@ TEST(TncCompensation, LookAheadGoesThroughOtherBlocks) {
                   "CALL LBL 7 REP", "L X+20 Y+30 R0", "STOP M02", "LBL 7", "L X+40 Y+Q1", "LBL 0"}),
       ElementsAre("L X0 Y20 F100", "L X0 Y5 F100", "L X35 Y5 F100", "L X35 Y5 Z-5 F100",
                   "L X35 Y30 Z-5 F100", "L X20 Y30 Z-5 F100"));
+}
+
+std::vector<std::string> with_pecking(std::vector<std::string> blocks) {
+  blocks.insert(blocks.begin(),
+                {"CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 SET-UP-2", "CYCL DEF 1.2 DEPTH-4",
+                 "CYCL DEF 1.3 PECKG-4", "CYCL DEF 1.4 DWELL 0", "CYCL DEF 1.5 F80"});
+  return blocks;
+}
+
+// HD-127, HD-138: a hole in a contour is made at its corner, as a move along Z is, and the contour
+// goes on.
+TEST(TncCompensation, AHoleIsMadeAtTheCorner) {
+  EXPECT_THAT(
+      path("+4", with_pecking({"L X+0 Y+20 Z+2 R0 F100 M03", "L X+0 Y+0 RL", "L X+50 Y+0 M99",
+                               "L X+80 Y+0", "L X+80 Y+50 M99", "L X+60 Y+50 R0"})),
+      ElementsAre("L X0 Y20 Z2 F100", "L X0 Y4 Z2 F100", "L X50 Y4 Z2 F100", "L X50 Y4 Z-4 F80",
+                  "R X50 Y4 Z2", "L X76 Y4 Z2 F100", "L X76 Y50 Z2 F100", "L X76 Y50 Z-4 F80",
+                  "R X76 Y50 Z2", "L X60 Y50 Z2 F100"));
+}
+
+// HD-127: one coordinate, R0 and an arc behind a cycle find the contour's own points.
+TEST(TncCompensation, ACycleLeavesTheProgrammedPointAlone) {
+  EXPECT_THAT(path("+4", with_pecking({"L X+0 Y+20 Z+2 R0 F100 M03", "L X+0 Y+0 RL",
+                                       "L X+50 Y+0 M99", "L X+80 R0", "L X+100"})),
+              testing::Contains("L X100 Y0 Z2 F100"));
+  EXPECT_EQ(path("+4", with_pecking({"L X+0 Y+20 Z+2 R0 F100 M03", "L X+0 Y+0 RL", "L X+50 Y+0 M99",
+                                     "CC X+50 Y+20", "C X+70 Y+20 DR+", "L X+70 Y+40 R0"}))
+                .back(),
+            "L X70 Y40 Z2 F100");
+}
+
+// A pocket is milled where the block before ends by itself; the contour goes on behind it.
+TEST(TncCompensation, APocketDoesNotEndTheContour) {
+  const auto moves =
+      path("+4", {"CYCL DEF 3.0 SLOT MILLING", "CYCL DEF 3.1 SET-UP-2", "CYCL DEF 3.2 DEPTH-4",
+                  "CYCL DEF 3.3 PECKG-4 F80", "CYCL DEF 3.4 X+30", "CYCL DEF 3.5 Y+10",
+                  "CYCL DEF 3.6 F100", "L X+0 Y+20 Z+2 R0 F100 M03", "L X+0 Y+0 RL",
+                  "L X+50 Y+0 M99", "L X+80", "L X+80 Y+50", "L X+60 Y+50 R0"});
+  ASSERT_GT(moves.size(), 10u);
+  EXPECT_THAT(
+      std::vector<std::string>(moves.end() - 4, moves.end()),
+      ElementsAre("R X50 Y4 Z2", "L X76 Y4 Z2 F100", "L X76 Y50 Z2 F100", "L X60 Y50 Z2 F100"));
+}
+
+// HD-093: R+ and R- stand between blocks with R0, along the tool axis as well.
+TEST(TncCompensation, ASingleAxisOffsetIsNoPartOfAContour) {
+  EXPECT_EQ(path("+4", {"L X+0 Y+20 Z+0 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0", "Z+5 R+"}).back(),
+            "! PATH OFFSET WRONGLY STARTED");
+  EXPECT_EQ(
+      path("+4", {"L X+0 Y+20 Z+0 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0 M98", "X+60 R-"}).back(),
+      "! PATH OFFSET WRONGLY STARTED");
+}
+
+// HD-123: rapid traverse is a large feed, and goes round a corner as any other.
+TEST(TncCompensation, ARapidElementGetsATransitionalArc) {
+  EXPECT_THAT(path("+5", {"L X+0 Y-20 R0 F100", "L X+0 Y+0 RR", "L X+40 Y+0 F MAX",
+                          "L X+40 Y+30 F MAX", "L X+60 Y+30 R0 F100"}),
+              ElementsAre("L X0 Y-20 F100", "L X0 Y-5 F100", "R X40 Y-5",
+                          "A X45 Y0 c40,0 ccw90 F15999", "R X45 Y30", "L X60 Y30 F100"));
+}
+
+// HD-127: any number of moves along the tool axis may stand at a corner.
+TEST(TncCompensation, ManyMovesAlongZStandAtACorner) {
+  std::vector<std::string> blocks = {"L X+0 Y+20 Z+0 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0"};
+  for (int i = 1; i <= 200; ++i) blocks.push_back("L Z-" + std::to_string(i));
+  blocks.insert(blocks.end(), {"L X+40 Y+30", "L X+20 Y+30 R0"});
+  const auto moves = path("+5", blocks);
+  ASSERT_EQ(moves.size(), 205u);
+  EXPECT_EQ(moves[2], "L X35 Y5 Z0 F100");
+  EXPECT_EQ(moves[202], "L X35 Y5 Z-200 F100");
 }
 
 // HD-131: a negative radius goes to the other side.

@@ -63,6 +63,18 @@ TEST(TncCorner, ARoundingNeedsRoomAndThePlane) {
   EXPECT_THAT(moves_of({"RND R5", "L X+40 Y+0 R0 F100"}).back(), "! PLANE WRONGLY DEFINED");
 }
 
+// HD-106: each stands directly behind the block whose end it changes.
+TEST(TncCorner, OneBlockHasOneCorner) {
+  for (const char* second : {"RND R6", "L 6"}) {
+    for (const char* first : {"RND R5", "L 5"}) {
+      EXPECT_THAT(
+          moves_of({"L X+0 Y+0 R0 F100", "L X+40 Y+0", first, second, "L X+40 Y+30"}).back(),
+          "! PLANE WRONGLY DEFINED")
+          << first << " " << second;
+    }
+  }
+}
+
 // HD-107: both legs measured from the corner.
 TEST(TncCorner, AChamferCutsBothLegs) {
   EXPECT_THAT(moves_of({"L X+0 Y+10 R0 F100", "L X+0 Y+0", "L X+40 Y+0", "L 4,000", "L X+40 Y+30"}),

@@ -110,5 +110,15 @@ TEST(TncRun, RoundsInIso) {
   }
 }
 
+// HD-189: the sub-blocks of a definition stand one behind the other, of a datum shift as well.
+TEST(TncRun, ADefinitionIsNotParted) {
+  const std::vector<std::string> whole = {"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10",
+                                          "CYCL DEF 7.2 Y+5", "L X+0 Y+0 R0 F100"};
+  EXPECT_EQ(moves_of(whole).back(), "L X10 Y5 F100");
+  std::vector<std::string> parted = whole;
+  parted.insert(parted.begin() + 2, "L X+0 Y+0 R0 F100");
+  EXPECT_EQ(moves_of(parted).back(), "! CYCL INCOMPLETE");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
