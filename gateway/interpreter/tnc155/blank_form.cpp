@@ -33,6 +33,10 @@ bool check_side(Run& run, Axis axis, double side) {
 }  // namespace
 
 bool define_blank(Run& run, const Block& block) {
+  const ControlVersion& version = run.options.version;
+  if (!block.is_maximum && !version.has(Feature::Graphics)) {
+    run.warn("TNC-NO-GRAPHICS", "BLK FORM is for graphics: " + version.lacks(Feature::Graphics));
+  }
   if (!block.is_maximum) return take_minimum(run, block);
   BlankState& blank = run.state.blank;
   if (!blank.has_minimum) {

@@ -7,6 +7,7 @@
 
 #include "gateway/interpreter/tnc155/block_end.hpp"
 #include "gateway/interpreter/tnc155/plain_reader.hpp"
+#include "gateway/interpreter/tnc155/version_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -125,6 +126,8 @@ ReadState BlockReader::next_words(ReadingState& state) {
   if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
   find_place();
   if (!read_iso_block(text_, text_end_, state.program, iso_, fault_)) return complain();
+  const ControlVersion& version = options_.version;
+  if (!version.takes_all_blocks() && !check_version(version, iso_, fault_)) return complain();
   if (place_.offset == 0 && iso_.program != IsoBlock::kNone && iso_.has(IsoGroup::Unit)) {
     state.program.units = iso_.code(IsoGroup::Unit) == 70 ? Units::Inch : Units::Millimetre;
     state.program.number = iso_.program;
@@ -143,12 +146,30 @@ bool BlockReader::read(ReadingState& state, BlockParts& parts) {
   find_place();
   if (state.program.form == Form::Iso) {
     return read_iso_block(text_, text_end_, state.program, iso_, fault_) &&
-           resolve(iso_, place_.offset == 0, state, parts, fault_);
+           resolve_words(state, parts);
   }
   Block& block = parts.blocks[0];
   if (!read_plain_block(text_, text_end_, state, block, fault_)) return false;
+  const ControlVersion& version = options_.version;
+  if (!version.takes_all_blocks() && !check_version(version, block, fault_)) return false;
   parts.count = 1;
   note_plain_block(block, state);
+  return true;
+}
+
+/// What an ISO block does; for a version that does not take all blocks `state` is tried out first.
+bool BlockReader::resolve_words(ReadingState& state, BlockParts& parts) {
+  const bool is_first = place_.offset == 0;
+  const ControlVersion& version = options_.version;
+  if (version.takes_all_blocks()) [[likely]]
+    return resolve(iso_, is_first, state, parts, fault_);
+  if (!check_version(version, iso_, fault_)) return false;
+  ReadingState tried = state;
+  if (!resolve(iso_, is_first, tried, parts, fault_)) return false;
+  for (const Block& part : parts) {
+    if (!check_version(version, part, fault_)) return false;
+  }
+  state = tried;
   return true;
 }
 

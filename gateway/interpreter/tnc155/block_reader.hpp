@@ -7,6 +7,7 @@
 #include "gateway/interpreter/language/line_reader.hpp"
 #include "gateway/interpreter/language/line_window.hpp"
 #include "gateway/interpreter/tnc155/block.hpp"
+#include "gateway/interpreter/tnc155/control_version.hpp"
 #include "gateway/interpreter/tnc155/errors.hpp"
 #include "gateway/interpreter/tnc155/iso_block.hpp"
 #include "gateway/interpreter/tnc155/reading_state.hpp"
@@ -18,6 +19,7 @@ Form detect_form(std::string_view head);
 
 struct ReaderOptions {
   bool iso_continuation = true;  ///< an ISO line without number goes on with the block before it
+  ControlVersion version = {};   ///< blocks that ask for what it has not are Wrong
 };
 
 enum class ReadState : std::uint8_t {
@@ -86,6 +88,7 @@ class BlockReader {
   ReadState show(Form form);
   void find_place();
   bool read(ReadingState& state, BlockParts& parts);
+  bool resolve_words(ReadingState& state, BlockParts& parts);
   ReadState complain();
   ReadState complain_of(language::LineWindow::State loaded);
   void move_on();

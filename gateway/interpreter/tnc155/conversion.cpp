@@ -14,7 +14,7 @@ Result<Form> form_of(std::string_view text) {
 }
 
 Result<std::string> rewrite_iso(std::string_view text, const ConversionOptions& options) {
-  const auto program = read_iso_program(text, options.iso_continuation);
+  const auto program = read_iso_program(text, options.reading);
   if (!program) return fail(program.error());
   std::string written;
   for (const auto& [block, line] : program->blocks) {
@@ -24,7 +24,7 @@ Result<std::string> rewrite_iso(std::string_view text, const ConversionOptions& 
 }
 
 Result<std::string> rewrite_plain(std::string_view text, const ConversionOptions& options) {
-  const auto program = read_plain_program(text);
+  const auto program = read_plain_program(text, options.reading);
   if (!program) return fail(program.error());
   std::string written;
   for (const Block& block : program->blocks) {
@@ -38,7 +38,7 @@ Result<std::string> rewrite_plain(std::string_view text, const ConversionOptions
 ConversionOptions conversion_options(const ControlOptions& control) {
   ConversionOptions options;
   options.layout.decimal_sign = control.decimal_sign;
-  options.iso_continuation = control.iso_continuation;
+  options.reading = {control.iso_continuation, control.version};
   return options;
 }
 
@@ -54,10 +54,10 @@ Result<std::string> convert_program(std::string_view text, Form form,
   if (!from) return fail(from.error());
   if (*from == form) return rewrite_program(text, options);
   if (form == Form::Iso) {
-    const auto program = read_plain_program(text);
+    const auto program = read_plain_program(text, options.reading);
     return program ? to_iso(*program, options) : fail(program.error());
   }
-  const auto program = read_iso_program(text, options.iso_continuation);
+  const auto program = read_iso_program(text, options.reading);
   return program ? to_plain(*program, options) : fail(program.error());
 }
 

@@ -16,10 +16,11 @@ namespace dripline::interpreter::tnc155 {
 struct ConversionOptions {
   TextLayout layout;
   std::int32_t increment = 10;  ///< of ISO block numbers; 0: blocks without numbers
-  bool iso_continuation = true;
+  ReaderOptions reading = {};   ///< what of the text the control takes
 };
 
-/// As the options of a control say it: the decimal sign, and lines that go on with a block.
+/// As the options of a control say it: the decimal sign, lines that go on with a block, and the
+/// version, which takes not all blocks.
 ConversionOptions conversion_options(const ControlOptions& control);
 
 /// The program in the control's own layout, in the form it is in. Errors: Syntax, with line, column

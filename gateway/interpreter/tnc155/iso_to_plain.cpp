@@ -8,6 +8,7 @@
 #include "gateway/interpreter/tnc155/joint_ahead.hpp"
 #include "gateway/interpreter/tnc155/mode_flow.hpp"
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
+#include "gateway/interpreter/tnc155/version_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -97,6 +98,10 @@ class IsoToPlain {
       if (!resolve(block, i == 0, state, parts, fault)) {
         return fail(Errc::Syntax, "line {}, column 1: {}", line, fault.text());
       }
+      for (const Block& part : parts) {
+        if (is_taken(part, fault)) continue;
+        return fail(Errc::Syntax, "line {}, column 1: {}", line, fault.text());
+      }
       if (parts.count != 0 && is_gap && is_joint(*parts.begin())) {
         return refuse(line, "a corner behind a block that plain language has none for");
       }
@@ -111,6 +116,11 @@ class IsoToPlain {
       }
     }
     return {};
+  }
+
+  bool is_taken(const Block& part, Fault& fault) const {
+    const ControlVersion& version = options_.reading.version;
+    return version.takes_all_blocks() || check_version(version, part, fault);
   }
 
   Result<void> check(const CompensationTrack& track, std::size_t i) {

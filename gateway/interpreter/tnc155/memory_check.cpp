@@ -54,7 +54,7 @@ class Loading {
 
   /// Up to the end, or to what can not be read: the run will say that.
   void read_blocks(const Waiting& waiting) {
-    BlockReader reader(source_, {options_.iso_continuation});
+    BlockReader reader(source_, {options_.iso_continuation, options_.version});
     TextPlace start;
     start.program = waiting.program;
     reader.seek(start);
@@ -142,7 +142,7 @@ Result<MemoryVerdict> check_memory(const Setup& setup, ProgramSource& source) {
   const auto options = read_options(setup);
   if (!options) return fail(options.error());
   MemoryVerdict verdict;
-  verdict.is_binding = options->memory_limits;
+  verdict.is_binding = options->memory_limits || !options->version.has(Feature::BlockwiseTransfer);
   verdict.refused = Loading(*options, source).run();
   if (verdict.is_binding) return verdict;
   for (Diagnostic& refused : verdict.refused) {

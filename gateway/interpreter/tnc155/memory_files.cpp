@@ -107,6 +107,16 @@ Result<ToolRecord> read_tool(std::string_view line, Units units) {
   return tool;
 }
 
+/// The last ones came with later software.
+Result<void> check_parameter(int number, const ControlVersion& version) {
+  constexpr int kFirstOfPrinter = 225, kFirstOfLater = 235;
+  if (number < kFirstOfPrinter) return {};
+  const Feature feature =
+      number < kFirstOfLater ? Feature::PrinterParameters : Feature::LaterParameters;
+  if (version.has(feature)) return {};
+  return fail(Errc::Unsupported, "MP{}: {}", number, version.lacks(feature));
+}
+
 /// Of "MP71".
 Result<int> parameter_number(std::string_view key) {
   Words words(key);
@@ -142,7 +152,11 @@ Result<std::string> write_tool_store(const std::vector<ToolRecord>& tools, Units
   return text + fmt::format("{} END PGM 0 {}\r\n", tools.size() + 1, unit);
 }
 
-Result<std::vector<ToolRecord>> read_tool_store(std::string_view text) {
+Result<std::vector<ToolRecord>> read_tool_store(std::string_view text,
+                                                const ControlVersion& version) {
+  if (!version.has(Feature::ToolStore)) {
+    return fail(Errc::Unsupported, "{}", version.lacks(Feature::ToolStore));
+  }
   std::vector<ToolRecord> tools;
   Units units = Units::Millimetre;
   auto read = each_line(text, [&](std::string_view line) -> Result<void> {
@@ -168,7 +182,8 @@ std::string write_machine_parameters(const MachineParameters& parameters) {
   return text;
 }
 
-Result<MachineParameters> read_machine_parameters(std::string_view text) {
+Result<MachineParameters> read_machine_parameters(std::string_view text,
+                                                  const ControlVersion& version) {
   MachineParameters parameters;
   auto read = each_line(text, [&](std::string_view line) -> Result<void> {
     Words words(line);
@@ -180,6 +195,7 @@ Result<MachineParameters> read_machine_parameters(std::string_view text) {
     if (*number < 0 || *number > kLastMachineParameter) {
       return fail(Errc::LimitExceeded, "MP{:g}: there are 0 to {}", *number, kLastMachineParameter);
     }
+    if (auto known = check_parameter(static_cast<int>(*number), version); !known) return known;
     if (!parameters.emplace(static_cast<int>(*number), *value).second) {
       return fail(Errc::Syntax, "MP{:g} is there twice", *number);
     }
@@ -199,6 +215,8 @@ Result<MachineParameters> machine_parameters_of(const Options& options) {
                 "option machine_parameters, line {}: expected a table, MP71 = 515 ...",
                 found->line);
   }
+  const auto version = version_of(options);
+  if (!version) return fail(version.error());
   for (const auto& [key, value] : *table) {
     const auto* whole = std::get_if<std::int64_t>(&value.value);
     const auto* broken = std::get_if<double>(&value.value);
@@ -210,6 +228,10 @@ Result<MachineParameters> machine_parameters_of(const Options& options) {
     if (!number) {
       return fail(number.error().code, "option machine_parameters, line {}: {}", value.line,
                   number.error().what);
+    }
+    if (auto known = check_parameter(*number, *version); !known) {
+      return fail(known.error().code, "option machine_parameters, line {}: {}", value.line,
+                  known.error().what);
     }
     parameters[*number] = whole != nullptr ? static_cast<double>(*whole) : *broken;
   }

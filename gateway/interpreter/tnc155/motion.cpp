@@ -107,8 +107,25 @@ bool check_restart(Run& run, const Block& block, const Target& target) {
   return true;
 }
 
+/// A rotation may bring a third axis into a block that names two.
+bool check_axes(Run& run, const Target& target) {
+  constexpr double kSame = 1e-9;
+  const ControlVersion& version = run.options.version;
+  if (version.has(Feature::ThreeAxisLines)) [[likely]]
+    return true;
+  const Position to = machine_position(run.state, target);
+  std::string moved;
+  for (const Axis axis : kAllAxes) {
+    if (std::fabs(to.raw(axis) - run.state.machine.raw(axis)) > kSame) moved += letter(axis);
+  }
+  if (moved.size() < 3) return true;
+  return run.fail(ErrorCode::NotSupported, fmt::format("{} move in this block: {}", moved,
+                                                       version.lacks(Feature::ThreeAxisLines)));
+}
+
 bool go_straight(Run& run, const Block& block, const Target& target) {
   State& state = run.state;
+  if (!check_axes(run, target)) return false;
   if (target.named != 0 && !check_restart(run, block, target)) return false;
   if (!read_feed(run, block)) return false;
   const PlaneMove move = plane_move(state, target);

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/tnc155/options.hpp"
 
+#include <fmt/ranges.h>
+#include <algorithm>
 #include <charconv>
 
 #include "gateway/interpreter/tnc155/memory_files.hpp"
@@ -114,6 +116,31 @@ Result<std::vector<double>> read_speeds(const Options& options) {
   return speeds;
 }
 
+/// Options that turn on what the control's version has not.
+Result<void> check_version(const Options& options, ControlOptions& read) {
+  const ControlVersion& version = read.version;
+  const auto refuse = [&](std::string_view option, Feature feature) {
+    return fail(Errc::Unsupported, "option {}: {}", option, version.lacks(feature));
+  };
+  if (read.central_tool_file && !version.has(Feature::ToolStore)) {
+    return refuse("central_tool_file", Feature::ToolStore);
+  }
+  if (read.blockwise_restrictions && !version.has(Feature::BlockwiseTransfer)) {
+    return refuse("blockwise_restrictions", Feature::BlockwiseTransfer);
+  }
+  if (!version.has(Feature::SplitFeed)) {
+    const bool is_named = options.find("rotary_feed") != nullptr;
+    if (is_named && read.contour_feed) return refuse("rotary_feed", Feature::SplitFeed);
+    read.contour_feed = false;
+  }
+  // A machine that names its model has the memory of that; one that names none may have any.
+  if (options.find("model") == nullptr) return {};
+  const auto memories = version.memories();
+  if (std::ranges::find(memories, read.memory_blocks) != memories.end()) return {};
+  return fail(Errc::Unsupported, "option memory_blocks: {}: a {} has {}", read.memory_blocks,
+              version.model(), fmt::join(memories, " or "));
+}
+
 /// Values that exclude each other, or that no control has.
 void check_limits(const ControlOptions& read, Reader& reader) {
   reader.not_negative("probe_clearance", read.probe_clearance);
@@ -146,22 +173,40 @@ Result<char> decimal_sign_of(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known({"probe_clearance",    "probe_travel",
-                                    "probe_feed",         "basic_rotation",
-                                    "pocket_overlap",     "m89_modal",
-                                    "m06_stop",           "central_tool_file",
-                                    "decimal_sign",       "iso_continuation",
-                                    "strict_numbers",     "blockwise_restrictions",
-                                    "heading_letter",     "cancel_transformations",
-                                    "scale_three_axes",   "spindle",
-                                    "spindle_table",      "spindle_minimum",
-                                    "spindle_maximum",    "rotary_feed",
-                                    "circle_tolerance",   "fourth_axis",
-                                    "limit_low",          "limit_high",
-                                    "m92_position",       "start_block",
-                                    "memory_limits",      "memory_blocks",
-                                    "machine_parameters", "start_at",
-                                    "program_check",      "iso_modes"});
+  auto known = options.check_known({"probe_clearance",
+                                    "probe_travel",
+                                    "probe_feed",
+                                    "basic_rotation",
+                                    "pocket_overlap",
+                                    "m89_modal",
+                                    "m06_stop",
+                                    "central_tool_file",
+                                    "decimal_sign",
+                                    "iso_continuation",
+                                    "strict_numbers",
+                                    "blockwise_restrictions",
+                                    "heading_letter",
+                                    "cancel_transformations",
+                                    "scale_three_axes",
+                                    "spindle",
+                                    "spindle_table",
+                                    "spindle_minimum",
+                                    "spindle_maximum",
+                                    "rotary_feed",
+                                    "circle_tolerance",
+                                    "fourth_axis",
+                                    "limit_low",
+                                    "limit_high",
+                                    "m92_position",
+                                    "start_block",
+                                    "memory_limits",
+                                    "memory_blocks",
+                                    "machine_parameters",
+                                    "start_at",
+                                    "program_check",
+                                    "iso_modes",
+                                    "model",
+                                    "software"});
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
@@ -204,6 +249,10 @@ Result<ControlOptions> read_options(const Setup& setup) {
   if (reader.error()) return fail(*reader.error());
   if (auto start = read_start(options, read.start_block); !start) return fail(start.error());
   if (auto kept = machine_parameters_of(options); !kept) return fail(kept.error());
+  const auto version = version_of(options);
+  if (!version) return fail(version.error());
+  read.version = *version;
+  if (auto fits = check_version(options, read); !fits) return fail(fits.error());
   auto speeds = read_speeds(options);
   if (!speeds) return fail(speeds.error());
   read.spindle_table = std::move(*speeds);

@@ -4,12 +4,15 @@
 #include <vector>
 
 #include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/tnc155/control_version.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
 /// What the machine builder, the software version or a choice of ours decides. Lengths are
 /// millimetres, feeds millimetres per minute.
 struct ControlOptions {
+  ControlVersion version;  ///< which control it is: what it has not is refused
+
   // touch probe
   double probe_clearance = 2;
   double probe_travel = 100;

@@ -76,6 +76,9 @@ class PlainToIso {
       case BlockKind::ToolCall:
         return convert_tool_call(block);
       case BlockKind::Stop:
+        if (const auto& version = options_.reading.version; !version.has(Feature::StopBlock)) {
+          return refuse("STOP is G38 in ISO: " + version.lacks(Feature::StopBlock));
+        }
         iso_.set(IsoGroup::Stop, 38);
         iso_.m = block.m;
         return put();

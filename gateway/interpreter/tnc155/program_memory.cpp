@@ -22,7 +22,7 @@ Result<AnyProgram> read_program(std::string_view text) {
     if (!read) return fail(read.error());
     program.plain = std::move(*read);
   } else if (program.form == Form::Iso) {
-    auto read = read_iso_program(text, true);
+    auto read = read_iso_program(text);
     if (!read) return fail(read.error());
     program.iso = std::move(*read);
   } else {

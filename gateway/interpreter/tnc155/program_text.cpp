@@ -32,9 +32,9 @@ bool is_last(const IsoBlock& block, const ProgramForm& program, bool is_first) {
 
 }  // namespace
 
-Result<PlainProgram> read_plain_program(std::string_view text) {
+Result<PlainProgram> read_plain_program(std::string_view text, const ReaderOptions& options) {
   MemorySource source(text);
-  BlockReader reader(source);
+  BlockReader reader(source, options);
   PlainProgram program;
   ReadingState state;
   state.program.form = Form::Plain;
@@ -51,9 +51,9 @@ Result<PlainProgram> read_plain_program(std::string_view text) {
   return program;
 }
 
-Result<IsoProgram> read_iso_program(std::string_view text, bool has_continuation) {
+Result<IsoProgram> read_iso_program(std::string_view text, const ReaderOptions& options) {
   MemorySource source(text);
-  BlockReader reader(source, {has_continuation});
+  BlockReader reader(source, options);
   IsoProgram program;
   ReadingState state;
   state.program.form = Form::Iso;

@@ -26,7 +26,7 @@ struct IsoProgram {
 
 /// All blocks up to the program's last one. Errors: Syntax, "line 3, column 8: ..."; Unsupported
 /// (text behind the last block).
-Result<PlainProgram> read_plain_program(std::string_view text);
-Result<IsoProgram> read_iso_program(std::string_view text, bool has_continuation);
+Result<PlainProgram> read_plain_program(std::string_view text, const ReaderOptions& options = {});
+Result<IsoProgram> read_iso_program(std::string_view text, const ReaderOptions& options = {});
 
 }  // namespace dripline::interpreter::tnc155

@@ -44,7 +44,7 @@ Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSin
       sink(limits.has_any() ? static_cast<EventSink&>(limits) : event_sink),
       compensator(policy(), sink),
       joiner(corner_policy(), compensator),
-      reader(program_source, ReaderOptions{options.iso_continuation}) {}
+      reader(program_source, ReaderOptions{options.iso_continuation, options.version}) {}
 
 void Run::deliver_header() {
   state.has_header = true;

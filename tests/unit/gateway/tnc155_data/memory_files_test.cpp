@@ -96,6 +96,43 @@ TEST(MachineParameters, AreAnOptionOfASetup) {
   EXPECT_TRUE(machine_parameters_of(Options{})->empty());
 }
 
+// HD-238: 225 to 234 came with software 03, 235 and 236 with 06; a TNC 151 has them all.
+TEST(MachineParameters, AreThoseThatTheControlHas) {
+  const auto kept = [](const std::string& control) {
+    const auto read = machine_parameters_of(parse_setup("[control]\n" + control)->control);
+    return read ? "" : read.error().what;
+  };
+  const auto read = [](const std::string& text, const std::string& control) {
+    const auto version = version_of(parse_setup("[control]\n" + control)->control);
+    const auto taken = read_machine_parameters(text, *version);
+    return taken ? "" : taken.error().what;
+  };
+  const std::string lacks_225 =
+      "a TNC 155 A with software 02 has no machine parameters 225 to 234 (from software 03)";
+  const std::string lacks_235 =
+      "a TNC 155 A with software 05 has no machine parameters 235 and 236 (from software 06)";
+  EXPECT_EQ(kept("software = 2\nmachine_parameters = { MP224 = 1, MP225 = 1 }"),
+            "option machine_parameters, line 3: MP225: " + lacks_225);
+  EXPECT_EQ(kept("software = 3\nmachine_parameters = { MP225 = 1, MP234 = 1 }"), "");
+  EXPECT_EQ(kept("software = 5\nmachine_parameters = { MP235 = 1 }"),
+            "option machine_parameters, line 3: MP235: " + lacks_235);
+  EXPECT_EQ(kept("software = 6\nmachine_parameters = { MP236 = 1 }"), "");
+  EXPECT_EQ(kept("software = 1\nmodel = \"TNC 151 A\"\nmachine_parameters = { MP236 = 1 }"), "");
+  EXPECT_EQ(read("MP224: 1\nMP234: 2\n", "software = 2"), "line 2: MP234: " + lacks_225);
+  EXPECT_EQ(read("MP236: 2\n", "software = 5"), "line 1: MP236: " + lacks_235);
+  EXPECT_EQ(read("MP225: 1\nMP236: 2\n", "software = 6"), "");
+}
+
+// HD-238
+TEST(ToolStore, CameWithSoftware03) {
+  const std::string text = "T5 P L+1 R+1";
+  EXPECT_EQ(read_tool_store(text, *version_of(parse_setup("[control]\nsoftware = 2")->control))
+                .error()
+                .what,
+            "a TNC 155 A with software 02 has no central tool store (from software 03)");
+  EXPECT_TRUE(read_tool_store(text, *version_of(parse_setup("[control]\nsoftware = 3")->control)));
+}
+
 // HD-067
 TEST(ToolStore, OfASetupHas99Tools) {
   const auto made = [](const std::string& text) {

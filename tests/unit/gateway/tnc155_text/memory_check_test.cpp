@@ -65,6 +65,28 @@ TEST_F(Tnc155Memory, Holds999BlocksOfAProgram) {
             "transferred blockwise");
 }
 
+// HD-235: what a control without transfer blockwise can not keep it can not run.
+TEST_F(Tnc155Memory, IsBindingWhereNothingIsTransferredBlockwise) {
+  set("model = \"TNC 155 E\"\n");
+  const auto verdict = fit(program_text(7, 1000));
+  EXPECT_TRUE(verdict.is_binding);
+  ASSERT_EQ(verdict.refused.size(), 1u);
+  EXPECT_EQ(verdict.refused[0].text,
+            "PROGRAM MEMORY EXCEEDED: program 7 has 1000 blocks, 999 is most");
+  set("model = \"TNC 155 P\"\n");
+  EXPECT_FALSE(fit(program_text(7, 1000)).is_binding);
+}
+
+// HD-239: a TNC 151 may have 1200 blocks.
+TEST_F(Tnc155Memory, IsThatOfTheModel) {
+  set("model = \"TNC 151 A\"\nmemory_blocks = 1200\nmemory_limits = true\n");
+  library_["1"] = program_text(1, 999);
+  library_["2"] = program_text(2, 197);
+  EXPECT_EQ(texts(calling_text(9, {1, 2})), Texts{});
+  library_["2"] = program_text(2, 198);
+  EXPECT_EQ(texts(calling_text(9, {1, 2})).size(), 1u);
+}
+
 // HD-052: 4 + 3 x 999 are 3001, so that 99 are vacant for the last one.
 TEST_F(Tnc155Memory, CountsTheBlocksOfCalledPrograms) {
   for (const int number : {1, 2, 3}) library_[std::to_string(number)] = program_text(number, 999);
