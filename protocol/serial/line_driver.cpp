@@ -73,7 +73,7 @@ class Line final : public LineDriver {
   void tell(LineTraffic::What what, std::span<const std::byte> bytes, std::string_view text) {
     if (parts_.listener.on_traffic) parts_.listener.on_traffic({what, now(), bytes, text});
   }
-  bool polls_lines_closely() const { return parts_.settings.flow == wire::Flow::RtsCts; }
+  bool polls_lines_closely() const { return wire::is_held_by_cts(parts_.settings); }
 
   Parts parts_;
   std::unique_ptr<wire::Discipline> discipline_;

@@ -193,7 +193,7 @@ std::vector<ComPortCommand> setup_commands(const wire::LineSettings& settings) {
     }
     return 1;
   }();
-  const bool is_hardware = settings.flow == wire::Flow::RtsCts;
+  const bool is_hardware = wire::is_held_by_cts(settings);
   const std::uint32_t stop = settings.stop_bits == wire::StopBits::One   ? 1
                              : settings.stop_bits == wire::StopBits::Two ? 2
                                                                          : 3;

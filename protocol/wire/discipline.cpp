@@ -17,6 +17,11 @@ Result<void> check_tnc(const LineSettings& settings) {
     return fail(Errc::Unsupported, "a TNC's interface carries the code ascii only");
   }
   const auto& tnc = settings.heidenhain;
+  if (settings.flow == Flow::HeidenhainBcc && tnc.stop != TncStop::Dc3) {
+    return fail(Errc::Unsupported,
+                "tnc_stop is for the flow heidenhain: blockwise the ACK holds the sender, and "
+                "neither DC3 nor RTS");
+  }
   const std::array characters{tnc.soh, tnc.stx, tnc.etx, tnc.eot, tnc.ack, tnc.nak, tnc.etb};
   constexpr std::string_view kFixed = "\x11\x13\r\n";
   for (std::size_t i = 0; i < characters.size(); ++i) {

@@ -247,7 +247,7 @@ class Doctor {
       say("CTS follows our RTS: the two are joined at the other end or in the cable. RTS/CTS can "
           "hold nobody here; use XON/XOFF or pauses.");
     } else if (!wiring.all_on.cts) {
-      say("CTS is off: with flow=rtscts nothing would ever be sent.");
+      say("CTS is off: with flow=rtscts, or tnc_stop=rts, nothing would ever be sent.");
     }
     if (wiring.all_on.dsr && !wiring.dtr_off.dsr) {
       say("DSR follows our DTR: the two are joined at the other end or in the cable, so DSR does "

@@ -18,6 +18,11 @@ std::chrono::nanoseconds character_time(const LineSettings& settings) {
       static_cast<std::int64_t>(1e9 * bits_per_character(settings) / settings.baud));
 }
 
+bool is_held_by_cts(const LineSettings& settings) {
+  if (settings.flow == Flow::RtsCts) return true;
+  return settings.flow == Flow::Heidenhain && settings.heidenhain.stop != TncStop::Dc3;
+}
+
 Result<void> set_value(LineSettings& settings, std::string_view key, std::string_view value) {
   for (const SettingRow& row : setting_rows()) {
     if (row.key == key) return row.set(settings, value);

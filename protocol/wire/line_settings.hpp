@@ -36,13 +36,18 @@ enum class CharacterCode : std::uint8_t {
 /// What ends a block on the line. Programs are kept with LF.
 enum class EndOfBlock : std::uint8_t { Lf, Cr, CrLf, LfCr, LfCrCr };
 
-/// The characters and rules of a TNC's blockwise transfer; a machine parameter each.
+/// What stops the sender on a TNC's standard interface (MP222, bits 2 and 3). With both the
+/// receiver uses RTS, and the sender obeys either.
+enum class TncStop : std::uint8_t { Dc3, Rts, Both };
+
+/// The characters and rules of a TNC's interface; a machine parameter each.
 struct HeidenhainSettings {
   char heading = '%';  ///< type letter of headings we send; '%', 'H' and 'D' are taken
   char soh = 1, stx = 2, etx = 3, eot = 4, ack = 6, nak = 21, etb = 23;
   bool line_end_in_block = false;      ///< CR LF between text and ETB; always accepted
   bool bcc_is_printable = false;       ///< a blank before ETB keeps the BCC at or above 0x20
   bool sends_dc1_after_block = false;  ///< as a host; a control always does
+  TncStop stop = TncStop::Dc3;         ///< blockwise the ACK that does not come holds the sender
   /// A host repeats a block that is not answered within the answer limit, instead of waiting for a
   /// control that may only be slow. A control that is not ours may take the block twice then.
   bool repeats_unanswered = false;
@@ -123,6 +128,9 @@ double bits_per_character(const LineSettings& settings);
 /// The line's own rate.
 double characters_per_second(const LineSettings& settings);
 std::chrono::nanoseconds character_time(const LineSettings& settings);
+
+/// Whether a CTS that is off holds the sender.
+bool is_held_by_cts(const LineSettings& settings);
 
 /// The short form "9600e72" or "57600n81": baud, parity (n e o m s), data bits, stop bits
 /// (1, 1.5, 2). Changes these four only. Errors: Syntax, LimitExceeded.

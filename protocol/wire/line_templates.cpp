@@ -68,6 +68,13 @@ LineSettings tnc155(Flow flow) {
   return settings;
 }
 
+/// MP222 = 164: what has no room drops its RTS.
+LineSettings tnc155_rts() {
+  LineSettings settings = tnc155(Flow::Heidenhain);
+  settings.heidenhain.stop = TncStop::Rts;
+  return settings;
+}
+
 /// The line only has to be faster than the reader it stands for.
 LineSettings tektronix1704(CharacterCode code) {
   LineSettings settings = line(9600, 8, Parity::None, StopBits::One);
@@ -106,6 +113,8 @@ const auto& templates() {
       LineTemplate{"prototrak", "ProtoTRAK Plus, 4800 7E1, paced", "prototrak-plus", prototrak()},
       LineTemplate{"tnc155", "HEIDENHAIN TNC 151/155, 2400 7E1, standard interface", "tnc155",
                    tnc155(Flow::Heidenhain)},
+      LineTemplate{"tnc155-rts", "HEIDENHAIN TNC 151/155, 2400 7E1, standard interface, RTS/CTS",
+                   "tnc155", tnc155_rts()},
       LineTemplate{"tnc155-bcc", "HEIDENHAIN TNC 151/155, 2400 7E1, blockwise with BCC", "tnc155",
                    tnc155(Flow::HeidenhainBcc)},
       LineTemplate{"tektronix1704", "Tektronix 1704 as its tape reader, EIA, 300 characters/s",

@@ -133,6 +133,7 @@ constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
 constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
 constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
                              {"plain", "fanuc", "prototrak", "centurion"}};
+constexpr Words<3> kTncStops{"dc3|rts|both", {"dc3", "rts", "both"}};
 constexpr Words<5> kReaderFaults{
     "none|parity|chad|missing_sprocket|sprocket_spacing",
     {"none", "parity", "chad", "missing_sprocket", "sprocket_spacing"}};
@@ -205,6 +206,8 @@ constexpr std::array kRows{
     character<"tnc_ack", &S::heidenhain, &H::ack>("TNC blockwise: block accepted"),
     character<"tnc_nak", &S::heidenhain, &H::nak>("TNC blockwise: block refused"),
     character<"tnc_etb", &S::heidenhain, &H::etb>("TNC blockwise: end of a block"),
+    choice<"tnc_stop", kTncStops, &S::heidenhain, &H::stop>(
+        "TNC standard interface: what stops the sender (MP222, bits 2 and 3)"),
     flag<"tnc_line_end", &S::heidenhain, &H::line_end_in_block>(
         "TNC blockwise: CR LF inside each block"),
     flag<"tnc_printable_bcc", &S::heidenhain, &H::bcc_is_printable>(

@@ -159,7 +159,7 @@ void LineSimulator::meet_fault(Wire& wire, Fate& fate) {
       fate.fault = LineFault::Parity;
       break;
     case Kind::StuckXoff:
-      if (settings_.flow == wire::Flow::RtsCts) {
+      if (wire::is_held_by_cts(settings_)) {
         wire.is_cts_stuck = true;
       } else {
         wire.arrivals.push_back(
@@ -215,7 +215,7 @@ void LineSimulator::join_lines() {
     const wire::InputLines in{out.rts && !wires_[i].is_cts_stuck, out.dtr, out.dtr};
     if (in == inputs_[i]) continue;
     inputs_[i] = in;
-    if (settings_.flow == wire::Flow::RtsCts) {
+    if (wire::is_held_by_cts(settings_)) {
       is_told_to_stop_[i] = !in.cts;
       wires_[i].left_since_stop = wires_[i].given_since_stop = 0;
     }

@@ -28,6 +28,7 @@ Result<void> TncStandard::begin_send(std::string_view name, LineTime now) {
   const bool may_begin = !is_host() || std::exchange(is_asked_, false);
   stage_ = may_begin ? Stage::Leader : Stage::Start;
   limit_ = may_begin ? std::nullopt : after(settings_.hold_limit, now);
+  note_hold(now);
   return {};
 }
 
@@ -35,10 +36,11 @@ Result<void> TncStandard::begin_receive(std::string_view name, LineTime) {
   if (auto idle = check_idle(); !idle) return idle;
   begin_transfer(Phase::Receiving, std::string(name));
   is_asked_ = false;
+  if (is_host() && !is_ready_) hold(true);
   if (is_host()) return {};
   wanted_ = name;
   is_holding_ = !is_ready_;
-  if (is_ready_) queue_control(kDc1);
+  if (is_ready_ || is_held_by_cts_) queue_control(kDc1);
   return {};
 }
 
@@ -58,14 +60,20 @@ Result<void> TncStandard::refuse(std::string_view, LineTime) {
 
 void TncStandard::set_ready(bool is_ready, LineTime now) {
   if (std::exchange(is_ready_, is_ready) == is_ready) return;
-  if (is_ready && std::exchange(is_holding_, false)) {
-    queue_control(kDc1);
+  if (is_held_by_cts_) output_.rts = is_ready;
+  if (is_ready && is_holding_) {
+    hold(false);
     restart_silence(now);
   } else if (!is_ready && is_receiving()) {
-    is_holding_ = true;
-    queue_control(kDc3);
+    hold(true);
     limit_.reset();
   }
+}
+
+/// Where RTS holds the other end it says so by itself, and follows `set_ready`.
+void TncStandard::hold(bool is_holding) {
+  is_holding_ = is_holding;
+  if (!is_held_by_cts_) queue_control(is_holding ? kDc3 : kDc1);
 }
 
 void TncStandard::abort(LineTime now) {
@@ -78,10 +86,10 @@ void TncStandard::abort(LineTime now) {
 LineState TncStandard::state() const {
   LineState state;
   state.phase = phase_;
-  state.is_stopped = is_stopped_;
+  state.is_stopped = is_held();
   state.is_stopping = is_holding_;
   if (is_sending()) {
-    if (stage_ == Stage::Start || is_stopped_) state.waiting_for = "DC1";
+    if (stage_ == Stage::Start || is_held()) state.waiting_for = is_cts_off() ? "CTS" : "DC1";
     if (stage_ == Stage::Answer) state.waiting_for = "EOT";
   } else if (is_receiving() && !has_received_) {
     state.waiting_for = "text";
@@ -101,9 +109,23 @@ void TncStandard::transfer_over(LineTime) {
   line_.clear();
   number_.reset();
   has_sent_end_ = has_received_ = is_open_ = has_end_ = is_skipping_ = false;
-  if (is_stopped_) emit(FlowChanged{false});
+  if (std::exchange(is_hold_told_, false)) emit(FlowChanged{false});
   is_stopped_ = false;
-  if (std::exchange(is_holding_, false)) queue_control(kDc1);
+  if (is_holding_) hold(false);
+}
+
+void TncStandard::lines(InputLines lines, LineTime now) {
+  DisciplineBase::lines(lines, now);
+  note_hold(now);
+}
+
+/// Tells that the other end holds us, or lets us go, and begins or ends the limit of that.
+void TncStandard::note_hold(LineTime now) {
+  if (!is_sending() || is_hold_told_ == is_held()) return;
+  is_hold_told_ = is_held();
+  const bool has_own_limit = stage_ == Stage::Start || stage_ == Stage::Answer;
+  if (!has_own_limit) limit_ = is_held() ? after(settings_.hold_limit, now) : std::nullopt;
+  emit(FlowChanged{is_held()});
 }
 
 void TncStandard::give_up(Error error, LineTime now) {
@@ -116,9 +138,10 @@ void TncStandard::tick(LineTime now) {
   limit_.reset();
   if (is_sending()) {
     const bool is_answer = stage_ == Stage::Answer;
+    const char* missing = is_cts_off() ? "no CTS in time" : "no DC1 in time";
     return give_up({Errc::Timeout, is_answer ? "no EOT in time: does the control want a program of "
                                                "another number?"
-                                             : "no DC1 in time"},
+                                             : missing},
                    now);
   }
   if (!is_receiving()) return;
@@ -131,6 +154,7 @@ void TncStandard::tick(LineTime now) {
 // Sending
 
 std::size_t TncStandard::transmit(std::span<std::byte> room, LineTime now) {
+  if (is_cts_off()) return 0;
   std::size_t count = take_controls(room);
   while (count < room.size() && is_sending() && !is_stopped_) {
     if (out_at_ == out_.size()) refill(now);
@@ -207,8 +231,9 @@ void TncStandard::on_dc1(LineTime now) {
   if (is_sending() && stage_ == Stage::Answer) end_transfer(now);  // it asks for the next one
   if (is_sending()) {
     if (stage_ == Stage::Start) stage_ = Stage::Leader;
-    limit_.reset();
-    if (std::exchange(is_stopped_, false)) emit(FlowChanged{false});
+    limit_ = is_cts_off() ? after(settings_.hold_limit, now) : std::nullopt;
+    is_stopped_ = false;
+    note_hold(now);
   } else if (phase_ == Phase::Idle && is_host() && !is_asked_) {
     is_asked_ = true;
     emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
@@ -217,10 +242,9 @@ void TncStandard::on_dc1(LineTime now) {
 
 void TncStandard::on_dc3(LineTime now) {
   if (!is_sending() || stage_ == Stage::Start || is_stopped_) return;
-  if (stage_ == Stage::Answer) return;
+  if (stage_ == Stage::Answer || settings_.heidenhain.stop == TncStop::Rts) return;
   is_stopped_ = true;
-  limit_ = after(settings_.hold_limit, now);
-  emit(FlowChanged{true});
+  note_hold(now);
 }
 
 void TncStandard::on_eot(LineTime now) {
@@ -265,10 +289,7 @@ void TncStandard::on_character(char c, LineTime now) {
       emit_trouble({Errc::Corrupt, "a character before the first one was spoiled"});
     }
     spoiled_.reset();
-    if (!is_ready_) {
-      is_holding_ = true;
-      queue_control(kDc3);
-    }
+    if (!is_ready_) hold(true);
   }
   if (!is_receiving()) return;
   restart_silence(now);

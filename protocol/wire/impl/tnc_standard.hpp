@@ -5,7 +5,8 @@
 
 namespace dripline::wire {
 
-/// The TNC's standard interface, both ends: lines of text, held by DC3 and DC1, unchecked.
+/// The TNC's standard interface, both ends: lines of text, held by DC3 and DC1 or by RTS,
+/// unchecked.
 ///
 ///     into the control: DC1 from it; blanks, lines, ETX from the host; EOT from it
 ///     out of it:        blanks, lines, ETX EOT; the host may hold it
@@ -14,10 +15,12 @@ namespace dripline::wire {
 /// numbers of plain language.
 class TncStandard final : public DisciplineBase {
  public:
-  TncStandard(const LineSettings& settings, Role role) : DisciplineBase(settings, role) {}
+  TncStandard(const LineSettings& settings, Role role)
+      : DisciplineBase(settings, role), is_held_by_cts_(wire::is_held_by_cts(settings)) {}
 
   void receive(std::span<const std::byte> bytes, LineTime now) override;
   void fault(LineFault fault, LineTime now) override;
+  void lines(InputLines lines, LineTime now) override;
   void tick(LineTime now) override;
   std::size_t transmit(std::span<std::byte> room, LineTime now) override;
   std::optional<LineTime> deadline() const override { return limit_; }
@@ -46,6 +49,9 @@ class TncStandard final : public DisciplineBase {
   void on_dc3(LineTime now);
   void on_eot(LineTime now);
   void note_sent(char c);
+  bool is_cts_off() const { return is_held_by_cts_ && !input_.cts; }
+  bool is_held() const { return is_stopped_ || is_cts_off(); }
+  void note_hold(LineTime now);
   // Receiving
   void on_character(char c, LineTime now);
   void add(char c, LineTime now);
@@ -54,7 +60,9 @@ class TncStandard final : public DisciplineBase {
   void check_number(const TncLine& read);
   void end_program(LineTime now);
   void restart_silence(LineTime now);
+  void hold(bool is_holding);
 
+  const bool is_held_by_cts_;
   std::optional<LineTime> limit_;
   std::optional<LineTime> spoiled_;  ///< when the UART found a character wrong while idle
   Stage stage_ = Stage::Start;
@@ -64,13 +72,15 @@ class TncStandard final : public DisciplineBase {
   std::string sent_line_;      ///< the beginning of the line being sent
   bool has_sent_end_ = false;  ///< an END line
   bool is_asked_ = false;      ///< host: DC1 came while idle
-  bool is_stopped_ = false;    ///< by the other end
+  bool is_stopped_ = false;    ///< by the other end's DC3
+  bool is_hold_told_ = false;  ///< by an event
 
   std::string wanted_;  ///< control: the program it reads; empty: any
   std::string line_;
   std::optional<unsigned> number_;  ///< of the last block
   bool has_received_ = false, is_open_ = false, has_end_ = false, is_skipping_ = false;
-  bool is_ready_ = true, is_holding_ = false;
+  bool is_ready_ = true;
+  bool is_holding_ = false;  ///< the other end, in a reception
 };
 
 }  // namespace dripline::wire

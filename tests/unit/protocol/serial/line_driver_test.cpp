@@ -190,6 +190,37 @@ TEST(LineDriver, PassesModemLinesOnBothWays) {
   EXPECT_EQ(pty.read(3), "G0\n");
 }
 
+// HD-220: a TNC's line with RTS/CTS is looked at as closely as a plain one.
+TEST(LineDriver, SendsNothingToATncWhoseRtsIsOff) {
+  const Pty pty;
+  LineLog log;
+  const auto control = std::make_shared<ChannelControl>();
+  wire::LineSettings settings = wire::find_template("tnc155-rts").value()->settings;
+  settings.leader = 0;
+  control->cts = false;
+  const auto line = std::move(*LineDriver::start(
+      {.address = pty.path(),
+       .settings = settings,
+       .role = wire::Role::Host,
+       .listener = log.listener(),
+       .open = [path = pty.path(), settings, control]() -> Result<std::unique_ptr<Channel>> {
+         auto inner = open_channel(path, settings, 1s);
+         if (!inner) return fail(inner.error());
+         return std::unique_ptr<Channel>(std::make_unique<FaultyChannel>(
+             std::move(*inner), test_support::FaultRates{}, 7, control));
+       }}));
+  ASSERT_TRUE(log.wait_open());
+  send(*line, "1 STOP\n");
+  pty.write("\x11");
+  ASSERT_TRUE(eventually([&] { return line->state().waiting_for == "CTS"; }, 2s));
+  EXPECT_EQ(pty.read_available(), "");
+  line->post([](wire::Discipline& end, wire::LineTime now) { end.set_ready(false, now); });
+  EXPECT_TRUE(eventually([&] { return !control->rts; }, 2s));
+  EXPECT_EQ(pty.read_available(), "") << "neither text nor DC3";
+  control->cts = true;
+  EXPECT_EQ(pty.read(9), "1 STOP\r\n\x03");
+}
+
 TEST(LineDriver, KeepsWhatADriverDoesNotTakeAndGoesOn) {
   const Pty pty;
   LineLog log;

@@ -148,6 +148,7 @@ TEST(LineTemplates, AreTheControlsUsualLines) {
        {UsualLine{"prototrak", "4800e71", "none", "prototrak-plus"},
         UsualLine{"centurion", "9600e72", "xonxoff", "centurion"},
         UsualLine{"tnc155", "2400e71", "heidenhain", "tnc155"},
+        UsualLine{"tnc155-rts", "2400e71", "heidenhain", "tnc155"},
         UsualLine{"tnc155-bcc", "2400e71", "heidenhain_bcc", "tnc155"},
         UsualLine{"tektronix1704", "9600n81", "tape_reader", "tektronix-1704"},
         UsualLine{"fanuc", "4800e72", "dc_codes", "fanuc"},
