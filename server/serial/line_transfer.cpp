@@ -6,6 +6,7 @@
 
 #include "protocol/base/random.hpp"
 #include "server/library/control_words.hpp"
+#include "server/serial/control_protocol.hpp"
 #include "server/serial/line_runs.hpp"
 #include "server/serial/program_head.hpp"
 #include "server/serial/program_stream.hpp"
@@ -140,6 +141,9 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line, storag
   storage::Machine machine;
   if (auto known = store.machine(port.port.machine)) machine = *std::move(known);
   if (auto good = check_count(port, machine, programs.size()); !good) return fail(good.error());
+  if (auto fits = check_protocol(store, port.port.machine, port.settings.flow); !fits) {
+    return fail(fits.error());
+  }
   const auto revisions = chosen(store, machine, programs);
   if (!revisions) return fail(revisions.error());
   const auto job = job_of(store, port, machine, *revisions);

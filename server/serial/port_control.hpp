@@ -74,8 +74,9 @@ class PortControl {
   /// Errors: NotFound.
   virtual Result<PortView> port(const std::string& name) const = 0;
   /// Adds or changes one; an open line is closed and opened anew. Errors: Syntax, LimitExceeded,
-  /// NotFound (template, setting key), Unsupported (settings that exclude each other), Busy (it has
-  /// a run; or the address is another port's, named).
+  /// NotFound (template, setting key), Unsupported (settings that exclude each other; a protocol
+  /// that the control of the machine's setup has not), Busy (it has a run; or the address is
+  /// another port's, named).
   virtual Result<PortView> save(const storage::Port& port) = 0;
   /// Errors: NotFound, Busy (it has a run).
   virtual Result<void> remove(const std::string& name) = 0;
@@ -86,7 +87,8 @@ class PortControl {
   /// takes programs into its memory has them then. Several must bear O numbers; the whole is framed
   /// as the line's settings say. Returns when the line has taken the job; `port` tells how it goes.
   /// Errors: NotFound (port, program), ModalConflict (held), Unsupported (another control's;
-  /// several on a line whose protocol names one), Syntax (no number), LimitExceeded, Busy, Timeout.
+  /// several on a line whose protocol names one; a protocol as of `save`), Syntax (no number),
+  /// LimitExceeded, Busy, Timeout.
   virtual Result<PortTransfer> send(const std::string& name,
                                     const std::vector<ProgramChoice>& programs) = 0;
   /// Asks the control for a program, over a protocol whose receiver begins (XMODEM), for about two

@@ -5,6 +5,7 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/serial/address.hpp"
+#include "server/serial/control_protocol.hpp"
 #include "server/serial/line_transfer.hpp"
 #include "server/serial/port_settings.hpp"
 #include "server/serial/reception.hpp"
@@ -51,8 +52,13 @@ Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
     }
     put(*std::move(entry));
   }
+  // What a setup says against a port is told to who starts something there: the server begins.
   for (const auto& port : configured) {
-    if (auto saved = save(port); !saved) return fail(saved.error());
+    const std::lock_guard changing(change_mutex_);
+    auto entry = prepare(port);
+    const auto saved =
+        entry ? save_prepared(*std::move(entry)) : Result<PortView>(fail(entry.error()));
+    if (!saved) return fail(saved.error());
   }
   std::vector<std::string> names;
   {
@@ -288,15 +294,23 @@ Result<PortView> PortService::save(const storage::Port& port) {
   const std::lock_guard changing(change_mutex_);
   auto entry = prepare(port);
   if (!entry) return fail(entry.error());
+  if (auto fits = check_protocol(store_, port.machine, entry->settings.flow); !fits) {
+    return fail(fits.error().code, "port '{}': {}", port.name, fits.error().what);
+  }
+  return save_prepared(*std::move(entry));
+}
+
+Result<PortView> PortService::save_prepared(Entry entry) {
+  const storage::Port& port = entry.port;
   if (auto free = check_free(port); !free) return fail(free.error());
   if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
   if (auto saved = store_.save_port(port); !saved) return fail(saved.error());
   if (const auto before = find(port.name); before && before->line) {
     before->line->close("the port was changed");
   }
-  open(*entry);
-  const PortView view = view_of(*entry);
-  put(*std::move(entry));
+  open(entry);
+  const PortView view = view_of(entry);
+  put(std::move(entry));
   return view;
 }
 

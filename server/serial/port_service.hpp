@@ -77,6 +77,7 @@ class PortService final : public PortControl, private LineDirectory {
   Result<Entry> prepare(const storage::Port& port) const;
   Result<void> check_free(const storage::Port& port) const;
   Result<void> check_idle(const std::string& name) const;
+  Result<PortView> save_prepared(Entry entry);
   Result<Entry> find(const std::string& name) const;
   Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;
   Result<void> enter_machine(const storage::Port& port);

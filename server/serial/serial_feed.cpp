@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <future>
 
+#include "server/serial/control_protocol.hpp"
 #include "server/serial/line_transfer.hpp"
 #include "server/serial/program_head.hpp"
 
@@ -111,6 +112,9 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const feeds::Start
   if (line->is_busy()) {
     return started(
         fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port)));
+  }
+  if (auto fits = check_protocol(store_, request.machine, port.settings.flow); !fits) {
+    return started(fail(fits.error()));
   }
   const auto machine = store_.machine(request.machine);
   if (!machine) return started(fail(machine.error()));

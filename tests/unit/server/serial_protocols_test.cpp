@@ -113,6 +113,62 @@ TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
   EXPECT_EQ(store_->revision("33", 1)->content, sha256(text));
 }
 
+// HD-235: the setup came after the port, so that it is the start that is refused.
+TEST_F(SerialProtocolTest, StartsNothingBlockwiseOnATncWithoutIt) {
+  add_control("heidenhain_bcc");
+  push("O0015", tnc_program(15, 5), "tnc155");
+  const auto keep = [&](const std::string& model) {
+    return setups_->save({"mill", "tnc155", "[control]\nmodel = \"" + model + "\"\n", ""}, "cam");
+  };
+  ASSERT_TRUE(keep("TNC 155 V"));
+  const std::string why =
+      "machine 'mill', setup 1: a TNC 155 V has no transfer blockwise; flow heidenhain (template "
+      "tnc155) is its interface";
+  const auto run = start("O0015");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_EQ(run.error().what, why);
+  EXPECT_TRUE(runs().empty());
+  const auto sent = ports_->send("com1", {{"O0015", {}}});
+  ASSERT_FALSE(sent);
+  EXPECT_EQ(sent.error().what, why);
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::SendProgram, "15"}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return !control_->failures.empty(); }));
+  EXPECT_TRUE(runs().empty());
+  ASSERT_TRUE(keep("TNC 155 P"));
+  EXPECT_TRUE(start("O0015"));
+}
+
+// HD-235
+TEST_F(SerialProtocolTest, KeepsNoBlockwisePortForATncWithoutIt) {
+  start_ports();
+  add_machine("mill", "tnc155");
+  ASSERT_TRUE(setups_->save({"mill", "tnc155", "[control]\nmodel = \"TNC 151 E\"\n", ""}, "cam"));
+  auto port = mill();
+  port.line_template = "tnc155-bcc";
+  port.settings = {};
+  const auto refused = ports_->save(port);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Unsupported);
+  EXPECT_EQ(refused.error().what,
+            "port 'com1': machine 'mill', setup 1: a TNC 151 E has no transfer blockwise; flow "
+            "heidenhain (template tnc155) is its interface");
+  EXPECT_TRUE(ports_->ports().empty());
+  port.line_template = "tnc155";
+  EXPECT_TRUE(ports_->save(port));
+}
+
+// HD-235: a server whose settings file names such a port begins all the same.
+TEST_F(SerialProtocolTest, BeginsWithABlockwisePortOfATncWithoutIt) {
+  add_machine("mill", "tnc155");
+  ASSERT_TRUE(setups_->save({"mill", "tnc155", "[control]\nmodel = \"TNC 151 E\"\n", ""}, "cam"));
+  auto port = mill();
+  port.line_template = "tnc155-bcc";
+  start_ports(*store_, {port});
+  EXPECT_EQ(ports_->ports().size(), 1u);
+}
+
 TEST_F(SerialProtocolTest, WaitsForTheTncToAskForTheRun) {
   add_control("heidenhain_bcc");
   const std::string text = tnc_program(15, 5);
