@@ -105,6 +105,7 @@ Result<void> run(const GatewayOptions& options) {
   if (!dialect) return fail(dialect.error());
   auto setup = read_setup(options, **dialect);
   if (!setup) return fail(setup.error());
+  if (auto fits = check_line(options, *setup); !fits) return fits;
   auto folder = StateFolder::open(options.state);
   if (!folder) return fail(folder.error());
   auto outbox = report::Outbox::open(folder->outbox());

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "gateway/interpreter/tnc155/control_version.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/state_location.hpp"
 
@@ -277,6 +278,20 @@ Result<void> complete(GatewayOptions& options) {
   if (!state) return fail(state.error());
   options.state = std::filesystem::path(*state) / "gateways" / options.machine;
   return {};
+}
+
+Result<void> check_line(const GatewayOptions& options, const interpreter::Setup& setup) {
+  namespace tnc155 = interpreter::tnc155;
+  const bool is_blockwise =
+      options.line && options.line->settings.flow == wire::Flow::HeidenhainBcc;
+  if (!is_blockwise || options.control != "tnc155") return {};
+  const auto version = tnc155::version_of(setup.control);
+  if (!version) return fail(version.error());
+  if (version->has(tnc155::Feature::BlockwiseTransfer)) return {};
+  return fail(Errc::Unsupported,
+              "--line {} speaks heidenhain_bcc: {}; flow heidenhain (template tnc155) is its "
+              "interface",
+              options.line->address, version->lacks(tnc155::Feature::BlockwiseTransfer));
 }
 
 }  // namespace dripline::gateway

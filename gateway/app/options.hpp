@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/interpreter/setup.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/wire/line_settings.hpp"
@@ -62,5 +63,8 @@ Result<void> apply_config(std::string_view toml, GatewayOptions& options);
 /// What is left out gets its default; what is required is checked. Errors: Syntax, NotFound (no
 /// home folder to put the state in, no such line template or setting), LimitExceeded.
 Result<void> complete(GatewayOptions& options);
+/// Whether the control that the setup describes speaks the line's protocol: a TNC 151/155 E or V
+/// has no transfer blockwise. Errors: Unsupported; Syntax (the setup's).
+Result<void> check_line(const GatewayOptions& options, const interpreter::Setup& setup);
 
 }  // namespace dripline::gateway

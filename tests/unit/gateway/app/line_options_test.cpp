@@ -61,6 +61,25 @@ TEST(LineOptions, ATncAlwaysAsks) {
   EXPECT_EQ(options.line->request, "next");
 }
 
+// HD-235: the control that the gateway stands for has no transfer blockwise.
+TEST(LineOptions, SpeakNothingBlockwiseForATncWithoutIt) {
+  const auto refusal = [](const std::string& line_template, const std::string& model) {
+    GatewayOptions options = base();
+    options.control = "tnc155";
+    EXPECT_TRUE(
+        apply_config("line = '/dev/ttyS3'\nline-template = '" + line_template + "'\n", options));
+    EXPECT_TRUE(complete(options));
+    const auto setup = interpreter::parse_setup("[control]\nmodel = \"" + model + "\"\n");
+    const auto fits = check_line(options, *setup);
+    return fits ? "" : fits.error().what;
+  };
+  EXPECT_EQ(refusal("tnc155-bcc", "TNC 155 P"), "");
+  EXPECT_EQ(refusal("tnc155", "TNC 155 V"), "");
+  EXPECT_EQ(refusal("tnc155-bcc", "TNC 155 V"),
+            "--line /dev/ttyS3 speaks heidenhain_bcc: a TNC 155 V has no transfer blockwise; flow "
+            "heidenhain (template tnc155) is its interface");
+}
+
 struct Refused {
   const char* name;
   const char* toml;
