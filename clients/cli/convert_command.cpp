@@ -281,7 +281,7 @@ void add_options(CLI::App& command, ConvertCommand& options) {
       ->check(CLI::Range(0, 99));
   command.add_option("--setup", options.setup,
                      "TNC programs: TOML file with the options of the control (decimal_sign, "
-                     "iso_continuation)");
+                     "iso_continuation, model and software: what that one has not is refused)");
   command.add_flag("--strict-blanks", options.is_strict,
                    "Blank tape inside an EIA block is an error");
 }

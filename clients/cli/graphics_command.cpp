@@ -8,6 +8,7 @@
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/offline_options.hpp"
 #include "clients/cli/progress.hpp"
+#include "clients/cli/tnc_version.hpp"
 #include "clients/cli/turning_graphics.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
 
@@ -186,6 +187,9 @@ Result<void> settle_detail(const GraphicsCommand& command, const OfflineProgram&
 int show_milled(Context& context, const GraphicsCommand& command, const OfflineProgram& opened) {
   const OfflineProgram* program = &opened;
   if (auto checked = check_view(command); !checked) return complain(checked.error());
+  if (auto checked = check_tnc_graphics(command, *program); !checked) {
+    return complain(checked.error());
+  }
   auto settings = settings_of(command, program->setup());
   if (!settings) return complain(settings.error());
   if (auto done = settle_detail(command, *program, *settings); !done) return complain(done.error());
@@ -297,7 +301,8 @@ void add_graphics_command(CLI::App& app, Context& context) {
   command->footer(
       "No server is needed. A mill's cutter is a flat-ended cylinder, a lathe's tool has the nose "
       "and\n"
-      "type of the setup's table; rapid moves cut too.\n\n"
+      "type of the setup's table; rapid moves cut too. A TNC whose setup says model and software\n"
+      "shows what that one can: no graphics on a TNC 151, a hardcopy from software 03.\n\n"
       "Exit status: 0 drawn, 1 the program alarms (drawn up to there), 2 usage or no blank.\n\n"
       "Example:\n  dnc graphics pocket.h -o pocket.png --view planes --section X40,Y25\n  dnc "
       "graphics shaft.nc --setup lathe.toml -o shaft.png --view half --path");

@@ -7,6 +7,7 @@
 #include "clients/cli/setup_forms.hpp"
 #include "clients/cli/setup_text.hpp"
 #include "clients/cli/standard_output.hpp"
+#include "clients/cli/tnc_version.hpp"
 #include "clients/cli/value_text.hpp"
 #include "clients/lib/output_file.hpp"
 
@@ -127,10 +128,17 @@ int export_form(Context& context, const SetupCommand& command) {
       fmt::format("setup {} of {} as its control takes it", setup->revision, setup->machine));
 }
 
-int import_form(const std::string& path, const std::string& output) {
+struct ImportCommand {
+  std::string file, output, setup;
+};
+
+int import_form(const ImportCommand& command) {
+  const auto& [path, output, control] = command;
   const auto text = read_small_file(path, kMaxSetupFile);
   if (!text) return complain(text.error());
-  const auto setup = setup_of_control_form(*text);
+  const auto version = tnc_version_of(control);
+  if (!version) return complain(version.error());
+  const auto setup = setup_of_control_form(*text, *version);
   if (!setup) return complain(Error{setup.error().code, path + ": " + setup.error().what});
   return put_out(output, *setup, "a setup");
 }
@@ -138,16 +146,18 @@ int import_form(const std::string& path, const std::string& output) {
 void add_import(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
       "import", "Make a setup from what a control sent: TNC tools or MP, Centurion parameters");
-  auto files = std::make_shared<std::pair<std::string, std::string>>();
+  auto options = std::make_shared<ImportCommand>();
   command
-      ->add_option("FILE", files->first,
+      ->add_option("FILE", options->file,
                    "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
       ->required();
-  command->add_option("-o,--output", files->second,
+  command->add_option("--setup", options->setup,
+                      "TOML file whose [control] says the TNC's model and software: what that one "
+                      "has not is refused");
+  command->add_option("-o,--output", options->output,
                       "TOML file to write, - for standard output [-]");
   command->footer("No server is needed.");
-  command->callback(
-      [&context, files] { context.status = import_form(files->first, files->second); });
+  command->callback([&context, options] { context.status = import_form(*options); });
 }
 
 /// The old text becomes the newest revision: nothing is ever lost.

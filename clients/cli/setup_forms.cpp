@@ -8,6 +8,10 @@
 #include "gateway/interpreter/tnc155/options.hpp"
 
 namespace dripline::cli {
+
+using interpreter::tnc155::ControlVersion;
+using interpreter::tnc155::Feature;
+
 namespace {
 
 /// Tools as the TOML of a setup, in millimetres.
@@ -32,16 +36,25 @@ std::string parameters_toml(const interpreter::tnc155::MachineParameters& parame
 }
 
 /// What a TNC sends of its memory: program 0, or its machine parameters (MP0: ...).
-Result<std::string> setup_of_memory_file(std::string_view text) {
+Result<std::string> setup_of_memory_file(std::string_view text, const ControlVersion& tnc) {
   const std::size_t begin = std::min(text.find_first_not_of(" \r\n\t\2"), text.size());
   if (text.substr(begin).starts_with("MP")) {
-    const auto parameters = interpreter::tnc155::read_machine_parameters(text);
+    const auto parameters = interpreter::tnc155::read_machine_parameters(text, tnc);
     if (!parameters) return fail(parameters.error());
     return parameters_toml(*parameters);
   }
-  const auto tools = interpreter::tnc155::read_tool_store(text);
+  const auto tools = interpreter::tnc155::read_tool_store(text, tnc);
   if (!tools) return fail(tools.error());
   return tools_toml(*tools);
+}
+
+Result<void> check_tool_store(std::string_view toml) {
+  const auto data = interpreter::parse_control_data(toml);
+  if (!data) return fail(data.error());
+  const auto version = interpreter::tnc155::version_of(data->control);
+  if (!version) return fail(version.error());
+  if (version->has(Feature::ToolStore)) return {};
+  return fail(Errc::Unsupported, "{}", version->lacks(Feature::ToolStore));
 }
 
 }  // namespace
@@ -67,15 +80,18 @@ Result<std::string> tool_store_of(std::string_view toml) {
 }
 
 Result<std::string> control_form_of(std::string_view toml, std::string_view control) {
+  if (control == "tnc155") {
+    if (auto has = check_tool_store(toml); !has) return fail(has.error());
+  }
   if (control != "centurion") return tool_store_of(toml);
   const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
   return data ? interpreter::centurion::write_parameter_text(*data) : fail(data.error());
 }
 
-Result<std::string> setup_of_control_form(std::string_view text) {
+Result<std::string> setup_of_control_form(std::string_view text, const ControlVersion& tnc) {
   if (text.find("G10") != std::string_view::npos)
     return interpreter::centurion::setup_of_parameter_text(text);
-  return setup_of_memory_file(text);
+  return setup_of_memory_file(text, tnc);
 }
 
 }  // namespace dripline::cli

@@ -3,12 +3,14 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/interpreter/tnc155/control_version.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::cli {
 
 /// The machine parameters in a setup's text, as the control takes them. Errors: those of
-/// parse_control_data; Syntax, LimitExceeded (a parameter), NotFound (none is there).
+/// parse_control_data; Syntax, LimitExceeded, Unsupported (a parameter, one that the setup's model
+/// and software have not), NotFound (none is there).
 Result<std::string> machine_parameters_text(std::string_view toml);
 
 /// The tool store of a TNC 151/155 (its program 0) from a setup's text, in the setup's units.
@@ -16,11 +18,14 @@ Result<std::string> machine_parameters_text(std::string_view toml);
 Result<std::string> tool_store_of(std::string_view toml);
 
 /// A setup as its control takes it over a line: a Centurion's parameters as a program, else the
-/// tool store of a TNC. Errors: those of parse_control_data, of the form.
+/// tool store of a TNC. Errors: those of parse_control_data, of the form; Unsupported (a TNC
+/// without a tool store).
 Result<std::string> control_form_of(std::string_view toml, std::string_view control);
 
 /// The text of a setup from what a control sent: a Centurion's parameters (they hold a G10), else a
-/// TNC's tool store or machine parameters (MP0: ...). Errors: Syntax, LimitExceeded; with the line.
-Result<std::string> setup_of_control_form(std::string_view text);
+/// TNC's tool store or machine parameters (MP0: ...), of which `tnc` must have all. Errors: Syntax,
+/// LimitExceeded, Unsupported; with the line.
+Result<std::string> setup_of_control_form(std::string_view text,
+                                          const interpreter::tnc155::ControlVersion& tnc);
 
 }  // namespace dripline::cli

@@ -7,6 +7,7 @@
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/port_file.hpp"
 #include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/tnc155/control_version.hpp"
 #include "gateway/interpreter/tnc155/probing_functions.hpp"
 
 namespace dripline::cli {
@@ -134,11 +135,17 @@ Result<Measured> measure(const TouchCommand& command, const std::vector<tnc::Tou
   return Measured{{{"effective radius", *radius}}, ""};
 }
 
+/// The probe is an extra of a control that has the functions for it.
 Result<interpreter::Workpiece> read_workpiece(const std::string& path) {
   const auto text = read_small_file(path, kMaxSetup);
   if (!text) return fail(text.error());
   const auto setup = interpreter::parse_setup(*text);
   if (!setup) return fail(setup.error().code, "{}: {}", path, setup.error().what);
+  const auto version = tnc::version_of(setup->control);
+  if (!version) return fail(version.error().code, "{}: {}", path, version.error().what);
+  if (!version->has(tnc::Feature::TouchProbe)) {
+    return fail(Errc::Unsupported, "{}: {}", path, version->lacks(tnc::Feature::TouchProbe));
+  }
   return setup->workpiece;
 }
 

@@ -55,6 +55,32 @@ TEST_F(DncConvert, ChangesTheFormOfTncPrograms) {
   EXPECT_EQ(dnc.read("b.i"), "");
 }
 
+// HD-238, HD-239: the setup says which control it is.
+TEST_F(DncConvert, ConvertsAndChecksForTheControlOfTheSetup) {
+  dnc.write("a.h", "0 BEGIN PGM 5 MM\n1 TOOL CALL 0 Z S 400\n2 STOP\n3 END PGM 5 MM\n");
+  dnc.write("a.i", "%5 G71*\nN10 G38*\nN9999 %5 G71*\n");
+  dnc.write("old.toml", "[control]\nsoftware = 7\n");
+  dnc.write("new.toml", "[control]\nsoftware = 8\n");
+  const auto convert = [&](const char* setup) {
+    return dnc({"convert", "a.h", "-o", "b.i", "--to", "iso", "--setup", setup});
+  };
+  const auto refused = convert("old.toml");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err,
+            "dnc: a.h: line 3: STOP is G38 in ISO: a TNC 155 A with software 07 has no G38 (from "
+            "software 08)\n");
+  EXPECT_EQ(dnc.read("b.i"), "");
+  EXPECT_EQ(convert("new.toml").status, 0);
+  const auto alarm = dnc({"check", "a.i", "--setup", "old.toml"});
+  EXPECT_EQ(alarm.status, 1);
+  EXPECT_NE(alarm.out.find("a.i:2:1: alarm TNC-ILLEGAL-G: ILLEGAL G-CODE: G38: a TNC 155 A with "
+                           "software 07 has no G38"),
+            std::string::npos)
+      << alarm.out;
+  EXPECT_EQ(dnc({"check", "a.i", "--setup", "new.toml"}).status, 0);
+  EXPECT_EQ(dnc({"check", "a.i"}).status, 0);
+}
+
 TEST_F(DncConvert, NamesWhatEiaCanNotSayAndWritesNothing) {
   dnc.write("a.nc", "N1G1\nN2X[4]\n");
   const auto refused = dnc({"convert", "a.nc", "--from", "ascii", "-o", "b.ptp", "--to", "eia"});

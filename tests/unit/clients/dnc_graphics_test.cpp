@@ -62,6 +62,67 @@ TEST_F(DncGraphics, DrawsWhatWasCutBeforeAnAlarm) {
   EXPECT_NEAR(json::parse(result.out).at("removed_mm3").get<double>(), 78.54 * 4, 5);
 }
 
+/// HD-238, HD-239: what a TNC's model and software can show.
+class DncTncGraphics : public testing::Test {
+ protected:
+  DncTncGraphics() {
+    dnc.write("plate.h",
+              "0 BEGIN PGM 1 MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 BLK FORM 0.2 X+100 Y+80 Z+0\n"
+              "3 TOOL DEF 1 L+0 R+5\n4 TOOL CALL 1 Z S 100\n5 L X+20 Y+40 R0 F MAX\n"
+              "6 L Z-4 R0 F100\n7 L X+80\n8 END PGM 1 MM\n");
+  }
+  template <class... More>
+  auto graphics(const std::string& control, More... more) {
+    dnc.write("mill.toml", "[control]\n" + control);
+    return dnc({"graphics", "plate.h", "--setup", "mill.toml", "--size", "32", more...});
+  }
+  Dnc dnc{DNC_PATH};
+};
+
+TEST_F(DncTncGraphics, AreThoseOfATnc155) {
+  EXPECT_EQ(dnc({"graphics", "plate.h", "-o", "a.png", "--size", "32"}).status, 0);
+  EXPECT_EQ(graphics("model = \"TNC 155 E\"\nsoftware = 1\n", "-o", "b.png").status, 0);
+  const auto on_151 = graphics("model = \"TNC 151 A\"\n", "-o", "c.png");
+  EXPECT_EQ(on_151.status, 2);
+  EXPECT_NE(on_151.err.find("graphics: a TNC 151 A has no graphics"), std::string::npos)
+      << on_151.err;
+  EXPECT_EQ(dnc.read("c.png"), "");
+}
+
+TEST_F(DncTncGraphics, ArrangeThreePlanesAsInTheUsFromSoftware06) {
+  const auto planes = [&](int software, const char* how) {
+    return graphics("software = " + std::to_string(software) + "\n", "--view", "planes",
+                    "--arrangement", how, "-o", "planes.png");
+  };
+  EXPECT_EQ(planes(5, "din").status, 0);
+  EXPECT_EQ(planes(6, "us").status, 0);
+  const auto refused = planes(5, "us");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--arrangement us: a TNC 155 A with software 05 has no US projection"),
+            std::string::npos)
+      << refused.err;
+}
+
+TEST_F(DncTncGraphics, ArePrintedFromSoftware03InTheDataBitsThatThereAre) {
+  const auto print = [&](const std::string& control) {
+    return graphics(control, "--hardcopy", "plate.prn");
+  };
+  EXPECT_NE(print("software = 2\n")
+                .err.find("--hardcopy: a TNC 155 A with software 02 has no "
+                          "hardcopy of its graphics (from software 03)"),
+            std::string::npos);
+  EXPECT_EQ(print("software = 8\n").status, 0);
+  EXPECT_EQ(print("software = 7\nmachine_parameters = { MP222 = 169 }\n").status, 0);
+  for (const char* seven_bits : {"", "machine_parameters = { MP222 = 168 }\n"}) {
+    const auto refused = print(std::string("software = 7\n") + seven_bits);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("MP222 must be 169 for it, in [control.machine_parameters] it is "
+                               "168"),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
 /// CEN-227: a lathe's program.
 class DncTurning : public testing::Test {
  protected:

@@ -50,5 +50,46 @@ TEST_F(DncTouch, MakesASetupOfAToolStore) {
   EXPECT_NE(dnc({"setup", "import", "bad.h"}).err.find("bad.h: line 1"), std::string::npos);
 }
 
+// HD-238: the touch probe came with software 06.
+TEST_F(DncTouch, AsksForAControlWithATouchProbe) {
+  const std::string probe = "[probe]\nsurface = [ { axis = \"Z\", at = -3.0 } ]\n[control]\n";
+  dnc.write("old.toml", probe + "software = 5\n");
+  dnc.write("new.toml", probe + "software = 6\n");
+  dnc.write("wrong.toml", probe + "model = \"TNC 355\"\n");
+  const auto touch = [&](const char* setup) {
+    return dnc({"touch", "surface", "--setup", setup, "Z-:1,2,10"});
+  };
+  EXPECT_EQ(touch("new.toml").status, 0);
+  const auto old = touch("old.toml");
+  EXPECT_EQ(old.status, 2);
+  EXPECT_EQ(old.out, "");
+  EXPECT_NE(old.err.find("old.toml: a TNC 155 A with software 05 has no touch probe functions"),
+            std::string::npos)
+      << old.err;
+  EXPECT_NE(touch("wrong.toml").err.find("wrong.toml: option model"), std::string::npos);
+}
+
+// HD-238
+TEST_F(DncTouch, ImportsOnlyParametersThatTheControlHas) {
+  dnc.write("mp.txt", "MP222: 168\nMP225: 7\n");
+  dnc.write("tools.h", "T9 P12 L+1,5 R+0,25\n");
+  dnc.write("old.toml", "[control]\nsoftware = 2\n");
+  dnc.write("new.toml", "[control]\nsoftware = 3\n");
+  EXPECT_EQ(dnc({"setup", "import", "mp.txt"}).out,
+            "[control.machine_parameters]\nMP222 = 168\nMP225 = 7\n");
+  EXPECT_EQ(dnc({"setup", "import", "mp.txt", "--setup", "new.toml"}).status, 0);
+  const auto refused = dnc({"setup", "import", "mp.txt", "--setup", "old.toml"});
+  EXPECT_NE(refused.status, 0);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("mp.txt: line 2: MP225: a TNC 155 A with software 02 has no machine "
+                             "parameters 225 to 234 (from software 03)"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(dnc({"setup", "import", "tools.h", "--setup", "new.toml"}).status, 0);
+  const auto no_store = dnc({"setup", "import", "tools.h", "--setup", "old.toml"});
+  EXPECT_NE(no_store.err.find("no central tool store"), std::string::npos) << no_store.err;
+  EXPECT_NE(dnc({"setup", "import", "mp.txt", "--setup", "none.toml"}).status, 0);
+}
+
 }  // namespace
 }  // namespace dripline
