@@ -139,6 +139,9 @@ TEST_P(TncStandardFaults, SaysWhatItSeesAndNeverHangs) {
 
 INSTANTIATE_TEST_SUITE_P(Tnc, TncStandardFaults, testing::ValuesIn(both_ways("standard", "tnc155")),
                          part_name);
+// HD-220
+INSTANTIATE_TEST_SUITE_P(TncRts, TncStandardFaults,
+                         testing::ValuesIn(both_ways("rts", "tnc155-rts")), part_name);
 
 class TapeFaults : public testing::TestWithParam<Part> {};
 
