@@ -35,9 +35,9 @@ class Plan {
       return fail(Errc::Syntax, "blocks {}..{}: the range runs backwards", change.first,
                   change.last);
     }
-    const auto first = find(change.first);
+    const auto first = find_block(numbers_, change.first);
     if (!first) return fail(first.error());
-    const auto last = find(change.last);
+    const auto last = find_block(numbers_, change.last);
     if (!last) return fail(last.error());
     if (auto dropped = drop(*first, *last); !dropped) return dropped;
     append(entered_[*first].in_place, lines);
@@ -72,7 +72,7 @@ class Plan {
       append(in_front_, lines);
       return {};
     }
-    const auto place = find(number);
+    const auto place = find_block(numbers_, number);
     if (!place) return fail(place.error());
     append(entered_[*place].behind, lines);
     return {};
@@ -88,32 +88,23 @@ class Plan {
     return {};
   }
 
-  Result<std::size_t> find(std::int64_t number) const {
-    const auto found = std::ranges::find(numbers_, number);
-    if (number < 0 || found == numbers_.end()) return no_block(number);
-    if (std::find(found + 1, numbers_.end(), number) != numbers_.end()) {
-      return fail(Errc::ModalConflict, "block {} stands more than once: renumber first", number);
-    }
-    return static_cast<std::size_t>(found - numbers_.begin());
-  }
-
-  tl::unexpected<Error> no_block(std::int64_t number) const {
-    std::optional<std::int64_t> least, most;
-    for (const std::int64_t there : numbers_) {
-      if (there < 0) continue;
-      least = std::min(least.value_or(there), there);
-      most = std::max(most.value_or(there), there);
-    }
-    if (!least) return fail(Errc::NotFound, "block {}: the program has no block numbers", number);
-    return fail(Errc::NotFound, "block {} is not there: the program has blocks {} to {}", number,
-                *least, *most);
-  }
-
   std::span<const std::int64_t> numbers_;
   std::vector<bool> dropped_;
   std::vector<Entered> entered_;
   Lines in_front_;
 };
+
+tl::unexpected<Error> no_block(std::span<const std::int64_t> numbers, std::int64_t number) {
+  std::optional<std::int64_t> least, most;
+  for (const std::int64_t there : numbers) {
+    if (there < 0) continue;
+    least = std::min(least.value_or(there), there);
+    most = std::max(most.value_or(there), there);
+  }
+  if (!least) return fail(Errc::NotFound, "block {}: the program has no block numbers", number);
+  return fail(Errc::NotFound, "block {} is not there: the program has blocks {} to {}", number,
+              *least, *most);
+}
 
 /// Lines with their ends.
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -132,6 +123,15 @@ std::string without_end(std::string_view line) {
 }
 
 }  // namespace
+
+Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number) {
+  const auto found = std::ranges::find(numbers, number);
+  if (number < 0 || found == numbers.end()) return no_block(numbers, number);
+  if (std::find(found + 1, numbers.end(), number) != numbers.end()) {
+    return fail(Errc::ModalConflict, "block {} stands more than once: renumber first", number);
+  }
+  return static_cast<std::size_t>(found - numbers.begin());
+}
 
 Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
                                         std::span<const BlockChange> changes) {

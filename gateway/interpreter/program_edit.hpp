@@ -49,6 +49,9 @@ inline constexpr std::int64_t kNoNumber = -1;
 Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
                                         std::span<const BlockChange> changes);
 
+/// Which block has this number. Errors: NotFound, ModalConflict (the number stands twice).
+Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number);
+
 /// Blocks are the lines of the text, numbered from 1; they keep their line ends. Errors: those of
 /// plan_edit.
 Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockChange> changes);

@@ -131,6 +131,16 @@ TEST(Tnc155Editing, EditsIsoByItsN) {
             "\"G33\", column 1: ILLEGAL G-CODE: G33");
 }
 
+// The first block says the units, also with a blank before its end.
+TEST(Tnc155Editing, EditsIsoInInches) {
+  const auto edited =
+      edit("%15 G70 *\nN10 X+1.5 *\nN9999 %15 G70 *\n", {{Kind::Replace, 10, 10, "X+1.2345"}});
+  ASSERT_TRUE(edited) << edited.error().what;
+  EXPECT_EQ(edited->text, "%15 G70 *\nN10 X+1.2345 *\nN9999 %15 G70 *\n");
+  EXPECT_EQ(edit("%15 G70 *\nN10 X+1.5 *\n", {{Kind::Delete, 0, 0, ""}}).error().what,
+            "block 0 \"%15 G70\" begins or ends the program: it stays");
+}
+
 TEST(Tnc155Editing, LeavesATextWithoutNumbersWithoutThem) {
   const auto edited = edit("BEGIN PGM 1 MM\nCC\nSTOP\nEND PGM 1 MM\n",
                            {{Kind::Delete, 1, 1, ""}, {Kind::Insert, 2, 2, "LBL 1"}});
