@@ -9,6 +9,7 @@
 #include "gateway/interpreter/program_edit.hpp"
 #include "gateway/interpreter/program_source.hpp"
 #include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/word_edit.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter {
@@ -37,6 +38,13 @@ struct ProgramKeeping {
   /// reads them and written as it writes them. Errors: those of plan_edit; Syntax (a block the
   /// control refuses, in its words), LimitExceeded (no number left).
   Result<EditedProgram> (*edit)(std::string_view text, std::span<const BlockChange> changes);
+  /// What blocks become whose words are changed, as Replace for `edit`. Sets come first. Errors:
+  /// those of find_block; NotFound (the block has no such word), ModalConflict (a word changed
+  /// twice), Syntax (no word of the control, or the block it would make is refused).
+  Result<std::vector<BlockChange>> (*change_words)(std::string_view text,
+                                                   std::span<const WordChange> changes);
+  /// The blocks that have a word with one of the addresses. Errors: Syntax.
+  Result<WordSearch> (*search)(std::string_view text, std::span<const std::string> addresses);
   /// Numbers all blocks as the control does; `increment` where it lets choose. Errors: Syntax.
   Result<std::string> (*renumber)(std::string_view text, std::int32_t increment);
 };

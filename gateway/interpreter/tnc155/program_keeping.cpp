@@ -18,7 +18,12 @@ bool is_protected(std::string_view head) {
 
 }  // namespace
 
-const ProgramKeeping kTncKeeping{&check_memory, &is_protected, &with_protection, &edit_program,
-                                 &renumbered};
+const ProgramKeeping kTncKeeping{.fit = &check_memory,
+                                 .is_protected = &is_protected,
+                                 .protect = &with_protection,
+                                 .edit = &edit_program,
+                                 .change_words = &change_words,
+                                 .search = &search_words,
+                                 .renumber = &renumbered};
 
 }  // namespace dripline::interpreter::tnc155
