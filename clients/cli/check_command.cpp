@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -9,12 +10,14 @@
 #include "clients/cli/progress.hpp"
 #include "gateway/interpreter/trace/event_tee.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/trace/stop_list.hpp"
 
 namespace dripline::cli {
 namespace {
 
 struct CheckCommand : OfflineCommand {
   std::string to;  ///< empty: the whole program
+  bool lists_stops = false;
 };
 
 /// Shows how far into the text the check has come, looking at the clock only now and then.
@@ -77,13 +80,13 @@ Result<bool> check_memory(const OfflineProgram& program, interpreter::EventSink&
 
 /// Runs the program into `sink`, with a progress bar on a terminal.
 Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const CheckCommand& command,
+                                        interpreter::MemorySource& source,
                                         interpreter::EventSink& sink, const Clock& clock) {
   const auto limits = limits_of(command.to);
   if (!limits) return fail(limits.error());
   const auto fits = check_memory(program, sink);
   if (!fits) return fail(fits.error());
   if (!*fits) return interpreter::OfflineOutcome{};
-  auto source = program.source();
   LiveArea area = LiveArea::on_stderr();
   if (!area.is_live()) {
     return interpreter::run_offline(program.dialect(), program.setup(), source, sink, *limits);
@@ -101,27 +104,66 @@ int never_there(const CheckCommand& command) {
   return kExitNo;
 }
 
+/// The text of a block up to its line's end.
+std::string block_text(interpreter::MemorySource& source, const interpreter::Origin& origin) {
+  constexpr std::size_t kMostShown = 200;
+  const auto window = source.fetch(origin.program, origin.offset, kMostShown);
+  const std::string_view text = window.text.substr(0, window.text.find_first_of("\r\n"));
+  return std::string(text.substr(0, std::min(text.size(), kMostShown)));
+}
+
+/// Who listens to the run.
+struct CheckSinks {
+  explicit CheckSinks(const interpreter::Position& start) : summary(start), state(start) {}
+
+  interpreter::CheckSummary summary;
+  interpreter::MachineState state;
+  interpreter::StopList stops;
+  interpreter::EventTee with_stops{summary, stops};
+  interpreter::EventTee all{with_stops, state};
+
+  /// Without what nobody asked for, as most events would pass for nothing.
+  interpreter::EventSink& of(const CheckCommand& command) {
+    if (!command.to.empty()) return all;
+    return command.lists_stops ? static_cast<interpreter::EventSink&>(with_stops) : summary;
+  }
+};
+
+CheckReport report_of(const OfflineProgram& program, interpreter::MemorySource& source,
+                      const CheckSinks& sinks, const CheckCommand& command) {
+  CheckReport report;
+  report.file = command.file;
+  report.summary = sinks.summary.summary();
+  for (interpreter::ProgramIndex called = 1; !source.name_of(called).empty(); ++called) {
+    report.called.push_back(program.file_of(source, called));
+  }
+  if (!command.lists_stops) return report;
+  report.stops.emplace();
+  report.stops->count = sinks.stops.count();
+  for (const auto& [stop, times] : sinks.stops.places()) {
+    report.stops->places.push_back({stop, times, block_text(source, stop.origin)});
+  }
+  return report;
+}
+
 int check(Context& context, const CheckCommand& command) {
   auto program = OfflineProgram::open(command);
   if (!program) return complain(program.error());
   SystemClock clock;
   const SteadyTime begun = clock.steady_now();
-  interpreter::CheckSummary summary(program->setup().start);
-  interpreter::MachineState state(program->setup().start);
-  interpreter::EventTee both(summary, state);
-  const bool stops = !command.to.empty();
-  auto& sink = stops ? static_cast<interpreter::EventSink&>(both) : summary;
-  const auto outcome = run(*program, command, sink, clock);
+  CheckSinks sinks(program->setup().start);
+  auto source = program->source();
+  const auto outcome = run(*program, command, source, sinks.of(command), clock);
   if (!outcome) return complain_offline(outcome.error());
-  const double elapsed = std::chrono::duration<double>(clock.steady_now() - begun).count();
-  CheckReport report{command.file, summary.summary(), elapsed};
-  if (outcome->has_stopped) report.stopped = state;
+  CheckReport report = report_of(*program, source, sinks, command);
+  report.elapsed_seconds = std::chrono::duration<double>(clock.steady_now() - begun).count();
+  if (outcome->has_stopped) report.stopped = sinks.state;
   if (context.wants_json) {
     context.print(json_text(check_json(report)));
   } else {
     context.print(check_text(report, context.has_colour()));
   }
-  if (stops && outcome->ended) return never_there(command);
+  if (!command.to.empty() && outcome->ended) return never_there(command);
   return outcome->ended || outcome->has_stopped ? kExitOk : kExitNo;
 }
 
@@ -137,14 +179,17 @@ void add_check_command(CLI::App& app, Context& context) {
                    "End behind the first block with this number (120, N120), or that begins in "
                    "this line (L7), and say how the machine stands there")
       ->type_name("BLOCK");
+  command->add_flag("--stops", options->lists_stops,
+                    "Name the blocks at which the program stops and waits for the operator");
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
-      "folder.\nA program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
+      "folder;\nwarnings, alarms and stops in one name its file. The check itself goes on over "
+      "stops.\nA program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
       "program, 32 programs)\nis warned of; with memory_limits = true in the setup's [control] it "
       "is an alarm.\n\nExit status: 0 the end was reached, or the block of --to; 1 an alarm, or "
       "that block was not met;\n2 usage, unreadable file, unknown control.\n\nExamples:\n  dnc "
-      "check --control centurion shaft.nc\n  dnc check --to 40 15.h");
+      "check --control centurion shaft.nc\n  dnc check --to 40 15.h\n  dnc check --stops 15.h");
   command->callback([&context, options] { context.status = check(context, *options); });
 }
 

@@ -38,6 +38,11 @@ AxisExtent programmed(const Summary& summary, Axis axis, const AxisExtent& exten
           diameter * length(summary, Length::mm(extent.most))};
 }
 
+const std::string& file_of(const CheckReport& report, const interpreter::Origin& origin) {
+  const bool is_called = origin.program > 0 && origin.program <= report.called.size();
+  return is_called ? report.called[origin.program - 1] : report.file;
+}
+
 /// The first message's place is what editors jump to.
 std::string place(const std::string& file, const Diagnostic& diagnostic) {
   std::string text = fmt::format("{}:{}", file, diagnostic.line);
@@ -45,10 +50,12 @@ std::string place(const std::string& file, const Diagnostic& diagnostic) {
   return text;
 }
 
-std::string diagnostic_line(const CheckReport& report, const Diagnostic& diagnostic,
-                            std::string_view kind) {
-  return fmt::format("{}: {} {}: {}\n", place(report.file, diagnostic), kind, diagnostic.id,
-                     printable(diagnostic.text));
+/// Of a Warning or an Alarm.
+template <class Event>
+std::string diagnostic_line(const CheckReport& report, const Event& event, std::string_view kind) {
+  const Diagnostic& diagnostic = event.diagnostic;
+  return fmt::format("{}: {} {}: {}\n", place(file_of(report, event.origin), diagnostic), kind,
+                     diagnostic.id, printable(diagnostic.text));
 }
 
 double blocks_per_second(const CheckReport& report) {
@@ -79,7 +86,12 @@ std::string verdict(const CheckReport& report, bool has_colour) {
   if (report.stopped) {
     return styled("comes to " + block_name(report.stopped->block()), Style::Good, has_colour);
   }
-  const auto place_text = summary.alarm ? fmt::format(" in line {}", summary.alarm->line) : "";
+  std::string place_text;
+  if (summary.alarm) {
+    place_text = fmt::format(" in line {}", summary.alarm->diagnostic.line);
+    const std::string& file = file_of(report, summary.alarm->origin);
+    if (file != report.file) place_text += " of " + file;
+  }
   const std::string text =
       summary.ended ? "reaches its end" : fmt::format("raises an alarm{}", place_text);
   return styled(text, summary.ended ? Style::Good : Style::Bad, has_colour);
@@ -119,11 +131,56 @@ void add_state(Details& details, const Summary& summary, const MachineState& sta
                                        : (coolant.mist ? "mist" : "off"));
 }
 
-Json diagnostic_json(const Diagnostic& diagnostic) {
+/// Of a Warning or an Alarm.
+template <class Event>
+Json diagnostic_json(const CheckReport& report, const Event& event) {
+  const Diagnostic& diagnostic = event.diagnostic;
   return {{"code", std::string(diagnostic.id)},
           {"text", diagnostic.text},
           {"line", diagnostic.line},
-          {"column", diagnostic.column}};
+          {"column", diagnostic.column},
+          {"file", file_of(report, event.origin)}};
+}
+
+std::string_view kind_text(interpreter::StopKind kind) {
+  switch (kind) {
+    case interpreter::StopKind::Optional:
+      return "optional stop";
+    case interpreter::StopKind::ToolChange:
+      return "tool change by hand";
+    case interpreter::StopKind::Operator:
+      return "waits for the operator";
+    case interpreter::StopKind::Program:
+      break;
+  }
+  return "program stop";
+}
+
+std::string stop_lines(const CheckReport& report) {
+  std::string text;
+  if (!report.stops) return text;
+  for (const auto& [stop, times, block] : report.stops->places) {
+    text += fmt::format("{}:{}: stop: {}", file_of(report, stop.origin), stop.origin.line,
+                        kind_text(stop.kind));
+    if (stop.origin.sequence >= 0) text += fmt::format(", block {}", stop.origin.sequence);
+    if (times > 1) text += fmt::format(", met {} times", times);
+    text += fmt::format(": {}\n", printable(block));
+  }
+  return text;
+}
+
+Json stops_json(const CheckReport& report) {
+  Json stops = Json::array();
+  for (const auto& [stop, times, block] : report.stops->places) {
+    const auto sequence = stop.origin.sequence;
+    stops.push_back({{"file", file_of(report, stop.origin)},
+                     {"line", stop.origin.line},
+                     {"block", sequence >= 0 ? Json(sequence) : Json(nullptr)},
+                     {"kind", std::string(word_of(stop.kind))},
+                     {"text", block},
+                     {"times", times}});
+  }
+  return stops;
 }
 
 /// Six decimals, as the trace has them: more would be noise of the conversion.
@@ -173,6 +230,7 @@ std::string check_text(const CheckReport& report, bool has_colour) {
     text += fmt::format("{}: {} more warnings\n", report.file, more);
   }
   if (summary.alarm) text += diagnostic_line(report, *summary.alarm, "alarm");
+  text += stop_lines(report);
   text += fmt::format("{}: {}\n", report.file, verdict(report, has_colour));
   Details details;
   details.add("control", summary.control);
@@ -185,6 +243,7 @@ std::string check_text(const CheckReport& report, bool has_colour) {
                           " estimated, without acceleration, stops and tool changes");
   add_extents(details, summary);
   if (report.stopped) add_state(details, summary, *report.stopped);
+  if (report.stops) details.add("stops", std::to_string(report.stops->count));
   details.add("warnings", std::to_string(summary.warning_count));
   details.add("checked in", fmt::format("{:.2f} s, {:.0f} blocks/s", report.elapsed_seconds,
                                         blocks_per_second(report)));
@@ -205,10 +264,16 @@ Json check_json(const CheckReport& report) {
   json["seconds"] = rounded(summary.seconds);
   json["extents"] = extents_json(summary);
   if (report.stopped) json["stopped"] = state_json(summary, *report.stopped);
+  if (report.stops) {
+    json["stops"] = stops_json(report);
+    json["stop_count"] = report.stops->count;
+  }
   json["warnings"] = Json::array();
-  for (const auto& warning : summary.warnings) json["warnings"].push_back(diagnostic_json(warning));
+  for (const auto& warning : summary.warnings) {
+    json["warnings"].push_back(diagnostic_json(report, warning));
+  }
   json["warning_count"] = summary.warning_count;
-  json["alarm"] = summary.alarm ? diagnostic_json(*summary.alarm) : Json(nullptr);
+  json["alarm"] = summary.alarm ? diagnostic_json(report, *summary.alarm) : Json(nullptr);
   json["elapsed_seconds"] = rounded(report.elapsed_seconds);
   json["blocks_per_second"] = std::round(blocks_per_second(report));
   return json;

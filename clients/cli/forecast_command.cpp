@@ -130,9 +130,9 @@ int forecast(Context& context, const ForecastCommand& command) {
                     ? json_text(report_json(*line, result, units, command.limit))
                     : report_text(command, *line, result, units, context.has_colour()));
   if (outcome->alarm) {
-    return complain(Error{Errc::Syntax, "the program alarms in line " +
-                                            std::to_string(outcome->alarm->line) + ": " +
-                                            outcome->alarm->text});
+    return complain(Error{
+        Errc::Syntax, fmt::format("the program alarms in {}: {}",
+                                  program->alarm_place(source, *outcome), outcome->alarm->text)});
   }
   return result.starved == 0 ? kExitOk : kExitNo;
 }

@@ -214,9 +214,10 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
   if (auto written = write_files(command, simulation); !written) return complain(written.error());
   report(context, simulation);
   if (!outcome->alarm) return kExitOk;
-  complain(Error{Errc::Syntax, fmt::format("the program alarms in line {}: {}; what it cut until "
-                                           "then is shown",
-                                           outcome->alarm->line, outcome->alarm->text)});
+  complain(Error{Errc::Syntax,
+                 fmt::format("the program alarms in {}: {}; what it cut until then is "
+                             "shown",
+                             program->alarm_place(source, *outcome), outcome->alarm->text)});
   return kExitNo;
 }
 

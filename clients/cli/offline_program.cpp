@@ -1,5 +1,6 @@
 #include "clients/cli/offline_program.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
 #include <filesystem>
 #include <span>
@@ -108,6 +109,7 @@ Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
   auto setup = read_setup(command.setup, **dialect);
   if (!setup) return fail(setup.error());
   OfflineProgram program(std::move(*file), **dialect);
+  program.path_ = command.file;
   program.tape_text_ = std::move(*tape);
   program.setup_ = std::move(*setup);
   program.library_ = library_folder(command, program.setup_);
@@ -118,6 +120,22 @@ interpreter::MemorySource OfflineProgram::source() const {
   return interpreter::MemorySource(text(), [folder = library_](std::string_view name) {
     return load_called_program(folder, name);
   });
+}
+
+std::string OfflineProgram::file_of(const interpreter::MemorySource& source,
+                                    interpreter::ProgramIndex program) const {
+  const std::string name(source.name_of(program));
+  if (name.empty()) return path_;
+  return find_called_program(library_, name).value_or(name);
+}
+
+std::string OfflineProgram::alarm_place(const interpreter::MemorySource& source,
+                                        const interpreter::OfflineOutcome& outcome) const {
+  std::string place = fmt::format("line {}", outcome.alarm->line);
+  if (outcome.alarm_program != interpreter::kMainProgram) {
+    place += " of " + file_of(source, outcome.alarm_program);
+  }
+  return place;
 }
 
 }  // namespace dripline::cli

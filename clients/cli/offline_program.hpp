@@ -7,6 +7,7 @@
 #include "gateway/interpreter/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/trace/offline_run.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::cli {
@@ -32,11 +33,18 @@ class OfflineProgram {
   /// Called programs come from the setup's library, or from the program's own folder when the setup
   /// names none. Must not outlive this object.
   interpreter::MemorySource source() const;
+  /// The file of a program of a run on `source`: FILE, or where the called one was found.
+  std::string file_of(const interpreter::MemorySource& source,
+                      interpreter::ProgramIndex program) const;
+  /// Of an outcome with an alarm: "line 5", or "line 5 of 2.h" in a called program.
+  std::string alarm_place(const interpreter::MemorySource& source,
+                          const interpreter::OfflineOutcome& outcome) const;
 
  private:
   OfflineProgram(MappedFile file, const interpreter::Dialect& dialect)
       : file_(std::move(file)), dialect_(&dialect) {}
   MappedFile file_;
+  std::string path_;
   std::unique_ptr<const std::string>
       tape_text_;  ///< when the file is a tape image; stays where it is
   const interpreter::Dialect* dialect_;

@@ -39,15 +39,22 @@ std::vector<std::string> called_program_names(std::string_view name) {
   return names;
 }
 
-std::optional<std::string> load_called_program(const std::string& folder, std::string_view name) {
+std::optional<std::string> find_called_program(const std::string& folder, std::string_view name) {
   for (const auto& file_name : called_program_names(name)) {
     const auto path = std::filesystem::path(folder) / file_name;
     std::error_code ec;
-    if (!std::filesystem::is_regular_file(path, ec)) continue;
-    std::ifstream file(path, std::ios::binary);
-    if (file) return std::string(std::istreambuf_iterator<char>(file), {});
+    if (std::filesystem::is_regular_file(path, ec) && std::ifstream(path, std::ios::binary)) {
+      return path.string();
+    }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> load_called_program(const std::string& folder, std::string_view name) {
+  const auto path = find_called_program(folder, name);
+  if (!path) return std::nullopt;
+  std::ifstream file(*path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 }  // namespace dripline::cli

@@ -12,7 +12,10 @@ namespace dripline::cli {
 /// those, the name itself and with .nc. None for names that would leave the folder.
 std::vector<std::string> called_program_names(std::string_view name);
 
-/// The text of the first of these that is a file in `folder`.
+/// The first of these that is a file in `folder` and can be read, with the folder.
+std::optional<std::string> find_called_program(const std::string& folder, std::string_view name);
+
+/// Its text.
 std::optional<std::string> load_called_program(const std::string& folder, std::string_view name);
 
 }  // namespace dripline::cli

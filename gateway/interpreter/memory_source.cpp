@@ -37,4 +37,9 @@ ProgramLookup MemorySource::find(std::string_view name) {
   return {ProgramLookup::State::Found, static_cast<ProgramIndex>(called_.size())};
 }
 
+std::string_view MemorySource::name_of(ProgramIndex program) const {
+  if (program == kMainProgram || program > called_.size()) return {};
+  return called_[program - 1]->name;
+}
+
 }  // namespace dripline::interpreter

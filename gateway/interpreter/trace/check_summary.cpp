@@ -156,12 +156,12 @@ void CheckSummary::on_probe(const Probe& probe) {
 void CheckSummary::on_warning(const Warning& warning) {
   ++summary_.warning_count;
   if (summary_.warnings.size() < Summary::kMaxWarnings) {
-    summary_.warnings.push_back(warning.diagnostic);
+    summary_.warnings.push_back(warning);
   }
 }
 
 void CheckSummary::on_alarm(const Alarm& alarm) {
-  summary_.alarm = alarm.diagnostic;
+  summary_.alarm = alarm;
 }
 
 void CheckSummary::on_end(const End& end) {

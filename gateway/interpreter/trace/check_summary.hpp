@@ -35,9 +35,9 @@ struct Summary {
   Length feed_length;  ///< feeds, arcs, threads and probe moves
   double seconds = 0;  ///< estimated, without acceleration, stops and tool changes
   std::array<std::optional<AxisExtent>, kAxisCount> extents;  ///< by Axis; of axes that were moved
-  std::vector<Diagnostic> warnings;                           ///< the first kMaxWarnings
+  std::vector<Warning> warnings;                              ///< the first kMaxWarnings
   std::uint64_t warning_count = 0;
-  std::optional<Diagnostic> alarm;
+  std::optional<Alarm> alarm;
   bool ended = false;
 
   static constexpr std::size_t kMaxWarnings = 1000;

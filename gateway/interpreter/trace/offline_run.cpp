@@ -14,10 +14,14 @@ constexpr LocalTime kDefaultTime{2000, 1, 1, 0, 0, 0};
 class Diagnostics final : public EventSink {
  public:
   void on_warning(const Warning&) override { ++warnings; }
-  void on_alarm(const Alarm& event) override { alarm = event.diagnostic; }
+  void on_alarm(const Alarm& event) override {
+    alarm = event.diagnostic;
+    program = event.origin.program;
+  }
 
   std::uint64_t warnings = 0;
   std::optional<Diagnostic> alarm;
+  ProgramIndex program = kMainProgram;
 };
 
 /// Gives the answers of a setup, in order.
@@ -103,8 +107,12 @@ Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
   SetupAnswers answers(setup, *std::move(pins));
   const auto state = run(**interpreter, answers, limits, gate);
   if (!state) return fail(state.error());
-  return OfflineOutcome{*state == StepState::Ended, gate.has_stopped(), (*interpreter)->blocks(),
-                        diagnostics.warnings, diagnostics.alarm};
+  return OfflineOutcome{.ended = *state == StepState::Ended,
+                        .has_stopped = gate.has_stopped(),
+                        .blocks = (*interpreter)->blocks(),
+                        .warnings = diagnostics.warnings,
+                        .alarm = diagnostics.alarm,
+                        .alarm_program = diagnostics.program};
 }
 
 }  // namespace dripline::interpreter

@@ -19,6 +19,7 @@ struct OfflineOutcome {
   std::uint64_t blocks = 0;
   std::uint64_t warnings = 0;
   std::optional<Diagnostic> alarm;
+  ProgramIndex alarm_program = kMainProgram;  ///< whose line the alarm names
 };
 
 /// Runs a program to its end as fast as it goes, and answers its questions from the setup: probes

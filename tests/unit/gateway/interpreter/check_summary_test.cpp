@@ -114,7 +114,7 @@ TEST(CheckSummary, EndAndAlarmAreKept) {
   EXPECT_EQ(check.summary().blocks, 7U);
   EXPECT_FALSE(check.summary().ended);
   check.on_alarm({origin, {"T2", "bad", 3, 0}});
-  EXPECT_EQ(check.summary().alarm->id, "T2");
+  EXPECT_EQ(check.summary().alarm->diagnostic.id, "T2");
   check.on_end({origin, 8, true});
   EXPECT_TRUE(check.summary().ended);
   EXPECT_EQ(check.summary().blocks, 8U);

@@ -38,6 +38,9 @@ TEST(MemorySource, ACalledProgramIsLoadedOnceAndStays) {
   EXPECT_EQ(loads, 2);
   EXPECT_EQ(source.fetch(first.program, 8, 1).text, "O0001");
   EXPECT_EQ(source.find("missing").state, ProgramLookup::State::NotFound);
+  EXPECT_EQ(source.name_of(second.program), "O0002");
+  EXPECT_EQ(source.name_of(kMainProgram), "");
+  EXPECT_EQ(source.name_of(second.program + 1), "");
 }
 
 TEST(MemorySource, AProgramThatWasNeverOpenedFails) {
