@@ -79,6 +79,70 @@ TEST_F(DncEdit, ProtectsAndRenumbers) {
   EXPECT_EQ(dnc.read("16.i"), "%16 G71 *\r\nN20 L5 *\r\nN9999 %16 G71 *\r\n");
 }
 
+// HD-064, HD-065
+TEST_F(DncEdit, ChangesWordsOfBlocks) {
+  dnc.write("15.h", kProgram);
+  const auto edited =
+      dnc({"edit", "15.h", "--set", "3", "X+12.5", "--set", "3", "F MAX", "--leave-out", "4", "M",
+           "--shorten", "5", "F", "--insert-after", "5", "STOP"});
+  EXPECT_EQ(edited.status, 0) << edited.err;
+  EXPECT_EQ(edited.out,
+            "-3 L X+10,000 Y+20,000 R0 F15999 M03\n+3 L X+12,500 Y+20,000 R0 F MAX M03\n"
+            "-4 L Z-5,000 R F100 M08\n+4 L Z-5,000 R F100 M\n"
+            "-5 L X+40,000 R F200 M\n+5 L X+40,000 R F M\n+6 STOP M\n"
+            "1 blocks renumbered\nWrote 15.h.\n");
+  // What is left out stays as it is in force: 100 mm/min also in block 5.
+  const auto checked = json::parse(dnc({"check", "--to", "5", "--json", "15.h"}).out);
+  EXPECT_EQ(checked.at("stopped").at("feed"), "100.0 mm/min");
+}
+
+// HD-064, HD-065
+TEST_F(DncEdit, RefusesWordsInTheControlsWordsAndChangesNothing) {
+  dnc.write("15.h", kProgram);
+  const auto missing = dnc({"edit", "15.h", "--set", "3", "X+1", "--set", "4", "Y+5"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_EQ(missing.err, "dnc: block 4 has no word Y: \"L Z-5,000 R F100 M08\"\n");
+  const auto range = dnc({"edit", "15.h", "--set", "4", "F16000"});
+  EXPECT_EQ(range.status, 1);
+  EXPECT_NE(range.err.find("F 16000 is not a whole number within 0 to 15999"), std::string::npos)
+      << range.err;
+  EXPECT_EQ(dnc({"edit", "15.h", "--set", "3..4", "F1"}).err,
+            "dnc: --set 3..4: expected one block\n");
+  EXPECT_EQ(dnc({"edit", "15.h", "--set", "4", "F1", "--delete", "4"}).err,
+            "dnc: block 4 is taken out or replaced twice\n");
+  EXPECT_EQ(dnc({"edit", "15.h", "--leave-out", "4", "F", "--find", "X"}).status, 2);
+  EXPECT_EQ(dnc.read("15.h"), kProgram);
+  dnc.write("a.nc", "G90\nG0 X1\nM30\n");
+  EXPECT_EQ(dnc({"edit", "a.nc", "--control", "fanuc", "--set", "2", "X2"}).status, 2);
+  EXPECT_EQ(dnc({"edit", "a.nc", "--control", "fanuc", "--find", "X"}).status, 2);
+  ASSERT_EQ(dnc({"edit", "15.h", "--protect"}).status, 0);
+  EXPECT_EQ(dnc({"edit", "15.h", "--set", "4", "F50"}).status, 1);
+  EXPECT_EQ(dnc({"edit", "15.h", "--set", "4", "F50", "--force"}).status, 0);
+}
+
+// HD-062
+TEST_F(DncEdit, ShowsOnlyTheBlocksThatHaveAnAddress) {
+  dnc.write("15.h", kProgram);
+  ASSERT_EQ(dnc({"edit", "15.h", "--protect"}).status, 0);
+  const std::string before = dnc.read("15.h");
+  const auto found = dnc({"edit", "15.h", "--find", "X"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_EQ(found.out, "3 L X+10,000 Y+20,000 R0 F15999 M03\n5 L X+40,000 R F200 M\n");
+  EXPECT_EQ(dnc({"edit", "15.h", "--find", "IX", "--find", "LBL"}).out,
+            "No block has IX or LBL.\n");
+  const auto shown = json::parse(dnc({"edit", "15.h", "--find", "tool call", "--json"}).out);
+  EXPECT_EQ(shown, json::parse(R"({"blocks":[{"block":2,"line":3,
+      "text":"2 TOOL CALL 1 Z S 500,000"}],"unread":[]})"));
+  EXPECT_EQ(dnc({"edit", "15.h", "--find", "E"}).err, "dnc: \"E\" is no word of plain language\n");
+  EXPECT_EQ(dnc.read("15.h"), before);
+  dnc.write("16.h", "0 BEGIN PGM 16 MM\n1 L Q\n2 L X+1\n3 END PGM 16 MM\n");
+  const auto wrong = dnc({"edit", "16.h", "--find", "X"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_EQ(wrong.out, "2 L X+1\n");
+  EXPECT_TRUE(wrong.err.starts_with("dnc: line 2, \"1 L Q\" can not be read: BLOCK FORMAT"))
+      << wrong.err;
+}
+
 TEST_F(DncEdit, GoesByLinesForOtherControls) {
   dnc.write("a.nc", "G90\nG0 X1\nM30\n");
   const auto edited = dnc({"edit", "a.nc", "--control", "fanuc", "--replace", "2", "G0 X2",
@@ -106,6 +170,23 @@ TEST_F(DncEdit, StoresANewRevisionOfAProgramOnTheServer) {
   EXPECT_EQ(server.content("15.h"),
             "0 BEGIN PGM 15 MM\n1 TOOL DEF 1 L+0,000 R+5,000\n2 TOOL CALL 1 Z S500,000\n"
             "3 END PGM 15 MM\n");
+}
+
+// HD-062, HD-064
+TEST_F(DncEdit, SearchesAndChangesWordsOnTheServer) {
+  FakeServer server;
+  dnc.environment["DRIPLINE_SERVER"] = server.url();
+  dnc.environment["DRIPLINE_TOKEN"] = FakeServer::kToken;
+  server.add_program("15.h", kProgram);
+  EXPECT_EQ(dnc({"edit", "--program", "15.h", "--control", "tnc155", "--find", "S"}).out,
+            "2 TOOL CALL 1 Z S500,000\n");
+  EXPECT_EQ(server.revisions("15.h"), 1u);
+  const auto edited =
+      dnc({"edit", "--program", "15.h", "--control", "tnc155", "--set", "2", "S650"});
+  EXPECT_EQ(edited.status, 0) << edited.err;
+  EXPECT_EQ(server.revisions("15.h"), 2u);
+  EXPECT_NE(server.content("15.h").find("\n2 TOOL CALL 1 Z S 650,000\n3 "), std::string::npos)
+      << server.content("15.h");
 }
 
 // HD-196: 10 to 40 is the move of block 5, which is not made; 100 mm/min down to -5.
