@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -60,8 +61,16 @@ double in_units(Length length, Units units) {
   return units == Units::Inch ? length.inch() : length.mm();
 }
 
-std::string report_text(const ForecastCommand& command, const FeedLine& line,
-                        const ForecastResult& result, Units units, bool has_colour) {
+struct Report {
+  const ForecastResult& result;
+  FeedLine line;
+  Units units;
+  std::size_t limit;  ///< of the blocks that are listed
+  std::function<std::string(interpreter::ProgramIndex)> file_of;
+};
+
+std::string report_text(const Report& report, bool has_colour) {
+  const auto& [result, line, units, limit, file_of] = report;
   std::string text =
       fmt::format("{} blocks at {:g} characters a second: moves {}, waits {}\n", result.blocks,
                   line.characters_per_second, duration_text(result.move_seconds),
@@ -79,9 +88,10 @@ std::string report_text(const ForecastCommand& command, const FeedLine& line,
                {"WAITS s", Align::Right},
                {"FOR CHARACTERS", Align::Right},
                {"FEED THAT WOULD DO " + unit + "/min", Align::Right}});
-  for (std::size_t i = 0; i < result.worst.size() && i < command.limit; ++i) {
+  for (std::size_t i = 0; i < result.worst.size() && i < limit; ++i) {
     const auto& block = result.worst[i];
-    table.add({std::to_string(block.line),
+    const bool is_called = block.program != interpreter::kMainProgram;
+    table.add({(is_called ? file_of(block.program) + ":" : "") + std::to_string(block.line),
                block.sequence < 0 ? "-" : std::to_string(block.sequence),
                fmt::format("{:.4f}", in_units(block.moved, units)),
                fmt::format("{:.3f}", block.move_seconds), fmt::format("{:.3f}", block.wait_seconds),
@@ -91,8 +101,8 @@ std::string report_text(const ForecastCommand& command, const FeedLine& line,
   return text + table.render(has_colour);
 }
 
-nlohmann::ordered_json report_json(const FeedLine& line, const ForecastResult& result, Units units,
-                                   std::size_t limit) {
+nlohmann::ordered_json report_json(const Report& report) {
+  const auto& [result, line, units, limit, file_of] = report;
   nlohmann::ordered_json starved = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < result.worst.size() && i < limit; ++i) {
     const auto& block = result.worst[i];
@@ -101,7 +111,8 @@ nlohmann::ordered_json report_json(const FeedLine& line, const ForecastResult& r
                                  {"move_seconds", block.move_seconds},
                                  {"wait_seconds", block.wait_seconds},
                                  {"characters", block.characters},
-                                 {"feed_that_would_do", in_units(block.feed_that_would_do, units)}};
+                                 {"feed_that_would_do", in_units(block.feed_that_would_do, units)},
+                                 {"file", file_of(block.program)}};
     if (block.sequence >= 0) entry["block"] = block.sequence;
     starved.push_back(std::move(entry));
   }
@@ -125,10 +136,10 @@ int forecast(Context& context, const ForecastCommand& command) {
   const auto outcome = interpreter::run_offline(program->dialect(), program->setup(), source, sink);
   if (!outcome) return complain_offline(outcome.error());
   const ForecastResult& result = sink.finish();
-  const Units units = sink.summary().units;
-  context.print(context.wants_json
-                    ? json_text(report_json(*line, result, units, command.limit))
-                    : report_text(command, *line, result, units, context.has_colour()));
+  const Report report{result, *line, sink.summary().units, command.limit,
+                      [&](auto called) { return program->file_of(source, called); }};
+  context.print(context.wants_json ? json_text(report_json(report))
+                                   : report_text(report, context.has_colour()));
   if (outcome->alarm) {
     return complain(Error{
         Errc::Syntax, fmt::format("the program alarms in {}: {}",

@@ -134,14 +134,16 @@ double removed_part(const CuttingSimulation& simulation) {
   return simulation.part()->removed_volume() / (extent.width() * extent.depth() * extent.height());
 }
 
-void report(Context& context, const CuttingSimulation& simulation) {
+void report(Context& context, const CuttingSimulation& simulation, const OfflineProgram& program,
+            const interpreter::MemorySource& source) {
   const double removed = simulation.part()->removed_volume();
   if (context.wants_json) {
     auto omitted = nlohmann::ordered_json::array();
     for (const auto& section : simulation.omitted()) {
       omitted.push_back({{"line", section.origin.line},
                          {"moves", section.moves},
-                         {"reason", reason(section.why)}});
+                         {"reason", reason(section.why)},
+                         {"file", program.file_of(source, section.origin.program)}});
     }
     context.print(json_text({{"blank", extent_json(simulation, *simulation.blank())},
                              {"cuts", simulation.cuts()},
@@ -153,8 +155,9 @@ void report(Context& context, const CuttingSimulation& simulation) {
   context.print(fmt::format("{} cuts, {:.1f} cm3 removed ({:.1f} %)\n", simulation.cuts(),
                             removed / 1000, removed_part(simulation) * 100));
   for (const auto& section : simulation.omitted()) {
-    fmt::print(stderr, "dnc: PGM-SECTION CANNOT BE SHOWN: line {}, {} moves: {}\n",
-               section.origin.line, section.moves, reason(section.why));
+    fmt::print(stderr, "dnc: PGM-SECTION CANNOT BE SHOWN: {}, {} moves: {}\n",
+               program.place_of(source, section.origin.program, section.origin.line), section.moves,
+               reason(section.why));
   }
 }
 
@@ -212,7 +215,7 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
                           "the program defines no blank; give one: --blank X0:100,Y0:80,Z-20:0"});
   }
   if (auto written = write_files(command, simulation); !written) return complain(written.error());
-  report(context, simulation);
+  report(context, simulation, *program, source);
   if (!outcome->alarm) return kExitOk;
   complain(Error{Errc::Syntax,
                  fmt::format("the program alarms in {}: {}; what it cut until then is "

@@ -129,13 +129,16 @@ std::string OfflineProgram::file_of(const interpreter::MemorySource& source,
   return find_called_program(library_, name).value_or(name);
 }
 
+std::string OfflineProgram::place_of(const interpreter::MemorySource& source,
+                                     interpreter::ProgramIndex program, std::uint64_t line) const {
+  std::string place = fmt::format("line {}", line);
+  if (program != interpreter::kMainProgram) place += " of " + file_of(source, program);
+  return place;
+}
+
 std::string OfflineProgram::alarm_place(const interpreter::MemorySource& source,
                                         const interpreter::OfflineOutcome& outcome) const {
-  std::string place = fmt::format("line {}", outcome.alarm->line);
-  if (outcome.alarm_program != interpreter::kMainProgram) {
-    place += " of " + file_of(source, outcome.alarm_program);
-  }
-  return place;
+  return place_of(source, outcome.alarm_program, outcome.alarm->line);
 }
 
 }  // namespace dripline::cli

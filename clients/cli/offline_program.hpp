@@ -36,7 +36,10 @@ class OfflineProgram {
   /// The file of a program of a run on `source`: FILE, or where the called one was found.
   std::string file_of(const interpreter::MemorySource& source,
                       interpreter::ProgramIndex program) const;
-  /// Of an outcome with an alarm: "line 5", or "line 5 of 2.h" in a called program.
+  /// "line 5", or "line 5 of 2.h" in a called program.
+  std::string place_of(const interpreter::MemorySource& source, interpreter::ProgramIndex program,
+                       std::uint64_t line) const;
+  /// That of an outcome's alarm.
   std::string alarm_place(const interpreter::MemorySource& source,
                           const interpreter::OfflineOutcome& outcome) const;
 

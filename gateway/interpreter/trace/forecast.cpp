@@ -93,6 +93,7 @@ void Forecast::note(const Block& before, std::uint64_t characters, double wait, 
   if (before.fed <= Length{}) return;
   ++result_.starved;
   StarvedBlock starved;
+  starved.program = before.origin.program;
   starved.line = before.origin.line;
   starved.sequence = before.origin.sequence;
   starved.characters = characters;

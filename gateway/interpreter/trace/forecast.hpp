@@ -20,7 +20,8 @@ struct FeedLine {
 
 /// A block whose successor comes too late: the axes stand and wait.
 struct StarvedBlock {
-  std::uint64_t line = 0;        ///< of the block that is over too soon
+  ProgramIndex program = kMainProgram;  ///< of the block that is over too soon
+  std::uint64_t line = 0;               ///< there
   std::int64_t sequence = -1;    ///< its N number
   std::uint64_t characters = 0;  ///< of the block that is waited for
   double wait_seconds = 0;

@@ -103,6 +103,27 @@ TEST_F(DncCheck, NamesTheCalledProgramThatAlarms) {
   EXPECT_EQ(report.at("alarm").at("line"), 3);
 }
 
+// A short feed of a called program starves, the helix of one is not drawn.
+TEST_F(DncCheck, ForecastAndGraphicsNameTheFileOfWhatTheyList) {
+  dnc.write("m.nc", "G21 G91 G94\nG1 X5 F100\nM98 P5\nN20 G1 X5 (a long comment here)\nM30\n");
+  dnc.write("O0005.nc", "G1 X0.01 F9000 M99\n");
+  const auto forecast = dnc({"forecast", "--control", "fanuc", "--cps", "10", "m.nc"});
+  EXPECT_NE(forecast.out.find("\nO0005.nc:1 "), std::string::npos) << forecast.out << forecast.err;
+  const auto listed = dnc({"forecast", "--control", "fanuc", "--cps", "10", "--json", "m.nc"});
+  const auto worst = json::parse(listed.out).at("worst");
+  ASSERT_EQ(worst.size(), 2u) << listed.out;
+  EXPECT_EQ(worst.at(0).at("file"), "O0005.nc");
+  EXPECT_EQ(worst.at(1).at("file"), "m.nc");
+  dnc.write("2.h",
+            "0 BEGIN PGM 2 MM\n1 CC X+40 Y+40\n2 CP IPA+360 IZ-2 DR+ R F100\n3 END PGM 2 MM\n");
+  const auto drawn = dnc({"graphics", "1.h"});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(drawn.err.find("PGM-SECTION CANNOT BE SHOWN: line 3 of 2.h, "), std::string::npos)
+      << drawn.err;
+  const auto shown = json::parse(dnc({"graphics", "--json", "1.h"}).out);
+  EXPECT_EQ(shown.at("omitted").at(0).at("file"), "2.h");
+}
+
 TEST_F(DncCheck, ForecastAndGraphicsNameItToo) {
   dnc.write("2.h", kWrong);
   const auto forecast = dnc({"forecast", "--cps", "5000", "1.h"});
