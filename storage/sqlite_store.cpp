@@ -166,8 +166,9 @@ Result<void> SqliteStore::remove_port(const std::string& name) {
   return repositories_->ports.remove(name);
 }
 
-Result<SetupRevision> SqliteStore::save_setup(const SetupRevision& setup) {
-  return repositories_->setups.save(setup);
+Result<SetupRevision> SqliteStore::save_setup(const SetupRevision& setup,
+                                              std::optional<std::uint64_t> base) {
+  return repositories_->setups.save(setup, base);
 }
 Result<std::vector<SetupRevision>> SqliteStore::setups(const std::string& machine, Page page) {
   return repositories_->setups.all(machine, page);

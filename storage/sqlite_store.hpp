@@ -80,7 +80,8 @@ class SqliteStore final : public Store {
   Result<std::vector<Port>> ports() override;
   Result<void> remove_port(const std::string& name) override;
 
-  Result<SetupRevision> save_setup(const SetupRevision& setup) override;
+  Result<SetupRevision> save_setup(const SetupRevision& setup,
+                                   std::optional<std::uint64_t> base) override;
   Result<std::vector<SetupRevision>> setups(const std::string& machine, Page page) override;
   Result<SetupRevision> setup(const std::string& machine,
                               std::optional<std::uint64_t> number) override;

@@ -298,9 +298,11 @@ class Store {
 
   // Setups of machines
   /// Makes `text` the machine's newest setup, or returns the newest when it has that text already.
-  /// `number`, `sha256`, `size` and `created` are the store's own. Errors: Syntax and LimitExceeded
-  /// (the machine's name, kMaxSetup).
-  virtual Result<SetupRevision> save_setup(const SetupRevision& setup) = 0;
+  /// `number`, `sha256`, `size` and `created` are the store's own. `base`: the number that must
+  /// still be the newest for a new text to be kept, 0 for none at all. Errors: Syntax and
+  /// LimitExceeded (the machine's name, kMaxSetup), ModalConflict (another is the newest by now).
+  virtual Result<SetupRevision> save_setup(const SetupRevision& setup,
+                                           std::optional<std::uint64_t> base) = 0;
   /// Newest first, their texts left out.
   virtual Result<std::vector<SetupRevision>> setups(const std::string& machine, Page page) = 0;
   /// The newest, or the one with that number. Errors: NotFound.

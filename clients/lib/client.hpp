@@ -78,6 +78,7 @@ struct OrderRequest {
 struct SetupRequest {
   std::string machine, text, comment;
   std::string control;  ///< of a machine that was never seen; else empty
+  std::optional<std::uint64_t> base = {};  ///< refused unless this one is still the newest
 };
 
 struct PortRequest {

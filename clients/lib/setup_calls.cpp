@@ -25,6 +25,7 @@ Reply<Setup> Client::setup(std::string_view machine, std::optional<std::uint64_t
 Reply<Setup> Client::save_setup(const SetupRequest& request) {
   std::string path = path_of("machines", request.machine) + "/setup";
   path = with_query(std::move(path), "comment", request.comment);
+  path = with_query(std::move(path), "base", request.base ? std::to_string(*request.base) : "");
   HttpRequest http = with_method("PUT", with_query(std::move(path), "control", request.control));
   http.body = request.text;
   http.content_type = "application/toml";

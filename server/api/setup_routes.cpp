@@ -51,6 +51,7 @@ Response save_setup(Services& services, const Request& request) {
   const auto control = query.text("control");
   library::SetupText text;
   text.comment = query.text("comment").value_or("");
+  text.base = query.number("base", std::numeric_limits<std::int64_t>::max());
   if (auto good = query.finish(); !good) return error_response(good.error());
   text.machine = request.parameter("name");
   if (auto named = check_machine_name(text.machine); !named) return error_response(named.error());

@@ -22,7 +22,7 @@ Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
   setup.text = text.text;
   setup.comment = text.comment;
   setup.author = who;
-  auto saved = store_.save_setup(setup);
+  auto saved = store_.save_setup(setup, text.base);
   if (!saved) return fail(saved.error());
   const bool is_unchanged = before && before->number == saved->number;
   if (!is_unchanged) {

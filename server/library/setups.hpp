@@ -15,6 +15,7 @@ struct SetupText {
   std::string control;  ///< of the machine; its dialect reads the text before it is kept
   std::string text;     ///< TOML
   std::string comment;
+  std::optional<std::uint64_t> base = {};  ///< made from this one, which must still be the newest
 };
 struct SavedSetup {
   storage::SetupRevision setup;
@@ -29,7 +30,7 @@ class Setups {
       : store_(store), catalog_(catalog), audit_(audit) {}
 
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
-  /// line; the comment; the size).
+  /// line; the comment; the size), ModalConflict (`base` is not the newest any more).
   Result<SavedSetup> save(const SetupText& text, const std::string& who);
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,

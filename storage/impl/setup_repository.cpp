@@ -42,6 +42,20 @@ Result<void> check_setup(const SetupRevision& setup) {
               setup.text.size(), kMaxSetup);
 }
 
+/// A text that was made from `base` does not go over what somebody has stored since.
+Result<void> check_base(const SetupRevision& setup, std::optional<std::uint64_t> base,
+                        std::uint64_t newest) {
+  if (!base || *base == newest) return {};
+  const std::string made_from = *base == 0 ? "before there was one" : fmt::format("from {}", *base);
+  if (newest == 0) {
+    return fail(Errc::ModalConflict, "machine {}: this setup was made {}, and there is none",
+                setup.machine, made_from);
+  }
+  return fail(Errc::ModalConflict,
+              "machine {}: this setup was made {}, and {} is the newest by now; nothing was stored",
+              setup.machine, made_from, newest);
+}
+
 Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
   return sqlite::run(database,
                      "INSERT INTO setup (machine, number, text, sha256, comment, author, "
@@ -53,7 +67,8 @@ Result<void> insert(sqlite::Database& database, const SetupRevision& setup) {
 
 }  // namespace
 
-Result<SetupRevision> SetupRepository::save(const SetupRevision& given) {
+Result<SetupRevision> SetupRepository::save(const SetupRevision& given,
+                                            std::optional<std::uint64_t> base) {
   if (auto checked = check_setup(given); !checked) return fail(checked.error());
   SetupRevision setup = given;
   setup.sha256 = sha256(setup.text);
@@ -66,7 +81,9 @@ Result<SetupRevision> SetupRepository::save(const SetupRevision& given) {
       setup = std::move(**known);
       return {};
     }
-    setup.number = *known ? (*known)->number + 1 : 1;
+    const std::uint64_t before = *known ? (*known)->number : 0;
+    if (auto fresh = check_base(setup, base, before); !fresh) return fresh;
+    setup.number = before + 1;
     return insert(database, setup);
   });
   if (!saved) return fail(saved.error());

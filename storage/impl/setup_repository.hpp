@@ -11,7 +11,7 @@ class SetupRepository {
   SetupRepository(Connections& connections, const Clock& clock)
       : connections_(connections), clock_(clock) {}
 
-  Result<SetupRevision> save(const SetupRevision& setup);
+  Result<SetupRevision> save(const SetupRevision& setup, std::optional<std::uint64_t> base);
   Result<std::vector<SetupRevision>> all(const std::string& machine, Page page);
   Result<SetupRevision> find(const std::string& machine, std::optional<std::uint64_t> number);
 

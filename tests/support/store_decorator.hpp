@@ -93,8 +93,9 @@ class StoreDecorator : public storage::Store {
   Result<void> save_port(const storage::Port& port) override { return inner_.save_port(port); }
   Result<std::vector<storage::Port>> ports() override { return inner_.ports(); }
   Result<void> remove_port(const std::string& name) override { return inner_.remove_port(name); }
-  Result<storage::SetupRevision> save_setup(const storage::SetupRevision& setup) override {
-    return inner_.save_setup(setup);
+  Result<storage::SetupRevision> save_setup(const storage::SetupRevision& setup,
+                                            std::optional<std::uint64_t> base) override {
+    return inner_.save_setup(setup, base);
   }
   Result<std::vector<storage::SetupRevision>> setups(const std::string& machine,
                                                      storage::Page page) override {

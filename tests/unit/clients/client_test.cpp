@@ -65,6 +65,22 @@ TEST_F(ClientCall, SendsOrdersWithWhatBelongsToThem) {
   EXPECT_EQ(last.body, R"({"action":"feed_override","value":0.5})");
 }
 
+TEST_F(ClientCall, SavesASetupOverTheOneItWasMadeFrom) {
+  [[maybe_unused]] auto any = answering(404, "{}").save_setup({"mill-3", "a = 1", "why", ""});
+  EXPECT_EQ(last.path, "/api/v1/machines/mill-3/setup?comment=why");
+  [[maybe_unused]] auto first = answering(404, "{}").save_setup({"mill-3", "a = 1", "", "", 0});
+  EXPECT_EQ(last.path, "/api/v1/machines/mill-3/setup?base=0");
+  const auto late =
+      answering(409, R"({"error":{"code":"modal_conflict","message":"5 is the newest by now"}})")
+          .save_setup({"mill-3", "a = 1", "", "tnc155", 4});
+  EXPECT_EQ(last.path, "/api/v1/machines/mill-3/setup?base=4&control=tnc155");
+  EXPECT_EQ(last.method, "PUT");
+  EXPECT_EQ(last.body, "a = 1");
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().code, Errc::ModalConflict);
+  EXPECT_EQ(late.error().what, "5 is the newest by now");
+}
+
 TEST_F(ClientCall, PassesOnWhatTheServerSays) {
   const auto run = answering(409, R"({"error":{"code":"busy","message":"lathe-1 has run r1"}})")
                        .start_run({"lathe-1", "O1", {}});

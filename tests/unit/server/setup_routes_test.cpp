@@ -42,6 +42,17 @@ TEST_F(SetupRoutes, RefuseWhatTheControlWouldNotTake) {
   EXPECT_EQ(get("/api/v1/machines/lathe-1/setup").status, 404);
 }
 
+TEST_F(SetupRoutes, DoNotPutATextOverANewerOne) {
+  ASSERT_EQ(put("lathe-1/setup?base=0", "a = 1").status, 201);
+  ASSERT_EQ(put("lathe-1/setup?base=1", "a = 2").status, 201);
+  const auto late = put("lathe-1/setup?base=1", "a = 3");
+  EXPECT_EQ(late.status, 409) << body(late);
+  EXPECT_NE(body(late).find("made from 1, and 2 is the newest"), std::string::npos) << body(late);
+  EXPECT_EQ(json(get("/api/v1/machines/lathe-1/setup")).at("text"), "a = 2");
+  EXPECT_EQ(put("lathe-1/setup?base=1", "a = 2").status, 200) << "asked again, not lost";
+  EXPECT_EQ(put("lathe-1/setup?base=two", "a = 3").status, 400);
+}
+
 TEST_F(SetupRoutes, AskForTheControlOfAMachineNeverSeen) {
   EXPECT_EQ(put("mill-9/setup", "a = 1").status, 404);
   EXPECT_EQ(put("mill-9/setup?control=tnc155", "a = 1").status, 201);

@@ -5,13 +5,14 @@ namespace {
 
 class SetupTest : public StoreTest {
  protected:
-  Result<SetupRevision> save(const std::string& text, const std::string& machine = "mill-3") {
+  Result<SetupRevision> save(const std::string& text, const std::string& machine = "mill-3",
+                             std::optional<std::uint64_t> base = std::nullopt) {
     SetupRevision setup;
     setup.machine = machine;
     setup.text = text;
     setup.comment = "why";
     setup.author = "admin";
-    return store_->save_setup(setup);
+    return store_->save_setup(setup, base);
   }
 };
 
@@ -41,6 +42,24 @@ TEST_F(SetupTest, TheSameTextAgainIsTheSameRevision) {
   EXPECT_EQ(save("a = 1")->number, 1u);
   ASSERT_EQ(save("a = 2")->number, 2u);
   EXPECT_EQ(save("a = 1")->number, 3u) << "going back is a new revision";
+}
+
+TEST_F(SetupTest, DoesNotGoOverANewerOne) {
+  ASSERT_EQ(save("a = 1", "mill-3", 0)->number, 1u);
+  ASSERT_EQ(save("a = 2", "mill-3", 1)->number, 2u);
+  const auto late = save("a = 3", "mill-3", 1);
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().code, Errc::ModalConflict);
+  EXPECT_EQ(late.error().what,
+            "machine mill-3: this setup was made from 1, and 2 is the newest by now; nothing was "
+            "stored");
+  EXPECT_EQ(save("a = 3", "mill-3", 0).error().what,
+            "machine mill-3: this setup was made before there was one, and 2 is the newest by now; "
+            "nothing was stored");
+  EXPECT_EQ(save("a = 3", "mill-4", 7).error().what,
+            "machine mill-4: this setup was made from 7, and there is none");
+  EXPECT_EQ(store_->setup("mill-3", std::nullopt)->text, "a = 2");
+  EXPECT_EQ(save("a = 2", "mill-3", 1)->number, 2u) << "an answer that was lost is asked for again";
 }
 
 TEST_F(SetupTest, SizesCountBytes) {
