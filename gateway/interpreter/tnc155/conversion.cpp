@@ -39,6 +39,7 @@ ConversionOptions conversion_options(const ControlOptions& control) {
   ConversionOptions options;
   options.layout.decimal_sign = control.decimal_sign;
   options.reading = {control.iso_continuation, control.version};
+  options.increment = control.block_increment;
   return options;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 #include "gateway/interpreter/tnc155/ranges.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -163,6 +164,50 @@ void check_limits(const ControlOptions& read, Reader& reader) {
   }
 }
 
+/// All options there are.
+constexpr std::initializer_list<std::string_view> kKnown = {"probe_clearance",
+                                                            "probe_travel",
+                                                            "probe_feed",
+                                                            "basic_rotation",
+                                                            "pocket_overlap",
+                                                            "m89_modal",
+                                                            "m06_stop",
+                                                            "central_tool_file",
+                                                            "decimal_sign",
+                                                            "iso_continuation",
+                                                            "strict_numbers",
+                                                            "blockwise_restrictions",
+                                                            "heading_letter",
+                                                            "cancel_transformations",
+                                                            "scale_three_axes",
+                                                            "spindle",
+                                                            "spindle_table",
+                                                            "spindle_minimum",
+                                                            "spindle_maximum",
+                                                            "rotary_feed",
+                                                            "circle_tolerance",
+                                                            "fourth_axis",
+                                                            "limit_low",
+                                                            "limit_high",
+                                                            "m92_position",
+                                                            "start_block",
+                                                            "memory_limits",
+                                                            "memory_blocks",
+                                                            "machine_parameters",
+                                                            "start_at",
+                                                            "program_check",
+                                                            "iso_modes",
+                                                            "model",
+                                                            "software",
+                                                            "display_units",
+                                                            "position_display",
+                                                            "display_size",
+                                                            "block_increment",
+                                                            "baud_rate",
+                                                            "nc_software",
+                                                            "plc_software",
+                                                            "user_parameters"};
+
 }  // namespace
 
 Result<char> decimal_sign_of(const Options& options) {
@@ -173,40 +218,7 @@ Result<char> decimal_sign_of(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known({"probe_clearance",
-                                    "probe_travel",
-                                    "probe_feed",
-                                    "basic_rotation",
-                                    "pocket_overlap",
-                                    "m89_modal",
-                                    "m06_stop",
-                                    "central_tool_file",
-                                    "decimal_sign",
-                                    "iso_continuation",
-                                    "strict_numbers",
-                                    "blockwise_restrictions",
-                                    "heading_letter",
-                                    "cancel_transformations",
-                                    "scale_three_axes",
-                                    "spindle",
-                                    "spindle_table",
-                                    "spindle_minimum",
-                                    "spindle_maximum",
-                                    "rotary_feed",
-                                    "circle_tolerance",
-                                    "fourth_axis",
-                                    "limit_low",
-                                    "limit_high",
-                                    "m92_position",
-                                    "start_block",
-                                    "memory_limits",
-                                    "memory_blocks",
-                                    "machine_parameters",
-                                    "start_at",
-                                    "program_check",
-                                    "iso_modes",
-                                    "model",
-                                    "software"});
+  auto known = options.check_known(kKnown);
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
@@ -253,6 +265,9 @@ Result<ControlOptions> read_options(const Setup& setup) {
   if (!version) return fail(version.error());
   read.version = *version;
   if (auto fits = check_version(options, read); !fits) return fail(fits.error());
+  const auto mod = read_mod_settings(options);
+  if (!mod) return fail(mod.error());
+  read.block_increment = mod->block_increment;
   auto speeds = read_speeds(options);
   if (!speeds) return fail(speeds.error());
   read.spindle_table = std::move(*speeds);
