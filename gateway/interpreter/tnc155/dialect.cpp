@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "gateway/interpreter/tnc155/changer.hpp"
 #include "gateway/interpreter/tnc155/interpreter.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
 #include "gateway/interpreter/tnc155/program_keeping.hpp"
@@ -68,6 +69,9 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
     if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());
   }
   if (auto done = load_tools(setup, tools); !done) return fail(done.error());
+  auto pockets = load_pockets(setup, *options);
+  if (!pockets) return fail(pockets.error());
+  state.pockets = *std::move(pockets);
   state.transformation.basic_rotation = options->basic_rotation;
   stand_at_start(setup, state);
   if (options->start_block >= 0) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 
+#include "gateway/interpreter/tnc155/changer.hpp"
 #include "gateway/interpreter/tnc155/cycles.hpp"
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 
@@ -259,6 +260,7 @@ void end_program(Run& run, bool rewinds) {
   }
   if (rewinds) switch_off(run);
   end_cycles(run);
+  report_pockets(run);
   state.phase = RunPhase::Ended;
   run.events().on_end({run.origin, state.blocks + (run.is_in_block ? 1 : 0), rewinds});
 }

@@ -165,7 +165,9 @@ void check_limits(const ControlOptions& read, Reader& reader) {
 }
 
 /// All options there are.
-constexpr std::initializer_list<std::string_view> kKnown = {"probe_clearance",
+constexpr std::initializer_list<std::string_view> kKnown = {"random_changer",
+                                                            "magazine_pockets",
+                                                            "probe_clearance",
                                                             "probe_travel",
                                                             "probe_feed",
                                                             "basic_rotation",
@@ -230,6 +232,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   reader.flag("m89_modal", read.m89_modal);
   reader.flag("m06_stop", read.m06_stop);
   reader.flag("central_tool_file", read.central_tool_file);
+  reader.flag("random_changer", read.random_changer);
+  reader.integer("magazine_pockets", read.magazine_pockets, {0, 9'999});
   reader.flag("iso_continuation", read.iso_continuation);
   reader.flag("blockwise_restrictions", read.blockwise_restrictions);
   reader.flag("cancel_transformations", read.cancels_transformations);

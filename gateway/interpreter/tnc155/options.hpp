@@ -23,6 +23,8 @@ struct ControlOptions {
   bool m89_modal = true;      ///< M89 is the modal cycle call; else a free M function
   bool m06_stop = false;      ///< M06 stops the program
   bool central_tool_file = false;
+  bool random_changer = false;  ///< a tool goes back into the pocket of the one that comes
+  int magazine_pockets = 0;     ///< pockets are 1 to this
   bool iso_continuation = true;
   bool blockwise_restrictions = false;  ///< no calls, repeats and jumps, no tool but the last one
   bool checks_calls = true;             ///< programs that are called must be there at the start

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/language/state_archive.hpp"
+#include "gateway/interpreter/tnc155/memory_files.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -77,6 +78,13 @@ void visit(Archive& archive, ToolDefinition& tool) {
   archive(tool.number);
   visit(archive, tool.data.length);
   visit(archive, tool.data.radius);
+}
+template <class Archive>
+void visit(Archive& archive, ToolPocket& tool) {
+  bool has_pocket = tool.pocket.has_value();
+  int pocket = tool.pocket.value_or(0);
+  visit_all(archive, tool.tool, tool.is_special, has_pocket, pocket);
+  tool.pocket = has_pocket ? std::optional(pocket) : std::nullopt;
 }
 template <class Archive>
 void visit(Archive& archive, LabelFrame& frame) {
@@ -162,6 +170,7 @@ void visit_machine(Archive& archive, State& state) {
   visit(archive, state.tool.data.length);
   visit(archive, state.tool.data.radius);
   visit_list(archive, state.definitions, kLastTool);
+  visit_list(archive, state.pockets, kMostStoredTools);
   up_to(archive, state.spindle.state, SpindleState::Oriented);
   visit(archive, state.spindle.speed);
   visit_all(archive, state.spindle.has_speed, state.coolant.flood);

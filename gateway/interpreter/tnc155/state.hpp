@@ -31,6 +31,12 @@ struct ToolDefinition {
   std::uint8_t number = 0;
   ToolData data;
 };
+/// Where a tool of the store is. Without a pocket: nowhere in the magazine, changed by hand.
+struct ToolPocket {
+  std::uint8_t tool = 0;
+  bool is_special = false;
+  std::optional<int> pocket;  ///< 0: the spindle
+};
 /// What the last TOOL CALL left. Number 0 is no tool.
 struct ActiveTool {
   int number = 0;
@@ -142,6 +148,7 @@ struct State {
   Plane plane = Plane::XY;
   ActiveTool tool;
   std::vector<ToolDefinition> definitions;  ///< executed in this run; the last one last
+  std::vector<ToolPocket> pockets;  ///< of the random changer; empty without one
   SpindleModes spindle;
   CoolantModes coolant;
   double feed = 0;  ///< millimetres or degrees per minute; 0: none yet

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 
+#include "gateway/interpreter/tnc155/changer.hpp"
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 
@@ -111,7 +112,7 @@ bool call_tool(Run& run, const Block& block) {
   const bool is_change = block.target != Block::kNone;
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
   if (is_change || names_axis) end_contour(run, false);
-  if (is_change && !choose(run, block.target)) return false;
+  if (is_change && !(choose(run, block.target) && change_tool(run, block.target))) return false;
   if (names_axis) {
     state.tool.axis = block.is_fourth_axis ? run.options.fourth_axis : *block.axis;
     state.tool.is_called = true;

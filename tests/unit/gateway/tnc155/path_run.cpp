@@ -66,6 +66,7 @@ class PathSink final : public EventSink {
   void on_probe(const Probe& probe) override {
     if (probe.result) add("probe" + text_of(probe.result->at));
   }
+  void on_output(const Output& output) override { add(fmt::format("out {}", output.text)); }
   void on_stop(const Stop& stop) override {
     add(stop.kind == StopKind::ToolChange ? "stop tool" : "stop");
   }

@@ -10,7 +10,7 @@ namespace dripline::interpreter {
 ///   `L X40 Y5 F100`          straight at a feed
 ///   `A X40 Y5 c40,0 ccw90 F100`  arc: end, centre, direction and sweep
 ///   `S cw 1000`, `coolant on`, `T5`, `next T5`, `M7`, `stop`, `dwell 2`, `! TEXT` of an alarm,
-///   `warning ID`, `end 12` with the blocks, `end 12 rewind`
+///   `out TEXT`, `warning ID`, `end 12` with the blocks, `end 12 rewind`
 /// Numbers are rounded to three decimals.
 struct PathRun {
   std::vector<std::string> events;
