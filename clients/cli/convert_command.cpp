@@ -24,7 +24,7 @@ struct ConvertCommand {
   bool is_listing = false, has_no_rewind_stop = false, has_parentheses = false;
   bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
   bool has_decimal_point = false;
-  std::int32_t increment = 10;
+  std::optional<std::int32_t> increment;
   std::string setup;
 };
 
@@ -277,11 +277,14 @@ void add_options(CLI::App& command, ConvertCommand& options) {
   command.add_flag("--decimal-point", options.has_decimal_point,
                    "TNC programs: a point in numbers instead of the comma");
   command
-      .add_option("--increment", options.increment, "TNC programs: of ISO block numbers; 0: none")
+      .add_option("--increment", options.increment,
+                  "TNC programs: of ISO block numbers; 0: none (default: block_increment of "
+                  "--setup, else 10)")
       ->check(CLI::Range(0, 99));
-  command.add_option("--setup", options.setup,
-                     "TNC programs: TOML file with the options of the control (decimal_sign, "
-                     "iso_continuation, model and software: what that one has not is refused)");
+  command.add_option(
+      "--setup", options.setup,
+      "TNC programs: TOML file with the options of the control (decimal_sign, "
+      "iso_continuation, block_increment, model and software: what that one has not is refused)");
   command.add_flag("--strict-blanks", options.is_strict,
                    "Blank tape inside an EIA block is an error");
 }

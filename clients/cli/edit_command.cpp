@@ -4,6 +4,7 @@
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/edited_text.hpp"
+#include "clients/cli/form_conversion.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/value_text.hpp"
 
@@ -23,6 +24,7 @@ struct EditCommand {
   Texts omissions, shortenings;    ///< block numbers and addresses
   std::vector<std::string> wanted;  ///< addresses that are looked for
   std::optional<std::int32_t> increment;
+  std::string setup;  ///< file with the control's options
   bool renumbers = false, protects = false, unprotects = false, is_trial = false;
 };
 
@@ -124,7 +126,9 @@ Result<void> change_all(const EditCommand& command, const EditedText& original,
   const auto* keeping = original.keeping();
   if (keeping == nullptr) return no_keeping(original);
   if (command.renumbers) {
-    auto text = keeping->renumber(edited.text, command.increment.value_or(10));
+    const auto usual = block_increment_of(command.setup);
+    if (!usual) return fail(usual.error());
+    auto text = keeping->renumber(edited.text, command.increment.value_or(*usual));
     if (!text) return fail(text.error());
     edited.text = *std::move(text);
   }
@@ -315,10 +319,12 @@ void add_edit_command(CLI::App& app, Context& context) {
       command
           ->add_option("--renumber", options->increment,
                        "Then number all blocks as the control does; in ISO with this step, 0: no "
-                       "numbers (default 10)")
+                       "numbers (default: block_increment of --setup, else 10)")
           ->expected(0, 1)
           ->check(CLI::Range(0, 99))
           ->type_name("STEP");
+  command->add_option("--setup", options->setup,
+                      "TOML file with the options of the control (block_increment)");
   auto* protects =
       command->add_flag("--protect", options->protects, "Mark it as protected (P, G50)");
   command->add_flag("--unprotect", options->unprotects, "Take that mark away")->excludes(protects);

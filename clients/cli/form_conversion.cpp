@@ -31,7 +31,7 @@ Result<std::string> converted(const FormConversion& command, client::FileSource&
   tnc155::ConversionOptions options = *known;
   if (command.has_decimal_point) options.layout.decimal_sign = '.';
   if (command.has_lf) options.layout.line_end = "\n";
-  options.increment = command.increment;
+  options.increment = command.increment.value_or(options.increment);
   const auto form = command.to_plain ? tnc155::Form::Plain : tnc155::Form::Iso;
   auto program = tnc155::convert_program(text, form, options);
   if (!program) return fail(program.error().code, "{}: {}", command.input, program.error().what);
@@ -51,6 +51,12 @@ bool is_plain_language(std::string_view head) {
   const auto line = head.substr(0, head.find('\n'));
   return tnc155::detect_form(head) == tnc155::Form::Plain &&
          line.find("BEGIN PGM") != std::string_view::npos;
+}
+
+Result<std::int32_t> block_increment_of(const std::string& setup_file) {
+  const auto options = options_of(setup_file);
+  if (!options) return fail(options.error());
+  return options->increment;
 }
 
 int convert_form(Context& context, const FormConversion& command, client::FileSource& file) {

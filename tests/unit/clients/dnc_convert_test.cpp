@@ -46,6 +46,14 @@ TEST_F(DncConvert, ChangesTheFormOfTncPrograms) {
   dnc.write("point.toml", "[control]\ndecimal_sign = \"point\"\n");
   EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "point.toml"}).out,
             "%5 G71 *\r\nN10 T2 G17 S400 *\r\nN20 G01 G40 G90 X+1.5 F80 *\r\nN9999 %5 G71 *\r\n");
+  // HD-066
+  dnc.write("mod.toml", "[control]\nblock_increment = 3\n");
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "mod.toml"}).out,
+            "%5 G71 *\r\nN3 T2 G17 S400 *\r\nN6 G01 G40 G90 X+1,5 F80 *\r\nN9999 %5 G71 *\r\n");
+  EXPECT_EQ(
+      dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "mod.toml", "--increment", "20"})
+          .out,
+      "%5 G71 *\r\nN20 T2 G17 S400 *\r\nN40 G01 G40 G90 X+1,5 F80 *\r\nN9999 %5 G71 *\r\n");
   dnc.write("wrong.toml", "[control]\ndecimal_sign = \"dot\"\n");
   EXPECT_EQ(dnc({"convert", "a.h", "-o", "-", "--to", "iso", "--setup", "wrong.toml"}).status, 1);
   dnc.write("b.h", "0 BEGIN PGM 5 MM\n1 C X1 Y1 DR+ R0 F MAX M\n");

@@ -143,6 +143,21 @@ TEST_F(DncEdit, ShowsOnlyTheBlocksThatHaveAnAddress) {
       << wrong.err;
 }
 
+// HD-066, HD-081: without a step it is that of the control's MOD menu.
+TEST_F(DncEdit, RenumbersByTheSetupsIncrement) {
+  dnc.write("16.i", "%16 G71 *\nN1 G29 *\nN2 L5 *\nN9999 %16 G71 *\n");
+  dnc.write("mod.toml", "[control]\nblock_increment = 7\n");
+  ASSERT_EQ(dnc({"edit", "16.i", "--setup", "mod.toml", "-o", "17.i", "--renumber"}).status, 0);
+  EXPECT_EQ(dnc.read("17.i"), "%16 G71 *\r\nN7 G29 *\r\nN14 L5 *\r\nN9999 %16 G71 *\r\n");
+  ASSERT_EQ(dnc({"edit", "16.i", "--setup", "mod.toml", "--renumber", "5"}).status, 0);
+  EXPECT_EQ(dnc.read("16.i"), "%16 G71 *\r\nN5 G29 *\r\nN10 L5 *\r\nN9999 %16 G71 *\r\n");
+  dnc.write("wrong.toml", "[control]\nblock_increment = 100\n");
+  const auto refused = dnc({"edit", "17.i", "--setup", "wrong.toml", "--renumber"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "dnc: wrong.toml: option block_increment: 100 is not 0 to 99\n");
+  EXPECT_TRUE(dnc.read("17.i").starts_with("%16 G71 *\r\nN7 ")) << "nothing was written";
+}
+
 TEST_F(DncEdit, GoesByLinesForOtherControls) {
   dnc.write("a.nc", "G90\nG0 X1\nM30\n");
   const auto edited = dnc({"edit", "a.nc", "--control", "fanuc", "--replace", "2", "G0 X2",
