@@ -3,6 +3,7 @@
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/port_text.hpp"
 #include "clients/cli/value_text.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 #include "protocol/base/clock.hpp"
 
 namespace dripline::cli {
@@ -32,6 +33,16 @@ void print_template(Context& context, const client::PortTemplates& all,
   }
   context.print("\n");
   context.print(table);
+}
+
+/// What the machine's newest setup says of it; a setup is often not there.
+std::optional<int> baud_rate_of_control(client::Client& client, const std::string& machine) {
+  const auto setup = client.setup(machine, std::nullopt);
+  if (!setup) return std::nullopt;
+  const auto data = interpreter::parse_control_data(setup->text);
+  if (!data) return std::nullopt;
+  const auto settings = interpreter::tnc155::read_mod_settings(data->control);
+  return settings ? settings->baud_rate : std::nullopt;
 }
 
 int complain_unknown(const client::PortTemplates& all, const std::string& name) {
@@ -78,11 +89,16 @@ int show_port(Context& context, const std::string& name) {
   if (!client) return context.status;
   auto port = client->port(name);
   if (!port) return complain(port.error());
+  const auto control_rate = baud_rate_of_control(*client, port->machine);
   if (context.wants_json) {
-    context.print(json_text(*port));
-  } else {
-    context.print(port_details(*port));
+    auto json = client::to_json_value(*port);
+    if (control_rate) json["control_baud_rate"] = *control_rate;
+    context.print(json_text(json));
+    return kExitOk;
   }
+  context.print(port_details(*port));
+  const std::string warning = baud_warning(*port, control_rate);
+  if (!warning.empty()) context.print(styled(warning, Style::Bad, context.has_colour()) + "\n");
   return kExitOk;
 }
 

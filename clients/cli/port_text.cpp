@@ -83,6 +83,14 @@ Style style_of_state(const client::Port& port) {
   return is_held ? Style::Busy : Style::Good;
 }
 
+std::string baud_warning(const client::Port& port, std::optional<int> control_rate) {
+  const auto line = port.effective.find("baud");
+  if (!control_rate || line == port.effective.end()) return {};
+  if (line->second == std::to_string(*control_rate)) return {};
+  return fmt::format("The setup of {} says {} baud at the control, and the line has {}.",
+                     port.machine, *control_rate, line->second);
+}
+
 Details port_details(const client::Port& port) {
   Details details;
   details.add("port", port.name);

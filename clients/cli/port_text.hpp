@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,5 +20,7 @@ std::string short_state(const client::Port& port);
 std::string wait_text(const client::Port& port, std::string_view now);
 Style style_of_state(const client::Port& port);
 Details port_details(const client::Port& port);
+/// Where the control's baud rate, as its setup says it, is not the line's; else empty.
+std::string baud_warning(const client::Port& port, std::optional<int> control_rate);
 
 }  // namespace dripline::cli

@@ -4,7 +4,9 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/port_file.hpp"
+#include "clients/cli/setup_changes.hpp"
 #include "clients/cli/setup_forms.hpp"
+#include "clients/cli/setup_menu.hpp"
 #include "clients/cli/setup_text.hpp"
 #include "clients/cli/standard_output.hpp"
 #include "clients/cli/tnc_version.hpp"
@@ -20,6 +22,8 @@ struct SetupCommand {
   std::string machine, file, comment, control;
   std::optional<std::uint64_t> revision;
   std::uint64_t limit = 20;
+  std::optional<std::uint64_t> base;
+  std::vector<std::string> holds;
   bool wants_parameters = false;
 };
 
@@ -52,26 +56,18 @@ int show(Context& context, const SetupCommand& command) {
   if (!client) return context.status;
   auto setup = client->setup(command.machine, command.revision);
   if (!setup) return complain(setup.error());
+  const auto menu = menu_of(*client, *setup, {command.control, command.holds});
+  if (!menu) return complain(menu.error());
   if (context.wants_json) {
-    context.print(json_text(*setup));
+    auto json = client::to_json_value(*setup);
+    if (*menu) add_menu(**menu, json);
+    context.print(json_text(json));
     return kExitOk;
   }
   const auto text = setup_tables(*setup, context.has_colour());
   if (!text) return complain(text.error());
   context.print(*text);
-  return kExitOk;
-}
-
-int report_saved(Context& context, const client::Setup& setup) {
-  if (context.wants_json) {
-    context.print(json_text(setup));
-  } else if (setup.unchanged) {
-    context.print(
-        fmt::format("Setup {} of {} is the same already\n", setup.revision, setup.machine));
-  } else {
-    context.print(fmt::format("Saved setup {} of {}, {}; it goes with the next start\n",
-                              setup.revision, setup.machine, bytes_text(setup.size)));
-  }
+  if (*menu) context.print("\n" + menu_tables(**menu, context.has_colour()));
   return kExitOk;
 }
 
@@ -80,7 +76,8 @@ int push(Context& context, const SetupCommand& command) {
   if (!text) return complain(text.error());
   auto client = context.connect();
   if (!client) return context.status;
-  auto saved = client->save_setup({command.machine, *text, command.comment, command.control});
+  auto saved =
+      client->save_setup({command.machine, *text, command.comment, command.control, command.base});
   return saved ? report_saved(context, *saved) : complain(saved.error());
 }
 
@@ -212,10 +209,20 @@ void add_setup_commands(CLI::App& app, Context& context) {
 
   auto showing = add_verb(*group, context, "show", "The tables of a setup", show);
   showing.command->add_option("-r,--revision", showing.options->revision, "This one [newest]");
+  showing.command->add_option("--control", showing.options->control,
+                              "Of a machine that was never connected, e.g. tnc155");
+  showing.command
+      ->add_option("--holds", showing.options->holds,
+                   "A TNC: programs of the server that its memory has, for its vacant blocks")
+      ->type_name("PROGRAM");
+  showing.command->footer(
+      "Of a TNC also its MOD functions in the control's order, and the user parameters.");
   add_json_flag(*showing.command, context);
 
   auto pushing = add_verb(*group, context, "push", "Make a file the machine's setup", push);
   pushing.command->add_option("FILE", pushing.options->file, "TOML")->required();
+  pushing.command->add_option("--base", pushing.options->base,
+                              "Only if this is still the newest version, 0: none yet");
   add_saving_options(pushing, context);
   pushing.command->footer(
       "Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
@@ -237,6 +244,8 @@ void add_setup_commands(CLI::App& app, Context& context) {
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");
   add_import(*group, context);
+
+  add_setup_changes(*group, context);
 
   auto restoring = add_verb(*group, context, "restore", "Make an old version the newest", restore);
   restoring.command->add_option("REVISION", restoring.options->revision, "Which")->required();

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/centurion/parameter_text.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 #include "gateway/interpreter/tnc155/options.hpp"
 
 namespace dripline::cli {
@@ -62,10 +63,14 @@ Result<void> check_tool_store(std::string_view toml) {
 Result<std::string> machine_parameters_text(std::string_view toml) {
   const auto data = interpreter::parse_control_data(toml);
   if (!data) return fail(data.error());
-  const auto parameters = interpreter::tnc155::machine_parameters_of(data->control);
+  auto parameters = interpreter::tnc155::machine_parameters_of(data->control);
   if (!parameters) return fail(parameters.error());
+  const auto menu = interpreter::tnc155::read_mod_settings(data->control);
+  if (!menu) return fail(menu.error());
+  for (const auto& user : menu->user_parameters) (*parameters)[user.parameter] = user.value;
   if (parameters->empty()) {
-    return fail(Errc::NotFound, "the setup has no [control.machine_parameters]");
+    return fail(Errc::NotFound,
+                "the setup has no [control.machine_parameters] and no user parameters");
   }
   return interpreter::tnc155::write_machine_parameters(*parameters);
 }

@@ -301,7 +301,9 @@ class FakeServer::Impl {
     const auto give = [this](const Request& request, Response& response) {
       const std::lock_guard lock(mutex);
       const std::string call = request.method + " " + request.path;
-      calls.push_back(call + " " + request.body);
+      const bool is_setup = request.path.find("/setup") != std::string::npos;
+      calls.push_back((is_setup ? request.method + " " + request.target : call) + " " +
+                      request.body);
       const auto found = answers.find(call);
       if (found == answers.end()) return answer_error(response, 404, "not_found");
       response.status = found->second.first;
@@ -313,6 +315,10 @@ class FakeServer::Impl {
     server_.Post(ports, give);
     server_.Delete(ports, give);
     server_.Post(R"(/api/v1/programs/.*)", give);
+    const std::string setups = R"(/api/v1/machines/[\w-]+/setups?)";
+    server_.Get(setups, give);
+    server_.Put(setups, give);
+    server_.Get(R"(/api/v1/runs/[\w-]+/records)", give);
   }
 
   httplib::Server server_;

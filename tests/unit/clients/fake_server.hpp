@@ -48,13 +48,13 @@ class FakeServer {
   void set_machine(const nlohmann::json& machine);
   /// Sends an event to those who listen.
   void publish(const std::string& name, const nlohmann::json& data);
-  /// Answers "METHOD PATH" with this body; of /ports..., /port-templates and the judgement of
-  /// revisions nothing is answered otherwise.
+  /// Answers "METHOD PATH" with this body; of /ports..., /port-templates, setups, records and the
+  /// judgement of revisions nothing is answered otherwise.
   void set_answer(const std::string& call, int status, const std::string& body);
   void set_answer(const std::string& call, const nlohmann::json& body) {
     set_answer(call, 200, body.dump());
   }
-  /// The calls of that kind so far: "METHOD PATH BODY".
+  /// The calls of that kind so far: "METHOD PATH BODY", of setups with the query.
   std::vector<std::string> calls() const;
 
   /// Called with each start and each order; gives the answer's status and body.

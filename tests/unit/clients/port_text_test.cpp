@@ -19,6 +19,18 @@ TEST(PortText, SaysHowTheLineIsSet) {
   EXPECT_EQ(line_text(open_port().effective), "9600e72 rtscts");
 }
 
+// HD-081
+TEST(PortText, WarnsOfAControlAtAnotherRate) {
+  auto port = open_port();
+  port.machine = "mill-3";
+  EXPECT_EQ(baud_warning(port, 4800), "") << "the line's rate is not known";
+  port.effective["baud"] = "9600";
+  EXPECT_EQ(baud_warning(port, std::nullopt), "");
+  EXPECT_EQ(baud_warning(port, 9600), "");
+  EXPECT_EQ(baud_warning(port, 4800),
+            "The setup of mill-3 says 4800 baud at the control, and the line has 9600.");
+}
+
 TEST(PortText, SaysWhatTheLineDoes) {
   auto port = open_port();
   EXPECT_EQ(state_text(port), "open");

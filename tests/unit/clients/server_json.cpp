@@ -56,6 +56,17 @@ json port_json(const std::string& name) {
           {"waiting_since", nullptr}};
 }
 
+json setup_json(const std::string& machine, const std::string& text) {
+  return {{"machine", machine},
+          {"revision", 4},
+          {"size", text.size()},
+          {"sha256", std::string(64, 'b')},
+          {"comment", ""},
+          {"author", "cam"},
+          {"created", "2026-11-21T07:40:00Z"},
+          {"text", text}};
+}
+
 json run_json(const std::string& id, const std::string& state) {
   return {{"id", id},
           {"machine", "lathe-1"},

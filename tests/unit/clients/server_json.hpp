@@ -10,6 +10,9 @@ namespace dripline::test_support {
 nlohmann::json machine_json(const std::string& name);
 nlohmann::json run_json(const std::string& id, const std::string& state);
 
+/// Its newest setup, number 4.
+nlohmann::json setup_json(const std::string& machine, const std::string& text);
+
 /// An open line with nothing on it.
 nlohmann::json port_json(const std::string& name);
 
