@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "protocol/base/invariant.hpp"
 
@@ -101,6 +102,22 @@ std::span<const std::size_t> ControlVersion::memories() const {
   return std::span(kMemories).first(is_tnc151(model_) ? 2 : 1);
 }
 
+namespace {
+
+/// The last two digits of `nc_software`, where that is given.
+Result<std::optional<int>> software_of_number(const Options& options) {
+  const auto number = options.text("nc_software", "");
+  if (!number) return fail(number.error());
+  std::string digits;
+  for (const char c : *number) {
+    if (c >= '0' && c <= '9') digits += c;
+  }
+  if (digits.size() < 2) return std::optional<int>();
+  return std::optional(10 * (digits.end()[-2] - '0') + (digits.end()[-1] - '0'));
+}
+
+}  // namespace
+
 std::span<const std::string_view> model_names() {
   return kModels;
 }
@@ -113,8 +130,15 @@ Result<ControlVersion> version_of(const Options& options) {
     return fail(Errc::Syntax, "option model: \"{}\" is not one of {}", *model,
                 fmt::join(kModels, ", "));
   }
-  const auto software = options.integer("software", ControlVersion::kNewestSoftware);
+  const auto told = software_of_number(options);
+  if (!told) return fail(told.error());
+  const auto software =
+      options.integer("software", told->value_or(ControlVersion::kNewestSoftware));
   if (!software) return fail(software.error());
+  if (*told && **told != *software) {
+    return fail(Errc::Syntax, "option software: {}, and nc_software ends in {:02}", *software,
+                **told);
+  }
   if (*software < 1 || *software > ControlVersion::kHighestSoftware) {
     return fail(Errc::Syntax, "option software: {} is not a number from 1 to {}", *software,
                 ControlVersion::kHighestSoftware);

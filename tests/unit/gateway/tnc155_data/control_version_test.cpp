@@ -118,6 +118,17 @@ TEST(ControlVersion, RefusesOptionsThatTheControlHasNot) {
   EXPECT_EQ(error("blockwise_restrictions = true\nmodel = \"TNC 151 A\""), "");
 }
 
+// HD-087, HD-238: the NC software's number says it too.
+TEST(ControlVersion, SoftwareIsTheEndOfItsNumber) {
+  EXPECT_EQ(error("nc_software = \"227 020 02\"\ncentral_tool_file = true"),
+            "option central_tool_file: a TNC 155 A with software 02 has no central tool store "
+            "(from software 03)");
+  EXPECT_EQ(error("nc_software = \"227 020 03\"\ncentral_tool_file = true"), "");
+  EXPECT_EQ(error("nc_software = \"227 020 03\"\nsoftware = 3"), "");
+  EXPECT_EQ(error("nc_software = \"227 020 03\"\nsoftware = 8"),
+            "option software: 8, and nc_software ends in 03");
+}
+
 // HD-239: 3100 blocks, of a TNC 151 they may be 1200.
 TEST(ControlVersion, HasTheMemoryOfItsModel) {
   EXPECT_EQ(error("memory_blocks = 1200\nmodel = \"TNC 151 A\""), "");
