@@ -130,8 +130,12 @@ void ControlLine::expect(const wire::TransferRequest* request) {
   });
 }
 
+/// What was printed goes first. The wish to listen may have overtaken the end of the transfer
+/// before it: an XMODEM that then asked its host for a program would wait for a host that asks for
+/// the output.
 void ControlLine::listen(wire::Discipline& end, wire::LineTime now) {
   if (!is_expecting_) return;
+  pump(end, now);
   const auto done = request_ ? end.request(*request_, now) : end.begin_receive("", now);
   const bool is_busy = !done && done.error().code == Errc::Busy;
   if (is_busy && end.state().phase == wire::Phase::Sending) return;  // again when it has ended

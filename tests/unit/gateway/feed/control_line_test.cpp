@@ -1,6 +1,7 @@
 #include "gateway/feed/control_line.hpp"
 
 #include <gtest/gtest.h>
+#include <atomic>
 
 #include "tests/support/child_process.hpp"
 #include "tests/support/host_line.hpp"
@@ -87,6 +88,39 @@ TEST(ControlLine, SendsTextBackWhileItIsFed) {
   EXPECT_TRUE(control->send("X1.25\n"));
   EXPECT_TRUE(eventually([&] { return host.received() == "X1.25\n"; }, 5s));
   EXPECT_TRUE(eventually([&] { return control->has_sent_all(); }, 5s));
+}
+
+/// The wish for the next program comes with the news of the end, before the line goes on by itself:
+/// as a gateway's does whose run was over before the host's last EOT. A control that asks and a
+/// host that asks for what was printed would ask each other for ever.
+TEST(ControlLine, SendsWhatWasPrintedBeforeItAsksForTheNextProgram) {
+  PtyCable cable;
+  wire::LineSettings settings = fast();
+  settings.flow = wire::Flow::Xmodem;
+  std::atomic<ControlLine*> woken = nullptr;
+  auto control =
+      ControlLine::start({.address = cable.control(), .settings = settings, .wake = [&woken] {
+                            if (ControlLine* line = woken) line->expect();
+                          }});
+  ASSERT_TRUE(control);
+  ASSERT_TRUE(eventually([&] { return (*control)->is_open(); }, 5s));
+  (*control)->expect();
+  woken = control->get();
+  HostLine host(cable.host(), settings);
+  host.send(program(2000));
+  Told told;
+  ASSERT_TRUE(eventually(
+      [&] {
+        told.take(**control);
+        return !told.text.empty();
+      },
+      5s));
+  ASSERT_EQ(told.ended, 0);
+  ASSERT_TRUE((*control)->send("X1.25\n"));
+  ASSERT_TRUE(eventually([&] { return host.is_idle(); }, 10s));
+  host.receive();
+  EXPECT_TRUE(eventually([&] { return host.received() == "X1.25\n"; }, 10s));
+  EXPECT_TRUE(eventually([&] { return (*control)->has_sent_all(); }, 5s));
 }
 
 TEST(ControlLine, SendsMoreThanTheLineTakesAtOnce) {
