@@ -115,6 +115,8 @@ std::string_view to_string(MachineState state) {
       return "alarmed";
     case MachineState::Aborted:
       return "aborted";
+    case MachineState::EmergencyStop:
+      return "emergency_stop";
   }
   return "unknown";
 }

@@ -28,13 +28,15 @@ enum class MachineState : std::uint8_t {
   Completed,     ///< the end of the program was executed
   Alarmed,       ///< `begin` is the only way on
   Aborted,       ///< `begin` is the only way on
+  EmergencyStop,  ///< braking or standing; Aborted once it stands and the switch is released
 };
 
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
 
 struct MachineStatus {
   MachineState state = MachineState::Idle;
-  interpreter::Position position;      ///< actual
+  interpreter::Position position;      ///< actual; the axes follow without a trailing error
+  interpreter::Position target;        ///< where the move being made ends; at rest: the position
   double feed_per_minute = 0;          ///< actual speed along the path, mm or degrees
   double spindle_rpm = 0;              ///< actual; negative: counter-clockwise
   interpreter::Origin origin;          ///< of the block being executed, or the last one
@@ -110,6 +112,9 @@ class Machine {
   // -- the operator ---------------------------------------------------------------------------
   const OperatorPanel& panel() const;
   /// Takes effect at once, along the path with the machine's acceleration. Clamped.
+  /// The emergency stop brakes whatever moves, locked or not, turns spindle and coolant off, and
+  /// ends the program: on_aborted, when the axes rest and the switch is released. Nothing goes on
+  /// while it is pressed, a program that `begin` starts included.
   void set_panel(const OperatorPanel& panel);
   /// Feed hold: slows down along the path and stands. A thread is finished first, and what the
   /// program has locked against it (PanelLock).

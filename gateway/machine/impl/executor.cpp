@@ -30,6 +30,7 @@ void Executor::begin(const interpreter::Position& at) {
   origin_ = {};
   executed_ = 0;
   shown_ = {};
+  is_emergency_ = is_aborting_ = panel_.emergency_stop;
 }
 
 // -- time ------------------------------------------------------------------------------------
@@ -47,7 +48,7 @@ double Executor::pass(double by, std::size_t max_actions) {
       used += std::max(left, 0.0);
       motion_.pass_all();
       if (!motion_.reaches_end()) {
-        if (is_aborting_) discard();
+        if (may_discard()) discard();
         return used;
       }
       finish_move();
@@ -57,7 +58,7 @@ double Executor::pass(double by, std::size_t max_actions) {
       if (max_actions > 0) --max_actions;
       start_front();
     } else {
-      if (is_aborting_ && speed_ == 0) discard();
+      if (may_discard() && speed_ == 0) discard();
       return used;
     }
   }
@@ -87,7 +88,7 @@ bool Executor::goes_on_regardless() const {
 
 /// False: it goes on later. `used` takes what passed of `by`.
 bool Executor::pass_dwell(double by, double& used) {
-  if (is_held_ && !delays_hold(lock_)) return false;
+  if (is_aborting_ || (is_held_ && !delays_hold(lock_))) return false;
   const double rate = dwell_follows_spindle_ ? lock_.seen(panel_).spindle_override : 1;
   if (rate <= 0) return false;
   const double left = dwell_left_ / rate;
@@ -233,6 +234,7 @@ double Executor::buffered() const {
 
 MachineState Executor::state() const {
   if (is_over()) return stop_;
+  if (is_emergency_) return MachineState::EmergencyStop;
   if (is_held_ || is_aborting_) return MachineState::Held;
   if (stop_ != MachineState::Idle) return stop_;
   const bool is_busy = motion_.is_active() || is_dwelling_ || !queue_.empty();
@@ -262,6 +264,7 @@ MachineStatus Executor::status() const {
   MachineStatus status = shown_;
   status.state = state();
   status.position = to_position(now, axes_);
+  status.target = to_position(motion_.is_active() ? motion_.move().path.to : at_, axes_);
   status.feed_per_minute = is_moving() ? speed() * 60 : 0;
   status.spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn;
   status.origin = origin_;

@@ -60,6 +60,9 @@ class Executor {
   void show(const Move& move);
   void show(const interpreter::ToolChange& tool);
   void discard();
+  void press_emergency_stop();
+  /// What an abort leaves is dropped, and told, only when nobody presses the emergency stop.
+  bool may_discard() const { return is_aborting_ && !panel_.emergency_stop; }
 
   MotionGoal goal(const Move& move) const;
   void look_ahead_again();
@@ -86,6 +89,7 @@ class Executor {
   interpreter::Position axes_;  ///< says which axes were ever given
 
   bool is_held_ = false, is_aborting_ = false;
+  bool is_emergency_ = false;               ///< the abort is an emergency stop's: nothing turns on
   Lock lock_;                               ///< of the action begun last
   bool hold_waits_ = false;                 ///< for the end of moves that can not be held
   bool skips_tap_ = false;                  ///< this tapping cycle is not done by handwheel

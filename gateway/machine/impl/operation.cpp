@@ -76,10 +76,28 @@ MotionGoal Executor::goal(const Move& move) const {
 void Executor::set_panel(const OperatorPanel& panel) {
   const OperatorPanel next = panel.clamped();
   if (next == panel_) return;
+  const bool is_pressed = next.emergency_stop && !panel_.emergency_stop;
   panel_ = next;
+  if (is_pressed) press_emergency_stop();
   if (!panel_.handwheel) handwheel_seconds_ = 0;
   planner_.invalidate();
   plan_motion_again();
+  if (may_discard() && speed() == 0) discard();
+}
+
+/// Also of a program that is over: its spindle may still turn.
+void Executor::press_emergency_stop() {
+  if (spindle_.is_turning()) {
+    spindle_.stop();
+    interpreter::Spindle off;
+    off.origin = origin_;
+    sink_.on_spindle(off);
+  }
+  if (shown_.flood || shown_.mist) {
+    shown_.flood = shown_.mist = false;
+    sink_.on_coolant({origin_, false, false});
+  }
+  if (!is_over()) is_emergency_ = is_aborting_ = true;
 }
 
 void Executor::hold() {

@@ -27,11 +27,13 @@ void Executor::report(const Action& action) {
                    sink_.on_close({origin, close.device});
                  },
                  [&](const CoolantChange& coolant) {
+                   if (is_emergency_) return;
                    shown_.flood = coolant.flood;
                    shown_.mist = coolant.mist;
                    sink_.on_coolant({origin, coolant.flood, coolant.mist});
                  },
                  [&](const interpreter::Spindle& spindle) {
+                   if (is_emergency_) return;
                    spindle_.set(spindle);
                    sink_.on_spindle(spindle);
                  },

@@ -13,6 +13,7 @@ class SpindleModel {
   void set(const interpreter::Spindle& spindle) { spindle_ = spindle; }
   void stop() { spindle_ = {}; }
   const interpreter::Spindle& programmed() const { return spindle_; }
+  bool is_turning() const;
 
   /// Revolutions per minute, 0 or more, with the tool at radius `x`.
   double rpm(double x, double override) const;
@@ -26,8 +27,6 @@ class SpindleModel {
   }
 
  private:
-  bool is_turning() const;
-
   SpindleLimits limits_;
   interpreter::Spindle spindle_;
 };

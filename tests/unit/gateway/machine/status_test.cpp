@@ -38,6 +38,26 @@ TEST(MachineStatus, SaysThatAnAxisLimitsTheFeed) {
   EXPECT_FALSE(test.machine.status().is_feed_limited);
 }
 
+/// HD-082: distance to go is what lies between.
+TEST(MachineStatus, KnowsWhereTheMoveEnds) {
+  TestMachine test;
+  test.program.line(0, 100, 1200);
+  test.program.line(0, 50, 1200);
+  const auto target = [&test] { return test.machine.status().target.linear(Axis::Z).mm(); };
+  EXPECT_EQ(target(), 0) << "nothing has begun";
+  test.machine.advance(Seconds{1});
+  EXPECT_NEAR(test.z(), 19.8, 1e-9);
+  EXPECT_EQ(target(), 100);
+  test.machine.hold();
+  test.run_all();
+  EXPECT_EQ(target(), 100) << "held";
+  test.machine.resume();
+  test.machine.advance(Seconds{5});
+  EXPECT_EQ(target(), 50);
+  test.run_all();
+  EXPECT_EQ(target(), test.z());
+}
+
 TEST(MachineStatus, CountsADwellDown) {
   TestMachine test;
   test.program.dwell(2);
