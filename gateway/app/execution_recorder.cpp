@@ -148,4 +148,8 @@ void ExecutionRecorder::on_aborted() {
   was_aborted_ = true;
 }
 
+void ExecutionRecorder::note_emergency_stop(const interpreter::Origin& origin) {
+  append(origin, {RecordKind::Stop, {}, "emergency stop"});
+}
+
 }  // namespace dripline::gateway

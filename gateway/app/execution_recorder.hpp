@@ -74,6 +74,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   void on_alarm(const interpreter::Alarm& alarm) override;
   void on_end(const interpreter::End& end) override;
   void on_aborted() override;
+  /// The operator pressed it while the block of `origin` was executed.
+  void note_emergency_stop(const interpreter::Origin& origin);
 
   static constexpr std::size_t kMaxBatch = 256;
 

@@ -87,6 +87,7 @@ class Gateway {
   // gateway_panel.cpp
   void take_panel_tables(const interpreter::Setup& setup);
   Reply set_switch(const dds::Order& order);
+  Reply set_emergency_stop(bool is_pressed);
   Reply set_override(const dds::Order& order);
   std::optional<std::string> refusal_of_feed(double factor) const;
   std::optional<std::string> refusal_of_spindle(double factor) const;
@@ -137,6 +138,7 @@ class Gateway {
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
   bool is_ending_ = false;           ///< the run's last records are staged, not yet on disk
   bool is_held_by_trouble_ = false;  ///< not by the operator
+  bool was_emergency_stopped_ = false;  ///< the run; it ends when the switch is released
   SteadyTime last_step_{}, next_commit_{}, next_sync_{};
   dds::Execution last_execution_ = dds::Execution::Ready;
   std::string last_message_;

@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t kMaxResults = 256;  ///< waiting to be sent; the sender of an order asks again
 constexpr std::uint64_t kMaxProgramBytes = 1ULL << 40;
 
+constexpr std::string_view kEmergencyStop =
+    "the emergency stop is pressed: release it first (switch emergency_stop off)";
+
 /// The answer to a start is kept under its run as well: another order to start the same run gets
 /// the same answer.
 std::string start_key(const std::string& run) {
@@ -123,6 +126,7 @@ Result<interpreter::Setup> Gateway::setup_with(const std::string& control_data) 
 Result<void> Gateway::begin_run(const report::ActiveRun& run,
                                 std::unique_ptr<feed::ProgramFeed> feed,
                                 const StartedBy& started_by) {
+  if (machine_.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
   auto known = setup_with(started_by.setup);
   if (!known) return fail(known.error().code, "the server's setup: {}", known.error().what);
   interpreter::Setup setup = *std::move(known);
@@ -157,6 +161,7 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   session_->size_feed(parts_.options.speed.factor);
   last_step_ = parts_.clock.steady_now();
   last_message_.clear();
+  was_emergency_stopped_ = false;
   return {};
 }
 
@@ -167,6 +172,7 @@ Gateway::Reply Gateway::operate(const dds::Order& order) {
       is_held_by_trouble_ = false;
       return {};
     case OrderAction::Resume:
+      if (machine_.panel().emergency_stop) return refuse(std::string(kEmergencyStop));
       if (!recorder_.trouble().empty())
         return refuse(fmt::format("reports can not be kept: {}", recorder_.trouble()));
       if (machine_.resume()) {

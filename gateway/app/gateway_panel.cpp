@@ -59,6 +59,7 @@ Gateway::Reply Gateway::set_switch(const dds::Order& order) {
     return refuse(fmt::format("a switch is 0 or 1, not {}", order.value));
   OperatorPanel panel = machine_.panel();
   const bool is_on = order.value == 1;
+  if (order.argument == "emergency_stop") return set_emergency_stop(is_on);
   if (order.argument == "single_block") {
     panel.single_block = is_on;
   } else if (order.argument == "optional_stop") {
@@ -71,12 +72,29 @@ Gateway::Reply Gateway::set_switch(const dds::Order& order) {
           fmt::format("a handwheel drives no program of control {}", parts_.options.control));
     panel.handwheel = is_on;
   } else {
-    return refuse(fmt::format("no switch '{}': single_block, optional_stop, block_skip, handwheel",
-                              order.argument));
+    return refuse(
+        fmt::format("no switch '{}': single_block, optional_stop, block_skip, handwheel, "
+                    "emergency_stop",
+                    order.argument));
   }
   machine_.set_panel(panel);
   const bool is_for_next_run = session_ && order.argument == "block_skip";
   return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
+}
+
+/// Every machine has one, whatever its control. The record is there before the machine ends the
+/// run.
+Gateway::Reply Gateway::set_emergency_stop(bool is_pressed) {
+  OperatorPanel panel = machine_.panel();
+  if (panel.emergency_stop == is_pressed) return {};
+  panel.emergency_stop = is_pressed;
+  spdlog::warn("emergency stop {} {}", is_pressed ? "pressed" : "released", label());
+  if (is_pressed && session_ && !is_ending_) {
+    was_emergency_stopped_ = true;
+    recorder_.note_emergency_stop(machine_.status().origin);
+  }
+  machine_.set_panel(panel);
+  return {};
 }
 
 /// Controls whose knob has positions do not stand between them.

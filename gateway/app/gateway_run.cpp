@@ -86,7 +86,8 @@ void Gateway::judge_end() {
     const std::string text = valid_text(alarm->text, kMaxReason);
     end_run(dds::RunOutcome::Alarmed, fmt::format("{} {}", alarm->id, text));
   } else if (recorder_.was_aborted()) {
-    end_run(dds::RunOutcome::Aborted, "aborted by order");
+    end_run(dds::RunOutcome::Aborted,
+            was_emergency_stopped_ ? "EMERGENCY STOP" : "aborted by order");
   } else if (recorder_.has_ended() && machine_.drained()) {
     end_run(dds::RunOutcome::Completed, "");
   }

@@ -25,6 +25,7 @@ Execution execution_of(MachineState state) {
       return Execution::ProgramCompleted;
     case MachineState::Alarmed:
     case MachineState::Aborted:
+    case MachineState::EmergencyStop:
       return Execution::Stopped;
   }
   return Execution::Stopped;
@@ -129,7 +130,10 @@ dds::Status Gateway::status() const {
 void Gateway::fill_execution(dds::Status& status) const {
   std::string message = last_message_;
   status.execution = session_ && !is_ending_ ? execution_of_run(message) : last_execution_;
-  if (!recorder_.trouble().empty()) {
+  if (machine_.panel().emergency_stop) {
+    status.execution = Execution::Stopped;
+    message = "EMERGENCY STOP";
+  } else if (!recorder_.trouble().empty()) {
     status.execution = Execution::Waiting;
     message = fmt::format("reports can not be kept: {}", recorder_.trouble());
   } else if (message.empty()) {
