@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gateway/interpreter/active_modes.hpp"
+#include "gateway/interpreter/coordinate_frame.hpp"
 #include "gateway/interpreter/event.hpp"
 #include "gateway/interpreter/program_source.hpp"
 #include "protocol/base/digest.hpp"
@@ -78,6 +79,9 @@ class Interpreter {
   virtual const Origin& origin() const = 0;
   /// What the block finished last was executed under.
   virtual ActiveModes modes() const { return {}; }
+  /// How program coordinates lie after that block; none from a control that does not say. Costs
+  /// more than modes(): to be asked for when modes().frame_changes has another value.
+  virtual std::optional<CoordinateFrame> frame() const { return std::nullopt; }
 
   /// Both only at a block boundary, that is, not while a question is open.
   virtual Snapshot snapshot() const = 0;

@@ -225,7 +225,12 @@ ActiveModes FanucInterpreter::modes() const {
   const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
   modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);
   modes.cycle = hole_cycle_name(state.g[kCycleGroup]);
+  modes.frame_changes = run_.frame_changes;
   return modes;
+}
+
+std::optional<CoordinateFrame> FanucInterpreter::frame() const {
+  return frame_of(run_);
 }
 
 Snapshot FanucInterpreter::snapshot() const {
@@ -240,6 +245,7 @@ Result<void> FanucInterpreter::restore(const Snapshot& snapshot) {
   run_.answers.clear();
   run_.answers_used = 0;
   run_.pause = Pause::None;
+  ++run_.frame_changes;
   is_asking_ = false;
   return {};
 }

@@ -62,11 +62,16 @@ void Run::update_increments() {
   increments.per_unit = std::pow(10.0, increments.decimals);
 }
 
+std::size_t Run::work_system() const {
+  const std::uint8_t code = state.g[kWorkGroup];
+  return code == kMoreWorkSystems ? static_cast<std::size_t>(6 + memory.coordinates.more_work)
+                                  : static_cast<std::size_t>(code - 53);
+}
+
 void Run::update_origin() {
   const Coordinates& all = memory.coordinates;
-  const std::uint8_t code = state.g[kWorkGroup];
-  const std::size_t system = code == kMoreWorkSystems ? static_cast<std::size_t>(6 + all.more_work)
-                                                      : static_cast<std::size_t>(code - 53);
+  const std::size_t system = work_system();
+  ++frame_changes;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     state.origin[i] = all.work[system][i] + all.work[0][i] + all.shift[i] + all.local[i];
   }

@@ -67,6 +67,7 @@ struct Run {
   /// After a change of units, offsets or anything that decides what a plain block means.
   void update_increments();
   void update_origin();
+  std::size_t work_system() const;  ///< index of Coordinates::work
   void update_special();
 
   /// A word's number as millimetres; finer than the least increment is cut, computed is rounded.
@@ -129,6 +130,7 @@ struct Run {
   Origin origin;
   std::vector<Answer> answers;  ///< of the block in hand, in the order asked
   std::size_t answers_used = 0;
+  std::uint32_t frame_changes = 0;  ///< origin, scaling or rotation became others so often
   Question question;
   Diagnostic alarm;
   Pause pause = Pause::None;

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/fanuc/transformation.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 
 #include "gateway/interpreter/geometry/plane_axes.hpp"
 #include "gateway/interpreter/language/expression.hpp"
@@ -36,6 +37,7 @@ bool read_factor(Run& run, Address address, double& factor) {
 void update_transformed(Run& run) {
   ModalState& state = run.state;
   state.is_transformed = state.g[kScalingGroup] == 51 || state.g[kRotationGroup] == 68;
+  ++run.frame_changes;
 }
 
 bool begin_scaling(Run& run) {
@@ -123,6 +125,32 @@ Point3 program_position(const Run& run) {
   const Point3 work{run.work_position(Axis::X), run.work_position(Axis::Y),
                     run.work_position(Axis::Z)};
   return run.state.is_transformed ? transform_back(run.state, work) : work;
+}
+
+CoordinateFrame frame_of(const Run& run) {
+  const ModalState& state = run.state;
+  const Coordinates& all = run.memory.coordinates;
+  CoordinateFrame frame;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    frame.datum[i] = all.work[run.work_system()][i] + all.work[0][i];
+    frame.shift[i] = all.shift[i] + all.local[i];
+  }
+  if (!state.is_transformed) {
+    frame.learn_offset(state.origin);
+    return frame;
+  }
+  if (state.g[kRotationGroup] == 68) frame.rotation = state.rotation.degrees;
+  for (std::size_t i = 0; i < 3 && state.g[kScalingGroup] == 51; ++i) {
+    frame.scale[i] = std::fabs(state.scaling.factor[i]);
+    frame.mirrored[i] = state.scaling.factor[i] < 0;
+  }
+  frame.learn([&state](CoordinateFrame::Values at) {
+    for (std::size_t i = 0; i < kAxisCount; ++i) at[i] -= state.origin[i];
+    const Point3 back = transform_back(state, {at[0], at[1], at[2]});
+    std::copy(back.begin(), back.end(), at.begin());
+    return at;
+  });
+  return frame;
 }
 
 bool is_plane_mirrored(const ModalState& state, Plane plane) {

@@ -14,6 +14,8 @@ Point3 transform(const ModalState& state, Point3 point);
 Point3 transform_back(const ModalState& state, Point3 point);
 /// The present place in program coordinates before both.
 Point3 program_position(const Run& run);
+/// What the screen shows of offsets, scaling and rotation.
+CoordinateFrame frame_of(const Run& run);
 /// Turns change their sense: an odd number of mirrored axes in the plane.
 bool is_plane_mirrored(const ModalState& state, Plane plane);
 

@@ -59,6 +59,15 @@ Axes to_program(const Run& run, const Axes& machine) {
   return program;
 }
 
+CoordinateFrame frame_of(const Run& run) {
+  CoordinateFrame frame;
+  frame.datum = run.state.system_offset;
+  frame.shift = run.state.g92;
+  frame.rotation = run.state.rotation;
+  frame.learn([&run](const CoordinateFrame::Values& machine) { return to_program(run, machine); });
+  return frame;
+}
+
 Axes machine_with_length(const Run& run) {
   Axes machine;
   for (const Axis axis : kAllAxes) {
@@ -92,6 +101,7 @@ void load_system(Run& run, int system) {
       run.is_linuxcnc() ? run.parameters[static_cast<std::size_t>(first + kSystemRotation)] : 0;
   run.state.system = static_cast<std::uint8_t>(system);
   run.parameters[kSystemNumber] = system;
+  ++run.frame_changes;
   keep_machine(run);
   // of the NIST program's compensation, in the XY plane: the path as programmed stays where it is
   run.state.compensation.x += old[kX] - run.state.system_offset[kX];
@@ -272,6 +282,7 @@ void set_axis_offsets(Run& run, bool is_offset_itself) {
     if (!is_offset_itself) state.position[i] = mm;
     state.g92[i] = offset;
   }
+  ++run.frame_changes;
   store_g92(run);
 }
 
@@ -284,6 +295,7 @@ void load_axis_offsets(Run& run, bool from_parameters) {
     state.position[i] += state.g92[i] - offset;
     state.g92[i] = offset;
   }
+  ++run.frame_changes;
 }
 
 bool change_axis_offsets(Run& run, int g_code) {

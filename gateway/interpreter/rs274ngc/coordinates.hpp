@@ -11,6 +11,9 @@ Position to_machine(const Run& run, const Axes& program);
 /// The other way; `machine` in millimetres and degrees.
 Axes to_program(const Run& run, const Axes& machine);
 
+/// What the screen shows of offsets and rotation.
+CoordinateFrame frame_of(const Run& run);
+
 /// X and Y about the origin.
 struct Turned {
   double x, y;

@@ -243,7 +243,12 @@ ActiveModes Rs274NgcInterpreter::modes() const {
                : state.modes.feed == FeedMode::PerRevolution ? Feed::per_revolution(feed)
                                                              : Feed::inverse_time(state.feed);
   modes.cycle = hole_cycle_name(state.modes.motion / 10);
+  modes.frame_changes = run_.frame_changes;
   return modes;
+}
+
+std::optional<CoordinateFrame> Rs274NgcInterpreter::frame() const {
+  return frame_of(run_);
 }
 
 Snapshot Rs274NgcInterpreter::snapshot() const {
@@ -258,6 +263,7 @@ Result<void> Rs274NgcInterpreter::restore(const Snapshot& snapshot) {
   run_.answer.reset();
   run_.pause = Pause::None;
   flow_.forget();
+  ++run_.frame_changes;
   is_asking_ = false;
   return {};
 }

@@ -19,6 +19,7 @@ class Rs274NgcInterpreter final : public Interpreter {
   std::uint64_t blocks() const override { return run_.state.blocks; }
   const Origin& origin() const override { return run_.origin; }
   ActiveModes modes() const override;
+  std::optional<CoordinateFrame> frame() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
 

@@ -68,6 +68,7 @@ struct Run {
   Block block;
   Origin origin;
   std::optional<Answer> answer;
+  std::uint32_t frame_changes = 0;  ///< system or G92 offsets became others so often
   Question question;
   Diagnostic alarm;
   Pause pause = Pause::None;

@@ -215,7 +215,9 @@ bool is_defining(const Run& run) {
 
 void end_cycles(Run& run) {
   run.state.cycle = CycleState{};
-  if (run.options.cancels_transformations) run.state.transformation.cancel_cycles();
+  if (!run.options.cancels_transformations) return;
+  run.state.transformation.cancel_cycles();
+  ++run.frame_changes;
 }
 
 }  // namespace dripline::interpreter::tnc155

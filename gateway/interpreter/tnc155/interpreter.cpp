@@ -8,6 +8,7 @@
 #include "gateway/interpreter/tnc155/flow.hpp"
 #include "gateway/interpreter/tnc155/joint_ahead.hpp"
 #include "gateway/interpreter/tnc155/snapshot.hpp"
+#include "gateway/interpreter/tnc155/status_window.hpp"
 #include "gateway/interpreter/tnc155/tools.hpp"
 #include "protocol/base/invariant.hpp"
 
@@ -257,7 +258,13 @@ ActiveModes TncInterpreter::modes() const {
   modes.tool_length_z = Length::mm(state.tool.data.length);
   modes.tool_radius = Length::mm(state.tool.data.radius);
   modes.feed = Feed::per_minute(Length::mm(state.feed));
+  if (state.tool.is_called) modes.tool_axis = state.tool.axis;
+  modes.frame_changes = run_.frame_changes;
   return modes;
+}
+
+std::optional<CoordinateFrame> TncInterpreter::frame() const {
+  return frame_of(run_.state);
 }
 
 Snapshot TncInterpreter::snapshot() const {
@@ -274,6 +281,7 @@ Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
   run_.definition_ahead.reset();
   run_.answer.reset();
   run_.pause = Pause::None;
+  ++run_.frame_changes;
   is_asking_ = false;
   return {};
 }

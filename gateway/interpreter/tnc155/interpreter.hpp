@@ -18,6 +18,7 @@ class TncInterpreter final : public Interpreter {
   std::uint64_t blocks() const override { return run_.state.blocks; }
   const Origin& origin() const override { return run_.origin; }
   ActiveModes modes() const override;
+  std::optional<CoordinateFrame> frame() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
 

@@ -118,6 +118,7 @@ bool begin_m(Run& run, int m) {
       return true;
     case 94:
       reduce_rotary_axes(run.state);
+      ++run.frame_changes;
       return true;
     case 89:
       if (!run.options.m89_modal) run.events().on_miscellaneous({run.origin, m});

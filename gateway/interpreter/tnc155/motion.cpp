@@ -338,6 +338,7 @@ bool set_pole(Run& run, const Block& block) {
   }
   state.has_pole = true;
   state.polar.is_current = false;
+  ++run.frame_changes;
   return true;
 }
 

@@ -135,6 +135,7 @@ void change_transformation(Run& run, const Transformation& changed) {
   state.transformation.update();
   state.nominal = state.transformation.to_program(at);
   state.polar.is_current = false;
+  ++run.frame_changes;
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -92,6 +92,7 @@ struct Run {
   Origin origin;
   std::optional<Answer> answer;  ///< to the question of the part in hand
   Question question;
+  std::uint32_t frame_changes = 0;  ///< datum, transformations or pole became others so often
   Diagnostic alarm;
   Pause pause = Pause::None;
 
