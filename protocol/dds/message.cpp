@@ -47,6 +47,12 @@ std::string_view to_string(CompensationSide value) {
   return kNames.at(static_cast<std::size_t>(value));
 }
 
+std::string_view to_string(SpindleState value) {
+  static constexpr std::array<std::string_view, 5> kNames{"not_told", "off", "clockwise",
+                                                          "counterclockwise", "oriented"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
 std::string_view to_string(FeedUnit value) {
   static constexpr std::array<std::string_view, 3> kNames{"per_minute", "per_revolution",
                                                           "inverse_time"};

@@ -58,6 +58,7 @@ enum class OrderAction : std::uint8_t {
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
+enum class SpindleState : std::uint8_t { NotTold, Off, Clockwise, CounterClockwise, Oriented };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
 std::string_view to_string(Execution value);
@@ -68,6 +69,7 @@ std::string_view to_string(BlockStatus value);
 std::string_view to_string(MotionKind value);
 std::string_view to_string(CompensationSide value);
 std::string_view to_string(FeedUnit value);
+std::string_view to_string(SpindleState value);
 
 struct Announce {
   std::string machine, control, version;
@@ -95,7 +97,27 @@ struct ActiveModes {
   double spindle_speed = 0;
   std::optional<double> spindle_load;
   bool flood = false, mist = false;
+  std::optional<std::uint8_t> tool_axis;  ///< 0 = X, 8 = W; below nine
+  SpindleState spindle = SpindleState::NotTold;
   friend bool operator==(const ActiveModes&, const ActiveModes&) = default;
+};
+
+/// What depends on the program and on what the operator has set for it.
+struct ProgramFrame {
+  std::array<double, 9> position{}, target{};  ///< program coordinates
+  std::array<double, 9> datum{}, shift{};
+  double rotation = 0, basic_rotation = 0;
+  std::array<double, 3> scale{1, 1, 1};
+  std::uint8_t mirrored = 0, pole_axes = 0;  ///< bit 0 = X, bit 2 = Z
+  std::array<double, 3> pole{};
+  friend bool operator==(const ProgramFrame&, const ProgramFrame&) = default;
+};
+
+struct Coordinates {
+  std::array<double, 9> target{};  ///< machine coordinates
+  std::optional<std::array<double, 9>> lag = {};
+  std::optional<ProgramFrame> program = {};
+  friend bool operator==(const Coordinates&, const Coordinates&) = default;
 };
 
 struct Status {
@@ -116,7 +138,9 @@ struct Status {
   std::uint32_t outbox = 0;
   std::uint16_t axes = 0;  ///< bit set over `position`, bit 0 = X
   std::uint64_t session = 0;
-  std::optional<ActiveModes> modes;  ///< older gateways say none
+  std::optional<ActiveModes> modes;        ///< older gateways say none
+  std::optional<Coordinates> coordinates;  ///< likewise
+  bool emergency_stop = false;
   friend bool operator==(const Status&, const Status&) = default;
 };
 

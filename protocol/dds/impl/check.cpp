@@ -1,6 +1,7 @@
 #include "protocol/dds/impl/check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "protocol/base/digest.hpp"
@@ -36,6 +37,11 @@ class Verdict {
   Verdict& number(std::string_view member, double value) {
     return that(std::isfinite(value), member, "is not finite");
   }
+  template <std::size_t N>
+  Verdict& numbers(std::string_view member, const std::array<double, N>& values) {
+    for (const double value : values) number(member, value);
+    return *this;
+  }
   Verdict& that(bool holds, std::string_view member, std::string_view otherwise) {
     if (holds || !result_) return *this;
     result_ = fail(Errc::Syntax, "{}: {} {}", message_, member, otherwise);
@@ -62,6 +68,28 @@ Result<void> check(const Announce& m) {
       .result();
 }
 
+namespace {
+
+void check(const Coordinates& m, Verdict& verdict) {
+  verdict.numbers("target", m.target);
+  if (m.lag) verdict.numbers("lag", *m.lag);
+  if (!m.program) return;
+  const ProgramFrame& frame = *m.program;
+  constexpr std::uint8_t kBeyondZ = 0xF8;
+  verdict.numbers("program_position", frame.position)
+      .numbers("program_target", frame.target)
+      .numbers("datum", frame.datum)
+      .numbers("shift", frame.shift)
+      .number("rotation", frame.rotation)
+      .number("basic_rotation", frame.basic_rotation)
+      .numbers("scale", frame.scale)
+      .that((frame.mirrored & kBeyondZ) == 0, "mirrored", "names an axis beyond Z")
+      .that((frame.pole_axes & kBeyondZ) == 0, "pole_axes", "names an axis beyond Z")
+      .numbers("pole", frame.pole);
+}
+
+}  // namespace
+
 Result<void> check(const Status& m) {
   Verdict verdict("status");
   verdict.machine(m.machine)
@@ -82,6 +110,9 @@ Result<void> check(const Status& m) {
         .number("spindle_speed", m.modes->spindle_speed)
         .number("spindle_load", m.modes->spindle_load.value_or(0));
   }
+  if (m.modes && m.modes->tool_axis)
+    verdict.that(*m.modes->tool_axis < m.position.size(), "tool_axis", "is no axis");
+  if (m.coordinates) check(*m.coordinates, verdict);
   return verdict.result();
 }
 

@@ -1,6 +1,7 @@
 #include "protocol/dds/impl/decode.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 
@@ -76,6 +77,40 @@ ActiveModes modes_of(const dripline_idl_ActiveModes& s, Members& members) {
   if (s.spindle_load >= 0) m.spindle_load = s.spindle_load;
   m.flood = s.flood;
   m.mist = s.mist;
+  if (s.tool_axis > 9)
+    members.blame("tool_axis", fmt::format("has no meaning for {}", s.tool_axis));
+  if (s.tool_axis > 0) m.tool_axis = static_cast<std::uint8_t>(s.tool_axis - 1);
+  m.spindle = members.enumerator(s.spindle, SpindleState::Oriented, "spindle");
+  return m;
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const double (&field)[N]) {
+  std::array<double, N> result;
+  std::copy_n(field, N, result.begin());
+  return result;
+}
+
+ProgramFrame frame_of(const dripline_idl_Coordinates& s) {
+  ProgramFrame m;
+  m.position = numbers(s.program_position);
+  m.target = numbers(s.program_target);
+  m.datum = numbers(s.datum);
+  m.shift = numbers(s.shift);
+  m.rotation = s.rotation;
+  m.basic_rotation = s.basic_rotation;
+  m.scale = numbers(s.scale);
+  m.mirrored = s.mirrored;
+  m.pole_axes = s.pole_axes;
+  m.pole = numbers(s.pole);
+  return m;
+}
+
+Coordinates coordinates_of(const dripline_idl_Coordinates& s) {
+  Coordinates m;
+  m.target = numbers(s.target);
+  if (s.has_lag) m.lag = numbers(s.lag);
+  if (s.has_program) m.program = frame_of(s);
   return m;
 }
 
@@ -127,6 +162,8 @@ Result<Status> decode(const dripline_idl_Status& s) {
   m.axes = s.axes;
   m.session = s.session;
   if (s.modes.is_told) m.modes = modes_of(s.modes, members);
+  if (s.coordinates.is_told) m.coordinates = coordinates_of(s.coordinates);
+  m.emergency_stop = s.emergency_stop;
   return members.finish(std::move(m));
 }
 

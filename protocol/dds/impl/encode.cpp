@@ -1,5 +1,7 @@
 #include "protocol/dds/impl/encode.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "protocol/base/crc32.hpp"
@@ -78,10 +80,36 @@ Result<void> encode(const ActiveModes& m, dripline_idl_ActiveModes& s) {
   s.spindle_load = m.spindle_load.value_or(-1);
   s.flood = m.flood;
   s.mist = m.mist;
+  if (m.tool_axis) s.tool_axis = static_cast<std::uint8_t>(*m.tool_axis + 1);
+  s.spindle = number(m.spindle);
   return Texts()
       .exact(s.work_system, m.work_system, "work_system")
       .exact(s.cycle, m.cycle, "cycle")
       .result();
+}
+
+template <std::size_t N>
+void copy(const std::array<double, N>& numbers, double (&field)[N]) {
+  std::copy(numbers.begin(), numbers.end(), field);
+}
+
+void encode(const Coordinates& m, dripline_idl_Coordinates& s) {
+  s.is_told = true;
+  copy(m.target, s.target);
+  s.has_lag = m.lag.has_value();
+  if (m.lag) copy(*m.lag, s.lag);
+  s.has_program = m.program.has_value();
+  if (!m.program) return;
+  copy(m.program->position, s.program_position);
+  copy(m.program->target, s.program_target);
+  copy(m.program->datum, s.datum);
+  copy(m.program->shift, s.shift);
+  s.rotation = m.program->rotation;
+  s.basic_rotation = m.program->basic_rotation;
+  copy(m.program->scale, s.scale);
+  s.mirrored = m.program->mirrored;
+  s.pole_axes = m.program->pole_axes;
+  copy(m.program->pole, s.pole);
 }
 
 }  // namespace
@@ -128,6 +156,8 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   if (m.modes) {
     if (auto encoded = encode(*m.modes, s.modes); !encoded) return encoded;
   }
+  if (m.coordinates) encode(*m.coordinates, s.coordinates);
+  s.emergency_stop = m.emergency_stop;
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")

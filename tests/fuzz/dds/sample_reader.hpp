@@ -34,12 +34,18 @@ class SampleReader {
     all(s.feed_mm_per_min, s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
         s.buffered_seconds, s.single_block, s.message, s.outbox, s.axes, s.session);
     read(s.modes);
+    read(s.coordinates);
+    one(s.emergency_stop);
   }
   void read(dripline_idl_ActiveModes& s) {
     all(s.is_told, s.motion, s.compensation, s.is_inch, s.is_incremental, s.feed_unit, s.feed,
         s.is_feed_limited, s.tool, s.next_tool, s.tool_offset, s.tool_length_x, s.tool_length_z,
         s.tool_radius, s.work_system, s.cycle, s.dwell_seconds, s.is_surface_speed, s.spindle_speed,
-        s.spindle_load, s.flood, s.mist);
+        s.spindle_load, s.flood, s.mist, s.tool_axis, s.spindle);
+  }
+  void read(dripline_idl_Coordinates& s) {
+    all(s.is_told, s.target, s.has_lag, s.lag, s.has_program, s.program_position, s.program_target,
+        s.datum, s.shift, s.rotation, s.basic_rotation, s.scale, s.mirrored, s.pole_axes, s.pole);
   }
   void read(dripline_idl_Record& s) {
     all(s.machine, s.epoch, s.number, s.time_us, s.run, s.kind, s.block, s.line, s.sequence_number,
@@ -89,6 +95,10 @@ class SampleReader {
     const auto bytes = take(std::min<std::size_t>(number<std::uint16_t>(), N - 1));
     if (!bytes.empty()) std::memcpy(field, bytes.data(), bytes.size());
     field[bytes.size()] = '\0';
+  }
+  template <std::size_t N>
+  void one(double (&field)[N]) {
+    for (double& value : field) one(value);
   }
   template <class... T>
   void all(T&... members) {

@@ -97,6 +97,40 @@ TEST(Decode, ChecksTheModes) {
   EXPECT_FALSE(encode(message, unused));
 }
 
+/// A gateway from before there were coordinates, and one that shows modes without the newer ones.
+TEST(Decode, TakesAStatusWithoutCoordinates) {
+  Status message = status();
+  message.modes = ActiveModes{};
+  auto sample = sample_of(message);
+  sample.coordinates = {};
+  sample.modes.tool_axis = sample.modes.spindle = 0;
+  EXPECT_EQ(*decode(sample), message);
+  EXPECT_FALSE(decode(sample)->coordinates);
+  EXPECT_FALSE(decode(sample)->modes->tool_axis);
+}
+
+TEST(Decode, ChecksTheCoordinates) {
+  Status message = status();
+  message.modes.emplace().tool_axis = 8;
+  message.modes->spindle = SpindleState::Off;
+  message.coordinates = Coordinates{.program = ProgramFrame{.mirrored = 7, .pole_axes = 7}};
+  auto sample = sample_of(message);
+  EXPECT_EQ(*decode(sample), message);
+  sample.modes.tool_axis = 10;
+  EXPECT_FALSE(decode(sample));
+  sample.modes.tool_axis = 9;
+  sample.modes.spindle = 5;
+  EXPECT_FALSE(decode(sample));
+  sample.modes.spindle = 0;
+  sample.coordinates.pole_axes = 8;
+  EXPECT_FALSE(decode(sample));
+  SampleOf<Status> unused;
+  message.coordinates->program->datum[8] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(encode(message, unused));
+  message.coordinates = Coordinates{.target = {std::numeric_limits<double>::infinity()}};
+  EXPECT_FALSE(encode(message, unused));
+}
+
 TEST(Decode, RefusesNumbersThatAreNotFinite) {
   const Status message = status();
   auto sample = sample_of(message);
