@@ -117,6 +117,7 @@ class Gateway {
   // gateway_status.cpp
   dds::Status status() const;
   dds::ActiveModes modes(const machine::MachineStatus& now) const;
+  dds::Coordinates coordinates(const machine::MachineStatus& now) const;
   void fill_execution(dds::Status& status) const;
   dds::Execution execution_of_run(std::string& message) const;
 

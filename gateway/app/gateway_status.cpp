@@ -4,6 +4,7 @@
 namespace dripline::gateway {
 
 using dds::Execution;
+using interpreter::CoordinateFrame;
 using machine::MachineState;
 
 namespace {
@@ -70,6 +71,45 @@ void show_program(dds::ActiveModes& shown, const interpreter::ActiveModes& modes
   shown.tool_radius = modes.tool_radius.mm();
   shown.work_system = work_system_text(modes);
   shown.cycle = modes.cycle.substr(0, dds::kMaxCycle);
+  if (modes.tool_axis) shown.tool_axis = static_cast<std::uint8_t>(*modes.tool_axis);
+}
+
+dds::SpindleState spindle_of(interpreter::SpindleState state) {
+  switch (state) {
+    case interpreter::SpindleState::Off:
+      return dds::SpindleState::Off;
+    case interpreter::SpindleState::Clockwise:
+      return dds::SpindleState::Clockwise;
+    case interpreter::SpindleState::CounterClockwise:
+      return dds::SpindleState::CounterClockwise;
+    case interpreter::SpindleState::Oriented:
+      return dds::SpindleState::Oriented;
+  }
+  return dds::SpindleState::NotTold;
+}
+
+CoordinateFrame::Values values_of(const interpreter::Position& position) {
+  CoordinateFrame::Values values{};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = position.raw(static_cast<interpreter::Axis>(i));
+  return values;
+}
+
+/// What the interpreter knew of the block that is executed, with the places the machine is at now.
+dds::ProgramFrame shown_frame(const CoordinateFrame& frame, const machine::MachineStatus& now) {
+  dds::ProgramFrame shown;
+  shown.position = frame.to_program(values_of(now.position));
+  shown.target = frame.to_program(values_of(now.target));
+  shown.datum = frame.datum;
+  shown.shift = frame.shift;
+  shown.rotation = frame.rotation;
+  shown.basic_rotation = frame.basic_rotation;
+  shown.scale = frame.scale;
+  for (unsigned i = 0; i < frame.mirrored.size(); ++i)
+    shown.mirrored |= static_cast<std::uint8_t>(frame.mirrored[i] ? 1U << i : 0U);
+  shown.pole = frame.pole;
+  shown.pole_axes = frame.pole_axes;
+  return shown;
 }
 
 }  // namespace
@@ -85,9 +125,21 @@ dds::ActiveModes Gateway::modes(const machine::MachineStatus& now) const {
   shown.is_surface_speed = now.spindle.surface_speed.has_value();
   shown.spindle_speed =
       shown.is_surface_speed ? now.spindle.surface_speed->mm() : now.spindle.revolutions_per_minute;
+  shown.spindle = spindle_of(now.spindle.state);
   shown.flood = now.flood;
   shown.mist = now.mist;
   if (session_) show_program(shown, session_->modes_at(now.origin.block));
+  return shown;
+}
+
+/// The simulated axes follow without a trailing error.
+dds::Coordinates Gateway::coordinates(const machine::MachineStatus& now) const {
+  dds::Coordinates shown;
+  shown.target = values_of(now.target);
+  shown.lag.emplace();
+  if (!session_) return shown;
+  const auto& frame = session_->frame_at(now.origin.block);
+  if (frame) shown.program = shown_frame(*frame, now);
   return shown;
 }
 
@@ -111,6 +163,8 @@ dds::Status Gateway::status() const {
   status.outbox =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(outbox_.unacknowledged(), UINT32_MAX));
   status.modes = modes(now);
+  status.coordinates = coordinates(now);
+  status.emergency_stop = machine_.panel().emergency_stop;
   if (session_) {
     status.run = session_->run().run;
     status.program = session_->run().program;

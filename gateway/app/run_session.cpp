@@ -71,20 +71,33 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
 
 void RunSession::note_modes() {
   const interpreter::ActiveModes modes = interpreter_->modes();
-  if (modes_.empty() || modes_.back().modes != modes) {
-    modes_.push_back({interpreter_->blocks(), modes});
+  // Coordinates are not compared for every block: that would cost as much as half a block does.
+  if (modes_.empty() || modes_.back().modes.frame_changes != modes.frame_changes) {
+    Frame& noted = frames_.emplace_back();
+    noted.block = interpreter_->blocks();
+    noted.frame = interpreter_->frame();
+    if (!modes_.empty()) modes_.back().modes.frame_changes = modes.frame_changes;
   }
+  if (modes_.empty() || modes_.back().modes != modes)
+    modes_.push_back({interpreter_->blocks(), modes});
 }
 
 void RunSession::forget_modes() {
   const std::uint64_t executing = parts_.machine.status().origin.block;
   while (modes_.size() > 1 && modes_[1].block <= executing) modes_.pop_front();
+  while (frames_.size() > 1 && frames_[1].block <= executing) frames_.pop_front();
 }
 
 const interpreter::ActiveModes& RunSession::modes_at(std::uint64_t block) const {
   std::size_t last = modes_.size() - 1;
   while (last > 0 && modes_[last].block > block) --last;
   return modes_[last].modes;
+}
+
+const std::optional<interpreter::CoordinateFrame>& RunSession::frame_at(std::uint64_t block) const {
+  std::size_t last = frames_.size() - 1;
+  while (last > 0 && frames_[last].block > block) --last;
+  return frames_[last].frame;
 }
 
 bool RunSession::settle_question() {

@@ -46,6 +46,8 @@ class RunSession {
   std::uint64_t accepted() const { return interpreter_->blocks(); }
   /// What `block` runs under.
   const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
+  /// How program coordinates lie while it runs; nothing when the control does not say.
+  const std::optional<interpreter::CoordinateFrame>& frame_at(std::uint64_t block) const;
   /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
   void size_feed(std::optional<double> speed_factor);
 
@@ -73,6 +75,11 @@ class RunSession {
   };
   /// From the executing block on, one for each change; as many as the machine queues blocks.
   std::deque<Modes> modes_;
+  struct Frame {
+    std::uint64_t block = 0;
+    std::optional<interpreter::CoordinateFrame> frame;
+  };
+  std::deque<Frame> frames_;  ///< likewise
   bool is_over_ = false, has_question_ = false, is_probing_ = false;
 };
 

@@ -122,6 +122,7 @@ TEST(Gateway, TheSameOrderGetsTheSameAnswerEvenAfterARestart) {
   EXPECT_EQ(shop.records.size(), stored);
 }
 
+/// HD-191: interrupted, and terminated.
 TEST(Gateway, HoldsResumesAndAborts) {
   Shop shop("1x");
   shop.push("O1", "X400\nX0\nEND\n");
