@@ -151,4 +151,18 @@ Result<feeds::OrderRequest> decode_order(std::string_view body) {
   return order;
 }
 
+Result<feeds::OrderRequest> decode_machine_order(std::string_view body) {
+  auto order = decode_order(body);
+  if (!order) return order;
+  using dds::OrderAction;
+  const bool is_of_panel =
+      order->action == OrderAction::Switch || order->action == OrderAction::FeedOverride ||
+      order->action == OrderAction::RapidOverride || order->action == OrderAction::SpindleOverride;
+  if (is_of_panel) return order;
+  return fail(Errc::Unsupported,
+              "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "
+              "spindle_override",
+              dds::to_string(order->action));
+}
+
 }  // namespace dripline::api

@@ -33,6 +33,8 @@ Result<feeds::StartRequest> decode_start(std::string_view body);
 
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<feeds::OrderRequest> decode_order(std::string_view body);
+/// The same for a machine's panel: switches and overrides. Unsupported: what is for a run.
+Result<feeds::OrderRequest> decode_machine_order(std::string_view body);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one order
 

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "server/api/bodies.hpp"
 #include "server/api/routes.hpp"
 #include "server/api/views.hpp"
 
@@ -21,6 +22,24 @@ Response show_machine(Services& services, const Request& request) {
   return view ? json_response(200, machine_json(*view)) : error_response(view.error());
 }
 
+Response order_machine(Services& services, const Request& request) {
+  auto order = decode_machine_order(request.body);
+  if (!order) return error_response(order.error());
+  order->machine = request.parameter("name");
+  const auto done = services.feeds.order(*order);
+  // Without an answer it may have been carried out all the same.
+  const bool is_unknown = !done && done.error().code == Errc::Timeout;
+  if (done || is_unknown) {
+    services.audit.write({.who = request.who,
+                          .action = fmt::format("machine.{}", dds::to_string(order->action)),
+                          .subject = order->machine,
+                          .detail = fmt::format("{} {} {}", order->argument, order->value,
+                                                is_unknown ? "not answered" : "accepted")});
+  }
+  if (!done) return error_response(done.error());
+  return json_response(200, {{"accepted", true}});
+}
+
 }  // namespace
 
 void add_machine_routes(Router& router, Services& services) {
@@ -28,6 +47,8 @@ void add_machine_routes(Router& router, Services& services) {
              [&](const Request& request) { return list_machines(services, request); });
   router.add("GET", "/api/v1/machines/{name}",
              [&](const Request& request) { return show_machine(services, request); });
+  router.add("POST", "/api/v1/machines/{name}/orders",
+             [&](const Request& request) { return order_machine(services, request); });
 }
 
 }  // namespace dripline::api

@@ -20,14 +20,24 @@ json sequence_number(std::int64_t sequence) {
   return sequence < 0 ? json(nullptr) : json(sequence);
 }
 
-/// X, Y and Z always; the other axes when they are somewhere.
-json position_json(const dds::Status& status) {
-  constexpr std::string_view kAxes = "XYZABCUVW";
-  json axes = json::object();
-  for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    if ((status.axes >> i & 1) != 0) axes[std::string(1, kAxes[i])] = status.position[i];
+constexpr std::string_view kAxes = "XYZABCUVW";
+
+/// By axis letter, for the axes whose bit is set; bit 0 is X.
+template <std::size_t N>
+json axes_json(unsigned axes, const std::array<double, N>& values) {
+  json object = json::object();
+  for (std::size_t i = 0; i < N; ++i) {
+    if ((axes >> i & 1) != 0) object[std::string(1, kAxes[i])] = values[i];
   }
-  return axes;
+  return object;
+}
+
+json axis_letters(unsigned axes) {
+  json letters = json::array();
+  for (std::size_t i = 0; i < kAxes.size(); ++i) {
+    if ((axes >> i & 1) != 0) letters.push_back(std::string(1, kAxes[i]));
+  }
+  return letters;
 }
 
 json number_or_null(const std::optional<std::int32_t>& value) {
@@ -55,7 +65,37 @@ json modes_json(const dds::ActiveModes& modes) {
           {"spindle_speed", modes.spindle_speed},
           {"spindle_load", modes.spindle_load ? json(*modes.spindle_load) : json(nullptr)},
           {"flood", modes.flood},
-          {"mist", modes.mist}};
+          {"mist", modes.mist},
+          {"tool_axis",
+           modes.tool_axis ? json(std::string(1, kAxes[*modes.tool_axis])) : json(nullptr)},
+          {"spindle", modes.spindle == dds::SpindleState::NotTold
+                          ? json(nullptr)
+                          : json(dds::to_string(modes.spindle))}};
+}
+
+json frame_json(const dds::ProgramFrame& frame, unsigned axes) {
+  constexpr unsigned kMainAxes = 7;
+  return {{"position", axes_json(axes, frame.position)},
+          {"target", axes_json(axes, frame.target)},
+          {"datum", axes_json(axes, frame.datum)},
+          {"shift", axes_json(axes, frame.shift)},
+          {"rotation", frame.rotation},
+          {"basic_rotation", frame.basic_rotation},
+          {"scale", axes_json(axes & kMainAxes, frame.scale)},
+          {"mirrored", axis_letters(frame.mirrored)},
+          {"pole", frame.pole_axes != 0 ? axes_json(frame.pole_axes, frame.pole) : json(nullptr)}};
+}
+
+json coordinates_json(const dds::Status& status) {
+  if (!status.coordinates) return nullptr;
+  const dds::Coordinates& all = *status.coordinates;
+  std::array<double, 9> distance{};
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    distance[i] = all.target[i] - status.position[i];
+  return {{"target", axes_json(status.axes, all.target)},
+          {"distance_to_go", axes_json(status.axes, distance)},
+          {"lag", all.lag ? axes_json(status.axes, *all.lag) : json(nullptr)},
+          {"program", all.program ? frame_json(*all.program, status.axes) : json(nullptr)}};
 }
 
 json status_json(const dds::Status& status) {
@@ -71,7 +111,7 @@ json status_json(const dds::Status& status) {
           {"offset", status.offset},
           {"line", status.line},
           {"sequence", sequence_number(status.sequence)},
-          {"position", position_json(status)},
+          {"position", axes_json(status.axes, status.position)},
           {"feed_mm_per_min", status.feed_mm_per_min},
           {"spindle_rpm", status.spindle_rpm},
           {"feed_override", status.feed_override},
@@ -81,7 +121,9 @@ json status_json(const dds::Status& status) {
           {"single_block", status.single_block},
           {"message", optional_text(status.message)},
           {"outbox", status.outbox},
-          {"modes", status.modes ? modes_json(*status.modes) : json(nullptr)}};
+          {"modes", status.modes ? modes_json(*status.modes) : json(nullptr)},
+          {"coordinates", coordinates_json(status)},
+          {"emergency_stop", status.emergency_stop}};
 }
 
 }  // namespace

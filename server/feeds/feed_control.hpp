@@ -41,10 +41,11 @@ struct StartRequest {
 };
 
 struct OrderRequest {
-  std::string run;
+  std::string run;  ///< empty: `machine` is told, with a run or without
   dds::OrderAction action = dds::OrderAction::Hold;  ///< any but Start
   std::string argument;                              ///< answer: its text; switch: its name
   double value = 0;                                  ///< overrides: factor; switch: 0 or 1
+  std::string machine = {};                          ///< where `run` is empty: its panel
 };
 
 /// What happened at the machines, told to whoever shows it. Called on worker threads, never two
@@ -67,8 +68,8 @@ class FeedControl {
   /// Unsupported (the program is for another control), Busy (the machine has a run, or the gateway
   /// refused: the run's state is then Refused), Timeout (not connected, or no answer in time).
   virtual Result<storage::Run> start(const StartRequest& request) = 0;
-  /// Errors: NotFound (run), ModalConflict (it has ended), Busy (refused, with the gateway's
-  /// reason), Timeout (not connected, or no answer in time: the outcome is unknown).
+  /// Errors: NotFound (run, machine), ModalConflict (it has ended), Busy (refused, with the
+  /// gateway's reason), Timeout (not connected, or no answer in time: the outcome is unknown).
   virtual Result<void> order(const OrderRequest& request) = 0;
 };
 

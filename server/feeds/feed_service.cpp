@@ -228,6 +228,7 @@ Result<storage::Run> FeedService::conclude_start(const storage::Run& run,
 Result<void> FeedService::order(const OrderRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  if (request.run.empty()) return order_machine(request);
   const auto run = store_.run(request.run);
   if (!run) return fail(run.error());
   if (has_ended(*run)) {
@@ -244,6 +245,20 @@ Result<void> FeedService::order(const OrderRequest& request) {
   spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
                run->machine, run->id, run->program);
   return parts->orders.carry_out(std::move(order));
+}
+
+/// At its panel: no run is needed.
+Result<void> FeedService::order_machine(const OrderRequest& request) {
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  dds::Order order;
+  order.machine = request.machine;
+  order.action = request.action;
+  order.argument = request.argument;
+  order.value = request.value;
+  order.session = view->session;
+  spdlog::info("order {} machine={}", dds::to_string(request.action), request.machine);
+  return owned_parts_->orders.carry_out(std::move(order));
 }
 
 /// The sender was told that nothing came of this start, so nothing may come of it.

@@ -60,6 +60,7 @@ class FeedService final : public FeedControl {
   };
   Parts* parts() const;
   void on_stored(const storage::RecordBatch& batch);
+  Result<void> order_machine(const OrderRequest& request);
   void on_late_start(const dds::Order& order);
   OrderDesk::Options order_options() const;
   void abort_unwanted(const storage::Run& run);

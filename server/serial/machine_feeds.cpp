@@ -42,6 +42,9 @@ Result<storage::Run> MachineFeeds::start(const feeds::StartRequest& request) {
 }
 
 Result<void> MachineFeeds::order(const feeds::OrderRequest& request) {
+  if (request.run.empty()) {
+    return lines_.machine(request.machine) ? lines_.order(request) : gateways_.order(request);
+  }
   const auto run = store_.run(request.run);
   if (!run) return fail(run.error());
   if (lines_.machine(run->machine)) return lines_.order(request);

@@ -144,6 +144,10 @@ Result<storage::Run> SerialFeed::conclude(const storage::Run& run, const Result<
 }
 
 Result<void> SerialFeed::order(const feeds::OrderRequest& request) {
+  if (request.run.empty()) {
+    return fail(Errc::Unsupported, "machine '{}' hangs on a line: its panel is out of reach",
+                request.machine);
+  }
   const auto run = store_.run(request.run);
   if (!run) return fail(run.error());
   if (run->state != storage::RunState::Ordered && run->state != storage::RunState::Active) {

@@ -146,6 +146,23 @@ TEST_F(ApiHandlers, PassOrdersOn) {
   EXPECT_EQ(feeds_.ordered.at(0).value, 0.5);
 }
 
+/// HD-195: the emergency stop is pressed and released where no run is.
+TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
+  show_machine("lathe-1");
+  const auto response = post("/api/v1/machines/lathe-1/orders",
+                             {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(feeds_.ordered.at(0).run, "");
+  EXPECT_EQ(feeds_.ordered.at(0).machine, "lathe-1");
+  EXPECT_EQ(feeds_.ordered.at(0).argument, "emergency_stop");
+  const Json entry = json(get("/api/v1/audit"))["entries"][0];
+  EXPECT_EQ(entry["subject"], "lathe-1");
+  EXPECT_EQ(entry["action"], "machine.switch");
+  expect_error(post("/api/v1/machines/lathe-1/orders", {{"action", "resume"}}), 422, "unsupported",
+               "resume");
+  EXPECT_EQ(feeds_.ordered.size(), 1u);
+}
+
 TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
   const std::string run = stored_run(3);
   EXPECT_EQ(json(get("/api/v1/runs/" + run))["outputs"], 3);
@@ -204,6 +221,43 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Z", -3.0}, {"C", 90.0}}));
   EXPECT_TRUE(shown["run"].is_null());
   EXPECT_TRUE(shown["sequence"].is_null());
+  EXPECT_TRUE(shown["coordinates"].is_null()) << "an older gateway";
+  EXPECT_EQ(shown["emergency_stop"], false);
+}
+
+/// HD-082, HD-084.
+TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
+  show_machine("lathe-1");
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.position = {1, 2, 3};
+  status.axes = 0b111;
+  status.emergency_stop = true;
+  status.modes.emplace().tool_axis = 2;
+  status.modes->spindle = dds::SpindleState::Clockwise;
+  status.coordinates = dds::Coordinates{
+      .target = {5, 2, -3}, .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{}};
+  dds::ProgramFrame& frame = *status.coordinates->program;
+  frame.position = {11, 12, 13};
+  frame.shift = {-10, -10, -10};
+  frame.rotation = 30;
+  frame.scale = {0.5, 0.5, 1};
+  frame.mirrored = 0b10;
+  frame.pole_axes = 0b101;
+  frame.pole = {7, 0, 9};
+  feeds_.views[0].status = status;
+  const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
+  EXPECT_EQ(shown["emergency_stop"], true);
+  EXPECT_EQ(shown["modes"]["tool_axis"], "Z");
+  EXPECT_EQ(shown["modes"]["spindle"], "clockwise");
+  const Json& coordinates = shown["coordinates"];
+  EXPECT_EQ(coordinates["distance_to_go"], (Json{{"X", 4.0}, {"Y", 0.0}, {"Z", -6.0}}));
+  EXPECT_EQ(coordinates["lag"], (Json{{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}));
+  EXPECT_EQ(coordinates["program"]["position"], (Json{{"X", 11.0}, {"Y", 12.0}, {"Z", 13.0}}));
+  EXPECT_EQ(coordinates["program"]["shift"]["X"], -10);
+  EXPECT_EQ(coordinates["program"]["scale"]["Y"], 0.5);
+  EXPECT_EQ(coordinates["program"]["mirrored"], Json{"Y"});
+  EXPECT_EQ(coordinates["program"]["pole"], (Json{{"X", 7.0}, {"Z", 9.0}}));
 }
 
 /// CEN-211.

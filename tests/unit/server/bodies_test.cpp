@@ -33,6 +33,9 @@ std::optional<Error> start(std::string_view body) {
 std::optional<Error> order(std::string_view body) {
   return error_of(decode_order(body));
 }
+std::optional<Error> panel(std::string_view body) {
+  return error_of(decode_machine_order(body));
+}
 
 std::optional<Error> port(std::string_view body) {
   return error_of(decode_port("line-1", body));
@@ -155,6 +158,13 @@ INSTANTIATE_TEST_SUITE_P(
                  Errc::Syntax, "JSON"},
         BodyCase{"hold_with_text", order, R"({"action":"hold","text":"x"})", Errc::Syntax,
                  "does not take member 'text'"},
+        BodyCase{
+            "panel_switch", panel, R"({"action":"switch","name":"emergency_stop","value":1})", {}},
+        BodyCase{"panel_override", panel, R"({"action":"spindle_override","value":1})", {}},
+        BodyCase{"panel_without_value", panel, R"({"action":"switch","name":"block_skip"})",
+                 Errc::Syntax, "needs member 'value'"},
+        BodyCase{"panel_resume", panel, R"({"action":"resume"})", Errc::Unsupported,
+                 "is for a run"},
         BodyCase{"unknown_action", order, R"({"action":"explode"})", Errc::Unsupported,
                  "hold, resume"}),
     [](const auto& i) { return std::string(i.param.name); });

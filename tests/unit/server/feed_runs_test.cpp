@@ -163,6 +163,26 @@ TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
   EXPECT_EQ(service_->order(stray).error().code, Errc::NotFound);
 }
 
+/// A switch of the panel is there without a run.
+TEST_F(FeedRuns, AreNotNeededToOrderSomethingOfAMachinesPanel) {
+  start_service();
+  feeds::OrderRequest request;
+  request.machine = "lathe-1";
+  request.action = dds::OrderAction::Switch;
+  request.argument = "emergency_stop";
+  request.value = 1;
+  EXPECT_EQ(service_->order(request).error().code, Errc::NotFound);
+  announce();
+  answer_orders(true);
+  ASSERT_TRUE(service_->order(request));
+  EXPECT_EQ(written_->orders.back().machine, "lathe-1");
+  EXPECT_EQ(written_->orders.back().run, "");
+  EXPECT_EQ(written_->orders.back().argument, "emergency_stop");
+  EXPECT_EQ(written_->orders.back().value, 1);
+  network_.on_lost("lathe-1");
+  EXPECT_EQ(service_->order(request).error().code, Errc::Timeout);
+}
+
 TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
   const std::string run = stored_run();
   start_service();

@@ -118,6 +118,11 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   dds::Status status;
   status.machine = "lathe-1";
   status.run = run;
+  status.axes = 0b111;
+  status.modes.emplace().tool_axis = 2;
+  status.modes->spindle = dds::SpindleState::Clockwise;
+  status.coordinates = dds::Coordinates{
+      .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};
   feeds_.views[0].status = status;
 
   expect_described("GET", "/api/v1/health", get("/api/v1/health"));
@@ -140,6 +145,9 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
                    call("DELETE", "/api/v1/uploads/" + json(given_up).value("id", "")));
   expect_described("GET", "/api/v1/machines", get("/api/v1/machines"));
   expect_described("GET", "/api/v1/machines/{name}", get("/api/v1/machines/lathe-1"));
+  expect_described("POST", "/api/v1/machines/{name}/orders",
+                   post("/api/v1/machines/lathe-1/orders",
+                        {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}}));
   expect_described("POST", "/api/v1/runs",
                    post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}));
   expect_described("GET", "/api/v1/runs", get("/api/v1/runs"));

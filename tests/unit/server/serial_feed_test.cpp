@@ -78,6 +78,10 @@ TEST_F(SerialTest, RefusesWhatALineCanNotCarry) {
   const auto run = start("O1");
   ASSERT_TRUE(run);
   EXPECT_EQ(order(run->id, dds::OrderAction::FeedOverride).error().code, Errc::Unsupported);
+  feeds::OrderRequest panel;
+  panel.machine = "mill";
+  panel.action = dds::OrderAction::Switch;
+  EXPECT_EQ(ports_->feed().order(panel).error().code, Errc::Unsupported);
 }
 
 TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
