@@ -4,6 +4,7 @@
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/machine_text.hpp"
 #include "clients/cli/machine_watch.hpp"
+#include "clients/cli/run_orders.hpp"
 #include "clients/cli/value_text.hpp"
 
 namespace dripline::cli {
@@ -61,6 +62,34 @@ int show_status(Context& context, const std::string& name) {
   return kExitOk;
 }
 
+struct SwitchCommand {
+  std::string machine, name, state;
+};
+
+int set_switch(Context& context, const SwitchCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  const auto order = switch_order(command.name, command.state == "on");
+  if (auto given = client->order_machine(command.machine, order); !given)
+    return complain(given.error());
+  context.print(fmt::format("{} took {}\n", command.machine, order_text(order)));
+  return kExitOk;
+}
+
+void add_switch(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("switch", "Set a switch of a machine's panel");
+  auto options = std::make_shared<SwitchCommand>();
+  command->add_option("MACHINE", options->machine, "The machine")->required();
+  command->add_option("NAME", options->name, kSwitchHelp)->required();
+  command->add_option("STATE", options->state, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+  command->footer(
+      "With a run or without; dnc run switch does the same for the machine of a "
+      "run.\n\nExample:\n  dnc machine switch mill-1 emergency_stop off");
+  command->callback([&context, options] { context.status = set_switch(context, *options); });
+}
+
 }  // namespace
 
 void add_machine_commands(CLI::App& app, Context& context) {
@@ -76,6 +105,8 @@ void add_machine_commands(CLI::App& app, Context& context) {
   status->add_option("NAME", *name, "The machine")->required();
   add_json_flag(*status, context);
   status->callback([&context, name] { context.status = show_status(context, *name); });
+
+  add_switch(*group, context);
 
   auto watched = std::make_shared<std::string>();
   auto* watch = group->add_subcommand("watch", "Follow one machine, or all, until Ctrl-C");

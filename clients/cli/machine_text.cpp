@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "clients/cli/coordinate_text.hpp"
 #include "clients/cli/progress.hpp"
 #include "clients/cli/value_text.hpp"
 
@@ -19,15 +20,26 @@ std::string after_gap(const std::string& text) {
   return text.empty() ? std::string() : "  " + text;
 }
 
+/// The program can go on.
+bool is_interrupted(std::string_view execution) {
+  constexpr std::string_view kInterrupted[] = {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD",
+                                               "INTERRUPTED"};
+  return std::ranges::find(kInterrupted, execution) != std::end(kInterrupted);
+}
+
 /// What an operator types next, when the run waits for one.
 std::string next_step(const client::Run& run, const client::MachineStatus& status) {
   if (status.execution == "WAIT" && status.message.starts_with("asks: ")) {
     return fmt::format("dnc run answer {} TEXT answers it", short_id(run.id));
   }
-  constexpr std::string_view kStopped[] = {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD",
-                                           "INTERRUPTED"};
-  if (std::ranges::find(kStopped, status.execution) == std::end(kStopped)) return {};
+  if (!is_interrupted(status.execution)) return {};
   return fmt::format("dnc run resume {} goes on", short_id(run.id));
+}
+
+/// The lamp of a control that shows a `*` while a program runs.
+std::string star_text(const std::string& execution) {
+  if (execution == "ACTIVE" || execution == "WAIT") return "* (running)";
+  return is_interrupted(execution) ? "* flashing (interrupted)" : "off";
 }
 
 void add_motion(Details& details, const client::MachineStatus& status) {
@@ -48,6 +60,7 @@ std::string tool_text(const client::ActiveModes& modes) {
   std::string text = number_text(modes.tool);
   if (modes.tool_offset) text += fmt::format(", offset {}", *modes.tool_offset);
   if (modes.next_tool) text += fmt::format(" (next {})", *modes.next_tool);
+  if (!modes.tool_axis.empty()) text += fmt::format(", axis {}", modes.tool_axis);
   return text;
 }
 
@@ -69,6 +82,14 @@ std::string coolant_text(const client::ActiveModes& modes) {
   return modes.flood ? "flood" : modes.mist ? "mist" : "off";
 }
 
+/// "clockwise (M03)"
+std::string spindle_state_text(const client::ActiveModes& modes) {
+  if (modes.spindle == "clockwise") return "clockwise (M03)";
+  if (modes.spindle == "counterclockwise") return "counterclockwise (M04)";
+  if (modes.spindle == "off") return "off (M05)";
+  return modes.spindle.empty() ? "not told" : modes.spindle;
+}
+
 /// What a status window has besides place, position and speeds, in the control's order.
 void add_modes(Details& details, const client::ActiveModes& modes) {
   details.add("compensation", modes.compensation);
@@ -84,6 +105,7 @@ void add_modes(Details& details, const client::ActiveModes& modes) {
   details.add("cycle", modes.cycle.empty() ? "none" : modes.cycle);
   details.add("dwell", fmt::format("{:.1f} s left", modes.dwell_seconds));
   details.add("programmed speed", programmed_speed_text(modes));
+  details.add("spindle state", spindle_state_text(modes));
   details.add("spindle load", modes.spindle_load ? percent(*modes.spindle_load) : "not measured");
   details.add("coolant", coolant_text(modes));
 }
@@ -118,15 +140,7 @@ bool has_ended(const client::Run& run) {
 }
 
 std::string position_text(const client::MachineStatus& status) {
-  std::string text;
-  // In the order of the axis letters on a control's screen, which JSON objects do not keep.
-  constexpr std::string_view kOrder = "XYZABCUVW";
-  for (const char axis : kOrder) {
-    const auto found = status.position.find(std::string(1, axis));
-    if (found == status.position.end()) continue;
-    text += fmt::format("{}{} {:.3f}", text.empty() ? "" : " ", axis, found->second);
-  }
-  return text;
+  return axes_text(status.position);
 }
 
 std::string place_text(const client::MachineStatus& status) {
@@ -167,10 +181,13 @@ Details machine_details(const client::Machine& machine) {
   if (!machine.status) return details;
   const auto& status = *machine.status;
   details.add("execution", execution_cell(machine));
+  details.add("program star", star_text(status.execution));
   details.add("mode", status.mode);
   add_program(details, status);
   add_motion(details, status);
+  if (status.coordinates) add_coordinates(details, status);
   if (status.modes) add_modes(details, *status.modes);
+  if (status.emergency_stop) details.add("emergency stop", Cell("pressed", Style::Bad));
   details.add("message", status.message);
   details.add("records waiting", std::to_string(status.outbox));
   return details;

@@ -17,18 +17,6 @@ struct OrderCommand {
   int clicks = 1;
 };
 
-/// "hold", "feed override 50 %", "single_block on"
-std::string order_text(const client::OrderRequest& order) {
-  if (order.action == "switch") {
-    return fmt::format("{} {}", order.name.value_or(""), order.value == 1.0 ? "on" : "off");
-  }
-  if (order.action == "handwheel") return fmt::format("{:.0f} clicks", order.value.value_or(0));
-  std::string text = order.action;
-  std::ranges::replace(text, '_', ' ');
-  if (order.value) text += fmt::format(" {:.4g} %", *order.value * 100);
-  return text;
-}
-
 /// Gives the orders one after the other, as long as the machine takes them.
 int give(Context& context, const std::string& reference,
          const std::vector<client::OrderRequest>& orders) {
@@ -74,17 +62,18 @@ void add_switch(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
   auto options = std::make_shared<OrderCommand>();
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("NAME", options->name, "single_block, optional_stop, block_skip or handwheel")
-      ->required();
+  command->add_option("NAME", options->name, kSwitchHelp)->required();
   command->add_option("STATE", options->state, "on or off")
       ->required()
       ->check(CLI::IsMember({"on", "off"}));
-  command->footer("Example:\n  dnc run switch latest single_block on");
+  command->footer(
+      "emergency_stop brakes at once, turns spindle and coolant off and keeps the run from going "
+      "on; "
+      "when\nit is off again the run ends as aborted. It can be released by dnc machine switch "
+      "too.\n\nExample:\n  dnc run switch latest single_block on");
   command->callback([&context, options] {
-    client::OrderRequest order = plain("switch");
-    order.name = options->name;
-    order.value = options->state == "on" ? 1 : 0;
-    context.status = give(context, options->run, {order});
+    context.status =
+        give(context, options->run, {switch_order(options->name, options->state == "on")});
   });
 }
 
@@ -141,6 +130,25 @@ void add_override(CLI::App& group, Context& context) {
 }
 
 }  // namespace
+
+client::OrderRequest switch_order(std::string name, bool is_on) {
+  std::ranges::replace(name, '-', '_');
+  client::OrderRequest order = plain("switch");
+  order.name = std::move(name);
+  order.value = is_on ? 1 : 0;
+  return order;
+}
+
+std::string order_text(const client::OrderRequest& order) {
+  if (order.action == "switch") {
+    return fmt::format("{} {}", order.name.value_or(""), order.value == 1.0 ? "on" : "off");
+  }
+  if (order.action == "handwheel") return fmt::format("{:.0f} clicks", order.value.value_or(0));
+  std::string text = order.action;
+  std::ranges::replace(text, '_', ' ');
+  if (order.value) text += fmt::format(" {:.4g} %", *order.value * 100);
+  return text;
+}
 
 void add_order_commands(CLI::App& group, Context& context) {
   add_plain(group, context, "hold", "Feed hold: stop moving, keep the place");

@@ -1,8 +1,17 @@
 #pragma once
 
 #include "clients/cli/context.hpp"
+#include "clients/lib/api_types.hpp"
 
 namespace dripline::cli {
+
+inline constexpr const char* kSwitchHelp =
+    "single_block, optional_stop, block_skip, handwheel or emergency_stop";
+
+/// A dash stands for an underscore: "emergency-stop".
+client::OrderRequest switch_order(std::string name, bool is_on);
+/// "hold", "feed override 50 %", "single_block on"
+std::string order_text(const client::OrderRequest& order);
 
 /// Adds hold, resume, abort, answer, switch and override to the group `run`.
 void add_order_commands(CLI::App& group, Context& context);

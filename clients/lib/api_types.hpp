@@ -70,6 +70,26 @@ struct ActiveModes {
   double spindle_speed = 0;  ///< programmed: 1/min, or mm per minute
   std::optional<double> spindle_load;
   bool flood = false, mist = false;
+  std::string tool_axis;  ///< its letter; empty: programs do not choose it
+  std::string spindle;    ///< "off", "clockwise", ...; empty: not told
+};
+
+/// How program coordinates lie on the machine; by axis letter, millimetres and degrees.
+struct ProgramFrame {
+  std::map<std::string, double> position, target;  ///< program coordinates
+  std::map<std::string, double> datum, shift;
+  double rotation = 0, basic_rotation = 0;
+  std::map<std::string, double> scale;
+  std::vector<std::string> mirrored;
+  std::optional<std::map<std::string, double>> pole;
+};
+
+/// What a control's position display can show; along the machine's axes.
+struct Coordinates {
+  std::map<std::string, double> target;  ///< where the move being made ends
+  std::map<std::string, double> distance_to_go;
+  std::optional<std::map<std::string, double>> lag = {};  ///< absent: nobody measures it
+  std::optional<ProgramFrame> program = {};  ///< absent: no run, or its control tells none
 };
 
 struct MachineStatus {
@@ -85,6 +105,8 @@ struct MachineStatus {
   std::string message;
   std::uint64_t outbox = 0;
   std::optional<ActiveModes> modes;
+  std::optional<Coordinates> coordinates;
+  bool emergency_stop = false;  ///< pressed
 };
 
 struct Machine {

@@ -298,8 +298,16 @@ Reply<Run> Client::run(std::string_view id) {
 }
 
 Reply<void> Client::order(std::string_view run, const OrderRequest& request) {
+  return send_order(path_of("runs", run), request);
+}
+
+Reply<void> Client::order_machine(std::string_view machine, const OrderRequest& request) {
+  return send_order(path_of("machines", machine), request);
+}
+
+Reply<void> Client::send_order(const std::string& path, const OrderRequest& request) {
   const std::string body = order_body(request);
-  HttpRequest http = with_method("POST", path_of("runs", run) + "/orders");
+  HttpRequest http = with_method("POST", path + "/orders");
   http.body = body;
   auto response = exchange(http);
   if (!response) return failed(response.error());

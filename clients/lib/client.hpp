@@ -133,6 +133,8 @@ class Client {
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
   Reply<void> order(std::string_view run, const OrderRequest& request);
+  /// At its panel, with a run or without: switches and overrides.
+  Reply<void> order_machine(std::string_view machine, const OrderRequest& request);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
 
   Reply<std::vector<Port>> ports();
@@ -155,6 +157,7 @@ class Client {
                             const std::function<bool(std::string_view)>& sink);
 
  private:
+  Reply<void> send_order(const std::string& path, const OrderRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
   template <class T>
   Reply<T> fetch(const HttpRequest& request);

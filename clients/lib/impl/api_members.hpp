@@ -96,6 +96,29 @@ void members(V& v, Is<ActiveModes> auto& x) {
   v("spindle_load", x.spindle_load);
   v("flood", x.flood);
   v("mist", x.mist);
+  v("tool_axis", x.tool_axis);
+  v("spindle", x.spindle);
+}
+
+template <class V>
+void members(V& v, Is<ProgramFrame> auto& x) {
+  v("position", x.position);
+  v("target", x.target);
+  v("datum", x.datum);
+  v("shift", x.shift);
+  v("rotation", x.rotation);
+  v("basic_rotation", x.basic_rotation);
+  v("scale", x.scale);
+  v("mirrored", x.mirrored);
+  v("pole", x.pole);
+}
+
+template <class V>
+void members(V& v, Is<Coordinates> auto& x) {
+  v("target", x.target);
+  v("distance_to_go", x.distance_to_go);
+  v("lag", x.lag);
+  v("program", x.program);
 }
 
 template <class V>
@@ -123,6 +146,8 @@ void members(V& v, Is<MachineStatus> auto& x) {
   v("message", x.message);
   v("outbox", x.outbox);
   v("modes", x.modes);
+  v("coordinates", x.coordinates);
+  v.later("emergency_stop", x.emergency_stop);
 }
 
 template <class V>

@@ -18,7 +18,12 @@ nlohmann::json status_json() {
       "feed_unit":"per_revolution","feed":0.25,"feed_limited":true,"tool":3,"next_tool":null,
       "tool_offset":13,"tool_length_x":1.5,"tool_length_z":-2,"tool_radius":0.8,
       "work_system":"G54","cycle":null,"dwell_seconds":0,"surface_speed":false,"spindle_speed":800,
-      "spindle_load":null,"flood":true,"mist":false}})");
+      "spindle_load":null,"flood":true,"mist":false,"tool_axis":"Z","spindle":"clockwise"},
+      "coordinates":{"target":{"X":2,"Z":-2},"distance_to_go":{"X":0.5,"Z":0},
+      "lag":{"X":0,"Z":0},"program":{"position":{"X":1,"Z":2},"target":{"X":1.5,"Z":2},
+      "datum":{"X":1,"Z":0},"shift":{"X":-0.5,"Z":0},"rotation":30,"basic_rotation":0.5,
+      "scale":{"X":0.5,"Z":1},"mirrored":["X"],"pole":{"X":3,"Y":4}}},
+      "emergency_stop":true})");
 }
 
 TEST(ApiJson, ReadsAMachineWithItsStatus) {
@@ -39,8 +44,17 @@ TEST(ApiJson, ReadsAMachineWithItsStatus) {
 TEST(ApiJson, ReadsAStatusOfAnOlderServer) {
   auto json = test_support::machine_json("lathe-1");
   json["status"] = status_json();
+  json["status"]["modes"].erase("tool_axis");
+  json["status"]["modes"].erase("spindle");
+  EXPECT_EQ(from_json<client::Machine>(json)->status->modes->spindle, "");
   json["status"].erase("modes");
-  EXPECT_FALSE(from_json<client::Machine>(json)->status->modes);
+  json["status"].erase("coordinates");
+  json["status"].erase("emergency_stop");
+  const auto machine = from_json<client::Machine>(json);
+  ASSERT_TRUE(machine) << machine.error().what;
+  EXPECT_FALSE(machine->status->modes);
+  EXPECT_FALSE(machine->status->coordinates);
+  EXPECT_FALSE(machine->status->emergency_stop);
 }
 
 TEST(ApiJson, GivesBackWhatItRead) {

@@ -81,6 +81,13 @@ TEST_F(ClientCall, SavesASetupOverTheOneItWasMadeFrom) {
   EXPECT_EQ(late.error().what, "5 is the newest by now");
 }
 
+TEST_F(ClientCall, SendsOrdersToAMachinesPanel) {
+  ASSERT_TRUE(answering(200, R"({"accepted":true})")
+                  .order_machine("mill 1", {"switch", {}, "emergency_stop", 1}));
+  EXPECT_EQ(last.path, "/api/v1/machines/mill%201/orders");
+  EXPECT_EQ(last.body, R"({"action":"switch","name":"emergency_stop","value":1.0})");
+}
+
 TEST_F(ClientCall, PassesOnWhatTheServerSays) {
   const auto run = answering(409, R"({"error":{"code":"busy","message":"lathe-1 has run r1"}})")
                        .start_run({"lathe-1", "O1", {}});

@@ -105,12 +105,17 @@ TEST_F(DncOnline, GivesOrders) {
   EXPECT_EQ(dnc({"run", "answer", "aa", "16.5"}).status, 0);
   EXPECT_EQ(dnc({"run", "override", "latest", "--feed", "50", "--rapid", "25"}).status, 0);
   EXPECT_EQ(dnc({"run", "switch", "latest", "single_block", "on"}).status, 0);
+  EXPECT_EQ(dnc({"run", "switch", "latest", "emergency-stop", "on"}).status, 0);
+  EXPECT_EQ(dnc({"machine", "switch", "lathe-1", "emergency-stop", "off"}).out,
+            "lathe-1 took emergency_stop off\n");
   const std::lock_guard lock(mutex);
   EXPECT_EQ(orders, (std::vector<std::string>{
                         R"(aa11 {"action":"hold"})", R"(aa11 {"action":"answer","text":"16.5"})",
                         R"(aa11 {"action":"feed_override","value":0.5})",
                         R"(aa11 {"action":"rapid_override","value":0.25})",
-                        R"(aa11 {"action":"switch","name":"single_block","value":1.0})"}));
+                        R"(aa11 {"action":"switch","name":"single_block","value":1.0})",
+                        R"(aa11 {"action":"switch","name":"emergency_stop","value":1.0})",
+                        R"(lathe-1 {"action":"switch","name":"emergency_stop","value":0.0})"}));
 }
 
 TEST_F(DncOnline, ExportsAReport) {

@@ -64,6 +64,7 @@ TEST(DncHelp, IsThereForEveryVerb) {
                                                        {"machine", "list"},
                                                        {"machine", "status"},
                                                        {"machine", "watch"},
+                                                       {"machine", "switch"},
                                                        {"run"},
                                                        {"run", "start"},
                                                        {"run", "list"},

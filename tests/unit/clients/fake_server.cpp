@@ -274,7 +274,7 @@ class FakeServer::Impl {
       }
       answer_error(response, 404, "not_found");
     });
-    server_.Post(R"(/api/v1/runs/([\w-]+)/orders)",
+    server_.Post(R"(/api/v1/(?:runs|machines)/([\w-]+)/orders)",
                  [this](const Request& request, Response& response) {
                    const std::lock_guard lock(mutex);
                    if (order_handler) order_handler(request.matches[1], json::parse(request.body));

@@ -106,6 +106,61 @@ TEST(MachineDetails, ShowTheStatusWindow) {
   }
 }
 
+/// HD-082, HD-084: the five position displays, and the rest of a TNC's status window.
+TEST(MachineDetails, ShowPositionDisplaysAndTransformations) {
+  client::Machine machine;
+  machine.status = status();
+  machine.status->modes.emplace().tool = 7;
+  machine.status->modes->tool_axis = "Z";
+  machine.status->modes->spindle = "counterclockwise";
+  machine.status->coordinates = client::Coordinates{.target = {{"X", 20}, {"Z", -3}},
+                                                    .distance_to_go = {{"X", 7.5}, {"Z", 0}},
+                                                    .lag = {{{"X", 0}, {"Z", 0}}},
+                                                    .program = client::ProgramFrame{}};
+  client::ProgramFrame& frame = *machine.status->coordinates->program;
+  frame.position = {{"Z", 2}, {"X", 1}};
+  frame.target = {{"X", 16}, {"Z", 2}};
+  frame.datum = {{"X", 100}};
+  frame.shift = {{"X", 10}};
+  frame.rotation = 30;
+  frame.basic_rotation = 2.5;
+  frame.scale = {{"X", 0.5}, {"Y", 0.5}, {"Z", 1}};
+  frame.mirrored = {"X", "Y"};
+  frame.pole = {{"X", 3}, {"Y", 4}};
+  std::string text = machine_details(machine).render(false);
+  for (const char* line :
+       {"X 1.000 Z 2.000 mm", "X 16.000 Z 2.000 mm", "X 12.500 Z -3.000 mm", "X 7.500 Z 0.000 mm",
+        "X 0.000 Z 0.000 mm", "X 100.000 mm", "X 10.000 mm", "30.000 degrees, basic rotation 2.500",
+        "X 0.5 Y 0.5 Z 1", "X Y", "X 3.000 Y 4.000 mm", "7, axis Z", "counterclockwise (M04)"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
+  }
+  EXPECT_EQ(text.find("emergency"), std::string::npos);
+  machine.status->coordinates->lag.reset();
+  machine.status->coordinates->program.reset();
+  machine.status->emergency_stop = true;
+  text = machine_details(machine).render(false);
+  EXPECT_NE(text.find("not measured"), std::string::npos) << text;
+  EXPECT_NE(text.find("emergency stop"), std::string::npos) << text;
+  EXPECT_EQ(text.find("ROT"), std::string::npos) << text;
+}
+
+/// HD-191: it flashes where a run is interrupted, and is off where it was terminated.
+TEST(MachineDetails, ShowTheStarOfARunningProgram) {
+  client::Machine machine;
+  machine.status = status();
+  const auto star = [&machine](const char* execution) {
+    machine.status->execution = execution;
+    const std::string text = machine_details(machine).render(false);
+    const auto line = text.substr(text.find("program star"));
+    return line.substr(0, line.find('\n'));
+  };
+  EXPECT_TRUE(star("ACTIVE").ends_with("* (running)"));
+  for (const char* interrupted : {"FEED_HOLD", "INTERRUPTED", "PROGRAM_STOPPED"})
+    EXPECT_TRUE(star(interrupted).ends_with("* flashing (interrupted)"));
+  for (const char* over : {"STOPPED", "READY", "PROGRAM_COMPLETED"})
+    EXPECT_TRUE(star(over).ends_with(" off"));
+}
+
 TEST(ExecutionCell, SaysWhatIsKnownOfAMachineThatIsAway) {
   client::Machine machine;
   machine.status = status();
