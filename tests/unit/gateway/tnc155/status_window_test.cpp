@@ -146,6 +146,15 @@ TEST(TncStatusWindow, NoticesTheEndThatCancelsTransformations) {
   EXPECT_EQ(run.frame().shift[0], 0);
 }
 
+// HD-185: MP 173 leaves them in force.
+TEST(TncStatusWindow, KeepsTransformationsWhereTheEndDoesNotCancelThem) {
+  WindowRun run({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10"},
+                "[control]\ncancel_transformations = false\n");
+  run.step(2);
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.frame().shift[0], 10);
+}
+
 TEST(TncStatusWindow, NoticesARestoredState) {
   WindowRun shifted({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10", "L X+3 R0 F500 M"});
   const Snapshot start = shifted.interpreter().snapshot();
