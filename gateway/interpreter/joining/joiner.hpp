@@ -40,8 +40,8 @@ class Joiner final : public EventSink {
 
   /// The next move, or the one that waits (a block of its own says so, whose place the inserted
   /// piece takes), ends in a corner with the one after it: an arc that touches both, or a straight
-  /// piece between two lines. `feed` of the piece: none means that of the move. A size of 0 is no
-  /// corner.
+  /// piece between two lines. `feed` of the piece: none means that of the move (a chamfer of a
+  /// rapid move is then rapid too). A size of 0 is no corner.
   void round_next_corner(Length radius, std::optional<Feed> feed = {});
   void chamfer_next_corner(Length size, Chamfer measure = Chamfer::Leg,
                            std::optional<Feed> feed = {});

@@ -200,6 +200,13 @@ void warn_of_quadrant(Run& run, const PlaneMove& move) {
   }
 }
 
+/// F MAX is its block's alone: between rapid sides too a corner has the feed of the contour.
+bool has_corner_feed(Run& run, const Joint& joint) {
+  const bool is_corner = joint.kind == JointKind::Round || joint.kind == JointKind::Chamfer;
+  if (!is_corner || joint.size <= 0 || run.state.feed > 0) return true;
+  return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before RND or the chamfer");
+}
+
 }  // namespace
 
 bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
@@ -280,7 +287,9 @@ bool make_joint(Run& run, const Block& block) {
   if (joint.size < 0) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("R {} is less than 0", joint.size));
   }
+  if (!has_corner_feed(run, joint)) return false;
   const Length size = Length::mm(joint.size * state.transformation.factor(state.plane));
+  const Feed feed = Feed::per_minute(Length::mm(state.feed));
   joint.size = size.mm();
   state.joint = joint;
   if (joint.kind != JointKind::RunOn && !state.joins) {
@@ -294,10 +303,10 @@ bool make_joint(Run& run, const Block& block) {
       break;
     case JointKind::Round:
     case JointKind::RunOff:
-      run.joiner.round_corner(run.origin, size);
+      run.joiner.round_corner(run.origin, size, feed);
       break;
     case JointKind::Chamfer:
-      run.joiner.chamfer_corner(run.origin, size);
+      run.joiner.chamfer_corner(run.origin, size, joining::Chamfer::Leg, feed);
       break;
     case JointKind::None:
       break;

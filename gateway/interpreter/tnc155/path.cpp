@@ -98,7 +98,7 @@ void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
   arc.turn =
       (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise : Turn::CounterClockwise;
   arc.sweep = Angle::degrees(target.sweep);
-  arc.feed = Feed::per_minute(Length::mm(pace.feed));
+  arc.feed = Feed::per_minute(Length::mm(pace.is_rapid ? kFeedAtRapid : pace.feed));
   if (run.is_measuring) [[unlikely]] {
     run.limits.check_arc(arc, state.machine);
   } else {

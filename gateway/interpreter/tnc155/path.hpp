@@ -19,6 +19,9 @@ struct Pace {
   double feed = 0;
 };
 inline constexpr Pace kRapid{true, 0};
+/// What an arc, which is never a rapid move, takes for F MAX: the highest feed that can be entered,
+/// above that of every axis.
+inline constexpr double kFeedAtRapid = 15'999;
 
 /// Where a straight move goes: program coordinates of the axes in `named`.
 struct Target {

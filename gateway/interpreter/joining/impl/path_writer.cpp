@@ -62,10 +62,15 @@ void PathWriter::put_out(const Element& element) {
 
 void PathWriter::put_out(const Corner& corner, const Element& element, const Origin& origin) {
   if (length(corner.arrive - corner.leave) <= kNoLength) return;
-  const Feed feed = element.announced.corner->feed.value_or(element.line.feed);
+  const std::optional<Feed>& own = element.announced.corner->feed;
+  const Feed feed = own.value_or(element.line.feed);
   Position to = state_.given;
   place(to, axes_of(state_.plane), corner.arrive);
-  if (!corner.is_arc) return straight(element, origin, to, feed);
+  if (!corner.is_arc) {
+    if (!own) return straight(element, origin, to, feed);
+    state_.given = to;
+    return sink_.on_line({origin, to, feed, element.line.rests});
+  }
   Arc arc = arc_event(origin, to, state_.plane, corner.center);
   arc.turn = turn_of(corner.sweep);
   arc.sweep = Angle::radians(std::fabs(corner.sweep));

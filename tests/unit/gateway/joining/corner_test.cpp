@@ -179,5 +179,18 @@ TEST(Corner, RapidMovesMayBeElements) {
   EXPECT_EQ(path.log.moves[0].kind, Move::Kind::Rapid);
 }
 
+TEST(Corner, AChamferOfARapidMoveHasItsOwnFeed) {
+  Policy policy;
+  policy.joins_rapids = true;
+  Path plain{policy};
+  plain.rapid(40, 0).chamfer_block(5).rapid(40, 30).end();
+  ASSERT_EQ(plain.log.moves.size(), 3u);
+  EXPECT_EQ(plain.log.moves[1].kind, Move::Kind::Rapid);
+  Path own{policy};
+  own.rapid(40, 0).chamfer_block(5, Feed::per_minute(Length::mm(100))).rapid(40, 30).end();
+  expect_moves(own.log, {{{35, 0}}, {{40, 5}}, {{40, 30}}});
+  EXPECT_EQ(own.log.moves[1].kind, Move::Kind::Line);
+}
+
 }  // namespace
 }  // namespace dripline::interpreter::joining

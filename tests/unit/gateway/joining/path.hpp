@@ -79,8 +79,8 @@ class Path {
     joiner.round_corner(next(), Length::mm(radius), own);
     return end_block();
   }
-  Path& chamfer_block(double size) {
-    joiner.chamfer_corner(next(), Length::mm(size));
+  Path& chamfer_block(double size, std::optional<Feed> own = {}) {
+    joiner.chamfer_corner(next(), Length::mm(size), Chamfer::Leg, own);
     return end_block();
   }
   Path& end() {

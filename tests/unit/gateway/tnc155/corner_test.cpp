@@ -33,6 +33,34 @@ TEST(TncCorner, ARoundingTouchesAnArcAndALine) {
   EXPECT_EQ(moves[3], "L X0 Y20 F100");
 }
 
+// HD-105, HD-107: F MAX is its block's alone, so the piece between has the feed of the contour.
+TEST(TncCorner, ACornerOfRapidSidesHasTheFeedOfTheContour) {
+  const std::string start = "L X+0 Y+0 R0 F100";
+  EXPECT_THAT(moves_of({start, "L X+40 Y+0 F MAX", "RND R5", "L X+40 Y+30"}),
+              ElementsAre("R X35 Y0", "A X40 Y5 c35,5 ccw90 F100", "L X40 Y30 F100"));
+  EXPECT_THAT(moves_of({start, "L X+40 Y+0 F MAX", "RND R5", "L X+40 Y+30 F MAX"}),
+              ElementsAre("R X35 Y0", "A X40 Y5 c35,5 ccw90 F100", "R X40 Y30"));
+  EXPECT_THAT(moves_of({start, "L X+40 Y+0 F MAX", "L 5", "L X+40 Y+30 F MAX"}),
+              ElementsAre("R X35 Y0", "L X40 Y5 F100", "R X40 Y30"));
+  EXPECT_THAT(run_text("%3 G71 *\nN1 G17 G40 G90 G01 X+0 Y+10 F100 *\nN2 X+0 Y+0 *\n"
+                       "N3 G00 X+40 Y+0 G25 R5 *\nN4 G01 X+40 Y+30 *\nN9999 %3 G71 *\n")
+                  .events,
+              testing::Contains("A X40 Y5 c35,5 ccw90 F100"));
+}
+
+// HD-105, HD-107: and where there is none yet, nothing is made up.
+TEST(TncCorner, ACornerWithoutAnyFeedIsRefused) {
+  for (const char* corner : {"RND R5", "L 5"}) {
+    EXPECT_THAT(
+        moves_of({"L X+0 Y+10 R0 F MAX", "L X+40 Y+10 F MAX", corner, "L X+40 Y+30 F MAX"}).back(),
+        "! FEED RATE MISSING")
+        << corner;
+  }
+  EXPECT_THAT(
+      moves_of({"L X+0 Y+10 R0 F MAX", "L X+40 Y+10 F MAX", "RND R0", "L X+40 Y+30 F MAX"}).back(),
+      "R X40 Y30");
+}
+
 // HD-105, HD-106: in a compensated contour inner arcs get R - r, outer ones R + r; with R below r
 // the tool does not fit.
 TEST(TncCorner, RoundingsAreCompensatedAsArcs) {

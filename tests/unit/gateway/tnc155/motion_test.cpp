@@ -108,6 +108,18 @@ TEST(TncMotion, ArcsTurnAboutTheirCentre) {
               "! CIRCLE END POS. INCORRECT");
 }
 
+// HD-090, HD-097: an arc is never a rapid move, so F MAX is the highest feed there is, for its
+// block.
+TEST(TncMotion, ArcsTakeTheHighestFeedForRapid) {
+  EXPECT_THAT(
+      moves_of({"L X+10 Y+0 R0 F MAX", "CC X+0 Y+0", "C X-10 Y+0 DR+ F MAX", "CP PA+0 DR+"}),
+      ElementsAre("R X10 Y0", "A X-10 Y0 c0,0 ccw180 F15999", "! FEED RATE MISSING"));
+  EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "CP PA+180 DR+ F MAX", "CP PA+0 DR+",
+                        "CT X+0 Y+0 F MAX"}),
+              ElementsAre("L X10 Y0 F100", "A X-10 Y0 c0,0 ccw180 F15999",
+                          "A X10 Y0 c0,0 ccw180 F100", "A X0 Y0 c5,0 ccw180 F15999"));
+}
+
 // HD-097: in the other planes. Y tools work in ZX: from +Z (second 0) to +X.
 TEST(TncMotion, ArcsLieInThePlaneOfTheTool) {
   EXPECT_THAT(
