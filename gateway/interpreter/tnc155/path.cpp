@@ -10,22 +10,23 @@ constexpr AxisMask kRotary = bit(Axis::A) | bit(Axis::B) | bit(Axis::C);
 /// Rotated coordinates nearer to the old ones than this have not changed.
 constexpr double kSame = 1e-9;
 
-/// Of the linear axes, when rotary ones move with them, as the machine wants it.
-double linear_feed(const Run& run, const Position& to, double feed) {
+/// Of the linear axes, or of a rotary axis that moves alone, as the machine wants it.
+double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
   double linear = 0;
   double rotary = 0;
   for (const Axis axis : kAllAxes) {
     const double way = to.raw(axis) - run.state.machine.raw(axis);
     (is_rotary(axis) ? rotary : linear) += way * way;
   }
-  if (linear == 0 || rotary == 0) return feed;
-  if (run.options.contour_feed) return feed * std::sqrt(linear / (linear + rotary));
-  return feed * std::sqrt(linear / rotary);
+  if (rotary == 0) return pace.feed;
+  if (linear == 0) return pace.rotary_feed;
+  if (run.options.contour_feed) return pace.feed * std::sqrt(linear / (linear + rotary));
+  return pace.rotary_feed * std::sqrt(linear / rotary);
 }
 
 Feed feed_to(const Run& run, const Target& target, const Position& to, const Pace& pace) {
   const bool turns = (target.named & kRotary) != 0 && !pace.is_rapid;
-  return Feed::per_minute(Length::mm(turns ? linear_feed(run, to, pace.feed) : pace.feed));
+  return Feed::per_minute(Length::mm(turns ? feed_with_rotary(run, to, pace) : pace.feed));
 }
 
 void put_out(Run& run, const Line& move, bool is_rapid) {

@@ -13,12 +13,13 @@ constexpr AxisMask bit(Axis axis) {
   return static_cast<AxisMask>(1u << static_cast<unsigned>(axis));
 }
 
-/// How fast: rapid, or a feed in millimetres (degrees of a rotary axis alone) per minute.
+/// How fast: rapid, or at a feed.
 struct Pace {
   bool is_rapid = false;
-  double feed = 0;
+  double feed = 0;         ///< millimetres per minute
+  double rotary_feed = 0;  ///< degrees per minute: of a rotary axis alone
 };
-inline constexpr Pace kRapid{true, 0};
+inline constexpr Pace kRapid{true, 0, 0};
 /// What an arc, which is never a rapid move, takes for F MAX: the highest feed that can be entered,
 /// above that of every axis.
 inline constexpr double kFeedAtRapid = 15'999;

@@ -175,6 +175,7 @@ void visit_machine(Archive& archive, State& state) {
   visit(archive, state.spindle.speed);
   visit_all(archive, state.spindle.has_speed, state.coolant.flood);
   visit(archive, state.feed);
+  visit(archive, state.rotary_feed);
 }
 
 template <class Archive>

@@ -151,7 +151,10 @@ struct State {
   std::vector<ToolPocket> pockets;  ///< of the random changer; empty without one
   SpindleModes spindle;
   CoolantModes coolant;
-  double feed = 0;  ///< millimetres or degrees per minute; 0: none yet
+  /// F in force, by what moves: an inch program counts it in tenths of an inch for linear axes and
+  /// in degrees for a rotary axis alone. 0: none yet.
+  double feed = 0;         ///< millimetres per minute
+  double rotary_feed = 0;  ///< degrees per minute
 
   Compensation compensation = Compensation::Off;
   bool uses_stages = false;       ///< from the first RL, RR, RND or chamfer on

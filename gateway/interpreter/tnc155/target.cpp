@@ -14,13 +14,6 @@ constexpr std::size_t index(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-bool moves_only_rotary(const Block& block) {
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    if (!is_rotary(block.coordinates[i].axis)) return false;
-  }
-  return block.coordinate_count != 0;
-}
-
 /// Where the present nominal position is, seen from the pole.
 bool renew_polar(Run& run) {
   State& state = run.state;
@@ -82,12 +75,13 @@ bool read_feed(Run& run, const Block& block) {
   if (!block.feed.is_programmed()) return true;
   double feed = 0;
   if (!read_cycle_feed(run, block.feed, feed)) return false;
-  run.state.feed = moves_only_rotary(block) ? run.number(block.feed) : feed;
+  run.state.feed = feed;
+  run.state.rotary_feed = run.number(block.feed);
   return true;
 }
 
 bool pace_of(Run& run, const Block& block, Pace& pace) {
-  pace = {block.is_rapid, run.state.feed};
+  pace = {block.is_rapid, run.state.feed, run.state.rotary_feed};
   if (block.is_rapid || run.state.feed > 0) [[likely]]
     return true;
   return run.fail(ErrorCode::FeedRateMissing, "no F above 0 before this move");

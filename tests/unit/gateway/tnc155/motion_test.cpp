@@ -40,6 +40,28 @@ TEST(TncMotion, InchProgramsHaveInchesAndTenthsOfAnInchPerMinute) {
   EXPECT_THAT(moves_of({"L X+1 Y-0,5 R0 F250"}, inch), ElementsAre("L X25.4 Y-12.7 F635"));
 }
 
+// HD-058, HD-059, HD-092: F is tenths of an inch of linear axes, degrees of a rotary axis, by the
+// block that uses it: F100 is 10 inch/min, 254 mm/min.
+TEST(TncMotion, FeedsOfInchProgramsCountByWhatMoves) {
+  PathSetup inch;
+  inch.units = "INCH";
+  EXPECT_THAT(moves_of({"L X+1 C+0 R0 F100", "L C+90 F100", "L X+2"}, inch),
+              ElementsAre("L X25.4 C0 F254", "L X25.4 C90 F100", "L X50.8 C90 F254"));
+  EXPECT_THAT(
+      moves_of({"L X+1 R0 F250", "L C+90", "C+180", "L X+2"}, inch),
+      ElementsAre("L X25.4 F635", "L X25.4 C90 F250", "L X25.4 C180 F250", "L X50.8 C180 F635"));
+  // a program that is called keeps what F meant where it was programmed
+  EXPECT_THAT(moves_of({"L X+1 R0 F100", "CALL PGM 7", "L X+3"},
+                       {"", {{"7", "0 BEGIN PGM 7 INCH\n1 L C+90\n2 END PGM 7 INCH\n"}}, "MM"}),
+              ElementsAre("L X1 F100", "L X1 C90 F100", "L X3 C90 F100"));
+}
+
+// HD-089: with F of the rotary axis (older software), that is degrees: 100 * 25.4 / 90.
+TEST(TncMotion, TheRotaryAxisOfAnInchProgramSharesItsDegrees) {
+  PathSetup inch{"[control]\nrotary_feed = \"rotary\"", {}, "INCH"};
+  EXPECT_THAT(moves_of({"L X+1 C+90 R0 F100"}, inch), ElementsAre("L X25.4 C90 F28.222"));
+}
+
 const std::vector<std::string> kTool5{"TOOL DEF 1 L+0 R+5", "TOOL CALL 1 Z S100"};
 
 std::vector<std::string> with_tool5(std::vector<std::string> blocks) {
