@@ -315,7 +315,8 @@ bool run_single_axis(Run& run, const Block& block) {
   if (is_offset && axis != state.tool.axis && !is_rotary(axis)) {
     const double travel = wanted - state.nominal_of(axis);
     const double sign = travel > 0 ? 1 : travel < 0 ? -1 : 0;
-    extra = sign * (how == Compensation::Longer ? state.tool.data.radius : -state.tool.data.radius);
+    const double radius = state.tool.data.radius / state.transformation.factor(axis);
+    extra = sign * (how == Compensation::Longer ? radius : -radius);
   }
   target.at[static_cast<std::size_t>(axis)] = wanted + extra;
   state.polar.is_current = false;

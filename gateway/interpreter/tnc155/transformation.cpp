@@ -70,8 +70,12 @@ bool Transformation::turns_over(Plane plane) const {
   return mirrored[index(axes.first)] != mirrored[index(axes.second)];
 }
 
+double Transformation::factor(Axis axis) const {
+  return axis <= Axis::Z && scaled[index(axis)] ? scale : 1;
+}
+
 double Transformation::factor(Plane plane) const {
-  return scaled[index(axes_of(plane).first)] ? scale : 1;
+  return factor(axes_of(plane).first);
 }
 
 void Transformation::cancel_cycles() {

@@ -36,6 +36,8 @@ struct Transformation {
   Values to_program(Values point) const;
   /// Directions only: a distance or an arc turns the other way round in this plane.
   bool turns_over(Plane plane) const;
+  /// Of lengths along an axis.
+  double factor(Axis axis) const;
   /// Of lengths in the plane.
   double factor(Plane plane) const;
   /// Without the cycles; datum and basic rotation stay.

@@ -82,6 +82,24 @@ TEST(TncMotion, SingleAxisBlocksAddTheRadiusAlongTheTravel) {
   EXPECT_THAT(moves_of(with_tool5({"Z-10 R+ F100"})), ElementsAre("L Z-10 F100"));
 }
 
+// HD-093, HD-183: tool data are not scaled, mirrored or not.
+TEST(TncMotion, SingleAxisBlocksAddTheRadiusUnscaled) {
+  const std::vector<std::string> scaled{"CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2"};
+  const auto with = [&](std::string radius, std::vector<std::string> before,
+                        std::vector<std::string> blocks) {
+    std::vector<std::string> all{"TOOL DEF 1 L+0 R" + radius, "TOOL CALL 1 Z S100"};
+    all.insert(all.end(), scaled.begin(), scaled.end());
+    all.insert(all.end(), before.begin(), before.end());
+    all.insert(all.end(), blocks.begin(), blocks.end());
+    return moves_of(all);
+  };
+  EXPECT_THAT(with("+5", {}, {"L X+10 Y+0 R0 F100", "X+40 R+", "X+0 R-"}),
+              ElementsAre("L X20 Y0 F100", "L X85 Y0 F100", "L X5 Y0 F100"));
+  EXPECT_THAT(with("+2", {"CYCL DEF 8.0 MIRROR IMAGE", "CYCL DEF 8.1 X"},
+                   {"L X+10 Y+0 R0 F100", "X+30 R+"}),
+              ElementsAre("L X-20 Y0 F100", "L X-62 Y0 F100"));
+}
+
 // HD-093: R+ and RL must not follow each other.
 TEST(TncMotion, SingleAxisRadiusDoesNotMeetAContour) {
   EXPECT_THAT(moves_of(with_tool5({"X+40 R+ F100", "L X+50 Y+5 RL"})),
