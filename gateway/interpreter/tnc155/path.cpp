@@ -60,6 +60,24 @@ void apply(const State& state, Position& to, const Target& target) {
   }
 }
 
+/// The element before lies in the machine where it lay: what joins it (CT) sees it from the new
+/// coordinates.
+void carry_last_move(State& state, const Transformation& before, const AxisValues& nominal) {
+  const PlaneAxes axes = axes_of(state.plane);
+  const auto first = static_cast<std::size_t>(axes.first);
+  const auto second = static_cast<std::size_t>(axes.second);
+  LastMove& last = state.last;
+  for (PlaneVector* point : {&last.from, &last.to, &last.centre}) {
+    AxisValues at = nominal;
+    at[first] = point->first;
+    at[second] = point->second;
+    at = state.transformation.to_program(before.to_machine(at));
+    *point = {at[first], at[second]};
+  }
+  if (before.turns_over(state.plane) == state.transformation.turns_over(state.plane)) return;
+  last.turn = last.turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
+}
+
 }  // namespace
 
 PlaneVector nominal_in_plane(const State& state) {
@@ -131,10 +149,12 @@ void machine_line_to(Run& run, const Target& target, const Pace& pace) {
 
 void change_transformation(Run& run, const Transformation& changed) {
   State& state = run.state;
-  const AxisValues at = state.transformation.to_machine(state.nominal);
+  const Transformation before = state.transformation;
+  const AxisValues nominal = state.nominal;
   state.transformation = changed;
   state.transformation.update();
-  state.nominal = state.transformation.to_program(at);
+  state.nominal = state.transformation.to_program(before.to_machine(nominal));
+  carry_last_move(state, before, nominal);
   state.polar.is_current = false;
   ++run.frame_changes;
 }
