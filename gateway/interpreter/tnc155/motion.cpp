@@ -183,6 +183,24 @@ bool has_pole(Run& run) {
   return run.fail(ErrorCode::AngleReferenceMissing, "no CC before");
 }
 
+/// Circles lie in the plane in force; a helix moves the tool axis besides.
+bool check_circle_axes(Run& run, const Block& block, bool is_polar) {
+  const PlaneAxes axes = axes_of(run.state.plane);
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    const Axis axis = block.coordinates[i].axis;
+    const bool is_of_plane = axis == axes.first || axis == axes.second;
+    const bool is_of_tool =
+        axis == axes.normal || (axis == run.state.tool.axis && !is_rotary(axis));
+    if (is_polar ? is_of_tool : is_of_plane) continue;
+    return run.fail(
+        ErrorCode::PlaneWronglyDefined,
+        is_polar ? fmt::format("{} in CP, which has the tool axis alone besides PA", letter(axis))
+                 : fmt::format("{} in C, whose circle lies in {} and {}", letter(axis),
+                               letter(axes.first), letter(axes.second)));
+  }
+  return true;
+}
+
 /// CIRCLE END POS. INCORRECT where start and end are not on one circle.
 bool check_radii(Run& run, PlaneVector start, PlaneVector end) {
   const double from = length(start);
@@ -216,7 +234,7 @@ bool run_polar_line(Run& run, const Block& block) {
 bool run_arc(Run& run, const Block& block) {
   constexpr double kNoWay = 1e-6;  // a full circle ends where it begins
   State& state = run.state;
-  if (!has_pole(run)) return false;
+  if (!has_pole(run) || !check_circle_axes(run, block, false)) return false;
   ArcTarget arc;
   arc.to = here(state);
   if (!read_arc_end(run, block, arc.to)) return false;
@@ -236,6 +254,7 @@ bool run_arc(Run& run, const Block& block) {
 bool run_polar_arc(Run& run, const Block& block) {
   State& state = run.state;
   if (!refuse_machine_block(run, block) || !has_pole(run)) return false;
+  if (!check_circle_axes(run, block, true)) return false;
   ArcTarget arc;
   arc.to = here(state);
   read_coordinates(run, block, arc.to);

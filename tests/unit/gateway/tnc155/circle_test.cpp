@@ -11,6 +11,34 @@ using testing::ElementsAre;
 const std::string kStart = "L X+10 Y+0 R0 F100";
 const std::string kPole = "CC X+0 Y+0";
 
+// HD-097, HD-103: a circle lies in the plane of the tool; only CP moves the tool axis besides.
+TEST(TncCircle, OtherAxesThanThePlanesAreRefused) {
+  for (const char* block : {"C X-10 Z+5 DR+", "C X-10 A+5 DR+", "C Z+5 DR+", "C IX-20 IZ+5 DR-",
+                            "CP PA+90 C+99 DR+", "CP PA+90 X+99 DR+", "CP IPA+90 IY+1 DR+"}) {
+    EXPECT_THAT(moves_of({kStart, kPole, block}),
+                ElementsAre("L X10 Y0 F100", "! PLANE WRONGLY DEFINED"))
+        << block;
+  }
+  EXPECT_EQ(run_text("%3 G71 *\nN1 G17 G40 G90 G01 X+10 Y+0 F100 *\nN2 I+0 J+0 *\n"
+                     "N3 G02 X-10 Z+5 *\n")
+                .alarm_id,
+            "TNC-PLANE");
+  EXPECT_THAT(
+      moves_of({"TOOL CALL 0 X S100", "L Y+10 Z+0 R0 F100", "CC Y+0 Z+0", "CP IPA+90 IX+4 DR+",
+                "CP IPA+90 IZ+4 DR+"}),
+      ElementsAre("L Y10 Z0 F100", "A X4 Y0 Z10 c0,0 ccw90 F100", "! PLANE WRONGLY DEFINED"));
+}
+
+// HD-103: an axis parallel to that of the plane, where the tool is in it.
+TEST(TncCircle, AHelixMovesTheToolAxis) {
+  const PathSetup fourth{"[control]\nfourth_axis = \"W\"", {}};
+  const std::vector<std::string> helix{kStart, kPole, "CP IPA+90 IW+4 DR+"};
+  std::vector<std::string> called{"TOOL CALL 0 IV S100"};
+  called.insert(called.end(), helix.begin(), helix.end());
+  EXPECT_EQ(moves_of(called, fourth).back(), "A X0 Y10 W4 c0,0 ccw90 F100");
+  EXPECT_EQ(moves_of(helix, fourth).back(), "! PLANE WRONGLY DEFINED");
+}
+
 // HD-101, HD-184: the way before lies in the machine where it lay, whatever coordinates count now.
 TEST(TncCircle, TangentsOutlastATransformation) {
   const auto with = [](std::vector<std::string> cycle, const std::string& tangent) {
