@@ -14,12 +14,13 @@ constexpr std::size_t index(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-/// Where the present nominal position is, seen from the pole.
-bool renew_polar(Run& run) {
+/// Where the present nominal position is, seen from the pole; on it there is a radius, and no
+/// angle.
+bool renew_polar(Run& run, bool needs_angle) {
   State& state = run.state;
   const PlaneVector out = nominal_in_plane(state) - pole_in_plane(state);
   const double radius = length(out);
-  if (radius == 0) {
+  if (radius == 0 && needs_angle) {
     return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
   }
   state.polar.radius = radius;
@@ -38,7 +39,8 @@ bool read_polar(Run& run, const Block& block, Target& target) {
     return run.fail(ErrorCode::AngleReferenceMissing, "PR or PA was never programmed");
   }
   const bool needs_last = misses_one || block.is_radius_incremental || block.is_angle_incremental;
-  if (needs_last && !polar.is_current && !renew_polar(run)) return false;
+  const bool needs_angle = !block.angle.is_programmed() || block.is_angle_incremental;
+  if (needs_last && !polar.is_current && !renew_polar(run, needs_angle)) return false;
   double radius = polar.radius;
   double angle = polar.angle;
   if (block.radius.is_programmed()) {

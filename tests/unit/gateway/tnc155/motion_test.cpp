@@ -123,6 +123,20 @@ TEST(TncMotion, PolarLinesGoFromThePole) {
               ElementsAre("! ANGLE REFERENCE MISSING"));
 }
 
+// HD-096: on the pole the radius is 0, and only an angle that counts from the last one is missing.
+TEST(TncMotion, PolarLinesLeaveThePoleByAnAngle) {
+  const std::vector<std::string> start{"CC X+0 Y+0", "LP PR+5 PA+0 R0 F100", "CC"};
+  const auto behind = [&](const std::string& block) {
+    std::vector<std::string> blocks = start;
+    blocks.push_back(block);
+    return moves_of(blocks).back();
+  };
+  EXPECT_EQ(behind("LP IPR+10 PA+90"), "L X5 Y10 F100");
+  EXPECT_EQ(behind("LP PA+90"), "L X5 Y0 F100");
+  EXPECT_EQ(behind("LP IPR+10 IPA+90"), "! ANGLE REFERENCE MISSING");
+  EXPECT_EQ(behind("LP PR+10"), "! ANGLE REFERENCE MISSING");
+}
+
 // HD-095: CC without words, and with one.
 TEST(TncMotion, ThePoleTakesOverTheLastPosition) {
   EXPECT_THAT(moves_of({"L X+20 Y+30 R0 F100", "CC", "LP PR+5 PA+90"}),
