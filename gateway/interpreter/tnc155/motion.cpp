@@ -162,6 +162,13 @@ double sweep_of(PlaneVector from, PlaneVector to, Turn turn) {
   const double angle = turn_between(from, to) * (180 / Angle::kPi);
   return sweep_of(0, angle, turn);
 }
+/// Of IPA: its full turns, and the rest the way `turn` goes, which may be none.
+double sweep_by(double angle, double from, Turn turn) {
+  const double turns = std::floor(std::fabs(angle) / 360) * 360;
+  const double rest =
+      std::fmod(std::fabs(angle), 360) == 0 ? 0 : sweep_of(from, from + angle, turn);
+  return turns + rest;
+}
 
 bool go_round(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
   State& state = run.state;
@@ -265,18 +272,12 @@ bool run_polar_arc(Run& run, const Block& block) {
   if (radius == 0) return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
   const double from = turn_between({1, 0}, start) * (180 / Angle::kPi);
   const double angle = run.number(block.angle);
-  double to = angle;
-  if (block.is_angle_incremental) {
-    to = from + angle;
-    const double turns = std::floor(std::fabs(angle) / 360) * 360;
-    const double rest = std::fmod(std::fabs(angle), 360) == 0 ? 0 : sweep_of(from, to, arc.turn);
-    arc.sweep = turns + rest;
-    if (arc.sweep == 0) return run.fail(ErrorCode::CircleEndIncorrect, "IPA+0 turns nowhere");
-  } else {
-    arc.sweep = sweep_of(from, to, arc.turn);
-  }
-  set_in_plane(state, arc.to, arc.centre + radius * unit_vector(to));
+  const double to = block.is_angle_incremental ? from + angle : angle;
+  arc.sweep =
+      block.is_angle_incremental ? sweep_by(angle, from, arc.turn) : sweep_of(from, to, arc.turn);
   state.polar = {true, true, radius, to};
+  if (arc.sweep == 0) return go_straight(run, block, arc.to);  // a helix without turns
+  set_in_plane(state, arc.to, arc.centre + radius * unit_vector(to));
   return go_round(run, block, arc);
 }
 

@@ -39,6 +39,19 @@ TEST(TncCircle, AHelixMovesTheToolAxis) {
   EXPECT_EQ(moves_of(helix, fourth).back(), "! PLANE WRONGLY DEFINED");
 }
 
+// HD-100, HD-103: the rest of IPA+0 is none, and so are its full turns.
+TEST(TncCircle, AHelixWithoutTurnsMovesTheToolAxisAlone) {
+  EXPECT_THAT(moves_of({kStart, kPole, "CP IPA+0 IZ+5 DR+", "CP IPA+90 DR+"}),
+              ElementsAre("L X10 Y0 F100", "L X10 Y0 Z5 F100", "A X0 Y10 Z5 c0,0 ccw90 F100"));
+  EXPECT_THAT(moves_of({kStart, kPole, "CP IPA+0 DR-", "CP IPA+90 DR+"}),
+              ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100"));
+  EXPECT_THAT(
+      moves_of({kStart, kPole, "CP IPA+360 IZ+5 DR-", "CP PA+0 DR-"}),
+      ElementsAre("L X10 Y0 F100", "A X10 Y0 Z5 c0,0 cw360 F100", "A X10 Y0 Z5 c0,0 cw360 F100"));
+  EXPECT_THAT(moves_of({kStart, "CC X+10 Y+0", "CP IPA+0 DR+"}).back(),
+              "! ANGLE REFERENCE MISSING");
+}
+
 // HD-101, HD-184: the way before lies in the machine where it lay, whatever coordinates count now.
 TEST(TncCircle, TangentsOutlastATransformation) {
   const auto with = [](std::vector<std::string> cycle, const std::string& tangent) {
