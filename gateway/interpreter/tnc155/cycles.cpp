@@ -6,6 +6,7 @@
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/flow.hpp"
 #include "gateway/interpreter/tnc155/machining_cycles.hpp"
+#include "gateway/interpreter/tnc155/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -146,6 +147,7 @@ bool check_machining(Run& run, const MachiningCycle& cycle) {
     return run.fail(ErrorCode::SpindleRotatesMissing, "M03 or M04 before a cycle");
   }
   if (!check_signs(run, cycle) || !check_feeds(run, cycle)) return false;
+  if (cycle.number == kCircle && !check_circle_plane(run)) return false;
   if (cycle.number >= kSlot && !check_room(run, cycle)) return false;
   return check_bounds(run, cycle);
 }

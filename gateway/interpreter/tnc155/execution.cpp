@@ -8,6 +8,7 @@
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 #include "gateway/interpreter/tnc155/motion.hpp"
 #include "gateway/interpreter/tnc155/q_parameters.hpp"
+#include "gateway/interpreter/tnc155/target.hpp"
 #include "gateway/interpreter/tnc155/tools.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -138,8 +139,9 @@ bool execute(Run& run, const Block& block) {
       return call_tool(run, block);
     case BlockKind::Stop:
       return stop_block(run, block);
-    case BlockKind::Chamfer:
     case BlockKind::Rounding:
+      return check_circle_plane(run) && make_joint(run, block);
+    case BlockKind::Chamfer:
       return make_joint(run, block);
     case BlockKind::Centre:
       return set_pole(run, block);

@@ -172,6 +172,7 @@ double sweep_by(double angle, double from, Turn turn) {
 
 bool go_round(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
   State& state = run.state;
+  if (!check_circle_plane(run)) return false;
   if (!check_restart(run, block, arc.to) || !read_feed(run, block)) return false;
   PlaneMove move = plane_move(state, arc.to);
   move.is_arc = true;

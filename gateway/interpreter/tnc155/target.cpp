@@ -102,6 +102,18 @@ PlaneMove plane_move(const State& state, const Target& target) {
   return move;
 }
 
+bool check_circle_plane(Run& run) {
+  const State& state = run.state;
+  if (!state.transformation.is_special || state.transformation.keeps_circles(state.plane)) {
+    return true;
+  }
+  const PlaneAxes axes = axes_of(state.plane);
+  return run.fail(ErrorCode::PlaneWronglyDefined,
+                  fmt::format("rotation or scaling of another plane turns a circle of {} and {} "
+                              "out of the main planes",
+                              letter(axes.first), letter(axes.second)));
+}
+
 void set_in_plane(const State& state, Target& target, PlaneVector to) {
   const PlaneAxes axes = axes_of(state.plane);
   target.set(axes.first, to.first);

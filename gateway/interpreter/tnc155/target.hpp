@@ -31,6 +31,8 @@ inline PlaneVector in_plane(const State& state, const Target& target) {
   return {target.at[static_cast<std::size_t>(axes.first)],
           target.at[static_cast<std::size_t>(axes.second)]};
 }
+/// PLANE WRONGLY DEFINED where a circle in the plane in force would be none in the machine's.
+bool check_circle_plane(Run& run);
 void set_in_plane(const State& state, Target& target, PlaneVector to);
 /// Both axes of the plane count as programmed.
 void name_plane(const State& state, Target& target);

@@ -78,6 +78,15 @@ double Transformation::factor(Plane plane) const {
   return factor(axes_of(plane).first);
 }
 
+bool Transformation::keeps_circles(Plane plane) const {
+  const PlaneAxes axes = axes_of(plane);
+  const auto keeps = [&](double degrees, Plane turned) {
+    return turned == plane || std::fmod(degrees, 360) == 0;
+  };
+  return keeps(rotation, rotation_plane) && keeps(basic_rotation, basic_plane) &&
+         factor(axes.first) == factor(axes.second);
+}
+
 void Transformation::cancel_cycles() {
   shift = {};
   mirrored = {};

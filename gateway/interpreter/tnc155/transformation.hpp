@@ -40,6 +40,9 @@ struct Transformation {
   double factor(Axis axis) const;
   /// Of lengths in the plane.
   double factor(Plane plane) const;
+  /// A circle in this plane is one in the same plane of the machine: no rotation in another plane
+  /// turns it out, and both axes have one scale.
+  bool keeps_circles(Plane plane) const;
   /// Without the cycles; datum and basic rotation stay.
   void cancel_cycles();
 };

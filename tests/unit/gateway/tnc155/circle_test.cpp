@@ -75,5 +75,46 @@ TEST(TncCircle, TangentsOfArcsOutlastAMirror) {
       ElementsAre("L X10 Y0 F100", "A X0 Y10 c0,0 ccw90 F100", "A X-10 Y20 c0,20 cw90 F100"));
 }
 
+const std::vector<std::string> kTurned{"TOOL DEF 1 L+0 R+2",     "TOOL CALL 1 Z S100",
+                                       "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+30",
+                                       "TOOL CALL 1 Y S100",     "L Z+10 X+0 R0 F100 M03"};
+
+std::vector<std::string> turned(std::vector<std::string> blocks) {
+  blocks.insert(blocks.begin(), kTurned.begin(), kTurned.end());
+  return moves_of(blocks);
+}
+
+// HD-097, HD-182: the rotation belongs to the plane it was defined in (XY): it would turn a circle
+// of ZX out of the main planes.
+TEST(TncCircle, ARotationOfAnotherPlaneLeavesNoCircle) {
+  const std::string pole = "CC Z+0 X+0";
+  const std::string refused = "! PLANE WRONGLY DEFINED";
+  EXPECT_EQ(turned({pole, "C Z+0 X+10 DR+"}).back(), refused);
+  EXPECT_EQ(turned({pole, "CP PA+90 DR+"}).back(), refused);
+  EXPECT_EQ(turned({"L Z+20 X+0", "CT Z+30 X+10"}).back(), refused);
+  EXPECT_EQ(turned({"L Z+20 X+0", "RND R2", "L Z+20 X+10"}).back(), refused);
+  EXPECT_EQ(turned({"CYCL DEF 5.0 CIRCULAR POCKET", "CYCL DEF 5.1 SET-UP -2",
+                    "CYCL DEF 5.2 DEPTH -4", "CYCL DEF 5.3 PECKING -4 F20",
+                    "CYCL DEF 5.4 RADIUS 10", "CYCL DEF 5.5 F100 DR+", "CYCL CALL"})
+                .back(),
+            refused);
+  // a straight line is one in any plane: X 10 lies at 30 degrees
+  EXPECT_EQ(turned({"L X+10"}).back(), "L X8.66 Y5 Z10 F100");
+  EXPECT_EQ(
+      turned({"CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+0", pole, "C Z+0 X+10 DR+"}).back(),
+      "A X10 Z0 c0,0 ccw90 F100");
+}
+
+// HD-097, HD-183: the plane alone was scaled, and a circle of another would be an ellipse.
+TEST(TncCircle, AScaleOfOneAxisLeavesNoCircle) {
+  const PathSetup plane{"[control]\nscale_three_axes = false", {}};
+  const std::vector<std::string> blocks{"TOOL CALL 0 Z S100",  "CYCL DEF 11.0 SCALING",
+                                        "CYCL DEF 11.1 SCL 2", "TOOL CALL 0 Y S100",
+                                        "L Z+10 X+0 R0 F100",  "CC Z+0 X+0",
+                                        "C Z+0 X+10 DR+"};
+  EXPECT_EQ(moves_of(blocks, plane).back(), "! PLANE WRONGLY DEFINED");
+  EXPECT_EQ(moves_of(blocks).back(), "A X20 Z0 c0,0 ccw90 F100");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
