@@ -50,7 +50,8 @@ std::string tnc155_trace(std::string_view text) {
   std::string trace;
   {
     TraceWriter writer([&](std::string_view lines) { written += lines; });
-    const auto outcome = run_offline(dialect, Setup{}, source, writer, {kMostBlocks});
+    const auto setup = parse_setup("[control]\nprogram_start = \"any\"\n");
+    const auto outcome = run_offline(dialect, *setup, source, writer, {kMostBlocks});
     writer.flush();
     if (!outcome) trace = "...";
   }

@@ -29,6 +29,29 @@ Target machine_target(const Run& run, const Block& block) {
   return target;
 }
 
+/// The first positioning has to be told by itself alone, after GOTO by more than one coordinate.
+bool check_start(Run& run, const Block& block, const Target& target) {
+  State& state = run.state;
+  if (state.has_positioned) [[likely]]
+    return true;
+  const ProgramStart rule = state.is_restart ? ProgramStart::Complete : run.options.program_start;
+  bool is_incremental = block.is_radius_incremental || block.is_angle_incremental;
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    is_incremental |= block.coordinates[i].is_incremental;
+  }
+  const bool has_one = (target.named & (target.named - 1)) == 0;
+  if ((rule != ProgramStart::Any && is_incremental) ||
+      (rule == ProgramStart::Complete && has_one)) {
+    return run.fail(
+        ErrorCode::ProgramStartUndefined,
+        fmt::format("the first positioning block{} {}", state.is_restart ? " after GOTO" : "",
+                    is_incremental ? "is incremental" : "has one coordinate"));
+  }
+  state.has_positioned = true;
+  state.is_restart = false;
+  return true;
+}
+
 /// M91, M92: the block's words are machine coordinates, and nothing else changes them.
 bool run_machine_block(Run& run, const Block& block) {
   const State& state = run.state;
@@ -40,8 +63,8 @@ bool run_machine_block(Run& run, const Block& block) {
     return run.fail(ErrorCode::PathOffsetWronglyStarted,
                     fmt::format("M{} moves without radius compensation", block.m));
   }
-  if (!read_feed(run, block)) return false;
   const Target target = machine_target(run, block);
+  if (!check_start(run, block, target) || !read_feed(run, block)) return false;
   Pace pace;
   if (!pace_of(run, block, pace)) return false;
   if (block.compensation == Compensation::Off) {
@@ -91,22 +114,6 @@ bool read_arc_end(Run& run, const Block& block, Target& target) {
   return true;
 }
 
-/// After GOTO the first positioning has to be told by itself alone.
-bool check_restart(Run& run, const Block& block, const Target& target) {
-  if (!run.state.is_restart) [[likely]]
-    return true;
-  bool is_open = (target.named & (target.named - 1)) == 0;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    is_open |= block.coordinates[i].is_incremental;
-  }
-  if (is_open || block.is_radius_incremental || block.is_angle_incremental) {
-    return run.fail(ErrorCode::ProgramStartUndefined,
-                    "the first block after GOTO is incremental or has one coordinate");
-  }
-  run.state.is_restart = false;
-  return true;
-}
-
 /// A rotation may bring a third axis into a block that names two.
 bool check_axes(Run& run, const Target& target) {
   constexpr double kSame = 1e-9;
@@ -126,7 +133,7 @@ bool check_axes(Run& run, const Target& target) {
 bool go_straight(Run& run, const Block& block, const Target& target) {
   State& state = run.state;
   if (!check_axes(run, target)) return false;
-  if (target.named != 0 && !check_restart(run, block, target)) return false;
+  if (target.named != 0 && !check_start(run, block, target)) return false;
   if (!read_feed(run, block)) return false;
   const PlaneMove move = plane_move(state, target);
   Pace pace;
@@ -173,7 +180,7 @@ double sweep_by(double angle, double from, Turn turn) {
 bool go_round(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
   State& state = run.state;
   if (!check_circle_plane(run)) return false;
-  if (!check_restart(run, block, arc.to) || !read_feed(run, block)) return false;
+  if (!check_start(run, block, arc.to) || !read_feed(run, block)) return false;
   PlaneMove move = plane_move(state, arc.to);
   move.is_arc = true;
   move.has_both = has_both;

@@ -165,7 +165,8 @@ void check_limits(const ControlOptions& read, Reader& reader) {
 }
 
 /// All options there are.
-constexpr std::initializer_list<std::string_view> kKnown = {"random_changer",
+constexpr std::initializer_list<std::string_view> kKnown = {"program_start",
+                                                            "random_changer",
                                                             "magazine_pockets",
                                                             "probe_clearance",
                                                             "probe_travel",
@@ -245,6 +246,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   read.decimal_sign = *sign;
   read.modes_go_over_calls = reader.choice("iso_modes", {"program", "run"}, 0) == 1;
   read.checks_calls = reader.choice("program_check", {"start", "call"}, 0) == 0;
+  read.program_start =
+      static_cast<ProgramStart>(reader.choice("program_start", {"absolute", "complete", "any"}, 0));
   reader.flag("memory_limits", read.memory_limits);
   int memory_blocks = static_cast<int>(read.memory_blocks);
   reader.integer("memory_blocks", memory_blocks, {1, 100'000});

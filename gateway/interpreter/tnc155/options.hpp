@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,13 @@
 #include "gateway/interpreter/tnc155/control_version.hpp"
 
 namespace dripline::interpreter::tnc155 {
+
+/// What the first positioning block of a run must be. After GOTO it must be complete.
+enum class ProgramStart : std::uint8_t {
+  Absolute,  ///< without incremental words
+  Complete,  ///< and with two coordinates at least
+  Any,
+};
 
 /// What the machine builder, the software version or a choice of ours decides. Lengths are
 /// millimetres, feeds millimetres per minute.
@@ -54,6 +62,7 @@ struct ControlOptions {
   /// MOD function LIMIT: machine coordinates that a move may reach, of the axes that are marked.
   Position limit_low, limit_high;
   Position m92_position;  ///< what coordinates of M92 refer to
+  ProgramStart program_start = ProgramStart::Absolute;
   int start_block =
       -1;  ///< GOTO before the start: number of the first block; -1: none (`start_at` too)
 };

@@ -187,7 +187,7 @@ void visit_flow(Archive& archive, State& state) {
   up_to(archive, jump.kind, JumpKind::Start);
   visit_all(archive, jump.number, jump.repeats);
   visit(archive, jump.call);
-  archive(state.is_restart);
+  visit_all(archive, state.is_restart, state.has_positioned);
 }
 
 template <class Archive>

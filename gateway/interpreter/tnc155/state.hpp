@@ -177,7 +177,8 @@ struct State {
   std::vector<ProgramFrame> programs;
   std::vector<LabelPlace> known_labels;
   Jump jump;
-  bool is_restart = false;  ///< after GOTO: the first positioning must say where it goes
+  bool is_restart = false;      ///< after GOTO
+  bool has_positioned = false;  ///< the first positioning of the run has said where it goes
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
   bool is_compensating() const {

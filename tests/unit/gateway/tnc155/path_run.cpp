@@ -87,9 +87,11 @@ class PathSink final : public EventSink {
 
 PathRun run_text(const std::string& text, const PathSetup& setup) {
   PathRun run;
-  const auto read = parse_setup(setup.setup);
+  auto read = parse_setup(setup.setup);
   EXPECT_TRUE(read) << read.error().what;
   if (!read) return run;
+  constexpr std::string_view kStart = "program_start";
+  if (read->control.find(kStart) == nullptr) read->control.set(kStart, {std::string("any")});
   MemorySource source(text, [&](std::string_view name) -> std::optional<std::string> {
     for (const auto& [known, program] : setup.programs) {
       if (known == name) return program;

@@ -19,7 +19,8 @@ struct PathRun {
 };
 
 /// Runs `blocks` (block numbers are put in front) within BEGIN PGM 1 and END PGM 1. `setup` is a
-/// setup file. Programs that are called: texts by name ("7").
+/// setup file; unless it says `program_start`, the first block may be incremental. Programs that
+/// are called: texts by name ("7").
 struct PathSetup {
   std::string setup;
   std::vector<std::pair<std::string, std::string>> programs;

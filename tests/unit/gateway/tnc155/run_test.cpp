@@ -32,6 +32,46 @@ TEST(TncRun, BeginsAtABlock) {
             "TNC-START-UNDEFINED");
 }
 
+// HD-194: M91 and arcs are positioning blocks as well.
+TEST(TncRun, MachineCoordinatesAreACompleteStartToo) {
+  const auto first = [](const std::string& block) {
+    return from_block(2, "0 BEGIN PGM 5 MM\n1 CC X+0 Y+0\n2 " + block + "\n3 END PGM 5 MM\n");
+  };
+  EXPECT_EQ(first("L X+7 R0 F100 M91").alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(first("L IX+7 IY+1 R0 F100 M91").alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(first("L X+7 Y+1 R0 F100 M91").alarm_id, "");
+}
+
+// HD-194: also where the run begins at its beginning.
+TEST(TncRun, BeginsWithAnAbsolutePosition) {
+  const auto with = [](const std::string& rule, const std::vector<std::string>& blocks) {
+    return run_blocks(blocks, {"[control]\nprogram_start = \"" + rule + "\"", {}, "MM"});
+  };
+  const std::vector<std::string> incremental{"L R F M", "L IX+10 IY+5 R0 F100", "L IX+1"};
+  const PathRun refused = with("absolute", incremental);
+  EXPECT_EQ(refused.alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(refused.alarm_line, 3u);
+  EXPECT_THAT(refused.events, ElementsAre("! PROGRAM START UNDEFINED: the first positioning block "
+                                          "is incremental"));
+  EXPECT_THAT(with("any", incremental).events,
+              ElementsAre("L X10 Y5 F100", "L X11 Y5 F100", "end 5"));
+  EXPECT_EQ(with("absolute", {"IX+10 R0 F100"}).alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(with("absolute", {"L IX+7 R0 F100 M91"}).alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(with("absolute", {"CC X-10 Y+0", "CP IPA+90 DR+ R0 F100"}).alarm_id,
+            "TNC-START-UNDEFINED");
+  EXPECT_EQ(with("absolute", {"L X+10 R0 F100", "L IX+1"}).alarm_id, "");
+  EXPECT_EQ(with("complete", {"L X+10 R0 F100"}).alarm_id, "TNC-START-UNDEFINED");
+  EXPECT_EQ(with("complete", {"L X+10 Y+1 R0 F100", "L IX+1"}).alarm_id, "");
+}
+
+// HD-194: unless a setup says something else.
+TEST(TncRun, AnAbsoluteBeginningIsTheDefault) {
+  MemorySource source("0 BEGIN PGM 5 MM\n1 L IX+1 R0 F100\n2 END PGM 5 MM\n");
+  EventSink sink;
+  auto interpreter = *(*find_dialect("tnc155"))->make({}, source, sink);
+  EXPECT_EQ(interpreter->step(9), StepState::Alarmed);
+}
+
 // HD-194: a block that moves nothing has no coordinates to be complete.
 TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
   EXPECT_THAT(from_block(2,
@@ -63,9 +103,10 @@ TEST(TncRun, ASnapshotKeepsRepeatsAndReturns) {
   MemorySource source(text);
   EventSink sink;
   const Dialect& dialect = **find_dialect("tnc155");
-  auto first = *dialect.make({}, source, sink);
+  const auto setup = parse_setup("[control]\nprogram_start = \"any\"\n");
+  auto first = *dialect.make(*setup, source, sink);
   first->step(9);  // within the second pass
-  auto second = *dialect.make({}, source, sink);
+  auto second = *dialect.make(*setup, source, sink);
   ASSERT_TRUE(second->restore(first->snapshot()));
   while (first->step(1) == StepState::Ran) {
     second->step(1);
