@@ -19,8 +19,11 @@ double sign_of(const ProbeState& probe) {
   return probe.direction == ProbeDirection::Positive ? 1 : -1;
 }
 
-Target moved(Target target, Axis axis, double by) {
-  target.set(axis, target.at[static_cast<std::size_t>(axis)] + by);
+/// By a way of the machine's: clearance and travel are machine parameters, which are not scaled.
+Target moved(const Run& run, Target target, double by) {
+  const ProbeState& probe = run.state.cycle.probe;
+  const double way = sign_of(probe) * by / run.state.transformation.factor(probe.axis);
+  target.set(probe.axis, target.at[static_cast<std::size_t>(probe.axis)] + way);
   return target;
 }
 
@@ -34,16 +37,13 @@ Target nominal_point(Run& run, const Block& block) {
 
 /// In rapid to the clearance in front of the point, then at probing feed until contact.
 bool begin_probing(Run& run, const Block& block) {
-  const ProbeState& probe = run.state.cycle.probe;
   const ControlOptions& options = run.options;
-  const Target point = nominal_point(run, block);
-  const Target before = moved(point, probe.axis, -sign_of(probe) * options.probe_clearance);
+  const Target before = moved(run, nominal_point(run, block), -options.probe_clearance);
   line_to(run, before, kRapid);
   ProbeQuestion question;
   question.probe.origin = run.origin;
   question.probe.from = run.state.machine;
-  question.probe.to =
-      machine_position(run.state, moved(before, probe.axis, sign_of(probe) * options.probe_travel));
+  question.probe.to = machine_position(run.state, moved(run, before, options.probe_travel));
   question.probe.feed = Feed::per_minute(Length::mm(options.probe_feed));
   return run.ask(question);
 }
@@ -61,7 +61,7 @@ double measured(const Run& run, const Position& at) {
   const AxisValues touched = state.transformation.to_program(values_of(at));
   const double value = touched[static_cast<std::size_t>(probe.axis)];
   if (probe.axis == state.tool.axis) return value;
-  return value + sign_of(probe) * state.tool.data.radius / state.transformation.factor(state.plane);
+  return value + sign_of(probe) * state.tool.data.radius / state.transformation.factor(probe.axis);
 }
 
 bool finish_probing(Run& run, const ProbeResult& result) {
@@ -76,6 +76,9 @@ bool finish_probing(Run& run, const ProbeResult& result) {
   if (!result.tripped) {
     return run.fail(ErrorCode::TouchPointInaccessible,
                     fmt::format("no contact within {} mm", run.options.probe_travel));
+  }
+  if (result.at.same_point(event.from)) {
+    return run.fail(ErrorCode::TouchPointInaccessible, "the stylus is deflected at the start");
   }
   state.q[static_cast<std::size_t>(state.cycle.probe.q)] =
       measured(run, result.at) / state.mm_per_unit();

@@ -137,5 +137,37 @@ TEST(TncMachine, TheBlankIsTold) {
               testing::StartsWith("! BLK FORM DEFINITION INCORRECT"));
 }
 
+PathRun probed(const std::string& surface, std::vector<std::string> blocks) {
+  blocks.insert(blocks.begin(), {"TOOL DEF 9 L+0 R+2", "TOOL CALL 9 Z S1"});
+  return run_blocks(blocks,
+                    {"start = { Z = 60.0 }\n[probe]\nsurface = [ " + surface + " ]", {}, "MM"});
+}
+
+// HD-214, HD-215: in contact where probing begins, 2 mm in front of the point.
+TEST(TncMachine, ADeflectedStylusTouchesNothing) {
+  const std::vector<std::string> blocks{"TCH PROBE 0.0 REF. PLANE Q5 Z-",
+                                        "TCH PROBE 0.1 X+10 Y+20 Z+0"};
+  const auto run = probed("{ axis = \"Z\", at = 2.0 }", blocks);
+  EXPECT_EQ(run.alarm_id, "TNC-TOUCH-POINT");
+  EXPECT_EQ(run.alarm_line, 5u);
+  EXPECT_THAT(run.events,
+              ElementsAre("T9 L0 R2", "R X10 Y20 Z2", "probe X10 Y20 Z2",
+                          "! TOUCH POINT INACCESSIBLE: the stylus is deflected at the start"));
+  EXPECT_EQ(probed("{ axis = \"Z\", at = 1.999 }", blocks).alarm_id, "");
+}
+
+// HD-214, HD-183: set-up clearance and travel are machine parameters: Z 10 lies at 20, begins at
+// 22 and ends at 122 in front of it, or behind it.
+TEST(TncMachine, ProbingIsNotScaled) {
+  const std::vector<std::string> blocks{"CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2",
+                                        "TCH PROBE 0.0 REF. PLANE Q5 Z-",
+                                        "TCH PROBE 0.1 X+10 Y+20 Z+10", "L Z+Q5 R0 F100"};
+  EXPECT_THAT(probed("{ axis = \"Z\", at = 19.0 }", blocks).events,
+              ElementsAre("T9 L0 R2", "R X20 Y40 Z22", "probe X20 Y40 Z19", "R X20 Y40 Z22",
+                          "L X20 Y40 Z19 F100", "end 9"));
+  EXPECT_EQ(probed("{ axis = \"Z\", at = -77.9 }", blocks).alarm_id, "");
+  EXPECT_EQ(probed("{ axis = \"Z\", at = -78.1 }", blocks).alarm_id, "TNC-TOUCH-POINT");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
