@@ -94,6 +94,7 @@ bool stop_block(Run& run, const Block& block) {
     return true;
   }
   if (m != Block::kNone && !end_m(run, m)) return false;
+  if ((m == 99 || m == 89) && !call_cycle_by_m(run, m, false)) return false;
   stop(run, StopKind::Program);
   return true;
 }

@@ -169,5 +169,30 @@ TEST(TncMachine, ProbingIsNotScaled) {
   EXPECT_EQ(probed("{ axis = \"Z\", at = -78.1 }", blocks).alarm_id, "TNC-TOUCH-POINT");
 }
 
+// HD-138, HD-140: M99 calls the cycle of its block, and the run stops behind it; M89 from there on.
+TEST(TncMachine, AStopCallsTheCycle) {
+  const std::vector<std::string> start{"TOOL DEF 1 L+0 R+5",     "TOOL CALL 1 Z S100",
+                                       "CYCL DEF 2.0 TAPPING",   "CYCL DEF 2.1 SET-UP -2",
+                                       "CYCL DEF 2.2 DEPTH -10", "CYCL DEF 2.3 DWELL 0",
+                                       "CYCL DEF 2.4 F50",       "L X+10 Y+0 R0 F MAX M03"};
+  const auto behind = [&](const std::vector<std::string>& blocks) {
+    std::vector<std::string> all = start;
+    all.insert(all.end(), blocks.begin(), blocks.end());
+    auto events = events_of(all);
+    events.erase(events.begin(), events.begin() + 3);  // the tool, the spindle, the way there
+    return events;
+  };
+  const auto called = behind({"L R F M99"});
+  ASSERT_GT(called.size(), 2u);
+  auto stopped = called;
+  stopped.push_back("stop");
+  EXPECT_EQ(behind({"STOP M99"}), stopped);
+  const auto modal = behind({"STOP M89", "L X+10 F MAX"});
+  EXPECT_EQ(modal.front(), "stop");
+  EXPECT_EQ(std::vector(modal.begin() + 1, modal.end()), called);
+  EXPECT_THAT(events_of({"STOP M99"}), ElementsAre(testing::StartsWith("! CYCL INCOMPLETE")));
+  EXPECT_THAT(events_of({"STOP M89"}, "m89_modal = false"), ElementsAre("M89", "stop"));
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
