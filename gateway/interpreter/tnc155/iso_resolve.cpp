@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-
 #include <bit>
+#include <utility>
 
 #include "gateway/interpreter/tnc155/iso_alone.hpp"
 #include "gateway/interpreter/tnc155/iso_axes.hpp"
@@ -174,9 +174,8 @@ class Resolver {
   bool add_definition(unsigned& slots) {
     if (block_.has(IsoGroup::Blank)) return add_blank(slots);
     if (block_.has(IsoGroup::Probe)) return add_probe(slots);
-    if (!block_.has(IsoGroup::Cycle)) {
-      return block_.parameters == 0 ? true : wrong("P stands without a cycle");
-    }
+    if (!block_.has(IsoGroup::Cycle))
+      return block_.parameters == 0 || wrong("P stands without a cycle");
     is_feed_done_ = block_.has_code(IsoGroup::Cycle, 4) || block_.has_code(IsoGroup::Cycle, 72);
     slots &= ~slots_of_cycle(block_.code(IsoGroup::Cycle));
     return add_cycle(block_, incremental_, state_.program.units, parts_, fault_);
@@ -229,14 +228,15 @@ class Resolver {
     return true;
   }
 
-  /// The stop, the move with its corner, M, the call.
+  /// The move with its corner, M, the call, the stop. M of a stop that moves nothing is the stop's.
   bool add_rest(unsigned slots) {
-    if (block_.has(IsoGroup::Stop)) {
-      parts_.add(BlockKind::Stop).m = block_.m;
-      is_m_done_ = true;
-    }
     const unsigned move = block_.has(IsoGroup::Corner) ? slots & ~kRadiusSlot : slots;
     const bool has_call = block_.has(IsoGroup::Call);
+    const bool stops_behind = (move != 0 || has_call) && block_.m != 0;  // M00 stops itself
+    if (block_.has(IsoGroup::Stop) && move == 0 && !has_call) {
+      Block& part = parts_.add(BlockKind::Stop);
+      if (!std::exchange(is_m_done_, true)) part.m = block_.m;
+    }
     is_m_for_call_ = has_call && move == 0;
     if (block_.has(IsoGroup::Corner) && (move & kAngleSlot) != 0) {
       return wrong("a corner and a polar move need R both");
@@ -247,6 +247,7 @@ class Resolver {
       Block& part = parts_.add(BlockKind::CycleCall);
       if (is_m_for_call_ && !is_m_done_) part.m = block_.m;
     }
+    if (block_.has(IsoGroup::Stop) && stops_behind) parts_.add(BlockKind::Stop);
     return true;
   }
 
@@ -372,9 +373,8 @@ class Resolver {
     part.angle = block_.value(IsoSlot::H);
     part.is_angle_incremental = is_incremental(IsoSlot::H);
     const Range& range = angle_range(part.is_angle_incremental);
-    if (part.angle.is_q() || (part.angle.number >= range.low && part.angle.number <= range.high)) {
+    if (part.angle.is_q() || (part.angle.number >= range.low && part.angle.number <= range.high))
       return true;
-    }
     return wrong(ErrorCode::EntryOutOfRange,
                  fmt::format("H {} is not within -360 to 360", part.angle.amount()));
   }

@@ -169,6 +169,24 @@ TEST(TncMachine, ProbingIsNotScaled) {
   EXPECT_EQ(probed("{ axis = \"Z\", at = -78.1 }", blocks).alarm_id, "TNC-TOUCH-POINT");
 }
 
+// HD-140, HD-133: the stop of an ISO block is behind its motion, with G38 as with M00; M is before
+// or behind the motion as it would be without.
+TEST(TncMachine, AnIsoBlockStopsBehindItsMotion) {
+  const auto events = [](const std::string& words) {
+    const auto run = run_text("%5 G71 *\nN1 T0 G17 S800 *\nN2 G00 G40 G90 X+0 Y+0 M03 *\nN3 " +
+                              words + " *\nN9999 %5 G71 *\n");
+    return std::vector(run.events.begin() + 2, run.events.end() - 1);
+  };
+  EXPECT_THAT(events("X+5 M00"), ElementsAre("R X5 Y0", "S off 0", "stop"));
+  EXPECT_THAT(events("G38 X+5 M00"), ElementsAre("R X5 Y0", "S off 0", "stop"));
+  EXPECT_THAT(events("G38 X+5 M05"), ElementsAre("R X5 Y0", "S off 0", "stop"));
+  EXPECT_THAT(events("G38 X+5"), ElementsAre("R X5 Y0", "stop"));
+  EXPECT_THAT(events("G38 X+5 M08"), ElementsAre("coolant on", "R X5 Y0", "stop"));
+  EXPECT_THAT(events("G38 M08"), ElementsAre("coolant on", "stop"));
+  EXPECT_THAT(events("T0 G17 S900 G38 M08"),
+              ElementsAre("coolant on", "T0 L0 R0", "S cw 900", "stop"));
+}
+
 // HD-138, HD-140: M99 calls the cycle of its block, and the run stops behind it; M89 from there on.
 TEST(TncMachine, AStopCallsTheCycle) {
   const std::vector<std::string> start{"TOOL DEF 1 L+0 R+5",     "TOOL CALL 1 Z S100",

@@ -154,6 +154,8 @@ const PartsCase kParts[] = {
     {"ToolChangeM", "N2 T3 M6", "TOOL CALL 3\nL R F M06\n"},
     {"AuxiliaryAlone", "N2 M30", "L R F M30\n"},
     {"Stop", "N2 G38 M9", "STOP M09\n"},
+    {"StopBehindACall", "N2 G38 G79 M5", "CYCL CALL M05\nSTOP M\n"},
+    {"StopBehindAMove", "N2 G38 G01 G40 G90 X1 F9 M9", "L X+1,000 R0 F9 M09\nSTOP M\n"},
     {"ToolDefinition", "N2 G99 T4 L-2 R5\nN3 G51 T5", "TOOL DEF 4 L-2,000 R+5,000\nTOOL DEF 5\n"},
     {"Chamfer", "N2 X5 Y5 G24 R2", "L X+5,000 Y+5,000 R F M\nL 2,000\n"},
     {"CallBehindMove", "N2 X5 Y5 G79", "L X+5,000 Y+5,000 R F M\nCYCL CALL M\n"},
