@@ -14,6 +14,18 @@ inline constexpr unsigned kCentreSlots = 0x0007;
 inline constexpr unsigned kRadiusSlot = 1u << static_cast<unsigned>(IsoSlot::R);
 inline constexpr unsigned kAngleSlot = 1u << static_cast<unsigned>(IsoSlot::H);
 
+/// The words of a block that are absolute or incremental as G90 and G91 say. The radius of a corner
+/// or a tool and the axes of a mirror are no coordinates; a MIN corner is absolute anyway, "G90 may
+/// be omitted in G30" (spec 21).
+inline unsigned distance_slots(const IsoBlock& block) {
+  unsigned slots = block.slots;
+  if (block.has(IsoGroup::Corner) || block.has(IsoGroup::Tool)) slots &= ~kRadiusSlot;
+  if (block.has_code(IsoGroup::Cycle, 28) || block.has_code(IsoGroup::Blank, 30)) {
+    slots &= ~kAxisSlots;
+  }
+  return slots;
+}
+
 /// Slots from X to W stand in the order of `Axis`.
 constexpr Axis axis_of_slot(IsoSlot slot) {
   return static_cast<Axis>(static_cast<unsigned>(slot) - static_cast<unsigned>(IsoSlot::X));

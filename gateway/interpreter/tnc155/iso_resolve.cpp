@@ -63,33 +63,27 @@ class Resolver {
   bool resolve_distances() {
     if (block_.slots == 0 && block_.last_distance == Distance::AsBefore) return true;
     Distance last = block_.last_distance;
+    const unsigned coordinates = distance_slots(block_);
     bool needs_mode = false;
     for (unsigned left = block_.slots; left != 0; left &= left - 1) {
       const auto slot = static_cast<IsoSlot>(std::countr_zero(left));
       const unsigned mask = left & (~left + 1);
       const Distance distance = block_.distance(slot);
       if (distance == Distance::AsBefore) {
-        needs_mode = true;
-        if (modes_.is_incremental) incremental_ |= mask;
+        needs_mode |= (coordinates & mask) != 0;
+        if (modes_.is_incremental) incremental_ |= coordinates & mask;
       } else {
         if (distance == Distance::Incremental) incremental_ |= mask;
         if (block_.last_distance == Distance::AsBefore) last = distance;
       }
     }
-    if (needs_mode && !modes_.has_distance && needs_distance()) {
+    if (needs_mode && !modes_.has_distance) {
       return wrong(ErrorCode::ProgramStartUndefined, "no G90 or G91 before the first coordinate");
     }
     if (last == Distance::AsBefore) return true;
     modes_.has_distance = true;
     modes_.is_incremental = last == Distance::Incremental;
     return true;
-  }
-  /// The radius of a corner or a tool and the axes of a mirror are no coordinates.
-  bool needs_distance() const {
-    unsigned slots = block_.slots;
-    if (block_.has(IsoGroup::Corner) || block_.has(IsoGroup::Tool)) slots &= ~kRadiusSlot;
-    if (block_.has_code(IsoGroup::Cycle, 28)) slots &= ~kAxisSlots;
-    return slots != 0;
   }
   bool is_incremental(IsoSlot slot) const {
     return (incremental_ >> static_cast<unsigned>(slot) & 1u) != 0;

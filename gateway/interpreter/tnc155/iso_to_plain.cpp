@@ -17,14 +17,12 @@ Result<void> refuse(std::uint64_t line, std::string_view what) {
   return fail(Errc::Unsupported, "line {}: {}", line, what);
 }
 
-/// Slots that are coordinates of something, so that G90 and G91 matter.
-bool needs_distance(const IsoBlock& block) {
+/// A word takes G90 or G91 from before.
+bool takes_distance(const IsoBlock& block) {
+  const unsigned coordinates = distance_slots(block);
   for (std::size_t i = 0; i < kIsoSlots; ++i) {
     const auto slot = static_cast<IsoSlot>(i);
-    if (!block.has(slot) || block.distance(slot) != Distance::AsBefore) continue;
-    const bool is_size =
-        slot == IsoSlot::R && (block.has(IsoGroup::Corner) || block.has(IsoGroup::Tool));
-    if (!is_size && !block.has_code(IsoGroup::Cycle, 28)) return true;
+    if ((coordinates >> i & 1u) != 0 && block.distance(slot) == Distance::AsBefore) return true;
   }
   return false;
 }
@@ -43,7 +41,7 @@ bool has_move(const IsoBlock& block) {
 /// Nothing of what the block takes from before depends on the way to it.
 Result<void> check_ways(const NumberedIsoBlock& numbered, const ModesBefore& before) {
   const IsoBlock& block = numbered.block;
-  if (before.is_distance_open && needs_distance(block)) {
+  if (before.is_distance_open && takes_distance(block)) {
     return refuse(numbered.line,
                   "whether G90 or G91 is in force depends on where the run comes from");
   }

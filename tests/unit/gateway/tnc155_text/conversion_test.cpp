@@ -98,6 +98,15 @@ const Pair kPairs[] = {
 INSTANTIATE_TEST_SUITE_P(Blocks, Tnc155Conversion, testing::ValuesIn(kPairs),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// HD-047: G90 may be left out in G30.
+TEST(Tnc155ConversionOfFlow, ABlankTakesNothingFromBefore) {
+  EXPECT_EQ(converted("%1 G71 *\nN1 G98 L1\nN2 G30 G17 X5 Y5 Z-10\nN3 G31 G91 X95 Y95 Z10\nN4 "
+                      "L1.2",
+                      Form::Plain),
+            "0 BEGIN PGM 1 MM\n1 LBL 1\n2 DEF BLK FORM MIN Z X+5,000 Y+5,000 Z-10,000\n"
+            "3 DEF BLK FORM MAX IX+95,000 IY+95,000 IZ+10,000\n4 CALL LBL 1 REP 2/2\n");
+}
+
 // HD-046: where the run can come from elsewhere, the ISO text says everything again.
 TEST(Tnc155ConversionOfFlow, SaysModesAgainBehindLabelsAndCalls) {
   const std::string plain =

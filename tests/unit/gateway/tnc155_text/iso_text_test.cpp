@@ -121,6 +121,31 @@ TEST(Tnc155IsoText, FirstMoveNeedsOneCodeOfEachGroup) {
             "BEGIN PGM 1 MM\nTOOL CALL Z\nL X+1,000 R0 F M\n");
 }
 
+// HD-038, HD-199: the MIN corner is absolute whether G90 stands there or not; the plane has to be
+// there.
+TEST(Tnc155IsoText, TheBlankNeedsNoG90ButAPlane) {
+  const std::string head = "%1 G71\n", begin = "BEGIN PGM 1 MM\n";
+  EXPECT_EQ(parts_of(head + "G30 G17 X+5 Y+5 Z-10\nG31 G91 X+95 Y+95 Z+10"),
+            begin +
+                "DEF BLK FORM MIN Z X+5,000 Y+5,000 Z-10,000\n"
+                "DEF BLK FORM MAX IX+95,000 IY+95,000 IZ+10,000\n");
+  // what is in force before it says nothing about MIN and is still in force behind it
+  EXPECT_EQ(parts_of(head + "G17 G40 G91 G01 X1\nG30 G17 X5 Y5 Z-10\nX2"),
+            begin +
+                "TOOL CALL Z\nL IX+1,000 R0 F M\n"
+                "DEF BLK FORM MIN Z X+5,000 Y+5,000 Z-10,000\nL IX+2,000 R F M\n");
+  for (const char* g90 : {"", "G90 "}) {
+    EXPECT_EQ(parts_of(head + "G30 " + g90 + "X5 Y5 Z-10"),
+              begin + "2:1 BLK FORM DEFINITION INCORRECT: G30 has no plane");
+  }
+  EXPECT_EQ(parts_of(head + "G30 G17 G91 X5 Y5 Z-10"),
+            begin + "2:1 BLK FORM DEFINITION INCORRECT: the MIN corner is not incremental");
+  EXPECT_EQ(parts_of(head + "G30 G17 X5 Y5 Z-10\nG31 X9 Y9 Z0"),
+            begin +
+                "DEF BLK FORM MIN Z X+5,000 Y+5,000 Z-10,000\n"
+                "3:1 PROGRAM START UNDEFINED: no G90 or G91 before the first coordinate");
+}
+
 struct PartsCase {
   const char* name;
   const char* text;
