@@ -6,6 +6,7 @@ namespace {
 
 constexpr char kDc1 = 0x11;
 constexpr std::size_t kMaxNumber = 8;
+constexpr std::string_view kNoneLeft = "the device has no program left";
 
 /// The control: asks its device with headings. Withholds the ACK of a block while it has no room.
 class TncBlockwiseControl final : public TncBlockwise {
@@ -73,6 +74,7 @@ class TncBlockwiseControl final : public TncBlockwise {
 
   void on_etx(LineTime now) override {
     if (phase_ == Phase::Idle) return queue_control(settings_.heidenhain.eot);  // ours was lost
+    if (is_end_of_list(now)) return end_list(now);
     if (!is_receiving() || wait_ != Wait::Block) return;
     const auto complete = check_complete();
     if (!complete) return give_up(complete.error(), now);
@@ -80,10 +82,23 @@ class TncBlockwiseControl final : public TncBlockwise {
     queue_control(settings_.heidenhain.eot);
   }
 
+  /// A heading without a number asks for the next of all programs. Where none is left the device
+  /// says EOT in place of the ACK, or ETX a second time, before a block and with or without the ACK
+  /// (spec 23.6, U116).
+  bool is_end_of_list(LineTime now) {
+    if (!name_.empty() || is_output_ || has_received()) return false;
+    return wait_ == Wait::HeadingAnswer ? is_out_heard(now)
+                                        : is_receiving() && wait_ == Wait::Block;
+  }
+  void end_list(LineTime now) {
+    fail_transfer({Errc::NotFound, std::string(kNoneLeft)}, now);
+    queue_control(settings_.heidenhain.eot);
+  }
+
   void on_eot(LineTime now) override {
     if (phase_ == Phase::Idle) return;
     const bool is_answer = wait_ == Wait::HeadingAnswer;
-    fail_transfer(is_answer ? Error{Errc::NotFound, "the device has no program left"}
+    fail_transfer(is_answer ? Error{Errc::NotFound, std::string(kNoneLeft)}
                             : Error{Errc::Corrupt, "the device ended the transmission"},
                   now);
   }

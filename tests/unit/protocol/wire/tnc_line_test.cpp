@@ -166,6 +166,60 @@ TEST(TncBlockwise, GivesAllProgramsUntilThereIsNoneLeft) {
   EXPECT_EQ(wire.control().failures[0].code, Errc::NotFound);
 }
 
+/// A control that has asked for `name`, and what it says to characters from its device.
+class AskingControl {
+ public:
+  explicit AskingControl(std::string name) {
+    EXPECT_TRUE(line_->request({Request::Kind::SendProgram, std::move(name)}, {}));
+    hear("");
+  }
+  std::string hear(std::string_view characters) {
+    line_->receive(std::as_bytes(std::span(characters)), {});
+    std::string said;
+    std::array<std::byte, 64> room{};
+    for (std::size_t n = line_->transmit(room, {}); n > 0; n = line_->transmit(room, {})) {
+      said += std::string(reinterpret_cast<const char*>(room.data()), n);
+    }
+    return said;
+  }
+  Phase phase() const { return line_->state().phase; }
+  /// Empty: none.
+  std::string failure() {
+    for (const Event& event : line_->take_events()) {
+      if (const auto* failed = std::get_if<TransferFailed>(&event)) return failed->error.what;
+    }
+    return "";
+  }
+
+ private:
+  std::unique_ptr<Discipline> line_ =
+      make_discipline(settings_of(Flow::HeidenhainBcc), Role::Control).value();
+};
+
+// Rows: HD-226 (no number is asked for): ETX a second time ends the list as EOT does (U116).
+TEST(TncBlockwise, TakesASecondEtxForTheEndOfTheList) {
+  for (const char* answer : {"\x04", "\x03", "\x06\x03"}) {
+    AskingControl control("");
+    const auto said = control.hear(answer);
+    EXPECT_EQ(control.phase(), Phase::Idle);
+    EXPECT_EQ(control.failure(), "the device has no program left");
+    EXPECT_EQ(said, answer[0] == '\x04' ? "" : "\x04");
+  }
+}
+
+TEST(TncBlockwise, TakesAnEtxForNoEndOfAListWhereOneProgramWasAskedFor) {
+  AskingControl control("27");
+  EXPECT_EQ(control.hear("\x03"), "");
+  EXPECT_EQ(control.phase(), Phase::Requesting);
+  control.hear("\x06\x03");
+  EXPECT_EQ(control.failure(), "the program has no block");
+  AskingControl of_list("");
+  const HeidenhainSettings tnc;
+  EXPECT_EQ(of_list.hear("\x06" + make_tnc_block(2, "1 STOP", tnc)), "\x06");
+  EXPECT_EQ(of_list.hear("\x03"), "\x04");
+  EXPECT_EQ(of_list.failure(), "");
+}
+
 // Rows: HD-225 (a message in place of a program).
 TEST(TncBlockwise, ShowsTheControlWhyItIsRefused) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
