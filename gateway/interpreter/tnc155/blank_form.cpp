@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <algorithm>
 
 #include "gateway/interpreter/tnc155/cycles.hpp"
 
@@ -28,6 +29,33 @@ bool check_side(Run& run, Axis axis, double side) {
   return run.fail(ErrorCode::BlankFormIncorrect,
                   fmt::format("side {} is {} mm long; more than 0 and at most {}", letter(axis),
                               side, kLongestSide));
+}
+
+/// Where the workpiece lies on the machine: corners are coordinates, which refer to the active
+/// datum (spec 13.1), so the datum and a shift in force count. Mirroring, rotation and scaling are
+/// about the path, and the sides stay parallel to the axes (spec 21); a basic rotation turns the
+/// workpiece itself, so the blank becomes the smallest one that holds it all.
+void put_on_machine(const Transformation& transformation, Blank& blank) {
+  Transformation place;
+  place.datum = transformation.datum;
+  place.shift = transformation.shift;
+  place.basic_rotation = transformation.basic_rotation;
+  place.basic_plane = transformation.basic_plane;
+  constexpr unsigned kCorners = 8;
+  const Position minimum = blank.min, maximum = blank.max;
+  for (unsigned corner = 0; corner < kCorners; ++corner) {
+    Transformation::Values point{};
+    for (unsigned i = 0; i < 3; ++i) {
+      point[i] = ((corner >> i & 1u) != 0 ? maximum : minimum).raw(static_cast<Axis>(i));
+    }
+    point = place.to_machine(point);
+    for (unsigned i = 0; i < 3; ++i) {
+      const Axis axis = static_cast<Axis>(i);
+      const bool is_first = corner == 0;
+      blank.min.set_raw(axis, is_first ? point[i] : std::min(blank.min.raw(axis), point[i]));
+      blank.max.set_raw(axis, is_first ? point[i] : std::max(blank.max.raw(axis), point[i]));
+    }
+  }
 }
 
 }  // namespace
@@ -60,6 +88,7 @@ bool define_blank(Run& run, const Block& block) {
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
     if (!check_side(run, axis, event.max.raw(axis) - event.min.raw(axis))) return false;
   }
+  put_on_machine(run.state.transformation, event);
   run.events().on_blank(event);
   return true;
 }

@@ -123,6 +123,29 @@ TEST_F(DncTncGraphics, ArePrintedFromSoftware03InTheDataBitsThatThereAre) {
   }
 }
 
+// HD-199: the blank lies where the datum is, with or without a shift.
+TEST(DncGraphicsOfATnc, CutsTheBlankWhereTheDatumIs) {
+  Dnc dnc{DNC_PATH};
+  const std::string blank = "BLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+100 Y+100 Z+0\n";
+  const std::string slot =
+      "TOOL DEF 1 L+0 R+5\nTOOL CALL 1 Z S1000\nL X+50 Y-20 Z+5 R0 F9999\nL Z-10 F500\nL "
+      "Y+120\n";
+  const auto program = [](const std::string& blocks) {
+    return "BEGIN PGM 1 MM\n" + blocks + "END PGM 1 MM\n";
+  };
+  dnc.write("slot.h", program(blank + slot));
+  dnc.write("shifted.h", program("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+30\n" + blank + slot));
+  dnc.write("datum.toml", "[[offset]]\nname = \"datum\"\nX = 200\nZ = -7\n");
+  for (const auto& [file, x] : {std::pair("slot.h", 200), std::pair("shifted.h", 230)}) {
+    const auto result = dnc({"graphics", file, "--setup", "datum.toml", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto report = json::parse(result.out);
+    EXPECT_EQ(report.at("blank").at("X"), json({x, x + 100}));
+    EXPECT_EQ(report.at("blank").at("Z"), json({-27, -7}));
+    EXPECT_NEAR(report.at("removed_mm3").get<double>(), 100 * 10 * 10, 250) << file;
+  }
+}
+
 /// CEN-227: a lathe's program.
 class DncTurning : public testing::Test {
  protected:

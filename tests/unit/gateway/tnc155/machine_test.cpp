@@ -212,5 +212,39 @@ TEST(TncMachine, AStopCallsTheCycle) {
   EXPECT_THAT(events_of({"STOP M89"}, "m89_modal = false"), ElementsAre("M89", "stop"));
 }
 
+// HD-199: the blank is clamped where the datum is, as the moves are.
+TEST(TncMachine, TheBlankLiesAtTheDatum) {
+  const std::vector<std::string> blank{"BLK FORM 0.1 Z X+0 Y+0 Z-20", "BLK FORM 0.2 X+100 Y+50 Z+0",
+                                       "L X+100 Y+50 R0 F9999"};
+  const auto behind = [&](std::vector<std::string> blocks) {
+    blocks.insert(blocks.end(), blank.begin(), blank.end());
+    return blocks;
+  };
+  const PathSetup datum{"[[offset]]\nname = \"datum\"\nX = 200\nZ = -7", {}};
+  EXPECT_THAT(run_blocks(blank, datum).events,
+              ElementsAre("blank Z X200 Y0 Z-27 to X300 Y50 Z-7", "L X300 Y50 F9999",
+                          testing::StartsWith("end")));
+  // a shift in force moves the datum
+  EXPECT_THAT(
+      run_blocks(behind({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+30", "CYCL DEF 7.2 Y-5"}),
+                 datum)
+          .events,
+      ElementsAre("blank Z X230 Y-5 Z-27 to X330 Y45 Z-7", "L X330 Y45 F9999",
+                  testing::StartsWith("end")));
+  // mirroring, rotation and scaling are about the path
+  EXPECT_THAT(
+      run_blocks(behind({"CYCL DEF 8.0 MIRROR IMAGE", "CYCL DEF 8.1 X", "CYCL DEF 10.0 ROTATION",
+                         "CYCL DEF 10.1 ROT +90", "CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2"}),
+                 datum)
+          .events,
+      testing::Contains("blank Z X200 Y0 Z-27 to X300 Y50 Z-7"));
+  // a workpiece that lies askew is held by the blank with all its corners
+  const PathSetup turned{
+      "[[offset]]\nname = \"datum\"\nX = 200\nZ = -7\n[control]\nbasic_rotation = 90", {}};
+  EXPECT_THAT(run_blocks(blank, turned).events,
+              ElementsAre("blank Z X150 Y0 Z-27 to X200 Y100 Z-7", "L X150 Y100 F9999",
+                          testing::StartsWith("end")));
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
