@@ -29,6 +29,122 @@ TEST_F(DncTouch, MeasuresABoreAndGivesTheDatum) {
             std::string::npos);
 }
 
+// HD-211, HD-213: under the basic rotation the place is called as the operator said.
+TEST_F(DncTouch, GivesADatumForTheBasicRotation) {
+  dnc.write("bore.toml",
+            "[probe]\nsurface = [ { cylinder = { center = { X = 12.0, Y = 3.0 }, radius = 18.0 } } "
+            "]\n[control]\nbasic_rotation = 90\n[[offset]]\nname = \"datum\"\nZ = 5\n");
+  const auto done = dnc({"touch", "circle", "--datum", "50,10", "--setup", "bore.toml",
+                         "X+:12,3,-5", "X-:12,3,-5", "Y+:12,3,-5", "Y-:12,3,-5"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  // 50, 10 turned by 90 degrees is -10, 50
+  EXPECT_NE(done.out.find("units = \"mm\"\n\n[[offset]]\nname = \"datum\"\nX = 22\nY = -47\nZ = "
+                          "5\n"),
+            std::string::npos)
+      << done.out;
+}
+
+/// The datum and the basic rotation as a run takes them.
+TEST_F(DncTouch, GivesADatumThatARunHas) {
+  dnc.write("bore.toml",
+            "[probe]\nsurface = [ { cylinder = { center = { X = 12.0, Y = 3.0 }, radius = 18.0 } } "
+            "]\n[control]\nbasic_rotation = 30\n");
+  const auto done = dnc({"touch", "circle", "--setup", "bore.toml", "--datum", "50,10", "--json",
+                         "X+:12,3,-5", "X-:12,3,-5", "Y+:12,3,-5", "Y-:12,3,-5"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  dnc.write("then.toml", json::parse(done.out).at("setup").get<std::string>() +
+                             "[control]\nbasic_rotation = 30\n");
+  dnc.write("go.h", "BEGIN PGM 1 MM\nL X+50 Y+10 R0 F9999\nEND PGM 1 MM\n");
+  const auto run = dnc({"trace", "go.h", "--setup", "then.toml"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("\"X\":12"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\"Y\":3"), std::string::npos) << run.out;
+}
+
+// HD-212: the touch points of the basic rotation are a side of the corner, or all is touched anew.
+TEST_F(DncTouch, TakesTheTouchPointsOfTheBasicRotationForACorner) {
+  const std::string probe =
+      "[probe]\nsurface = [ { axis = \"Y\", at = 20.0 }, { axis = \"X\", at = 50.0 } ]\n";
+  dnc.write("vice.toml", probe);
+  const auto rotation =
+      dnc({"touch", "rotation", "--setup", "vice.toml", "Y+:10,0,-5", "Y+:40,0,-5", "--json"});
+  ASSERT_EQ(rotation.status, 0) << rotation.err;
+  const auto keeps = json::parse(rotation.out).at("setup").get<std::string>();
+  EXPECT_NE(keeps.find("basic_rotation_touches = [\"Y+:10,20,-5\", \"Y+:40,20,-5\"]"),
+            std::string::npos)
+      << keeps;
+  dnc.write("turned.toml", keeps + probe);
+  const auto corner = dnc({"touch", "corner", "--setup", "turned.toml", "--rotation-touches",
+                           "--json", "X+:0,30,-5", "X+:0,60,-5"});
+  ASSERT_EQ(corner.status, 0) << corner.err;
+  EXPECT_EQ(json::parse(corner.out).at("measured").at("X"), 50);
+  EXPECT_EQ(json::parse(corner.out).at("measured").at("Y"), 20);
+  EXPECT_EQ(json::parse(corner.out).at("touched").size(), 4u);
+  // NO ENT: all four, also where points are kept
+  const auto anew = dnc({"touch", "corner", "--setup", "turned.toml", "X+:0,30,-5", "X+:0,60,-5"});
+  EXPECT_EQ(anew.status, 2);
+  EXPECT_EQ(anew.err, "dnc: corner takes 4 touches, 2 are given\n");
+  const auto none = dnc({"touch", "corner", "--setup", "vice.toml", "--rotation-touches",
+                         "X+:0,30,-5", "X+:0,60,-5"});
+  EXPECT_EQ(none.err, "dnc: vice.toml has no touch points of a basic rotation\n");
+  const auto same = dnc({"touch", "corner", "--setup", "turned.toml", "--rotation-touches",
+                         "Y+:0,0,-5", "Y+:5,0,-5"});
+  EXPECT_EQ(same.status, 2);
+  EXPECT_NE(same.err.find("touch 3 is Y+: expected the other axis"), std::string::npos) << same.err;
+  // what was kept is no obstacle to a run
+  dnc.write("go.h", "BEGIN PGM 1 MM\nL X+50 Y+10 R0 F9999\nEND PGM 1 MM\n");
+  EXPECT_EQ(dnc({"check", "go.h", "--setup", "turned.toml"}).status, 0);
+}
+
+TEST_F(DncTouch, SpeaksTheSetupsUnitsToTheSetup) {
+  dnc.write("inch.toml", "units = \"in\"\n[probe]\nsurface = [ { axis = \"X\", at = 2.0 } ]\n");
+  const auto metric = dnc({"touch", "surface", "--setup", "inch.toml", "X+:0,0,0"});
+  ASSERT_EQ(metric.status, 0) << metric.err;
+  EXPECT_NE(metric.out.find("X +50.8000\n"), std::string::npos) << metric.out;
+  EXPECT_NE(metric.out.find("units = \"in\"\n\n[[offset]]\nname = \"datum\"\nX = 2\n"),
+            std::string::npos)
+      << metric.out;
+  const auto inch = dnc({"touch", "surface", "--inch", "--setup", "inch.toml", "--ball", "0.1",
+                         "--datum", "-0.5", "X+:1,0,0", "--json"});
+  ASSERT_EQ(inch.status, 0) << inch.err;
+  const auto report = json::parse(inch.out);
+  EXPECT_EQ(report.at("units"), "in");
+  EXPECT_NEAR(report.at("measured").at("X").get<double>(), 2.1, 1e-9);
+  EXPECT_NE(report.at("setup").get<std::string>().find("X = 2.6\n"), std::string::npos);
+}
+
+// HD-210: C+ and C-.
+TEST_F(DncTouch, TouchesWithTheFourthAxis) {
+  dnc.write("table.toml", "[probe]\nsurface = [ { axis = \"Y\", at = 20.0 } ]\n");
+  const auto done =
+      dnc({"touch", "surface", "--setup", "table.toml", "--datum", "5", "C-:40,0,-5,80", "--json"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  const auto report = json::parse(done.out);
+  EXPECT_NEAR(report.at("measured").at("C").get<double>(), 30, 1e-3);
+  EXPECT_NE(report.at("setup").get<std::string>().find("\nC = 25"), std::string::npos);
+  const auto other = dnc({"touch", "surface", "--setup", "table.toml", "A-:40,0,-5"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("the fourth axis is C"), std::string::npos) << other.err;
+}
+
+TEST_F(DncTouch, RefusesTouchesThatMeasureSomethingElse) {
+  dnc.write("plane.toml", "[probe]\nsurface = [ { axis = \"Y\", at = 20.0 } ]\n");
+  const auto rotation = dnc({"touch", "rotation", "--setup", "plane.toml", "Y+:1,2,3", "X-:1,2,3"});
+  EXPECT_EQ(rotation.status, 2);
+  EXPECT_EQ(rotation.err, "dnc: touch 2 is X-: expected Y+, as the other touch of this side\n");
+  const auto lying = dnc(
+      {"touch", "rotation", "--tool-axis", "Y", "--setup", "plane.toml", "X+:1,2,3", "X+:1,5,3"});
+  EXPECT_EQ(lying.status, 2);
+  EXPECT_EQ(lying.err,
+            "dnc: --tool-axis Y: a basic rotation turns coordinates of the plane XY, across Z\n");
+  const auto circle = dnc(
+      {"touch", "circle", "--setup", "plane.toml", "X+:1,2,3", "X+:1,2,3", "X-:1,2,3", "X-:1,2,3"});
+  EXPECT_EQ(circle.status, 2);
+  const auto values =
+      dnc({"touch", "surface", "--setup", "plane.toml", "--datum", "1,2", "Y+:1,2,3"});
+  EXPECT_EQ(values.err, "dnc: --datum has 2 values, surface takes 1\n");
+}
+
 TEST_F(DncTouch, SaysWhatItCanNotDo) {
   dnc.write("plane.toml", "[probe]\nsurface = [ { axis = \"Z\", at = -3.0 } ]\n");
   EXPECT_EQ(dnc({"touch", "surface", "--setup", "plane.toml", "Z-:1,2,10"}).status, 0);

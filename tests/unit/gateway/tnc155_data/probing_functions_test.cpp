@@ -81,6 +81,129 @@ TEST(Corners, AreWhereTheWallsMeet) {
   EXPECT_NEAR(corner(again, left, stylus, Plane::XY)->at.first, 50, 1e-9);
 }
 
+// HD-211: the ball touches a wall that leans beside its centre's line, by its radius.
+TEST(Corners, OfAWorkpieceThatLiesAskewAreBesideTheTouches) {
+  const Stylus stylus{2, 100};
+  const double c = std::cos(30 * Angle::kPi / 180), s = 0.5;
+  // A square corner at (50, 20), turned by 30 degrees: sides along (c, s) and (-s, c). Centres are
+  // 2 in front of the walls: below the first, to the left of the second.
+  const auto place = [&](double u, double v) {
+    return at(50 + u * c - v * s, 20 + u * s + v * c, 0);
+  };
+  const Side bottom{towards(Axis::Y, kUp, {}), towards(Axis::Y, kUp, {}), place(10, -2),
+                    place(40, -2)};
+  const Side left{towards(Axis::X, kUp, {}), towards(Axis::X, kUp, {}), place(-2, 30),
+                  place(-2, 5)};
+  const auto found = corner(bottom, left, stylus, Plane::XY);
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_NEAR(found->at.first, 50, 1e-9);
+  EXPECT_NEAR(found->at.second, 20, 1e-9);
+  EXPECT_NEAR(found->first_angle, 30, 1e-9);
+}
+
+std::string refusal(ProbingFunction function, std::vector<Touch> touches, Axis tool = Axis::Z) {
+  const auto checked = check_touches(function, touches, tool);
+  return checked ? "" : checked.error().what;
+}
+Touch way(Axis axis, ProbeDirection direction) {
+  return towards(axis, direction, {});
+}
+
+// HD-208, HD-209, HD-211, HD-213: each function has its directions.
+TEST(Touches, HaveTheDirectionsOfTheirFunction) {
+  using enum ProbingFunction;
+  const Touch x_up = way(Axis::X, kUp), x_down = way(Axis::X, kDown), y_up = way(Axis::Y, kUp),
+              y_down = way(Axis::Y, kDown), z_up = way(Axis::Z, kUp), z_down = way(Axis::Z, kDown);
+  for (const auto function : {Radius, Circle}) {
+    EXPECT_EQ(refusal(function, {x_up, x_down, y_up, y_down}), "");
+    EXPECT_EQ(refusal(function, {z_up, z_down, x_up, x_down}, Axis::Y), "") << "Z is first in ZX";
+    EXPECT_EQ(refusal(function, {x_up, x_up, x_down, x_down}),
+              "touch 2 is X+: expected X+, X-, Y+ and Y-, in this order");
+  }
+  EXPECT_EQ(refusal(Rotation, {y_down, y_down}), "");
+  EXPECT_EQ(refusal(Rotation, {y_down, x_down}),
+            "touch 2 is X-: expected Y-, as the other touch of this side");
+  EXPECT_EQ(refusal(Rotation, {z_down, z_down}),
+            "touch 1 is Z-: expected an axis across the tool, which is Z");
+  EXPECT_EQ(refusal(Corner, {y_up, y_up, x_up, x_up}), "");
+  EXPECT_EQ(refusal(Corner, {y_up, y_up, x_up, x_down}),
+            "touch 4 is X-: expected X+, as the other touch of this side");
+  EXPECT_EQ(refusal(Corner, {y_up, y_up, y_down, y_down}),
+            "touch 3 is Y-: expected the other axis for the second side, the first has Y+");
+  EXPECT_EQ(refusal(Corner, {y_up, y_up, x_up}), "4 touches are needed, 3 are there");
+  EXPECT_EQ(refusal(Length, {x_up}), "touch 1 is X+: expected the tool's axis, Z");
+  EXPECT_EQ(refusal(Length, {x_up}, Axis::X), "");
+  EXPECT_EQ(refusal(Surface, {way(Axis::C, kUp)}), "");
+}
+
+// HD-210: axis IV, whether it turns or is parallel to another.
+TEST(Surfaces, AreTouchedByTheFourthAxis) {
+  Workpiece workpiece;
+  workpiece.add(ProbePlane{Axis::Y, Length::mm(20)});
+  const Stylus stylus{0, 100};
+  // 40 from the axis: at Y 20 the stylus has gone round by 30 degrees, from either side.
+  auto found = touch(workpiece, stylus, towards(Axis::C, kUp, at(40, 0, -5)));
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_NEAR(found->raw(Axis::C), 30, 1e-4);
+  EXPECT_EQ(found->raw(Axis::X), 40);
+  Position turned = at(40, 0, -5);
+  turned.set_raw(Axis::C, 80);
+  found = touch(workpiece, stylus, towards(Axis::C, kDown, turned));
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_NEAR(found->raw(Axis::C), 30, 1e-4);
+  EXPECT_NE(touch(workpiece, {0, 20}, towards(Axis::C, kUp, at(40, 0, 0)))
+                .error()
+                .what.find("TOUCH POINT INACCESSIBLE: C+ from C 0 within 20 degrees"),
+            std::string::npos);
+  EXPECT_EQ(touch(workpiece, {1, 20}, towards(Axis::C, kUp, at(0, 0.5, 0))).error().code,
+            Errc::LimitExceeded);
+  // V goes along Y: from Y 5, V -3 to Y 20.
+  Position parallel = at(0, 5, 0);
+  parallel.set_raw(Axis::V, -3);
+  found = touch(workpiece, stylus, towards(Axis::V, kUp, parallel));
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_NEAR(found->raw(Axis::V), 15, 1e-9);
+  EXPECT_EQ(found->raw(Axis::Y), 5);
+  EXPECT_NEAR(touched_coordinate(*found, towards(Axis::V, kUp, parallel), {1.5, 100}, Axis::Z),
+              16.5, 1e-9);
+  // A ball of 2 touches a wall through the axis, 40 from it, asin(2 / 40) before its centre is
+  // there.
+  EXPECT_NEAR(touched_coordinate(turned, towards(Axis::C, kUp, turned), {2, 100}, Axis::Z),
+              80 + std::asin(0.05) * 180 / Angle::kPi, 1e-9);
+}
+
+// HD-210, HD-211, HD-213: behind it the point has the coordinates that were entered.
+TEST(Datums, MakeThePointBeCalledSoUnderABasicRotation) {
+  Transformation frame;
+  frame.datum = {100, 50, 7};
+  frame.basic_rotation = 30;
+  const Position point = at(113, 62, -5);
+  const auto called = [&](const Transformation::Values& datum) {
+    Transformation then = frame;
+    then.datum = datum;
+    return then.to_program({point.raw(Axis::X), point.raw(Axis::Y), point.raw(Axis::Z)});
+  };
+  const auto before = called(frame.datum);
+  const NamedCoordinate both[] = {{Axis::X, 10}, {Axis::Y, 20}};
+  const auto corner = called(datum_for(frame, point, both));
+  EXPECT_NEAR(corner[0], 10, 1e-9);
+  EXPECT_NEAR(corner[1], 20, 1e-9);
+  EXPECT_NEAR(corner[2], before[2], 1e-9);
+  const NamedCoordinate one[] = {{Axis::X, 3}};
+  const auto surface = called(datum_for(frame, point, one));
+  EXPECT_NEAR(surface[0], 3, 1e-9);
+  EXPECT_NEAR(surface[1], before[1], 1e-9) << "only X was named";
+}
+
+TEST(Surfaces, OfAWorkpieceThatLiesAskewAreCompensatedAcrossThem) {
+  Transformation frame;
+  frame.basic_rotation = 90;
+  const auto point =
+      touched_point(at(5, 6, 7), towards(Axis::X, kUp, {}), {2, 100}, Axis::Z, frame);
+  EXPECT_NEAR(point.raw(Axis::X), 5, 1e-9);
+  EXPECT_NEAR(point.raw(Axis::Y), 8, 1e-9);
+}
+
 TEST(Circles, AreMeasuredFromInsideAndOutside) {
   const Stylus stylus{2, 100};
   // Radius 30 about (7, -4): a bore is met at 28 from the centre, a boss at 32.
