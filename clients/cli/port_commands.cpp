@@ -5,6 +5,7 @@
 #include "clients/cli/port_file.hpp"
 #include "clients/cli/port_listing.hpp"
 #include "clients/cli/port_monitor.hpp"
+#include "clients/cli/port_parameters.hpp"
 #include "clients/cli/port_text.hpp"
 #include "clients/cli/port_trial.hpp"
 
@@ -243,6 +244,7 @@ void add_port_commands(CLI::App& app, Context& context) {
   add_port_doctor_command(*group, context);
   add_port_replay_command(*group, context);
   add_port_page_command(*group, context);
+  add_port_parameters_command(*group, context);
 }
 
 }  // namespace dripline::cli

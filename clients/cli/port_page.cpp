@@ -5,6 +5,7 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/json_text.hpp"
 #include "clients/cli/port_file.hpp"
+#include "clients/cli/port_line.hpp"
 #include "protocol/wire/centurion_page.hpp"
 
 /// `dnc port page`: the serial page of a Centurion and the line that fits it, without a server.
@@ -12,7 +13,6 @@ namespace dripline::cli {
 namespace {
 
 using wire::CenturionPage;
-using wire::LineSettings;
 using wire::PagePort;
 
 struct PageCommand {
@@ -48,27 +48,6 @@ Result<CenturionPage> read_page(const std::string& path) {
   return page;
 }
 
-/// The template, and what the line has otherwise.
-int show_line(Context& context, const LineSettings& line) {
-  const bool is_tape = line.control.tape_start.has_value();
-  const std::string name = is_tape ? "centurion-tape" : "centurion";
-  const auto usual = wire::find_template(name);
-  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
-  std::string text = "--template " + name;
-  for (const auto& row : wire::setting_rows()) {
-    const std::string value = row.get(line);
-    if (row.key == "line" || (usual && value == row.get((*usual)->settings))) continue;
-    settings[std::string(row.key)] = value;
-    text += fmt::format(" {}={}", row.key, value);
-  }
-  if (context.wants_json) {
-    context.print(json_text(nlohmann::ordered_json{{"template", name}, {"settings", settings}}));
-  } else {
-    context.print(text + "\n");
-  }
-  return kExitOk;
-}
-
 int show_page(Context& context, const CenturionPage& page) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   std::string text;
@@ -81,31 +60,13 @@ int show_page(Context& context, const CenturionPage& page) {
   return kExitOk;
 }
 
-Result<LineSettings> line_named(const PageCommand& command) {
-  LineSettings line;
-  if (const auto found = wire::find_template(command.line)) {
-    line = (*found)->settings;
-  } else if (auto done = wire::apply_short_form(command.line, line); !done) {
-    return fail(Errc::NotFound, "{}: neither a template nor a short form such as 9600e72",
-                command.line);
-  }
-  for (const auto& change : command.changes) {
-    const auto sign = change.find('=');
-    auto done = sign == std::string::npos
-                    ? wire::apply_short_form(change, line)
-                    : wire::set_value(line, change.substr(0, sign), change.substr(sign + 1));
-    if (!done) return fail(done.error());
-  }
-  return line;
-}
-
 int refuse(const Error& error) {
   complain(error);
   return kExitUsage;
 }
 
 int page_of_line(Context& context, const PageCommand& command) {
-  const auto line = line_named(command);
+  const auto line = line_named(command.line, command.changes);
   if (!line) return refuse(line.error());
   const auto page = wire::page_of_line(*line, command.port());
   return page ? show_page(context, *page) : refuse(page.error());
@@ -115,7 +76,8 @@ int line_of_page(Context& context, const PageCommand& command) {
   const auto page = read_page(command.file);
   if (!page) return refuse(page.error());
   const auto line = wire::line_of_page(*page, command.port());
-  return line ? show_line(context, *line) : refuse(line.error());
+  if (!line) return refuse(line.error());
+  return show_line(context, line->control.tape_start ? "centurion-tape" : "centurion", *line);
 }
 
 }  // namespace

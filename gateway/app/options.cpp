@@ -9,6 +9,7 @@
 #include "gateway/interpreter/tnc155/control_version.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/state_location.hpp"
+#include "protocol/wire/tnc_parameters.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -218,6 +219,10 @@ Result<void> complete_line(Options& options) {
   line.template_name = (*found)->name;
   line.settings = (*found)->settings;
   if (const auto done = change(line.settings, line.changes); !done) return done;
+  if ((*found)->control == "tnc155") {
+    const auto has = wire::check_tnc_baud(line.settings.baud);
+    if (!has) return fail(has.error().code, "line-setting: {}", has.error().what);
+  }
   const bool must_ask = line.settings.flow == wire::Flow::Heidenhain ||
                         line.settings.flow == wire::Flow::HeidenhainBcc;
   if (line.request.empty() && must_ask) line.request = "next";

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "protocol/wire/tnc_parameters.hpp"
+
 namespace dripline::ports {
 
 Result<wire::LineSettings> effective_settings(const storage::Port& port) {
@@ -16,6 +18,12 @@ Result<wire::LineSettings> effective_settings(const storage::Port& port) {
   for (const auto& [key, value] : port.settings) {
     if (auto set = wire::set_value(settings, key, value); !set) {
       return fail(set.error().code, "port '{}': {}", port.name, set.error().what);
+    }
+  }
+  // A rate that the control's MOD function does not offer can not be meant.
+  if (template_control(port) == "tnc155") {
+    if (auto has = wire::check_tnc_baud(settings.baud); !has) {
+      return fail(has.error().code, "port '{}': {}", port.name, has.error().what);
     }
   }
   return settings;

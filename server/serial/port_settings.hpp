@@ -9,7 +9,8 @@
 namespace dripline::ports {
 
 /// The line of a port: its template's settings, then its own over them, in order. Errors: NotFound
-/// (template, key), Syntax, LimitExceeded; they name the port and the key.
+/// (template, key), Syntax, LimitExceeded (also a baud rate that the template's control, a TNC,
+/// does not have); they name the port and the key.
 Result<wire::LineSettings> effective_settings(const storage::Port& port);
 /// The dialect of the control that the port's template is for; may be empty.
 std::string template_control(const storage::Port& port);

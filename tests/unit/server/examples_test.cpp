@@ -41,6 +41,23 @@ TEST(Examples, BaudOfAPortChangesWhatItsLineSays) {
   EXPECT_EQ(wire::short_form(line.value()), "4800e72");
 }
 
+// HD-217: a port with a TNC's template has the rates of its MOD function.
+TEST(Ports, OfATncHaveItsEightRates) {
+  storage::Port port;
+  port.name = "line-1";
+  port.line_template = "tnc155-bcc";
+  for (const char* baud : {"110", "150", "300", "600", "1200", "2400", "4800", "9600"}) {
+    port.settings = {{"baud", baud}};
+    EXPECT_TRUE(ports::effective_settings(port)) << baud;
+  }
+  port.settings = {{"line", "19200e71"}};
+  EXPECT_EQ(ports::effective_settings(port).error().what,
+            "port 'line-1': baud 19200: a TNC 151/155 has 110, 150, 300, 600, 1200, 2400, 4800, "
+            "9600");
+  port.line_template = "plain";
+  EXPECT_TRUE(ports::effective_settings(port)) << "other controls of the family are quicker";
+}
+
 TEST(Examples, CallsDoWhatTheirCommentsSay) {
   const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
   ASSERT_TRUE(rules) << rules.error().what;

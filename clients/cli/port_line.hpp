@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/cli/context.hpp"
+#include "protocol/base/result.hpp"
+#include "protocol/wire/line_settings.hpp"
+
+/// Lines on the command line: how one is named, and how it is told to `dnc port add`.
+namespace dripline::cli {
+
+/// A template or a short form such as 9600e72, and KEY=VALUE over it. Errors: NotFound, and those
+/// of the settings.
+Result<wire::LineSettings> line_named(const std::string& name,
+                                      const std::vector<std::string>& changes);
+
+/// Prints `--template NAME KEY=VALUE ...`: what the line has otherwise than its template. Gives the
+/// exit status.
+int show_line(Context& context, std::string_view template_name, const wire::LineSettings& line);
+
+}  // namespace dripline::cli

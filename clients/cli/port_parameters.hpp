@@ -1,0 +1,10 @@
+#pragma once
+
+#include "clients/cli/context.hpp"
+
+namespace dripline::cli {
+
+/// `dnc port parameters`: the interface of a TNC 151/155 by its machine parameters, and the line.
+void add_port_parameters_command(CLI::App& group, Context& context);
+
+}  // namespace dripline::cli

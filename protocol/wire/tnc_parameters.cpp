@@ -1,0 +1,186 @@
+#include "protocol/wire/tnc_parameters.hpp"
+
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "protocol/wire/discipline.hpp"
+
+namespace dripline::wire {
+namespace {
+
+/// MP 222, the data format of a character (spec 23.3).
+constexpr unsigned kEightBits = 1, kPrintableBcc = 2, kStopByRts = 4, kStopByDc3 = 8, kOdd = 16,
+                   kHasParity = 32, kStopBits = 192, kTwoStopBits = 64, kOneStopBit = 128;
+constexpr unsigned kMostFormat = 255, kMostWord = 65'535;
+
+/// Two characters in a word, or a number; what a control has unless it was changed (spec 23.8).
+struct ParameterRow {
+  int number;
+  unsigned usual, most;
+};
+constexpr int kEnds = 71, kInputHeading = 218, kOutputHeading = 219, kBlockFrame = 220,
+              kAnswers = 221, kFormat = 222, kProtocol = 223, kEndOfTransmission = 224;
+constexpr std::array kRows{ParameterRow{kEnds, 515, kMostWord},
+                           ParameterRow{kInputHeading, 17736, kMostWord},
+                           ParameterRow{kOutputHeading, 16712, kMostWord},
+                           ParameterRow{kBlockFrame, 279, kMostWord},
+                           ParameterRow{kAnswers, 5382, kMostWord},
+                           ParameterRow{kFormat, 168, kMostFormat},
+                           ParameterRow{kProtocol, 0, 1},
+                           ParameterRow{kEndOfTransmission, 4, 127}};
+
+constexpr char low(unsigned word) {
+  return static_cast<char>(word & 0xffu);
+}
+constexpr char high(unsigned word) {
+  return static_cast<char>(word >> 8 & 0xffu);
+}
+constexpr unsigned word(char low, char high) {
+  return static_cast<unsigned>(static_cast<unsigned char>(high)) << 8 |
+         static_cast<unsigned char>(low);
+}
+
+/// The interface's parameters, each within its limits.
+class Words {
+ public:
+  static Result<Words> read(const TncParameters& parameters) {
+    Words words;
+    for (const ParameterRow& row : kRows) {
+      const auto found = parameters.find(row.number);
+      const double value = found == parameters.end() ? row.usual : found->second;
+      if (value < 0 || value > row.most || value != std::floor(value)) {
+        return fail(Errc::LimitExceeded, "MP{} = {:g}: expected a whole number from 0 to {}",
+                    row.number, value, row.most);
+      }
+      words.values_[row.number] = static_cast<unsigned>(value);
+      if (found != parameters.end()) words.given_.insert(row.number);
+    }
+    return words;
+  }
+  unsigned operator[](int number) const { return values_.at(number); }
+  bool is_given(int number) const { return given_.contains(number); }
+
+ private:
+  std::map<int, unsigned> values_;
+  std::set<int> given_;
+};
+
+Result<void> read_format(const Words& words, LineSettings& line) {
+  const unsigned format = words[kFormat];
+  if (line.flow == Flow::Heidenhain && (format & kStopByRts) != 0) {
+    return fail(Errc::Unsupported,
+                "MP222 = {}: the control stops the host by RTS ({}); a line with flow = "
+                "heidenhain is stopped by DC3 ({})",
+                format, kStopByRts, kStopByDc3);
+  }
+  line.data_bits = (format & kEightBits) != 0 ? 8 : 7;
+  line.parity = (format & kHasParity) == 0 ? Parity::None
+                : (format & kOdd) != 0     ? Parity::Odd
+                                           : Parity::Even;
+  const unsigned stop = format & kStopBits;
+  line.stop_bits = stop == 0              ? StopBits::OneAndHalf
+                   : stop == kTwoStopBits ? StopBits::Two
+                                          : StopBits::One;
+  line.heidenhain.bcc_is_printable = (format & kPrintableBcc) != 0;
+  return {};
+}
+
+/// The standard interface has the ends of programs and transmissions only.
+void read_characters(const Words& words, bool is_blockwise, HeidenhainSettings& tnc) {
+  tnc.etx = low(words[kEnds]);
+  if (words[kEndOfTransmission] != 0) tnc.eot = low(words[kEndOfTransmission]);
+  if (!is_blockwise) return;
+  if (high(words[kEnds]) != 0) tnc.stx = high(words[kEnds]);
+  tnc.etb = low(words[kBlockFrame]);
+  tnc.soh = high(words[kBlockFrame]);
+  tnc.ack = low(words[kAnswers]);
+  tnc.nak = high(words[kAnswers]);
+}
+
+Result<void> read_heading(const Words& words, std::optional<char> heading,
+                          HeidenhainSettings& tnc) {
+  const unsigned input = words[kInputHeading], output = words[kOutputHeading];
+  if (high(input) != 'E' || high(output) != 'A') {
+    const bool is_input = high(input) != 'E';
+    return fail(Errc::Unsupported, "MP{} = {}: the high byte is {}; headings end with {}",
+                is_input ? kInputHeading : kOutputHeading, is_input ? input : output,
+                static_cast<unsigned>((is_input ? input : output) >> 8),
+                is_input ? "E, 69" : "A, 65");
+  }
+  if (low(input) != low(output)) {
+    return fail(Errc::Unsupported,
+                "MP218 = {} and MP219 = {}: a line has one letter for headings of both ways", input,
+                output);
+  }
+  if (heading) {
+    tnc.heading = *heading;
+  } else if (words.is_given(kInputHeading) || words.is_given(kOutputHeading)) {
+    tnc.heading = low(input);
+  }
+  const bool is_known = std::string_view("%HD").find(tnc.heading) != std::string_view::npos;
+  if (is_known) return {};
+  return fail(Errc::Unsupported, "MP218 = {}: the low byte is {}; headings begin with %, H or D",
+              input, static_cast<unsigned>(input & 0xffu));
+}
+
+}  // namespace
+
+Result<void> check_tnc_baud(unsigned baud) {
+  if (std::ranges::find(kTncBaudRates, baud) != kTncBaudRates.end()) return {};
+  return fail(Errc::LimitExceeded, "baud {}: a TNC 151/155 has {}", baud,
+              fmt::join(kTncBaudRates, ", "));
+}
+
+Result<LineSettings> line_of_tnc(const TncInterface& interface) {
+  if (auto checked = check_tnc_baud(interface.baud); !checked) return fail(checked.error());
+  const auto words = Words::read(interface.parameters);
+  if (!words) return fail(words.error());
+  const auto usual = find_template((*words)[kProtocol] == 1 ? "tnc155-bcc" : "tnc155");
+  if (!usual) return fail(usual.error());
+  LineSettings line = (*usual)->settings;
+  line.baud = interface.baud;
+  if (auto read = read_format(*words, line); !read) return fail(read.error());
+  const bool is_blockwise = line.flow == Flow::HeidenhainBcc;
+  read_characters(*words, is_blockwise, line.heidenhain);
+  if (is_blockwise) {
+    auto read = read_heading(*words, interface.heading, line.heidenhain);
+    if (!read) return fail(read.error());
+  }
+  // What a line can not be is said by the protocol itself: characters twice, or outside 1 to 47.
+  if (auto made = make_discipline(line, Role::Host); !made) {
+    return fail(made.error().code, "MP71, MP220, MP221 and MP224: {}", made.error().what);
+  }
+  return line;
+}
+
+Result<TncParameters> tnc_parameters_of_line(const LineSettings& line) {
+  const bool is_blockwise = line.flow == Flow::HeidenhainBcc;
+  if (!is_blockwise && line.flow != Flow::Heidenhain) {
+    return fail(Errc::Unsupported, "a TNC 151/155 has the flow heidenhain or heidenhain_bcc");
+  }
+  if (auto checked = check_tnc_baud(line.baud); !checked) return fail(checked.error());
+  if (line.parity == Parity::Mark || line.parity == Parity::Space) {
+    return fail(Errc::Unsupported, "parity: a TNC 151/155 has none, even and odd");
+  }
+  if (auto made = make_discipline(line, Role::Host); !made) return fail(made.error());
+  const auto& tnc = line.heidenhain;
+  unsigned format = kStopByDc3;
+  if (line.data_bits == 8) format |= kEightBits;
+  if (tnc.bcc_is_printable) format |= kPrintableBcc;
+  if (line.parity != Parity::None) format |= kHasParity;
+  if (line.parity == Parity::Odd) format |= kOdd;
+  if (line.stop_bits == StopBits::One) format |= kOneStopBit;
+  if (line.stop_bits == StopBits::Two) format |= kTwoStopBits;
+  return TncParameters{{kEnds, word(tnc.etx, tnc.stx)},
+                       {kInputHeading, word(tnc.heading, 'E')},
+                       {kOutputHeading, word(tnc.heading, 'A')},
+                       {kBlockFrame, word(tnc.etb, tnc.soh)},
+                       {kAnswers, word(tnc.ack, tnc.nak)},
+                       {kFormat, format},
+                       {kProtocol, is_blockwise ? 1 : 0},
+                       {kEndOfTransmission, static_cast<unsigned char>(tnc.eot)}};
+}
+
+}  // namespace dripline::wire
