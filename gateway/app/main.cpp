@@ -9,6 +9,7 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/no_server.hpp"
+#include "gateway/app/setup_line.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/daemon_log.hpp"
@@ -88,14 +89,18 @@ Result<std::unique_ptr<dds::GatewayEndpoint>> open_endpoint(const GatewayOptions
 }
 
 /// Null: programs come from the server.
-Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& options, Inbox& inbox) {
+Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& options,
+                                                     const interpreter::Setup& setup,
+                                                     Inbox& inbox) {
   if (!options.line) return std::unique_ptr<feed::ControlLine>();
+  const auto settings = line_settings_of(*options.line, setup.control);
+  if (!settings) return fail(settings.error());
   spdlog::info("control at the end of line {} template={} {} buffer={} machine={}",
                options.line->address, options.line->template_name,
                wire::short_form(options.line->settings), options.line->buffer_bytes,
                options.machine);
   return feed::ControlLine::start({.address = options.line->address,
-                                   .settings = options.line->settings,
+                                   .settings = *settings,
                                    .buffer_bytes = options.line->buffer_bytes,
                                    .wake = [&inbox] { inbox.post(LineChanged{}); }});
 }
@@ -124,7 +129,7 @@ Result<void> run(const GatewayOptions& options) {
                 .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
                 .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
   if (!endpoint) return fail(endpoint.error());
-  auto line = open_line(options, inbox);
+  auto line = open_line(options, *setup, inbox);
   if (!line) return fail(line.error());
   const SignalWatch watch(inbox, signals);
   Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *witness,

@@ -241,7 +241,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   reader.flag("blockwise_restrictions", read.blockwise_restrictions);
   reader.flag("cancel_transformations", read.cancels_transformations);
   reader.flag("scale_three_axes", read.scales_three_axes);
-  reader.choice("heading_letter", {"%", "H"}, 0);  // the line's: its setting `heading` says it
+  reader.choice("heading_letter", {"%", "H"}, 0);  // of dncgw --line, dnc port
   reader.flag("strict_numbers", read.strict_numbers);
   const auto sign = decimal_sign_of(options);
   if (!sign) return fail(sign.error());

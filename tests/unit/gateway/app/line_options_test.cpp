@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "gateway/app/options.hpp"
+#include "gateway/app/setup_line.hpp"
 #include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/setup.hpp"
 #include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {
@@ -78,6 +80,31 @@ TEST(LineOptions, SpeakNothingBlockwiseForATncWithoutIt) {
   EXPECT_EQ(refusal("tnc155-bcc", "TNC 155 V"),
             "--line /dev/ttyS3 speaks heidenhain_bcc: a TNC 155 V has no transfer blockwise; flow "
             "heidenhain (template tnc155) is its interface");
+}
+
+/// The letter in the headings that a TNC of ours sends: the line's own setting, else the setup's.
+TEST(LineOptions, TakeTheLetterOfHeadingsFromTheSetup) {  // HD-222
+  const auto heading = [](const char* line, const char* setup) {
+    GatewayOptions options = base();
+    EXPECT_TRUE(apply_config(std::string("line = '/dev/ttyS3'\n") + line, options));
+    EXPECT_TRUE(complete(options));
+    const auto read = interpreter::parse_setup(setup);
+    EXPECT_TRUE(read) << read.error().what;
+    const auto settings = line_settings_of(*options.line, read->control);
+    EXPECT_TRUE(settings) << settings.error().what;
+    return settings->heidenhain.heading;
+  };
+  constexpr const char* kBlockwise = "line-template = 'tnc155-bcc'\n";
+  constexpr const char* kOwn = "line-template = 'tnc155-bcc'\nline-setting = ['tnc_heading=D']\n";
+  EXPECT_EQ(heading(kBlockwise, ""), '%');
+  EXPECT_EQ(heading(kBlockwise, "[control]\nheading_letter = \"H\"\n"), 'H');
+  EXPECT_EQ(heading(kOwn, "[control]\nheading_letter = \"H\"\n"), 'D');
+  EXPECT_EQ(heading("line-template = 'centurion'\n", "[control]\nheading_letter = 3\n"), '%');
+  GatewayOptions options = base();
+  ASSERT_TRUE(apply_config(std::string("line = '/dev/ttyS3'\n") + kBlockwise, options));
+  ASSERT_TRUE(complete(options));
+  const auto bad = interpreter::parse_setup("[control]\nheading_letter = \"D\"\n");
+  EXPECT_FALSE(line_settings_of(*options.line, bad->control));
 }
 
 struct Refused {
