@@ -109,13 +109,14 @@ std::string heights_json(const CuttingSimulation& simulation) {
       .dump();
 }
 
-Result<void> write_files(const GraphicsCommand& command, const CuttingSimulation& simulation) {
+Result<void> write_files(const GraphicsCommand& command, const interpreter::Setup& setup,
+                         const CuttingSimulation& simulation) {
   if (!command.heights.empty()) {
     if (auto done = write_file(command.heights, heights_json(simulation)); !done) return done;
   }
   if (command.output.empty() && command.print.empty()) return {};
   const auto picture = draw(command, simulation);
-  return picture ? write_picture(command, *picture) : fail(picture.error());
+  return picture ? write_picture(command, setup, *picture) : fail(picture.error());
 }
 
 const char* reason(graphics::Omission why) {
@@ -214,7 +215,8 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
     return complain(Error{Errc::NotFound,
                           "the program defines no blank; give one: --blank X0:100,Y0:80,Z-20:0"});
   }
-  if (auto written = write_files(command, simulation); !written) return complain(written.error());
+  auto written = write_files(command, program->setup(), simulation);
+  if (!written) return complain(written.error());
   report(context, simulation, *program, source);
   if (!outcome->alarm) return kExitOk;
   complain(Error{Errc::Syntax,
@@ -285,7 +287,9 @@ void add_graphics_command(CLI::App& app, Context& context) {
   command->add_option("-o,--output", options->output, "The picture, a PNG file");
   command->add_option("--heights", options->heights, "The surface as numbers, a JSON file");
   command->add_option("--hardcopy", options->print, "The picture as bytes for a matrix printer");
-  command->add_option("--printer", options->printer, "epson or ti-850 [epson]")
+  command
+      ->add_option("--printer", options->printer,
+                   "epson or ti-850 [that of the setup's MP 226 to 233, else epson]")
       ->check(CLI::IsMember({"epson", "ti-850"}));
   add_view_options(*command, *options);
   add_turning_options(*command, *options);

@@ -18,7 +18,7 @@ struct GraphicsCommand {
   std::string output;   ///< .png
   std::string heights;  ///< .json
   std::string print;    ///< bytes for a printer
-  std::string printer = "epson";
+  std::string printer;  ///< empty: the setup's, or an EPSON
   std::string view;  ///< empty: the machine's usual one
   int shades = 17;
   std::string arrangement = "din";

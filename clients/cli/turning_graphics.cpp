@@ -173,7 +173,7 @@ Result<void> write_files(const GraphicsCommand& command, const interpreter::Setu
   const auto view = view_of(command, setup, simulation);
   if (!view) return fail(view.error());
   const auto picture = graphics::draw_turned(part, simulation.path(), *view);
-  return picture ? write_picture(command, *picture) : fail(picture.error());
+  return picture ? write_picture(command, setup, *picture) : fail(picture.error());
 }
 
 void report(Context& context, const TurningSimulation& simulation) {

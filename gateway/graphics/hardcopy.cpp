@@ -71,6 +71,15 @@ Result<Printer> find_printer(std::string_view name) {
   return fail(Errc::NotFound, "printer {}: expected one of {}", name, known);
 }
 
+Result<Printer> printer_of_parameters(const std::array<std::uint16_t, 8>& words) {
+  constexpr int kPicture = 226, kLine = 230;
+  auto picture = printer_bytes({words[0], words[1], words[2], words[3]});
+  if (!picture) return fail(picture.error().code, "MP{}: {}", kPicture, picture.error().what);
+  auto line = printer_bytes({words[4], words[5], words[6], words[7]});
+  if (!line) return fail(line.error().code, "MP{}: {}", kLine, line.error().what);
+  return Printer{"setup", "MP 226 to 233", std::move(*picture), std::move(*line)};
+}
+
 std::string hardcopy(const Picture& picture, const Printer& printer) {
   const Paper paper = paper_for(picture);
   const auto dot = [&](std::size_t x, std::size_t y) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,6 +26,10 @@ Result<std::vector<std::uint8_t>> printer_bytes(const std::uint16_t (&words)[4])
 
 /// Errors: NotFound, naming the known ones (epson, ti-850).
 Result<Printer> find_printer(std::string_view name);
+
+/// The printer of the control's machine parameters 226 to 233, in order; its name is "setup".
+/// Errors: LimitExceeded, naming the first parameter of the group.
+Result<Printer> printer_of_parameters(const std::array<std::uint16_t, 8>& words);
 
 /// Columns of dots a line has: both printers are told so by the bytes before a line.
 inline constexpr std::size_t kDotColumns = 512;

@@ -146,6 +146,32 @@ TEST(DncGraphicsOfATnc, CutsTheBlankWhereTheDatumIs) {
   }
 }
 
+// HD-206: the control's own printer bytes, unless a printer is named.
+TEST(DncGraphicsOfATnc, PrintsWithTheBytesOfTheMachineParameters) {
+  Dnc dnc{DNC_PATH};
+  dnc.write("block.h",
+            "BEGIN PGM 1 MM\nBLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+100 Y+100 Z+0\n"
+            "END PGM 1 MM\n");
+  const auto print = [&](const std::string& parameters, const std::string& printer) {
+    dnc.write("own.toml", "[control]\nmachine_parameters = { " + parameters + " }\n");
+    std::vector<std::string> words{"graphics", "block.h",    "--setup",
+                                   "own.toml", "--hardcopy", "block.prn"};
+    if (!printer.empty()) words.insert(words.end(), {"--printer", printer});
+    return dnc(words);
+  };
+  const std::string own =
+      "MP226 = 602, MP227 = 23040, MP230 = 881, MP231 = 29299, MP222 = 169";  // 5A 5A, 71 72 73
+  ASSERT_EQ(print(own, "").status, 0);
+  EXPECT_EQ(dnc.read("block.prn").substr(0, 5), "ZZqrs");
+  ASSERT_EQ(print(own, "epson").status, 0);
+  EXPECT_EQ(dnc.read("block.prn").substr(0, 2), "\x1b\x43");
+  ASSERT_EQ(print("MP222 = 169", "").status, 0);
+  EXPECT_EQ(dnc.read("block.prn").substr(0, 2), "\x1b\x43");
+  EXPECT_NE(print("MP226 = 2049", "").err.find("MP226: 8 bytes"), std::string::npos);
+  EXPECT_NE(print("MP233 = 65536", "").err.find("MP233 = 65536: expected a whole number"),
+            std::string::npos);
+}
+
 /// CEN-227: a lathe's program.
 class DncTurning : public testing::Test {
  protected:

@@ -112,6 +112,12 @@ TEST(Printers, KnowTheBytesOfTheirParameters) {
   EXPECT_EQ(find_printer("laser").error().code, Errc::NotFound);
   const std::uint16_t too_many[4] = {8 << 8, 0, 0, 0};
   EXPECT_EQ(printer_bytes(too_many).error().code, Errc::LimitExceeded);
+  const auto own = printer_of_parameters({1819, 17200, 6977, 2060, 1290, 6990, 2, 0});
+  ASSERT_TRUE(own) << own.error().what;
+  EXPECT_EQ(own->before_picture, ti.before_picture);
+  EXPECT_EQ(own->before_line, ti.before_line);
+  EXPECT_EQ(printer_of_parameters({0, 0, 0, 0, 2048, 0, 0, 0}).error().what,
+            "MP230: 8 bytes: a group of four words holds 7");
 }
 
 TEST(Hardcopies, HaveEightRowsALineAndTheUpperInTheHighestBit) {
