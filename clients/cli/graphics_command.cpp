@@ -125,8 +125,10 @@ const char* reason(graphics::Omission why) {
       return "a helix; --helices draws it";
     case graphics::Omission::RotaryAxis:
       return "an axis besides X, Y and Z moves";
+    case graphics::Omission::ToolAxis:
+      return "the tool is not called along the axis of the blank";
     default:
-      return "no tool with a radius; give one with --tool-radius or in the setup";
+      return "no tool was called, or it has no radius; --tool-radius or the setup give one";
   }
 }
 

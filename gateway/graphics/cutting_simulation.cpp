@@ -59,6 +59,7 @@ void CuttingSimulation::on_blank(const interpreter::Blank& event) {
 void CuttingSimulation::on_tool(const interpreter::ToolChange& event) {
   if (event.is_preselection) return;
   radius_.reset();
+  is_across_ = false;
   if (event.number == 0) return;
   if (settings_.tool_radius) radius_ = settings_.tool_radius->mm();
   const auto known =
@@ -79,6 +80,11 @@ void CuttingSimulation::on_thread(const interpreter::Thread& event) {
 /// A probe's ball cuts nothing.
 void CuttingSimulation::on_probe(const interpreter::Probe& event) {
   if (event.result) at_ = event.result->at;
+}
+
+/// The control says where its graphics show nothing; a blank of the user has the user's axis.
+void CuttingSimulation::on_warning(const interpreter::Warning& event) {
+  if (event.diagnostic.id == "TNC-GRAPHICS" && !settings_.blank) is_across_ = true;
 }
 
 void CuttingSimulation::on_block_end(const interpreter::Origin& event) {
@@ -133,6 +139,10 @@ bool CuttingSimulation::can_show(const interpreter::Origin& origin,
   for (const Axis axis : interpreter::kAllAxes) {
     if (axis <= Axis::Z || to.raw(axis) == at_.raw(axis)) continue;
     omit(origin, Omission::RotaryAxis);
+    return false;
+  }
+  if (is_across_) {
+    omit(origin, Omission::ToolAxis);
     return false;
   }
   if (radius_) return true;

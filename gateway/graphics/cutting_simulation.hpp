@@ -34,6 +34,7 @@ enum class Omission : std::uint8_t {
   Helix,       ///< the control shows none
   RotaryAxis,  ///< a fourth axis moved
   NoTool,      ///< no tool was called, or it has no radius
+  ToolAxis,    ///< the tool was called without an axis, or with another than the blank's
 };
 struct OmittedSection {
   interpreter::Origin origin;  ///< the first block of its kind
@@ -72,6 +73,7 @@ class CuttingSimulation final : public interpreter::EventSink {
   void on_arc(const interpreter::Arc& event) override;
   void on_thread(const interpreter::Thread& event) override;
   void on_probe(const interpreter::Probe& event) override;
+  void on_warning(const interpreter::Warning& event) override;
   void on_block_end(const interpreter::Origin& event) override;
 
  private:
@@ -87,6 +89,7 @@ class CuttingSimulation final : public interpreter::EventSink {
   std::optional<HeightField> part_;
   std::optional<Error> failure_;
   std::optional<double> radius_;
+  bool is_across_ = false;  ///< the tool called last does not stand along the blank's axis
   interpreter::Position at_;
   std::vector<OmittedSection> omitted_;  ///< at most one of each kind
   std::uint64_t cuts_ = 0;

@@ -90,7 +90,19 @@ bool define_blank(Run& run, const Block& block) {
   }
   put_on_machine(run.state.transformation, event);
   run.events().on_blank(event);
+  if (run.state.tool.number != 0) warn_of_graphics(run);
   return true;
+}
+
+void warn_of_graphics(Run& run) {
+  const BlankState& blank = run.state.blank;
+  const ActiveTool& tool = run.state.tool;
+  if (!blank.has_minimum || (tool.is_called && tool.axis == blank.axis)) return;
+  run.warn("TNC-GRAPHICS",
+           fmt::format("graphics: PGM-SECTION CANNOT BE SHOWN: {}, BLK FORM has {}",
+                       tool.is_called ? fmt::format("the tool's axis is {}", letter(tool.axis))
+                                      : "no TOOL CALL has named an axis",
+                       letter(blank.axis)));
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -24,6 +24,9 @@ void end_cycles(Run& run);
 
 /// DEF BLK FORM; delivers a Blank event with the second of the two blocks.
 bool define_blank(Run& run, const Block& block);
+/// Where a blank is there and the tool called has no axis or another one than BLK FORM: the
+/// control's graphics show nothing of it (spec 21), which a warning says.
+void warn_of_graphics(Run& run);
 
 /// TCH PROBE 0.0 and 0.1. Asks a ProbeQuestion; called again with `Run::answer`.
 bool probe(Run& run, const Block& block);

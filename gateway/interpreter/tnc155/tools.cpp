@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/tnc155/changer.hpp"
 #include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/cycles.hpp"
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -124,6 +125,7 @@ bool call_tool(Run& run, const Block& block) {
     const ToolShape shape{Length::mm(state.tool.data.length), Length::mm(state.tool.data.radius)};
     run.events().on_tool({run.origin, state.tool.number, false, {}, shape});
   }
+  if ((is_change || names_axis) && state.tool.number != 0) warn_of_graphics(run);
   return !block.spindle.is_programmed() || set_speed(run, run.number(block.spindle));
 }
 

@@ -146,6 +146,26 @@ TEST(DncGraphicsOfATnc, CutsTheBlankWhereTheDatumIs) {
   }
 }
 
+// HD-204
+TEST(DncGraphicsOfATnc, ShowsNothingOfAToolAcrossTheBlank) {
+  Dnc dnc{DNC_PATH};
+  const auto cut = [&](const std::string& call) {
+    dnc.write("slot.h",
+              "BEGIN PGM 1 MM\nBLK FORM 0.1 Z X+0 Y+0 Z-20\nBLK FORM 0.2 X+100 Y+100 Z+0\nTOOL DEF "
+              "1 L+0 R+5\n" +
+                  call + "L X+50 Y-20 Z+5 R0 F9999\nL Z-10 F500\nL Y+120\nEND PGM 1 MM\n");
+    return dnc({"graphics", "slot.h"});
+  };
+  for (const char* call : {"TOOL CALL 1 Y S1000\n", "TOOL CALL 1 S1000\n", ""}) {
+    const auto result = cut(call);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("0 cuts, 0.0 cm3")) << call << result.out;
+    EXPECT_NE(result.err.find("PGM-SECTION CANNOT BE SHOWN: line"), std::string::npos)
+        << call << result.err;
+  }
+  EXPECT_TRUE(cut("TOOL CALL 1 Z S1000\n").out.starts_with("3 cuts"));
+}
+
 // HD-206: the control's own printer bytes, unless a printer is named.
 TEST(DncGraphicsOfATnc, PrintsWithTheBytesOfTheMachineParameters) {
   Dnc dnc{DNC_PATH};

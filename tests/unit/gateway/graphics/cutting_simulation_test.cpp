@@ -114,6 +114,31 @@ TEST_F(CuttingSimulationTest, LeavesOutMovesOfAFourthAxisAndThoseWithoutATool) {
   EXPECT_EQ(removed(), 0);
 }
 
+// HD-204: the cutter stands along the blank's axis; the interpreter says where it does not.
+TEST_F(CuttingSimulationTest, LeavesOutWhatAToolAcrossTheBlankDoes) {
+  interpreter::Warning across;
+  across.diagnostic.id = "TNC-GRAPHICS";
+  begin();
+  call_tool(5);
+  simulation_->on_warning(across);
+  simulation_->on_line({line(5), at(50, 50, -5), {}});
+  ASSERT_EQ(simulation_->omitted().size(), 1u);
+  EXPECT_EQ(simulation_->omitted()[0].why, Omission::ToolAxis);
+  EXPECT_EQ(simulation_->omitted()[0].origin.line, 5u);
+  EXPECT_EQ(removed(), 0);
+  call_tool(5);
+  simulation_->on_line({line(7), at(60, 50, -5), {}});
+  EXPECT_GT(removed(), 0) << "called anew, along the axis";
+  // another warning means nothing, nor does this one for a blank of the user
+  SimulationSettings own;
+  own.blank = Cuboid{{0, 0, -20}, {100, 100, 0}};
+  begin(own);
+  call_tool(5);
+  simulation_->on_warning(across);
+  simulation_->on_line({line(5), at(50, 50, -5), {}});
+  EXPECT_GT(removed(), 0);
+}
+
 TEST_F(CuttingSimulationTest, TakesRadiiFromTheSetupAndFromTheUser) {
   SimulationSettings settings;
   interpreter::ToolRecord tool;

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "tests/unit/gateway/tnc155/path_run.hpp"
 
@@ -210,6 +211,28 @@ TEST(TncMachine, AStopCallsTheCycle) {
   EXPECT_EQ(std::vector(modal.begin() + 1, modal.end()), called);
   EXPECT_THAT(events_of({"STOP M99"}), ElementsAre(testing::StartsWith("! CYCL INCOMPLETE")));
   EXPECT_THAT(events_of({"STOP M89"}, "m89_modal = false"), ElementsAre("M89", "stop"));
+}
+
+// HD-204: the graphics need the tool along the blank's axis, and a TOOL CALL that names it.
+TEST(TncMachine, SaysThatTheGraphicsShowNoToolAcrossTheBlank) {
+  const auto warns = [](const std::vector<std::string>& calls, bool is_blank_first) {
+    std::vector<std::string> blocks{"BLK FORM 0.1 Z X+0 Y+0 Z-20", "BLK FORM 0.2 X+9 Y+9 Z+0"};
+    blocks.insert(is_blank_first ? blocks.end() : blocks.begin(), calls.begin(), calls.end());
+    blocks.insert(blocks.begin(), "TOOL DEF 1 L+0 R+5");
+    const auto events = events_of(blocks);
+    return std::count(events.begin(), events.end(), "warning TNC-GRAPHICS");
+  };
+  for (const bool is_blank_first : {true, false}) {
+    EXPECT_EQ(warns({"TOOL CALL 1 Z S100"}, is_blank_first), 0);
+    EXPECT_EQ(warns({"TOOL CALL 1 Y S100"}, is_blank_first), 1);
+    EXPECT_EQ(warns({"TOOL CALL 1 S100"}, is_blank_first), 1) << "the blank's axis is not enough";
+    EXPECT_EQ(warns({"TOOL CALL 0 Y S100"}, is_blank_first), 0) << "no tool";
+  }
+  EXPECT_EQ(warns({"TOOL CALL 1 Z S100", "TOOL CALL Y"}, true), 1);
+  EXPECT_EQ(warns({"TOOL CALL 1 Z S100", "TOOL CALL S200"}, true), 0);
+  EXPECT_THAT(events_of({"TOOL DEF 1 L+0 R+5", "TOOL CALL 1 Y S100"}),
+              testing::Not(testing::Contains("warning TNC-GRAPHICS")))
+      << "without a blank there are no graphics";
 }
 
 // HD-199: the blank is clamped where the datum is, as the moves are.
