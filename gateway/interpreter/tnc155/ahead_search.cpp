@@ -92,10 +92,7 @@ std::int32_t AheadSearch::called_program() const {
   }
   const IsoBlock& block = reader_.iso_block();
   if (blocks_ == 1) return Block::kNone;  // the program's own number
-  if (block.has_code(IsoGroup::Cycle, 39) && block.has_parameter(1)) {
-    const Value& number = block.cycle[1].value;
-    return number.kind == Value::Kind::Number ? number.number / Value::kStepsPerUnit : Block::kNone;
-  }
+  if (block.has_code(IsoGroup::Cycle, 39)) return block.called_program;
   return block.has(IsoGroup::Unit) ? Block::kNone : block.program;
 }
 

@@ -57,7 +57,8 @@ class DefinitionWords {
       case CycleField::Side:
         return add_parameter(part.coordinates[0].value, part.coordinates[0].axis);
       case CycleField::Program:
-        return add_parameter(whole(part.target));
+        iso_.called_program = part.target;
+        return add_parameter({});
       default:
         return;
     }

@@ -84,6 +84,7 @@ struct IsoBlock {
   std::int32_t repeats = kNone;                ///< L15.8
   std::int32_t program = kNone;                ///< %
   std::int32_t parameter = kNone;              ///< Q of a D function
+  std::int32_t called_program = kNone;         ///< P01 of G39
   std::int32_t factor = kNone;                 ///< F of G72, millionths
   Value length;                                ///< L behind G99
   Value feed;                                  ///< F; of G04 seconds

@@ -100,17 +100,12 @@ class CycleParts {
   }
 
   bool take_program(Block& part) {
-    static constexpr Range kPrograms{0, static_cast<std::int64_t>(kMostProgram) * kUnit, true,
-                                     false};
-    const std::size_t number = next_;
-    const IsoParameter* from = parameter();
-    if (!from) return false;
-    if (from->axis || from->value.kind != Value::Kind::Number || from->value.number < 0 ||
-        from->value.number % Value::kStepsPerUnit != 0) {
-      return wrong(fmt::format("P{:02} of G39 is the number of a program", number));
+    if (!parameter()) return false;
+    if (block_.called_program == IsoBlock::kNone) {
+      return wrong(fmt::format("P01 of G39 is the number of a program, 0 to {}", kMostProgram));
     }
-    part.target = from->value.number / Value::kStepsPerUnit;
-    return part.target <= kPrograms.high / kUnit;
+    part.target = block_.called_program;
+    return true;
   }
 
   bool wrong(std::string detail) {

@@ -9,6 +9,7 @@ namespace dripline::interpreter::tnc155 {
 namespace {
 
 constexpr int kMostCodes = 8;
+constexpr int kProgramDigits = 8;
 
 /// Reads the words of one block, in whatever order they stand.
 class IsoReader {
@@ -171,7 +172,24 @@ class IsoReader {
     if (block_.has_parameter(number)) return twice('P', start);
     block_.parameters = static_cast<std::uint8_t>(block_.parameters | 1u << number);
     block_.cycle[number] = IsoParameter{};
+    if (number == 1 && cursor_.is_digit_next()) return read_first(block_.cycle[1].value);
     return read_parameter_value(block_.cycle[number]);
+  }
+
+  /// P01 of G39 is the number of a program, longer than other values are; G39 may come behind it.
+  bool read_first(Value& value) {
+    const char* start = cursor_.at();
+    if (block_.has_code(IsoGroup::Cycle, 39)) {
+      return cursor_.read_integer(block_.called_program, 0, kMostProgram, "P01");
+    }
+    std::int32_t whole = 0;
+    if (!cursor_.read_short_integer(whole, kProgramDigits)) {
+      return cursor_.read_value(value, kOperand, "P");
+    }
+    if (whole * kUnit > kOperand.high) long_first_ = start;
+    value = Value::steps(long_first_ ? 0 : whole * Value::kStepsPerUnit);
+    block_.called_program = whole;
+    return true;
   }
 
   bool read_parameter_value(IsoParameter& parameter) {
@@ -213,6 +231,7 @@ class IsoReader {
       return cursor_.wrong(fmt::format("more than {} G functions", kMostCodes));
     }
     if (bare_ != 0 && !are_bare_words_right()) return false;
+    if (block_.has_parameter(1) && !finish_first()) return false;
     if (label_ && !read_label()) return false;
     if (feed_ && !read_feed()) return false;
     if (axis_count_ > most_axes()) {
@@ -258,6 +277,21 @@ class IsoReader {
       return true;
     }
     return cursor_.wrong("a coordinate has no value");
+  }
+
+  bool finish_first() {
+    const Value& value = block_.cycle[1].value;
+    if (block_.has_code(IsoGroup::Cycle, 39)) {
+      const bool is_number = block_.called_program == IsoBlock::kNone && !block_.cycle[1].axis &&
+                             value.kind == Value::Kind::Number && value.number >= 0 &&
+                             value.number % Value::kStepsPerUnit == 0;
+      if (is_number) block_.called_program = value.number / Value::kStepsPerUnit;
+      return true;
+    }
+    block_.called_program = IsoBlock::kNone;
+    if (!long_first_) return true;
+    cursor_.back_to(long_first_);
+    return cursor_.read_value(block_.cycle[1].value, kOperand, "P");
   }
 
   bool read_label() {
@@ -327,13 +361,14 @@ class IsoReader {
   int axis_count_ = 0;
   unsigned bare_ = 0;  ///< slots without values
   bool is_short_feed_ = false;
+  const char* long_first_ = nullptr;  ///< P01, where only a program's number can be so long
   const char* feed_ = nullptr;
   const char* label_ = nullptr;
 };
 
 void clear(IsoBlock& block) {
   block.number = block.tool = block.label = block.repeats = IsoBlock::kNone;
-  block.program = block.parameter = block.factor = IsoBlock::kNone;
+  block.program = block.called_program = block.parameter = block.factor = IsoBlock::kNone;
   block.groups = block.slots = 0;
   block.parameters = 0;
   block.m = block.function = IsoBlock::kNone;

@@ -102,6 +102,10 @@ class IsoWriter {
       if (!block_.has_parameter(p)) continue;
       const IsoParameter& parameter = block_.cycle[p];
       write_parameter_name(p);
+      if (p == 1 && block_.called_program != IsoBlock::kNone) {
+        add_integer(text_, block_.called_program);
+        continue;
+      }
       if (parameter.axis) text_ += letter(*parameter.axis);
       if (parameter.direction) {
         text_ += *parameter.direction == ProbeDirection::Positive ? '+' : '-';

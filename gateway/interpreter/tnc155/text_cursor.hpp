@@ -108,12 +108,13 @@ class TextCursor {
     value = Value::steps(static_cast<std::int32_t>(steps));
     return true;
   }
-  /// A run of up to 5 digits with no decimal sign behind it; else nothing is taken.
-  bool read_short_integer(std::int32_t& value) {
+  /// A run of up to so many digits (9 at most) with no decimal sign behind it; else nothing is
+  /// taken.
+  bool read_short_integer(std::int32_t& value, int most_digits = 5) {
     peek();
     const char* start = at_;
     std::int32_t number = 0;
-    while (is_digit(*at_) && at_ - start < 5) number = number * 10 + (*at_++ - '0');
+    while (is_digit(*at_) && at_ - start < most_digits) number = number * 10 + (*at_++ - '0');
     value = number;
     if (at_ != start && !is_digit(*at_) && *at_ != ',' && *at_ != '.') return true;
     at_ = start;

@@ -152,6 +152,20 @@ TEST(TncFlow, MissingProgramsMayBeLeftToTheCall) {
       ElementsAre("R X1", "! PGM 15 UNAVAILABLE"));
 }
 
+// HD-187, HD-033: a program's number has up to eight digits, in P01 as well.
+TEST(TncFlow, ACycleInIsoCallsAProgramOfEightDigits) {
+  PathSetup library;
+  library.programs = {{"12345678",
+                       "0 BEGIN PGM 12345678 MM\n1 L IZ-1 R0 F MAX\n"
+                       "2 END PGM 12345678 MM\n"}};
+  const std::string head = "%3 G71 *\nN1 G39 P01 ";
+  const std::string rest = " *\nN2 G17 G40 G90 G00 X+1 M99 *\nN9999 %3 G71 *\n";
+  EXPECT_THAT(run_text(head + "12345678" + rest, library).events,
+              ElementsAre("R X1", "R X1 Z-1", testing::StartsWith("end")));
+  EXPECT_THAT(run_text(head + "87654321" + rest, library).events,
+              ElementsAre("! PGM 87654321 UNAVAILABLE"));
+}
+
 // HD-187, HD-137: the moves of the program that cycle 12 calls do not call it again; behind it M89
 // goes on.
 TEST(TncFlow, M89RestsWithinTheProgramOfACycle) {

@@ -89,6 +89,8 @@ const Pair kPairs[] = {
      "N20 G54 G90 X+5 G91 Y+1 *\nN30 G28 X *\nN40 G73 H+30 *\nN50 G72 F0,75 *\nN60 G04 F1,5 *\n"},
     {"Probe", "2 TCH PROBE 0.0 REF. PLANE Q10 Z-\n3 TCH PROBE 0.1 X+5,000 IZ-1,000\n",
      "N20 G55 P01 10 P02 Z- P03 G90 X+5 G91 Z-1 *\n"},
+    {"ProgramAsCycle", "2 CYCL DEF 12.0 PGM CALL\n3 CYCL DEF 12.1 PGM 12345678\n4 CYCL CALL M\n",
+     "N20 G39 P01 12345678 *\nN30 G79 *\n"},
     {"Blank",
      "2 DEF BLK FORM MIN Y X+0,000 Y+0,000 Z+0,000\n3 DEF BLK FORM MAX IX+9,000 IY+8,000 "
      "IZ+7,000\n",
