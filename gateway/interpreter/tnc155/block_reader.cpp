@@ -122,6 +122,15 @@ void BlockReader::find_place() {
   block_place_.line += line_ends_in(window_.begin(), text_);
 }
 
+ReadState BlockReader::pass(ReadingState& state, std::string_view& passed) {
+  is_peeked_ = false;
+  if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
+  find_place();
+  passed = text();
+  move_on();
+  return ReadState::Ready;
+}
+
 ReadState BlockReader::next_words(ReadingState& state) {
   if (const ReadState loaded = load(state); loaded != ReadState::Ready) return loaded;
   find_place();

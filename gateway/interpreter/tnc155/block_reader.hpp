@@ -51,6 +51,10 @@ class BlockReader {
   /// Ready. False: it can not be read, as its own turn will say.
   bool read_peeked(ReadingState state, BlockParts& parts);
 
+  /// Moves behind the next block, which is only looked at: `passed` is its text, until the next
+  /// call on the reader or the source. Of `state` only the form changes.
+  ReadState pass(ReadingState& state, std::string_view& passed);
+
   /// The next block of a program in ISO form, only its words: see `iso_block`. Of `state` only the
   /// program changes, and only by its % block.
   ReadState next_words(ReadingState& state);

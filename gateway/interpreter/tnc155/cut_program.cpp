@@ -59,7 +59,7 @@ void CutProgram::cut() {
 void CutProgram::take_numbers() {
   std::int64_t before = -1;
   for (TextBlock& block : blocks_) {
-    const std::int64_t own = read_head({block.begin, block.end}).number;
+    const std::int64_t own = read_head({block.begin, block.end}, form()).number;
     is_numbered_ |= own >= 0;
     if (form() == Form::Iso) {
       block.number = *block.begin == '%' ? 0 : own;

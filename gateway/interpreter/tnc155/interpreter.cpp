@@ -17,7 +17,7 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                std::vector<ToolDefinition> tools, ProgramSource& source,
                                EventSink& sink)
     : run_(std::move(options), source, sink),
-      search_(source),
+      search_(source, {run_.options.iso_continuation}),
       calls_ahead_(source, {run_.options.iso_continuation}),
       definitions_ahead_(source, {run_.options.iso_continuation}) {
   run_.state = std::move(state);

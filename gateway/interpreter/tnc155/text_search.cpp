@@ -1,5 +1,7 @@
 #include "gateway/interpreter/tnc155/text_search.hpp"
 
+#include <fmt/core.h>
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -7,7 +9,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The characters of a line without blanks and controls.
+/// The characters of a block without blanks and controls.
 class Characters {
  public:
   explicit Characters(std::string_view line) : line_(line) { skip(); }
@@ -48,60 +50,43 @@ class Characters {
   std::size_t at_ = 0;
 };
 
-/// G98 and its L stand anywhere in an ISO block.
-void read_iso(Characters& text, LineHead& head) {
+/// G98 and its L stand anywhere in an ISO block; most blocks have no L.
+std::int32_t label_of_iso(std::string_view block) {
+  if (block.find('L') == std::string_view::npos) return -1;
   bool sets_label = false;
   std::int64_t label = -1;
-  while (text.peek() != '\0') {
+  for (Characters text(block); text.peek() != '\0';) {
     const char letter = text.peek();
     text.advance();
-    if (letter == '*') head.ends_block = true;
     if (letter != 'G' && letter != 'L') continue;
     const std::int64_t number = text.number();
     if (letter == 'L') label = number;
     sets_label |= letter == 'G' && number == 98;
   }
-  if (sets_label) head.label = static_cast<std::int32_t>(label);
+  return sets_label ? static_cast<std::int32_t>(label) : -1;
 }
 
 }  // namespace
 
-LineHead read_head(std::string_view line) {
-  LineHead head;
-  Characters text(line);
-  const char first = text.peek();
-  if (first == 'N' || first == '%') {
-    text.advance();
-    head.begins_block = true;
-    const std::int64_t number = text.number();
-    if (first == 'N') head.number = number;
-    read_iso(text, head);
+BlockHead read_head(std::string_view block, Form form) {
+  BlockHead head;
+  Characters text(block);
+  if (form == Form::Iso) {
+    if (text.take('N')) head.number = text.number();
+    head.label = label_of_iso(block);
     return head;
   }
-  head.begins_block = is_digit(first);
   head.number = text.number();
-  if (text.take("LBL")) {
-    head.label = static_cast<std::int32_t>(text.number());
-    return head;
-  }
-  if (!head.begins_block) read_iso(text, head);
+  if (text.take("LBL")) head.label = static_cast<std::int32_t>(text.number());
   return head;
 }
 
-/// As the reader cuts blocks: behind a block without a number every line does that is not indented.
-bool TextSearch::begins_block(const Index& index, std::string_view line, const LineHead& head) {
-  if (head.begins_block || index.after_end) return true;
-  const bool is_indented = line.empty() || line.front() == ' ' || line.front() == '\t';
-  return !index.is_numbered && !is_indented;
-}
-
-TextSearch::TextSearch(ProgramSource& source)
-    : lines_(source, LineRules{.max_bytes = 4096, .skip_percent = false}) {}
+TextSearch::TextSearch(ProgramSource& source, ReaderOptions options) : reader_(source, options) {}
 
 TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   Index* oldest = &indexes_[0];
   for (Index& index : indexes_) {
-    if (index.is_used && index.next.program == program) {
+    if (index.is_used && index.way.next.program == program) {
       index.last_use = ++uses_;
       return index;
     }
@@ -110,71 +95,65 @@ TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   *oldest = Index{};
   oldest->is_used = true;
   oldest->last_use = ++uses_;
-  oldest->next.program = program;
+  oldest->way.next.program = program;
   return *oldest;
 }
 
-TextSearch::Outcome TextSearch::next_line(TextPlace& next, SourceLine& line) {
-  lines_.seek(next);
-  switch (lines_.next(line)) {
-    case LineState::Ready:
-      next = lines_.place();
+TextSearch::Outcome TextSearch::next_block(Way& way, std::string_view& text) {
+  reader_.seek(way.next);
+  switch (reader_.pass(way.state, text)) {
+    case ReadState::Ready:
+      way.next = reader_.place();
       return Outcome::Found;
-    case LineState::End:
+    case ReadState::End:
       return Outcome::Missing;
-    case LineState::NotYet:
+    case ReadState::NotYet:
       return Outcome::NotYet;
-    case LineState::TooLong:
-      reason_ = "a line of more than 4096 characters, met in a search";
+    case ReadState::Wrong:
+      reason_ =
+          fmt::format("line {}: {}, met in a search", reader_.fault_line(), reader_.fault().text());
       return Outcome::Failed;
-    case LineState::Failed:
+    case ReadState::Failed:
       break;
   }
-  reason_ = lines_.reason();
+  reason_ = reader_.reason();
   return Outcome::Failed;
 }
 
 TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t label,
                                            TextPlace& found) {
   if (label >= kLabels) return Outcome::Missing;
-  lines_.forget_window();
+  reader_.forget_window();
   Index& index = index_of(program);
-  for (unsigned count = 0; count < kLinesPerCall; ++count) {
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
     if (const auto& place = index.labels[label]) {
       found = *place;
       return Outcome::Found;
     }
     if (index.is_complete) return Outcome::Missing;
-    SourceLine line;
-    const Outcome read = next_line(index.next, line);
+    std::string_view text;
+    const Outcome read = next_block(index.way, text);
     if (read == Outcome::Missing) index.is_complete = true;
     if (read == Outcome::Missing) continue;
     if (read != Outcome::Found) return read;
-    const LineHead head = read_head(line.text);
-    if (begins_block(index, line.text, head)) {
-      index.block = line.place;
-      index.is_numbered = head.begins_block;
-    }
-    index.after_end = head.ends_block;
-    if (head.label >= 0 && static_cast<std::size_t>(head.label) < kLabels) {
-      auto& place = index.labels[static_cast<std::size_t>(head.label)];
-      if (!place) place = index.block;
-    }
+    const std::int32_t set = read_head(text, index.way.state.program.form).label;
+    if (set < 0 || static_cast<std::size_t>(set) >= kLabels) continue;
+    auto& place = index.labels[static_cast<std::size_t>(set)];
+    if (!place) place = reader_.block_place();
   }
   return Outcome::More;
 }
 
 TextSearch::Outcome TextSearch::find_block(std::uint32_t number, TextPlace& found) {
-  lines_.forget_window();
-  if (block_number_ != number) block_next_ = TextPlace{};
+  reader_.forget_window();
+  if (block_number_ != number) block_way_ = Way{};
   block_number_ = number;
-  for (unsigned count = 0; count < kLinesPerCall; ++count) {
-    SourceLine line;
-    const Outcome read = next_line(block_next_, line);
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
+    std::string_view text;
+    const Outcome read = next_block(block_way_, text);
     if (read != Outcome::Found) return read;
-    const LineHead head = read_head(line.text);
-    if (head.number != number) continue;
-    found = line.place;
+    if (read_head(text, block_way_.state.program.form).number != number) continue;
+    found = reader_.block_place();
     return Outcome::Found;
   }
   return Outcome::More;

@@ -166,6 +166,26 @@ TEST(TncFlow, ACycleInIsoCallsAProgramOfEightDigits) {
               ElementsAre("! PGM 87654321 UNAVAILABLE"));
 }
 
+// HD-034, HD-035, HD-144: several ISO blocks stand in one line.
+TEST(TncFlow, LabelsBehindOtherBlocksOfTheirLineAreFound) {
+  EXPECT_THAT(run_text("%3 G71 *\nN10 G17 G40 G90 G00 X+1 *\nN20 L5 * N25 X+7 * N30 M02 *\n"
+                       "N40 X+50 * N50 G98 L5 * N60 Y+9 *\nN70 G98 L0 *\nN9999 %3 G71 *\n")
+                  .events,
+              ElementsAre("R X1", "R X1 Y9", "R X7 Y9", testing::StartsWith("end")));
+  EXPECT_THAT(run_text("%3 G71 *\nN10 G17 G40 G91 G00 X+1 * N20 G98 L4 * N30 X+1 * N40 L4.2 *\n"
+                       "N9999 %3 G71 *\n")
+                  .events,
+              ElementsAre("R X1", "R X2", "R X3", "R X4", testing::StartsWith("end")));
+}
+
+// HD-028, HD-144: without continuation every line of an ISO program is a block, for a jump as well.
+TEST(TncFlow, JumpsFollowTheContinuationOfLines) {
+  const std::string text =
+      "%3 G71\nN10 G17 G40 G90 G00 X+1\nN20 L5\nN30 M02\nN40 X+50\nG98 L5\nY+9\nG98 L0\n";
+  EXPECT_THAT(run_text(text, {"[control]\niso_continuation = false", {}}).events,
+              ElementsAre("R X1", "R X1 Y9", testing::StartsWith("end")));
+}
+
 // HD-187, HD-137: the moves of the program that cycle 12 calls do not call it again; behind it M89
 // goes on.
 TEST(TncFlow, M89RestsWithinTheProgramOfACycle) {

@@ -72,6 +72,15 @@ TEST(TncRun, AnAbsoluteBeginningIsTheDefault) {
   EXPECT_EQ(interpreter->step(9), StepState::Alarmed);
 }
 
+// HD-063: also behind other blocks of its line.
+TEST(TncRun, BeginsAtABlockWithinALine) {
+  EXPECT_THAT(from_block(40,
+                         "%5 G71 *\nN10 G17 G00 G40 G90 X+1 *\nN20 X+5 * N30 X+6 * N40 G17 G00 G40 "
+                         "G90 X+8 Y+1 *\nN9999 %5 G71 *\n")
+                  .events,
+              ElementsAre("R X8 Y1", testing::StartsWith("end")));
+}
+
 // HD-194: a block that moves nothing has no coordinates to be complete.
 TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
   EXPECT_THAT(from_block(2,
