@@ -184,7 +184,7 @@ void visit_flow(Archive& archive, State& state) {
   visit_list(archive, state.programs, kMostProgramLevels);
   visit_list(archive, state.known_labels, kMostLabels);
   Jump& jump = state.jump;
-  up_to(archive, jump.kind, JumpKind::Start);
+  up_to(archive, jump.kind, JumpKind::StartSearch);
   visit_all(archive, jump.number, jump.repeats);
   visit(archive, jump.call);
   visit_all(archive, state.is_restart, state.has_positioned);

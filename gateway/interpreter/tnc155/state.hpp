@@ -84,7 +84,8 @@ enum class JumpKind : std::uint8_t {
   Repeat,
   Program,
   CycleProgram,
-  Start,
+  Start,        ///< GOTO: the first block, which says the program's number and units,
+  StartSearch,  ///< and then the search
 };
 struct Jump {
   JumpKind kind = JumpKind::None;

@@ -81,6 +81,20 @@ TEST(TncRun, BeginsAtABlockWithinALine) {
               ElementsAre("R X8 Y1", testing::StartsWith("end")));
 }
 
+// HD-058, HD-063: the units are those of the block that GOTO leads past.
+TEST(TncRun, BeginsAtABlockInTheUnitsOfTheProgram) {
+  EXPECT_THAT(from_block(2,
+                         "0 BEGIN PGM 5 INCH\n1 L X+1 Y+1 R0 F100\n2 L X+3 Y+3 R0 F100\n"
+                         "3 END PGM 5 INCH\n")
+                  .events,
+              ElementsAre("L X76.2 Y76.2 F254", testing::StartsWith("end")));
+  EXPECT_THAT(from_block(20,
+                         "%5 G70 *\nN10 G17 G00 G40 G90 X+1 Y+1 *\nN20 G17 G00 G40 G90 X+3 "
+                         "Y+3 *\nN9999 %5 G70 *\n")
+                  .events,
+              ElementsAre("R X76.2 Y76.2", testing::StartsWith("end")));
+}
+
 // HD-194: a block that moves nothing has no coordinates to be complete.
 TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
   EXPECT_THAT(from_block(2,
