@@ -132,7 +132,10 @@ class IsoReader {
       bare_ |= 1u << slot;
       return true;
     }
-    const Range& range = name == IsoSlot::H ? kIncrementalAngle : coordinate_range(cursor_.form());
+    const bool is_rotary = name >= IsoSlot::A && name <= IsoSlot::C;
+    const Range& range = name == IsoSlot::H ? kIncrementalAngle
+                         : is_rotary        ? kRotaryCoordinate
+                                            : coordinate_range(cursor_.form());
     return cursor_.read_value(value, range, {&letter, 1});
   }
 

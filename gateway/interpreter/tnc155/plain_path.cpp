@@ -49,7 +49,8 @@ bool read_coordinate(TextCursor& cursor, Block& block) {
       return cursor.wrong(fmt::format("{} stands twice", c));
     }
   }
-  if (!cursor.read_value(coordinate.value, coordinate_range(cursor.form()), {&c, 1})) return false;
+  const Range& range = coordinate_range(cursor.form(), coordinate.axis);
+  if (!cursor.read_value(coordinate.value, range, {&c, 1})) return false;
   block.add(coordinate);
   return true;
 }

@@ -2,7 +2,8 @@
 
 #include "gateway/interpreter/tnc155/text_cursor.hpp"
 
-/// What the control accepts as values. Lengths of inch programs have the same travel.
+/// What the control accepts as values. Lengths of inch programs have the same travel; degrees are
+/// the same in both.
 namespace dripline::interpreter::tnc155 {
 
 inline constexpr std::int64_t kUnit = Value::kStepsPerUnit;
@@ -11,8 +12,9 @@ inline constexpr Range kMetricCoordinate{-30'000 * kUnit, 30'000 * kUnit};
 inline constexpr Range kInchCoordinate{-11'811'024, 11'811'024};
 inline constexpr Range kMetricRadius{0, 20'000 * kUnit - 10};
 inline constexpr Range kInchRadius{0, 7'874'015};
-inline constexpr Range kAbsoluteAngle{-360 * kUnit, 360 * kUnit};
-inline constexpr Range kIncrementalAngle{-5'400 * kUnit, 5'400 * kUnit};
+inline constexpr Range kRotaryCoordinate{-30'000 * kUnit, 30'000 * kUnit, false, true, true};
+inline constexpr Range kAbsoluteAngle{-360 * kUnit, 360 * kUnit, false, true, true};
+inline constexpr Range kIncrementalAngle{-5'400 * kUnit, 5'400 * kUnit, false, true, true};
 inline constexpr Range kMetricFeed{0, 15'999 * kUnit, true};
 inline constexpr Range kInchFeed{0, 6'299 * kUnit, true};
 inline constexpr Range kSpindleSpeed{0, 30'000 * kUnit, false, false};
@@ -27,6 +29,9 @@ inline constexpr std::int32_t kMostBlockNumber = 65'534;
 
 inline const Range& coordinate_range(const ProgramForm& form) {
   return form.units == Units::Inch ? kInchCoordinate : kMetricCoordinate;
+}
+inline const Range& coordinate_range(const ProgramForm& form, Axis axis) {
+  return is_rotary(axis) ? kRotaryCoordinate : coordinate_range(form);
 }
 inline const Range& radius_range(const ProgramForm& form) {
   return form.units == Units::Inch ? kInchRadius : kMetricRadius;

@@ -116,7 +116,12 @@ bool TextCursor::out_of_range(const char* start, std::string_view name, std::int
                fmt::format("{} {} is not within {} to {}", name, word_at(start), low, high));
 }
 
-bool TextCursor::outside(const char* start, std::string_view name, const Range& range) {
+bool TextCursor::outside(const char* start, std::string_view name, const Range& range,
+                         std::int64_t steps) {
+  if (range.is_degrees && steps >= range.low && steps <= range.high) {
+    return wrong(ErrorCode::EntryOutOfRange, start,
+                 fmt::format("{} {} has more than 3 decimals", name, word_at(start)));
+  }
   return wrong(ErrorCode::EntryOutOfRange, start,
                fmt::format("{} {} is not {} {} to {}", name, word_at(start),
                            range.is_whole ? "a whole number within" : "within",

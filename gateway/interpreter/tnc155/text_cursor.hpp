@@ -16,6 +16,7 @@ struct Range {
   std::int64_t high = 0;
   bool is_whole = false;  ///< no decimals
   bool may_be_q = true;
+  bool is_degrees = false;  ///< three decimals, in inch programs as well
 };
 
 /// What a character can be the beginning of.
@@ -102,8 +103,9 @@ class TextCursor {
     std::int64_t steps = 0;
     if (!read_steps(steps, name)) return false;
     if (is_negative) steps = -steps;
-    if (steps < range.low || steps > range.high || (range.is_whole && steps % kSteps != 0)) {
-      return outside(start, name, range);
+    if (steps < range.low || steps > range.high || (range.is_whole && steps % kSteps != 0) ||
+        (range.is_degrees && steps % kDegreeSteps != 0)) {
+      return outside(start, name, range, steps);
     }
     value = Value::steps(static_cast<std::int32_t>(steps));
     return true;
@@ -139,6 +141,7 @@ class TextCursor {
   bool is_inch() const { return form_->units == Units::Inch; }
 
   static constexpr std::int64_t kSteps = Value::kStepsPerUnit;
+  static constexpr std::int64_t kDegreeSteps = 10;  ///< a thousandth of a degree
   static bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
 
  private:
@@ -185,7 +188,8 @@ class TextCursor {
   [[gnu::cold]] bool too_fine(const char* start, std::string_view name);
   [[gnu::cold]] bool out_of_range(const char* start, std::string_view name, std::int64_t low,
                                   std::int64_t high);
-  [[gnu::cold]] bool outside(const char* start, std::string_view name, const Range& range);
+  [[gnu::cold]] bool outside(const char* start, std::string_view name, const Range& range,
+                             std::int64_t steps);
   std::string word_at(const char* start) const;
 
   const char* begin_;

@@ -279,5 +279,22 @@ TEST(TncMotion, ParametersStandForNumbers) {
               ElementsAre("L X40 Y-19 F150", "L X0 Y-19 F150"));
 }
 
+// HD-092, HD-059: degrees have their range and their step in inch programs as well.
+TEST(TncMotion, DegreesOfInchProgramsAreThoseOfAllPrograms) {
+  PathSetup inch;
+  inch.units = "INCH";
+  EXPECT_THAT(moves_of({"L C+2000,125 R0 F MAX"}, inch), ElementsAre("R C2000.125"));
+  EXPECT_THAT(moves_of({"L IC-30000 R0 F MAX"}, inch), ElementsAre("R C-30000"));
+  EXPECT_EQ(run_blocks({"L C+30000,001 R0 F MAX"}, inch).alarm_id, "TNC-ENTRY-RANGE");
+  EXPECT_THAT(run_blocks({"L C+20,1234 R0 F MAX"}, inch).events,
+              ElementsAre("! ENTRY VALUE INCORRECT: C +20,1234 has more than 3 decimals"));
+  EXPECT_THAT(moves_of({"L C+20,1230 R0 F MAX"}, inch), ElementsAre("R C20.123"));
+  EXPECT_EQ(run_blocks({"L X+2000 R0 F MAX"}, inch).alarm_id, "TNC-ENTRY-RANGE");
+  const std::string iso = "%3 G70 *\nN10 G17 G00 G40 G90 ";
+  EXPECT_THAT(run_text(iso + "C+2000 *\n").events,
+              ElementsAre("R C2000", testing::StartsWith("end")));
+  EXPECT_EQ(run_text(iso + "C+0,0001 *\n").alarm_id, "TNC-ENTRY-RANGE");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
