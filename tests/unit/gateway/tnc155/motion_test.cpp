@@ -279,6 +279,29 @@ TEST(TncMotion, ParametersStandForNumbers) {
               ElementsAre("L X40 Y-19 F150", "L X0 Y-19 F150"));
 }
 
+// HD-031, HD-012: the pole lies in the working plane.
+TEST(TncMotion, TheWordsOfThePoleBelongToThePlane) {
+  const auto iso = [](const std::string& plane, const std::string& pole) {
+    return run_text("%3 G71 *\nN10 " + plane + " G00 G40 G90 X+10 Y+10 Z+10 *\nN20 " + pole +
+                    " *\nN30 G10 R+5 H+0 *\nN9999 %3 G71 *\n");
+  };
+  for (const auto& [plane, right, wrong, end] :
+       {std::tuple{"G17", "I+0 J+0", "I+0 K+0", "R X5 Y0 Z10"},
+        std::tuple{"G18", "I+0 K+0", "I+0 J+0", "R X0 Y10 Z5"},
+        std::tuple{"G19", "J+0 K+0", "I+0", "R X10 Y5 Z0"}}) {
+    EXPECT_EQ(iso(plane, right).events.at(1), end);
+    const auto refused = iso(plane, wrong);
+    EXPECT_EQ(refused.alarm_id, "TNC-PLANE") << plane;
+    EXPECT_EQ(refused.alarm_line, 3u) << plane;
+  }
+  EXPECT_THAT(iso("G17", "K+0").events,
+              ElementsAre("R X10 Y10 Z10",
+                          "! PLANE WRONGLY DEFINED: the pole is in the working plane XY, which has "
+                          "no Z"));
+  EXPECT_THAT(moves_of({"TOOL CALL 0 Z", "CC X+0 Z+0"}), ElementsAre("! PLANE WRONGLY DEFINED"));
+  EXPECT_THAT(moves_of({"TOOL CALL 0 Y", "CC X+0 Z+0"}), ElementsAre());
+}
+
 // HD-092, HD-059: degrees have their range and their step in inch programs as well.
 TEST(TncMotion, DegreesOfInchProgramsAreThoseOfAllPrograms) {
   PathSetup inch;
