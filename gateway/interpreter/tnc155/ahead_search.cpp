@@ -62,7 +62,9 @@ bool AheadSearch::is_definition(std::int32_t number) {
          (definition_.length.is_programmed() || definition_.radius.is_programmed());
 }
 
-AheadSearch::Outcome AheadSearch::find_tool(std::int32_t number) {
+AheadSearch::Outcome AheadSearch::find_tool(std::int32_t number, std::uint64_t most_blocks) {
+  const auto tool = static_cast<std::size_t>(number);
+  if (undefined_.test(tool)) return Outcome::Missing;
   if (tool_ != number) begin();
   tool_ = number;
   reader_.forget_window();
@@ -70,8 +72,10 @@ AheadSearch::Outcome AheadSearch::find_tool(std::int32_t number) {
     const Step step = next();
     if (step == Step::NotYet) return Outcome::NotYet;
     const bool is_found = step == Step::Read && is_definition(number);
-    if (is_found || step == Step::End || (step == Step::Read && is_over())) {
+    if (is_found || step == Step::End || blocks_ >= most_blocks ||
+        (step == Step::Read && is_over())) {
       tool_ = Block::kNone;  // the next search begins anew
+      undefined_.set(tool, !is_found);
       return is_found ? Outcome::Found : Outcome::Missing;
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,8 +20,12 @@ class AheadSearch {
 
   AheadSearch(ProgramSource& source, ReaderOptions options);
 
-  /// The first TOOL DEF of this tool, with a length or a radius, in the program that was started.
-  Outcome find_tool(std::int32_t number);
+  /// As many blocks as the control's memory has.
+  static constexpr std::uint64_t kMostBlocks = 3'100;
+
+  /// The first TOOL DEF of this tool, with a length or a radius, in the program that was started,
+  /// among so many blocks.
+  Outcome find_tool(std::int32_t number, std::uint64_t most_blocks);
   /// After Found.
   const Block& definition() const { return definition_; }
   Units units() const { return state_.program.units; }
@@ -36,7 +41,6 @@ class AheadSearch {
 
  private:
   static constexpr unsigned kBlocksPerCall = 1u << 14;
-  static constexpr std::uint64_t kMostBlocks = 3'100;
   static constexpr std::size_t kMostPrograms = 32;
 
   enum class Step : std::uint8_t { Read, Skipped, NotYet, End };
@@ -56,6 +60,7 @@ class AheadSearch {
   std::uint64_t blocks_ = 0;
   std::int32_t tool_ = Block::kNone;  ///< being looked for
   Block definition_;
+  std::bitset<256> undefined_;          ///< tools that were looked for in vain
   std::vector<std::int32_t> called_;    ///< programs looked up
   std::optional<std::int32_t> wanted_;  ///< to be looked up before the search goes on
 };

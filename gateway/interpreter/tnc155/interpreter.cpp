@@ -102,8 +102,9 @@ TncInterpreter::BlockOutcome TncInterpreter::check_calls() {
 /// A tool may be defined behind its call.
 TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
   for (const Block& part : run_.parts) {
-    if (!needs_definition_ahead(run_, part)) continue;
-    const auto outcome = definitions_ahead_.find_tool(part.target);
+    const std::uint64_t reach = reach_of_definition(run_, part);
+    if (reach == 0) continue;
+    const auto outcome = definitions_ahead_.find_tool(part.target, reach);
     run_.reader.forget_window();
     if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
     if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;

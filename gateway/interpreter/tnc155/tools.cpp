@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <limits>
 
+#include "gateway/interpreter/tnc155/ahead_search.hpp"
 #include "gateway/interpreter/tnc155/changer.hpp"
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/cycles.hpp"
@@ -33,12 +35,10 @@ Plane plane_of(Axis axis) {
   }
 }
 
-/// In the order in which the control looks: its tool file, what the run has defined, what was there
-/// before.
-const ToolData* find_data(const Run& run, int number) {
+/// Where the control looks first: its tool file, then what the run has defined.
+const ToolData* find_known(const Run& run, int number) {
   const ToolData* data = run.options.central_tool_file ? find(run.tools, number) : nullptr;
-  if (data == nullptr) data = find(run.state.definitions, number);
-  return data != nullptr ? data : find(run.tools, number);
+  return data != nullptr ? data : find(run.state.definitions, number);
 }
 
 /// As the tool defined last.
@@ -78,8 +78,9 @@ bool choose(Run& run, int number) {
     return true;
   }
   if (!refuse_in_transfer(run, number)) return false;
-  if (find_data(run, number) == nullptr) take_definition_ahead(run, number);
-  const ToolData* data = find_data(run, number);
+  if (find_known(run, number) == nullptr) take_definition_ahead(run, number);
+  const ToolData* data = find_known(run, number);
+  if (data == nullptr) data = find(run.tools, number);  // what the setup has besides
   if (data == nullptr) return run.fail(ErrorCode::ToolDefMissing, fmt::format("tool {}", number));
   tool.number = number;
   tool.data = *data;
@@ -103,9 +104,13 @@ bool define_tool(Run& run, const Block& block) {
   return true;
 }
 
-bool needs_definition_ahead(const Run& run, const Block& block) {
-  return block.kind == BlockKind::ToolCall && block.target > 0 &&
-         !run.options.blockwise_restrictions && find_data(run, block.target) == nullptr;
+std::uint64_t reach_of_definition(const Run& run, const Block& block) {
+  if (block.kind != BlockKind::ToolCall || block.target <= 0 ||
+      run.options.blockwise_restrictions || find_known(run, block.target) != nullptr) {
+    return 0;
+  }
+  if (find(run.tools, block.target) == nullptr) return std::numeric_limits<std::uint64_t>::max();
+  return run.options.checks_calls ? AheadSearch::kMostBlocks : 0;
 }
 
 bool call_tool(Run& run, const Block& block) {

@@ -269,5 +269,32 @@ TEST(TncMachine, TheBlankLiesAtTheDatum) {
                           testing::StartsWith("end")));
 }
 
+// HD-006, HD-067: the tool store where it is on, the TOOL DEF that was executed last, the first one
+// further on, and only then what the setup has besides.
+TEST(TncMachine, ToolsAreLookedForInTheirOrder) {
+  const std::string store = "[[tool]]\nnumber = 3\nlength = 0\nradius = 8\n";
+  const auto tools_of = [](const std::vector<std::string>& blocks, const std::string& setup) {
+    std::vector<std::string> tools;
+    for (const auto& event : run_blocks(blocks, {setup, {}}).events) {
+      if (event.starts_with("T")) tools.push_back(event);
+    }
+    return tools;
+  };
+  const std::vector<std::string> ahead{"TOOL CALL 3 Z S 100", "TOOL DEF 3 L+0 R+2",
+                                       "TOOL DEF 3 L+0 R+4", "TOOL CALL 3 Z"};
+  EXPECT_THAT(tools_of(ahead, store), ElementsAre("T3 L0 R2", "T3 L0 R4"));
+  EXPECT_THAT(tools_of(ahead, store + "[control]\ncentral_tool_file = true"),
+              ElementsAre("T3 L0 R8", "T3 L0 R8"));
+  EXPECT_THAT(tools_of({"TOOL CALL 3 Z S 100"}, store), ElementsAre("T3 L0 R8"));
+  // a slow line need not bring the whole program first
+  EXPECT_THAT(tools_of(ahead, store + "[control]\nprogram_check = \"call\""),
+              ElementsAre("T3 L0 R8", "T3 L0 R4"));
+  std::vector<std::string> far{"TOOL CALL 3 Z S 100"};
+  far.insert(far.end(), 3200, "FN 0: Q1 = +1");
+  far.push_back("TOOL DEF 3 L+0 R+2");
+  EXPECT_THAT(tools_of(far, store), ElementsAre("T3 L0 R8"));
+  EXPECT_THAT(tools_of(far, ""), ElementsAre("T3 L0 R2"));
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
