@@ -6,6 +6,7 @@
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
 
 namespace dripline::interpreter::tnc155 {
+#include "gateway/interpreter/tnc155/start_plane.hpp"
 namespace {
 
 /// What the ISO text has made known so far; nothing is known where the run may come from elsewhere.
@@ -113,8 +114,7 @@ class PlainToIso {
     return is_path(block) || block.kind == BlockKind::SingleAxis;
   }
 
-  /// ISO presets nothing: what runs first has a plane, the one that plain language begins in, and a
-  /// compensation.
+  /// ISO presets nothing: what runs first has a plane and a compensation.
   void make_start_complete(const Block& block) {
     if (has_start_) return;
     has_start_ = true;
@@ -123,7 +123,7 @@ class PlainToIso {
     if (has_plane_ && !needs_compensation) return;
     IsoBlock start;
     has_own_plane_ = has_plane_;
-    if (!has_plane_) start.set(IsoGroup::Plane, kFirstPlane);
+    if (!has_plane_) start.set(IsoGroup::Plane, start_plane(blocks_));
     if (needs_compensation) start.set(IsoGroup::Compensation, 40);
     if (increment_ > 0) start.number = number_ += increment_;
     write_iso_block(start, options_.layout, text_);
@@ -320,7 +320,6 @@ class PlainToIso {
   }
 
   static constexpr std::int32_t kLastNumber = 9'999;
-  static constexpr std::uint8_t kFirstPlane = 17;
   static constexpr std::size_t kMostNumber = 65'000;
   const PlainProgram& program_;
   const std::vector<Block>& blocks_;

@@ -148,6 +148,32 @@ TEST(Tnc155ConversionOfStars, TakesThePathFunctionOfTheBlockBefore) {
             "END PGM 7 MM\n");
 }
 
+// HD-039, HD-038: a first move without a plane gets that of the first TOOL CALL or BLK FORM, and
+// G17, in which it runs, where it makes a difference.
+TEST(Tnc155ConversionOfPlanes, LooksForTheFirstToolCallOrBlank) {
+  const std::string begin = "0 BEGIN PGM 7 MM\n";
+  const auto start_of = [&](const std::string& plain) {
+    const std::string iso = converted(begin + plain, Form::Iso);
+    const auto plane = iso.find("0 G1");
+    return plane == std::string::npos ? iso : iso.substr(plane + 2, 3);
+  };
+  const std::string first_move = "3 L X+1,000 Z+1,000 R0 F100 M\n";
+  const std::string call = "9 TOOL CALL 1 X S 100,000\n";
+  EXPECT_EQ(start_of(first_move), "G17");
+  EXPECT_EQ(start_of(first_move + call), "G19");
+  EXPECT_EQ(start_of(first_move + "4 X+3,000 R0 F M\n5 STOP M\n6 LBL 1\n" + call), "G19");
+  const std::string blank =
+      "1 DEF BLK FORM MIN Y X+0,000 Y+0,000 Z+0,000\n2 DEF BLK FORM MAX X+9,000 Y+9,000 Z+9,000\n";
+  const std::string with_blank = converted(begin + blank + first_move + call, Form::Iso);
+  EXPECT_NE(with_blank.find("\nN30 G18 *\nN40 G01 G40 X+1 Z+1"), std::string::npos) << with_blank;
+  for (const char* in_the_plane :
+       {"4 CC X+0,000 Y+0,000\n", "4 LP PR+5,000 PA+30,000 R0 F M\n", "4 L Y+5,000 RL F M\n",
+        "4 X+5,000 R+ F M\n", "4 CALL LBL 3 REP\n", "4 CALL PGM 8\n", "4 TOOL CALL 1\n",
+        "4 CYCL DEF 10.0 ROTATION\n5 CYCL DEF 10.1 ROT +30,000\n"}) {
+    EXPECT_EQ(start_of(first_move + in_the_plane + call), "G17") << in_the_plane;
+  }
+}
+
 // HD-044
 TEST(Tnc155ConversionOfDirections, AreResolved) {
   EXPECT_EQ(

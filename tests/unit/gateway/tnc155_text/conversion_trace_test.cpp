@@ -81,6 +81,21 @@ TEST(Tnc155ConversionTrace, OfALongWaitBetweenMovesIsTheSame) {
                     "N9 X+0 Y+20\nN10 G40 X+0 Y+0\n"));
 }
 
+/// The plane that ISO has to say before the first move is not always the one that it runs in.
+TEST(Tnc155ConversionTrace, OfMovesBeforeTheFirstPlaneIsTheSame) {
+  const std::string definition =
+      "0 BEGIN PGM 7 MM\n1 DEF BLK FORM MIN Y X+0 Y+0 Z+0\n2 DEF BLK FORM MAX X+9 Y+9 Z+9\n"
+      "3 TOOL DEF 1 L+7 R+2\n4 L X+1 Y+2 Z+3 R0 F100\n";
+  const std::string rest =
+      "7 TOOL CALL 1 X S 100\n8 L X+5 Y+6\n9 CC Y+0 Z+0\n10 CP IPA+90 DR+\n11 END PGM 7 MM\n";
+  for (const char* between :
+       {"", "5 L X+9 Z+9\n", "5 CC X+0 Y+0\n6 CP IPA+90 DR+\n", "5 CC Y+0 Z+0\n",
+        "5 LP PR+5 PA+9 R0\n", "5 L X+5 Y+5\n6 RND R1\n", "5 X+20 R+\n", "5 TOOL CALL 1\n",
+        "5 LBL 1\n6 L IX+1\n", "5 CALL LBL 1 REP\n6 LBL 1\n", "5 CALL PGM 8\n"}) {
+    EXPECT_TRUE(does_the_same(definition + between + rest)) << between;
+  }
+}
+
 /// Programs of plain language whose blocks all can be read.
 class ProgramMaker {
  public:
