@@ -71,7 +71,7 @@ class IsoToPlain {
 
   Result<std::string> run() {
     if (auto gathered = gather(); !gathered) return fail(gathered.error());
-    CompensationTrack track;
+    CompensationTrack track(blocks_);
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (auto checked = check(track, i); !checked) return fail(checked.error());
       track.pass(blocks_[i]);

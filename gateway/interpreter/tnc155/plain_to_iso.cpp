@@ -24,7 +24,7 @@ class PlainToIso {
     increment_ = options_.increment;
     if (static_cast<std::int64_t>(blocks_.size()) * increment_ > kLastNumber - 1) increment_ = 1;
     if (blocks_.size() > kMostNumber) increment_ = 0;
-    CompensationTrack track;
+    CompensationTrack track(blocks_);
     while (at_ < blocks_.size()) {
       const std::size_t begin = at_;
       iso_ = IsoBlock{};

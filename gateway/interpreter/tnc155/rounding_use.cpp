@@ -1,5 +1,7 @@
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
 
+#include <algorithm>
+
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -49,6 +51,14 @@ bool is_flow(const Block& block) {
          (block.kind == BlockKind::Function && block.function >= 9);
 }
 
+CompensationTrack::CompensationTrack(std::span<const Block> blocks) {
+  is_never_on_ = std::none_of(blocks.begin(), blocks.end(), [](const Block& block) {
+    return block.compensation == Compensation::Left || block.compensation == Compensation::Right ||
+           block.kind == BlockKind::ProgramCall ||
+           (block.kind == BlockKind::CycleDefinition && block.cycle == 12);
+  });
+}
+
 void CompensationTrack::pass(const Block& block) {
   calls_programs_ |= block.kind == BlockKind::CycleDefinition && block.cycle == 12;
   is_modal_call_ |= block.m == 89;
@@ -74,6 +84,7 @@ void CompensationTrack::pass(const Block& block) {
 
 /// A called program may leave compensation as it likes.
 void CompensationTrack::open() {
+  if (is_never_on_) return;
   is_on_ = is_begun_ = is_first_ = Answer::Unknown;
 }
 

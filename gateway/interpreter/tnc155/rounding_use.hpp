@@ -11,6 +11,9 @@ namespace dripline::interpreter::tnc155 {
 /// text: enough to say what a plain-language RND is for.
 class CompensationTrack {
  public:
+  /// Of a program with these blocks.
+  explicit CompensationTrack(std::span<const Block> blocks);
+
   /// The next block of the program.
   void pass(const Block& block);
 
@@ -30,6 +33,7 @@ class CompensationTrack {
   Answer is_on_ = Answer::No;     ///< RL or RR is in force
   Answer is_begun_ = Answer::No;  ///< since then no block has named a coordinate of the plane
   Answer is_first_ = Answer::No;  ///< the last block was the first one to do so
+  bool is_never_on_ = false;      ///< no block of the program or of one it calls switches it on
   bool calls_programs_ = false;   ///< a cycle was defined that is a program
   bool is_modal_call_ = false;    ///< M89
   std::optional<Axis> normal_ = Axis::Z;  ///< of the plane; none: axis IV, whichever that is

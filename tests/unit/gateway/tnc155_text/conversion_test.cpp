@@ -174,6 +174,27 @@ TEST(Tnc155ConversionOfPlanes, LooksForTheFirstToolCallOrBlank) {
   }
 }
 
+// HD-039, HD-105: where nothing switches RL or RR on, RND is a rounding wherever the run comes
+// from.
+TEST(Tnc155ConversionOfRoundings, BetweenLabelsWithoutCompensationIsG25) {
+  const std::string plain =
+      "0 BEGIN PGM 7 MM\n1 TOOL CALL 1 Z\n2 L X+1,000 Y+1,000 R0 F9 M\n3 LBL 3\n4 L IX+9,000 "
+      "Y+1,000 R F M\n5 RND R1,000\n6 L IX+0,000 Y+9,000 R F M\n7 CALL LBL 3 REP 2/2\n8 END PGM 7 "
+      "MM\n";
+  const std::string iso = converted(plain, Form::Iso);
+  EXPECT_NE(iso.find(" G25 R1 *"), std::string::npos) << iso;
+  EXPECT_EQ(converted(iso, Form::Plain), plain);
+  for (const char* switches : {"2 L X+1,000 Y+1,000 RL F9 M\n", "2 CALL PGM 8\n",
+                               "2 CYCL DEF 12.0 PGM CALL\n2 CYCL DEF 12.1 PGM 8\n"}) {
+    EXPECT_TRUE(
+        converted("0 BEGIN PGM 7 MM\n1 TOOL CALL 1 Z\n" + std::string(switches) +
+                      plain.substr(plain.find("3 LBL")),
+                  Form::Iso)
+            .ends_with("whether RND is G25, G26 or G27 depends on where the run comes from"))
+        << switches;
+  }
+}
+
 // HD-044
 TEST(Tnc155ConversionOfDirections, AreResolved) {
   EXPECT_EQ(
