@@ -113,12 +113,30 @@ class IsoToPlain {
         lines_.push_back(line);
       }
     }
+    complete_frame();
     return {};
   }
 
   bool is_taken(const Block& part, Fault& fault) const {
     const ControlVersion& version = options_.reading.version;
     return version.takes_all_blocks() || check_version(version, part, fault);
+  }
+
+  /// END PGM says what BEGIN PGM does; in ISO the end of the text may stand for it.
+  void complete_frame() {
+    if (blocks_.empty() || blocks_.front().kind != BlockKind::Begin) return;
+    const Block& begin = blocks_.front();
+    bool has_end = false;
+    for (Block& block : blocks_) {
+      if (block.kind != BlockKind::End) continue;
+      has_end = true;
+      block.is_protected = begin.is_protected;
+    }
+    if (has_end) return;
+    Block end = begin;
+    end.kind = BlockKind::End;
+    blocks_.push_back(end);
+    lines_.push_back(lines_.back());
   }
 
   Result<void> check(const CompensationTrack& track, std::size_t i) {

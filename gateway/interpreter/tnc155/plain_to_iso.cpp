@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gateway/interpreter/tnc155/conversion_parts.hpp"
 #include "gateway/interpreter/tnc155/cycle_to_iso.hpp"
 #include "gateway/interpreter/tnc155/iso_words.hpp"
 #include "gateway/interpreter/tnc155/rounding_use.hpp"
+#include "gateway/interpreter/tnc155/start_plane.hpp"
 
 namespace dripline::interpreter::tnc155 {
-#include "gateway/interpreter/tnc155/start_plane.hpp"
 namespace {
 
 /// What the ISO text has made known so far; nothing is known where the run may come from elsewhere.
@@ -32,6 +34,7 @@ class PlainToIso {
       for (; begin_pass_ < at_; ++begin_pass_) track.pass(blocks_[begin_pass_]);
       if (at_ == begin) return fail(Errc::Unsupported, "line {}: no counterpart", line());
     }
+    complete_frame();
     return std::move(text_);
   }
 
@@ -39,6 +42,23 @@ class PlainToIso {
   std::uint64_t line() const { return program_.lines[std::min(at_, blocks_.size() - 1)]; }
   Result<void> refuse(std::string_view what) const {
     return fail(Errc::Unsupported, "line {}: {}", line(), what);
+  }
+
+  /// The last block, where the text ends without END PGM.
+  void complete_frame() {
+    const auto is_end = [](const Block& block) { return block.kind == BlockKind::End; };
+    if (blocks_.empty() || blocks_.front().kind != BlockKind::Begin ||
+        std::any_of(blocks_.begin(), blocks_.end(), is_end)) {
+      return;
+    }
+    iso_ = IsoBlock{};
+    iso_.number = kLastNumber;
+    add_frame(blocks_.front());
+    write_iso_block(iso_, options_.layout, text_);
+  }
+  void add_frame(const Block& block) {
+    iso_.program = block.target;
+    iso_.set(IsoGroup::Unit, block.units == Units::Inch ? 70 : 71);
   }
 
   /// The block is done with `iso_`.
@@ -68,9 +88,10 @@ class PlainToIso {
       case BlockKind::Begin:
       case BlockKind::End:
         if (block.kind == BlockKind::Begin && at_ != 0) return refuse("BEGIN PGM within a program");
-        iso_.program = block.target;
-        iso_.set(IsoGroup::Unit, block.units == Units::Inch ? 70 : 71);
-        if (block.is_protected) iso_.set(IsoGroup::Protection, 50);
+        add_frame(block);
+        if (block.is_protected && block.kind == BlockKind::Begin) {
+          iso_.set(IsoGroup::Protection, 50);
+        }
         return put();
       case BlockKind::ToolDefinition:
         return convert_tool_definition(block);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gateway/interpreter/tnc155/conversion.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -23,14 +25,18 @@ class Tnc155Conversion : public testing::TestWithParam<Pair> {};
 constexpr const char* kPlainHead = "0 BEGIN PGM 7 MM\n1 TOOL CALL 3 Z S 800,000\n";
 constexpr const char* kIsoHead = "%7 G71 *\nN10 T3 G17 S800 *\n";
 
-/// The pairs are both ways.
+constexpr const char* kIsoEnd = "N9999 %7 G71 *\n";
+
+/// The pairs are both ways; the end of the text becomes the last block.
 TEST_P(Tnc155Conversion, PlainBecomesIso) {
   EXPECT_EQ(converted(std::string(kPlainHead) + GetParam().plain, Form::Iso),
-            std::string(kIsoHead) + GetParam().iso);
+            std::string(kIsoHead) + GetParam().iso + kIsoEnd);
 }
 TEST_P(Tnc155Conversion, IsoBecomesPlain) {
+  const std::string plain = std::string(kPlainHead) + GetParam().plain;
+  const auto blocks = std::count(plain.begin(), plain.end(), '\n');
   EXPECT_EQ(converted(std::string(kIsoHead) + GetParam().iso, Form::Plain),
-            std::string(kPlainHead) + GetParam().plain);
+            plain + std::to_string(blocks) + " END PGM 7 MM\n");
 }
 
 // HD-039, HD-040, HD-041, HD-043, HD-045, HD-046, HD-047, HD-048, HD-049, HD-050
@@ -130,13 +136,13 @@ TEST(Tnc155ConversionOfFlow, FollowsRepeatsAndReturns) {
                       Form::Plain),
             "0 BEGIN PGM 7 MM\n1 TOOL CALL Z\n2 L X+0,000 R0 F90 M\n3 LBL 4\n4 L X+5,000 R F M\n"
             "5 CALL LBL 4 REP 2/2\n6 CALL LBL 9 REP\n7 L X+6,000 R F M\n8 L R F M30\n9 LBL 9\n"
-            "10 L X+7,000 R F M\n11 LBL 0\n");
+            "10 L X+7,000 R F M\n11 LBL 0\n12 END PGM 7 MM\n");
   EXPECT_EQ(converted(head + "N20 G98 L4\nN30 X5\nN40 G00 X6\nN50 L4.2", Form::Plain),
             "! line 4: the path function in force depends on where the run comes from");
   // a called program has modes of its own
   EXPECT_EQ(converted(head + "N20 %12\nN30 X5", Form::Plain),
             "0 BEGIN PGM 7 MM\n1 TOOL CALL Z\n2 L X+0,000 R0 F90 M\n3 CALL PGM 12\n"
-            "4 L X+5,000 R F M\n");
+            "4 L X+5,000 R F M\n5 END PGM 7 MM\n");
 }
 
 // HD-042: what a control shows of an ISO program in plain language.
@@ -146,6 +152,20 @@ TEST(Tnc155ConversionOfStars, TakesThePathFunctionOfTheBlockBefore) {
                       Form::Plain),
             "0 BEGIN PGM 7 MM\n1 TOOL CALL 1 Z\n2 L X+1,000 R0 F MAX M\n3 L X+2,000 R F MAX M\n4 "
             "END PGM 7 MM\n");
+}
+
+// HD-005, HD-036, HD-056, HD-057: both ends of a program say the same; in ISO its beginning says
+// that it is protected, and its end may be left out.
+TEST(Tnc155ConversionOfFrames, GivesBothTheirWords) {
+  const std::string iso = "%22 G70 G50 *\nN10 G99 T1 L+0 R+1 *\n";
+  const std::string plain =
+      "0 BEGIN PGM 22 INCH P\n1 TOOL DEF 1 L+0,0000 R+1,0000\n2 END PGM 22 INCH P\n";
+  EXPECT_EQ(converted(iso + "N9999 %22 G70 *\n", Form::Plain), plain);
+  EXPECT_EQ(converted(iso, Form::Plain), plain);
+  EXPECT_EQ(converted(plain, Form::Iso), iso + "N9999 %22 G70 *\n");
+  EXPECT_EQ(converted(plain.substr(0, plain.find("2 END")), Form::Iso), iso + "N9999 %22 G70 *\n");
+  EXPECT_EQ(converted("N10 G99 T1 L+0 R+1 *\n", Form::Plain), "1 TOOL DEF 1 L+0,000 R+1,000\n")
+      << "a part of a program stays one";
 }
 
 // HD-039, HD-038: a first move without a plane gets that of the first TOOL CALL or BLK FORM, and
@@ -201,7 +221,7 @@ TEST(Tnc155ConversionOfDirections, AreResolved) {
       converted("%7 G71\nN1 G17 G40 G90 G02 I0 J0 X5 Y0 F9\nN2 G05 X-5 Y0\nN3 G15 H90",
                 Form::Plain),
       "0 BEGIN PGM 7 MM\n1 TOOL CALL Z\n2 CC X+0,000 Y+0,000\n3 C X+5,000 Y+0,000 DR- R0 F9 M\n"
-      "4 C X-5,000 Y+0,000 DR- R F M\n5 CP PA+90,000 DR- R F M\n");
+      "4 C X-5,000 Y+0,000 DR- R F M\n5 CP PA+90,000 DR- R F M\n6 END PGM 7 MM\n");
 }
 
 TEST(Tnc155ConversionRefuses, WhatHasNoCounterpart) {

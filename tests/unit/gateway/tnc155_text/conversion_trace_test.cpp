@@ -96,6 +96,17 @@ TEST(Tnc155ConversionTrace, OfMovesBeforeTheFirstPlaneIsTheSame) {
   }
 }
 
+/// END PGM, where the text ends without it.
+TEST(Tnc155ConversionTrace, OfProgramsWithoutTheirEndIsTheSame) {
+  const std::string head =
+      "0 BEGIN PGM 7 MM\n1 TOOL DEF 1 L+0 R+2\n2 TOOL CALL 1 Z S 100\n3 L X+0 Y+0 R0 F100\n";
+  for (const char* last : {"4 L X+20 Y+0 RL\n5 L X+20 Y+30\n", "4 L X+20 Y+0\n5 RND R2\n",
+                           "4 LBL 1\n5 L IX+1\n6 CALL LBL 1 REP 2/2\n", "4 STOP M02\n"}) {
+    does_the_same(head + last);
+  }
+  EXPECT_TRUE(does_the_same(head));
+}
+
 /// Programs of plain language whose blocks all can be read.
 class ProgramMaker {
  public:
