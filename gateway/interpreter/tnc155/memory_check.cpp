@@ -52,7 +52,7 @@ class Loading {
     }
   }
 
-  /// Up to the end, or to what can not be read: the run will say that.
+  /// Up to the end. Blocks that can not be read are passed over: the run will say that.
   void read_blocks(const Waiting& waiting) {
     BlockReader reader(source_, {options_.iso_continuation, options_.version});
     TextPlace start;
@@ -60,7 +60,12 @@ class Loading {
     reader.seek(start);
     ReadingState state;
     BlockParts parts;
-    while (reader.next(state, parts) == ReadState::Ready) {
+    while (true) {
+      const ReadState read = reader.next(state, parts);
+      const bool is_passed =
+          read == ReadState::Wrong && state.program.form != Form::Unknown && reader.skip_wrong();
+      if (read != ReadState::Ready && !is_passed) return;
+      if (is_passed) parts.clear();
       program_.form = state.program.form;
       if (program_.number == Block::kNone) program_.number = state.program.number;
       if (++program_.blocks > MemoryLimits::kMostCounted) return;

@@ -148,6 +148,21 @@ TEST_F(Tnc155Memory, RefusesALabelSetTwiceThoughItIsNeverMet) {
             Texts{"NUMBER ALREADY ALLOCATED: LBL 5 is set twice"});
 }
 
+// HD-144: whether the run comes there or not, and whatever stands before.
+TEST_F(Tnc155Memory, WarnsOfALabelSetTwiceWhereverItStands) {
+  const Texts twice{
+      "NUMBER ALREADY ALLOCATED: LBL 4 is set twice; it can only be transferred blockwise"};
+  const auto verdict = fit("0 BEGIN PGM 7 MM\n1 STOP M02\n2 LBL 4\n3 LBL 4\n4 END PGM 7 MM\n");
+  ASSERT_EQ(verdict.refused.size(), 1u);
+  EXPECT_EQ(verdict.refused[0].text, twice[0]);
+  EXPECT_EQ(verdict.refused[0].id, "TNC-NUMBER-ALLOCATED");
+  EXPECT_EQ(verdict.refused[0].line, 4u);
+  EXPECT_EQ(texts("0 BEGIN PGM 7 MM\n1 LBL 4\n2 LBL ?\n3 LBL 4\n4 END PGM 7 MM\n"), twice);
+  EXPECT_EQ(texts("%7 G71 *\nN10 G98 L4 * N20 M02 * N30 G98 L4 *\nN9999 %7 G71 *\n"), twice);
+  EXPECT_EQ(texts("0 BEGIN PGM 7 MM\n1 LBL 4\n2 LBL 5\n3 LBL 0\n4 LBL 0\n5 END PGM 7 MM\n"),
+            Texts{});
+}
+
 // HD-229: what is transferred blockwise may have numbers up to 65534, with gaps.
 TEST_F(Tnc155Memory, HasRoomForThreeDigitsOfABlockNumber) {
   const std::string high = "0 BEGIN PGM 7 MM\n1200 CC\n65534 END PGM 7 MM\n";
