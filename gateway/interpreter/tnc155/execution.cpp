@@ -10,6 +10,7 @@
 #include "gateway/interpreter/tnc155/q_parameters.hpp"
 #include "gateway/interpreter/tnc155/target.hpp"
 #include "gateway/interpreter/tnc155/tools.hpp"
+#include "gateway/interpreter/tnc155/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -127,6 +128,8 @@ bool execute(Run& run, const Block& block) {
     case BlockKind::Arc:
     case BlockKind::PolarArc:
     case BlockKind::TangentArc:
+  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
+    return false;
     case BlockKind::SingleAxis:
       return positioning(run, block);
     case BlockKind::Begin:

@@ -9,6 +9,7 @@
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/cycles.hpp"
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
+#include "gateway/interpreter/tnc155/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -117,6 +118,7 @@ bool call_tool(Run& run, const Block& block) {
   State& state = run.state;
   const bool is_change = block.target != Block::kNone;
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
+  if (block.axis && !check_axis(run, *block.axis)) return false;
   if (is_change || names_axis) end_contour(run, false);
   if (is_change && !(choose(run, block.target) && change_tool(run, block.target))) return false;
   if (names_axis) {

@@ -319,5 +319,19 @@ TEST(TncMotion, DegreesOfInchProgramsAreThoseOfAllPrograms) {
   EXPECT_EQ(run_text(iso + "C+0,0001 *\n").alarm_id, "TNC-ENTRY-RANGE");
 }
 
+// HD-088: the machine has one axis IV.
+TEST(TncMotion, AxesThatTheMachineHasNotAreRefused) {
+  const PathSetup turning{"[control]\nfourth_axis = \"A\"", {}};
+  EXPECT_THAT(moves_of({"L A+5 R0 F MAX", "L X+1 C+5"}, turning),
+              ElementsAre("R A5", "! WRONG AXIS PROGRAMMED"));
+  EXPECT_THAT(
+      run_blocks({"L C+5 R0 F MAX", "W+5 F MAX"}).events,
+      ElementsAre("R C5",
+                  "! WRONG AXIS PROGRAMMED: W: axis IV of this machine is C (fourth_axis)"));
+  EXPECT_THAT(moves_of({"TOOL CALL 0 U"}), ElementsAre("! WRONG AXIS PROGRAMMED"));
+  EXPECT_THAT(moves_of({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 V+5"}),
+              ElementsAre("! WRONG AXIS PROGRAMMED"));
+}
+
 }  // namespace
 }  // namespace dripline::interpreter

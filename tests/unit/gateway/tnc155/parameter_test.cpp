@@ -68,5 +68,59 @@ TEST(TncParameters, AnEllipseByALoop) {
       ElementsAre("L X40 Y0 F500", "L X34.641 Y10 F500", "L X20 Y17.321 F500", "L X0 Y20 F500"));
 }
 
+// HD-026, HD-161: what a parameter holds is held to the limits of what it stands for.
+TEST(TncParameters, HoldWhatCouldBeProgrammed) {
+  const auto with = [](const char* value, const char* block, const char* units = "MM") {
+    return run_blocks({fmt::format("FN 0: Q1 = {}", value), "CC X+0 Y+0", block},
+                      {"[control]\nfourth_axis = \"A\"", {}, units});
+  };
+  struct Limit {
+    const char* block;
+    const char* most;
+    const char* more;
+    const char* units;
+  };
+  for (const Limit& limit : {
+           Limit{"L X+Q1 R0 F MAX", "+30000", "+30000,001", "MM"},
+           Limit{"L IX-Q1 R0 F MAX", "+30000", "+30000,001", "MM"},
+           Limit{"L X+Q1 R0 F MAX", "+1181,1", "+1181,2", "INCH"},
+           Limit{"L A+Q1 R0 F MAX", "+30000", "+30000,001", "INCH"},
+           Limit{"LP PR+Q1 PA+0 R0 F MAX", "+30000", "+30000,001", "MM"},
+           Limit{"LP PR+5 PA+Q1 R0 F MAX", "-360", "-360,001", "MM"},
+           Limit{"LP PR+5 PA-Q1 R0 F MAX", "-360", "-360,001", "MM"},
+           Limit{"TOOL DEF 1 LQ1 R+0", "+30000", "+30000,001", "MM"},
+           Limit{"TOOL DEF 1 L+0 RQ1", "+30000", "+30000,001", "MM"},
+           Limit{"CYCL DEF 9.1 DWELL Q1", "+1", "+20000", "MM"},
+       }) {
+    const bool is_dwell = std::string_view(limit.block).starts_with("CYCL");
+    const auto within = with(limit.most, limit.block, limit.units);
+    const auto beyond = with(limit.more, limit.block, limit.units);
+    EXPECT_EQ(within.alarm_id, is_dwell ? "TNC-CYCLE-INCOMPLETE" : "") << limit.block;
+    EXPECT_EQ(beyond.alarm_id, "TNC-ENTRY-RANGE") << limit.block;
+    EXPECT_EQ(beyond.alarm_line, 4u) << limit.block;
+  }
+  EXPECT_THAT(with("+50000", "L X-Q1 R0 F MAX").events,
+              ElementsAre("! ENTRY VALUE INCORRECT: X -Q1 = -50000 is not within -30000 to 30000"));
+}
+
+// HD-096, HD-161: of IPA and of a radius.
+TEST(TncParameters, HoldAnglesAndRadiiThatCouldBeProgrammed) {
+  const std::vector<std::string> start{"L X+10 Y+0 R0 F100", "CC X+0 Y+0"};
+  const auto with = [&](const char* value, std::vector<std::string> rest) {
+    std::vector<std::string> blocks = start;
+    blocks.push_back(fmt::format("FN 0: Q1 = {}", value));
+    blocks.insert(blocks.end(), rest.begin(), rest.end());
+    return run_blocks(blocks).alarm_id;
+  };
+  EXPECT_EQ(with("+5400", {"CP IPA+Q1 DR+"}), "");
+  EXPECT_EQ(with("+5400,001", {"CP IPA+Q1 DR+"}), "TNC-ENTRY-RANGE");
+  EXPECT_EQ(with("+500", {"CP PA+Q1 DR+"}), "TNC-ENTRY-RANGE");
+  EXPECT_EQ(with("+1", {"L X+20 Y+0", "RND RQ1", "L X+20 Y+20"}), "");
+  EXPECT_EQ(with("-1", {"L X+20 Y+0", "RND RQ1", "L X+20 Y+20"}), "TNC-ENTRY-RANGE");
+  EXPECT_EQ(with("+50000", {"FN 1: Q2 = +Q1 + +Q1", "L X+1"}), "TNC-ARITHMETIC")
+      << "of a calculation only its own limit";
+  EXPECT_EQ(with("+40000", {"FN 1: Q2 = +Q1 + +Q1", "L X+1"}), "");
+}
+
 }  // namespace
 }  // namespace dripline::interpreter
