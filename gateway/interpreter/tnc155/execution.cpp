@@ -109,6 +109,12 @@ bool cycle_call(Run& run, const Block& block) {
   return finish_m(run, block.m, false);
 }
 
+/// The sub-block that follows the one before it.
+bool is_due(const Run& run, const Block& block) {
+  const CycleState& cycle = run.state.cycle;
+  return block.cycle == cycle.defining && block.part == cycle.next_part;
+}
+
 bool function(Run& run, const Block& block) {
   if (block.function < 9) return compute(run, block);
   return !is_true(run, block) || jump_to_label(run, block.target);
@@ -122,14 +128,14 @@ bool execute(Run& run, const Block& block) {
         ErrorCode::CycleIncomplete,
         fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
   }
+  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
+    return false;
   switch (block.kind) {
     case BlockKind::Line:
     case BlockKind::PolarLine:
     case BlockKind::Arc:
     case BlockKind::PolarArc:
     case BlockKind::TangentArc:
-  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
-    return false;
     case BlockKind::SingleAxis:
       return positioning(run, block);
     case BlockKind::Begin:
@@ -158,7 +164,7 @@ bool execute(Run& run, const Block& block) {
     case BlockKind::Function:
       return function(run, block);
     case BlockKind::CycleDefinition:
-      if (run.state.is_restart && block.part > 0) {
+      if (run.state.is_restart && block.part > 0 && !is_due(run, block)) {
         return run.fail(ErrorCode::ProgramStartUndefined, "GOTO into a cycle definition");
       }
       return define_cycle(run, block);

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+
 #include "gateway/interpreter/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "tests/unit/gateway/tnc155/path_run.hpp"
@@ -95,6 +98,37 @@ TEST(TncRun, BeginsAtABlockInTheUnitsOfTheProgram) {
               ElementsAre("R X76.2 Y76.2", testing::StartsWith("end")));
 }
 
+// HD-193: GOTO goes on with all passes of a repeat and with no return to a call.
+TEST(TncRun, GotoForgetsRepeatsAndReturns) {
+  const std::string repeats =
+      "0 BEGIN PGM 5 MM\n1 LBL 1\n2 L X+1 Y+1 R0 F MAX\n3 L IX+1 F MAX\n4 CALL LBL 1 REP 2/1\n"
+      "5 END PGM 5 MM\n";
+  EXPECT_THAT(from_block(2, repeats).events,
+              ElementsAre("R X1 Y1", "R X2 Y1", "R X1 Y1", "R X2 Y1", "R X1 Y1", "R X2 Y1",
+                          testing::StartsWith("end")));
+  const std::string returns =
+      "0 BEGIN PGM 5 MM\n1 CALL LBL 5 REP\n2 STOP M02\n3 LBL 5\n4 L X+1 Y+1 R0 F MAX\n5 LBL 0\n"
+      "6 L X+9 Y+9 F MAX\n7 END PGM 5 MM\n";
+  EXPECT_THAT(run_text(returns).events, ElementsAre("R X1 Y1", testing::StartsWith("end")))
+      << "with its return";
+  EXPECT_THAT(from_block(4, returns).events,
+              ElementsAre("R X1 Y1", "R X9 Y9", testing::StartsWith("end")));
+}
+
+// HD-194: CYCL INCOMPLETE: the run has not come through the definition of the cycle that is called.
+TEST(TncRun, GotoBehindTheDefinitionOfACycleCanNotCallIt) {
+  const std::string text =
+      "0 BEGIN PGM 5 MM\n1 TOOL DEF 1 L+0 R+2\n2 CYCL DEF 1.0 PECKING\n3 CYCL DEF 1.1 SET-UP -2\n"
+      "4 CYCL DEF 1.2 DEPTH -5\n5 CYCL DEF 1.3 PECKG -5\n6 CYCL DEF 1.4 DWELL 0\n"
+      "7 CYCL DEF 1.5 F80\n8 TOOL CALL 1 Z S 100\n9 L X+3 Y+3 R0 F MAX M03\n10 CYCL CALL M\n"
+      "11 END PGM 5 MM\n";
+  EXPECT_EQ(run_text(text).alarm_id, "");
+  EXPECT_EQ(from_block(2, text).alarm_id, "") << "GOTO the definition";
+  const auto late = from_block(8, text);
+  EXPECT_EQ(late.alarm_id, "TNC-CYCLE-INCOMPLETE");
+  EXPECT_EQ(late.alarm_line, 11u);
+}
+
 // HD-194: a block that moves nothing has no coordinates to be complete.
 TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
   EXPECT_THAT(from_block(2,
@@ -116,6 +150,50 @@ TEST(TncRun, StepsBlockByBlock) {
     EXPECT_EQ((*interpreter)->origin().sequence, static_cast<std::int64_t>(block - 1));
   }
   EXPECT_EQ((*interpreter)->step(1), StepState::Ended);
+}
+
+/// The moves of each step, and the block of each.
+class StepSink final : public EventSink {
+ public:
+  void on_rapid(const Rapid& move) override { note(move.origin); }
+  void on_line(const Line& move) override { note(move.origin); }
+  void on_arc(const Arc& move) override { note(move.origin); }
+  std::vector<std::int64_t> take() { return std::exchange(moves_, {}); }
+
+ private:
+  void note(const Origin& origin) { moves_.push_back(origin.sequence); }
+  std::vector<std::int64_t> moves_;
+};
+
+// HD-190: a call of a cycle is one step; CC, LBL, definitions and RND are steps of their own, in
+// which nothing moves.
+TEST(TncRun, StepsTakeACycleAsOne) {
+  const std::string text =
+      "0 BEGIN PGM 5 MM\n1 TOOL DEF 1 L+0 R+2\n2 TOOL CALL 1 Z S 100\n3 CYCL DEF 1.0 PECKING\n"
+      "4 CYCL DEF 1.1 SET-UP -2\n5 CYCL DEF 1.2 DEPTH -9\n6 CYCL DEF 1.3 PECKG -5\n"
+      "7 CYCL DEF 1.4 DWELL 0\n8 CYCL DEF 1.5 F80\n9 LBL 1\n10 CC X+0 Y+0\n"
+      "11 L X+3 Y+3 R0 F100 M03\n12 CYCL CALL M\n13 L X+20 Y+3\n14 RND R2\n15 L X+20 Y+30\n"
+      "16 END PGM 5 MM\n";
+  MemorySource source(text);
+  StepSink sink;
+  auto interpreter = (*find_dialect("tnc155"))->make({}, source, sink);
+  ASSERT_TRUE(interpreter);
+  std::map<std::int64_t, std::vector<std::int64_t>> moves;
+  for (std::uint64_t step = 1; step <= 16; ++step) {
+    ASSERT_EQ((*interpreter)->step(1), StepState::Ran);
+    EXPECT_EQ((*interpreter)->blocks(), step);
+    moves[(*interpreter)->origin().sequence] = sink.take();
+  }
+  EXPECT_EQ((*interpreter)->step(1), StepState::Ended);
+  EXPECT_EQ(moves.size(), 16u);
+  for (const auto& [block, made] : moves) {
+    if (block < 11) {
+      EXPECT_THAT(made, ElementsAre()) << block;
+    }
+  }
+  EXPECT_THAT(moves[11], ElementsAre(11));
+  EXPECT_THAT(moves[12], testing::AllOf(testing::SizeIs(testing::Gt(4u)), testing::Each(12)));
+  EXPECT_THAT(moves[14], ElementsAre());
 }
 
 // HD-192: what a stop leaves, a later run of the same state finds: repeats and returns included.
