@@ -115,13 +115,19 @@ class ProgramMaker {
   std::string make() {
     text_ = pick(4) == 0 ? "0 BEGIN PGM 7 INCH\n" : "0 BEGIN PGM 7 MM\n";
     number_ = 1;
+    if (pick(6) == 0) {
+      add("DEF BLK FORM MIN {} X+0 Y+0 Z+0", "XYZ"[pick(3)]);
+      add("DEF BLK FORM MAX X+9 Y+9 Z+9");
+    }
     if (pick(4) != 0) add("TOOL DEF 1 L+0 R+{}", pick(4));
-    if (pick(8) != 0) add("TOOL CALL 1 {} S 500", "ZZZY"[pick(4)]);
+    if (pick(6) == 0) add("L X{} Y{} Z{} R0 F70", length(), length(), length());
+    if (pick(12) == 0) add_block();
+    if (pick(8) != 0) add("TOOL CALL 1 {} S 500", "ZZZZYX"[pick(6)]);
     add("L X{} Y{} Z{} R0 F{} M03", length(), length(), length(), 10 + pick(500));
     const unsigned blocks = 3 + pick(14);
     for (unsigned i = 0; i < blocks; ++i) add_block();
     if (has_label_) add("CALL LBL 1 REP {}", pick(3) + 1);
-    add("END PGM 7 {}", text_.find("INCH") == std::string::npos ? "MM" : "INCH");
+    if (pick(8) != 0) add("END PGM 7 {}", text_.find("INCH") == std::string::npos ? "MM" : "INCH");
     return text_;
   }
 
