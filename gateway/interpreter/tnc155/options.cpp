@@ -164,54 +164,54 @@ void check_limits(const ControlOptions& read, Reader& reader) {
   }
 }
 
-/// All options there are.
-constexpr std::initializer_list<std::string_view> kKnown = {
-    "basic_rotation_touches",  // of dnc touch
-    "program_start",
-    "random_changer",
-    "magazine_pockets",
-    "probe_clearance",
-    "probe_travel",
-    "probe_feed",
-    "basic_rotation",
-    "pocket_overlap",
-    "m89_modal",
-    "m06_stop",
-    "central_tool_file",
-    "decimal_sign",
-    "iso_continuation",
-    "strict_numbers",
-    "blockwise_restrictions",
-    "heading_letter",
-    "cancel_transformations",
-    "scale_three_axes",
-    "spindle",
-    "spindle_table",
-    "spindle_minimum",
-    "spindle_maximum",
-    "rotary_feed",
-    "circle_tolerance",
-    "fourth_axis",
-    "limit_low",
-    "limit_high",
-    "m92_position",
-    "start_block",
-    "memory_limits",
-    "memory_blocks",
-    "machine_parameters",
-    "start_at",
-    "program_check",
-    "iso_modes",
-    "model",
-    "software",
-    "display_units",
-    "position_display",
-    "display_size",
-    "block_increment",
-    "baud_rate",
-    "nc_software",
-    "plc_software",
-    "user_parameters"};
+Result<void> check_names(const Options& options) {
+  return options.check_known({"basic_rotation_touches",  // of dnc touch
+                              "program_start",
+                              "random_changer",
+                              "magazine_pockets",
+                              "probe_clearance",
+                              "probe_travel",
+                              "probe_feed",
+                              "basic_rotation",
+                              "pocket_overlap",
+                              "m89_modal",
+                              "m06_stop",
+                              "central_tool_file",
+                              "decimal_sign",
+                              "iso_continuation",
+                              "strict_numbers",
+                              "blockwise_restrictions",
+                              "heading_letter",
+                              "cancel_transformations",
+                              "scale_three_axes",
+                              "spindle",
+                              "spindle_table",
+                              "spindle_minimum",
+                              "spindle_maximum",
+                              "rotary_feed",
+                              "circle_tolerance",
+                              "fourth_axis",
+                              "limit_low",
+                              "limit_high",
+                              "m92_position",
+                              "start_block",
+                              "memory_limits",
+                              "memory_blocks",
+                              "machine_parameters",
+                              "start_at",
+                              "program_check",
+                              "iso_modes",
+                              "model",
+                              "software",
+                              "display_units",
+                              "position_display",
+                              "display_size",
+                              "block_increment",
+                              "baud_rate",
+                              "nc_software",
+                              "plc_software",
+                              "user_parameters"});
+}
 
 }  // namespace
 
@@ -223,7 +223,7 @@ Result<char> decimal_sign_of(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = options.check_known(kKnown);
+  auto known = check_names(options);
   if (!known) return fail(known.error());
   ControlOptions read;
   Reader reader(options);
