@@ -112,7 +112,7 @@ int line_of_file(Context& context, const ParametersCommand& command) {
 /// The settings that the control's parameters decide; of the standard interface only the ends.
 bool is_parameter(std::string_view key, bool is_blockwise, bool has_baud) {
   for (const std::string_view known :
-       {"data_bits", "parity", "stop_bits", "flow", "tnc_etx", "tnc_eot"}) {
+       {"data_bits", "parity", "stop_bits", "flow", "tnc_stop", "tnc_etx", "tnc_eot"}) {
     if (key == known) return true;
   }
   if (key == "baud") return has_baud;

@@ -67,14 +67,14 @@ class Words {
   std::set<int> given_;
 };
 
-Result<void> read_format(const Words& words, LineSettings& line) {
-  const unsigned format = words[kFormat];
-  if (line.flow == Flow::Heidenhain && (format & kStopByRts) != 0) {
-    return fail(Errc::Unsupported,
-                "MP222 = {}: the control stops the host by RTS ({}); a line with flow = "
-                "heidenhain is stopped by DC3 ({})",
-                format, kStopByRts, kStopByDc3);
-  }
+/// Of the standard interface; blockwise the ACK holds the sender.
+TncStop stop_of(unsigned format) {
+  if ((format & kStopByRts) == 0) return TncStop::Dc3;
+  return (format & kStopByDc3) != 0 ? TncStop::Both : TncStop::Rts;
+}
+
+void read_format(unsigned format, LineSettings& line) {
+  if (line.flow == Flow::Heidenhain) line.heidenhain.stop = stop_of(format);
   line.data_bits = (format & kEightBits) != 0 ? 8 : 7;
   line.parity = (format & kHasParity) == 0 ? Parity::None
                 : (format & kOdd) != 0     ? Parity::Odd
@@ -84,7 +84,6 @@ Result<void> read_format(const Words& words, LineSettings& line) {
                    : stop == kTwoStopBits ? StopBits::Two
                                           : StopBits::One;
   line.heidenhain.bcc_is_printable = (format & kPrintableBcc) != 0;
-  return {};
 }
 
 /// The standard interface has the ends of programs and transmissions only.
@@ -141,7 +140,7 @@ Result<LineSettings> line_of_tnc(const TncInterface& interface) {
   if (!usual) return fail(usual.error());
   LineSettings line = (*usual)->settings;
   line.baud = interface.baud;
-  if (auto read = read_format(*words, line); !read) return fail(read.error());
+  read_format((*words)[kFormat], line);
   const bool is_blockwise = line.flow == Flow::HeidenhainBcc;
   read_characters(*words, is_blockwise, line.heidenhain);
   if (is_blockwise) {
@@ -166,7 +165,8 @@ Result<TncParameters> tnc_parameters_of_line(const LineSettings& line) {
   }
   if (auto made = make_discipline(line, Role::Host); !made) return fail(made.error());
   const auto& tnc = line.heidenhain;
-  unsigned format = kStopByDc3;
+  unsigned format = tnc.stop == TncStop::Rts ? 0 : kStopByDc3;
+  if (tnc.stop != TncStop::Dc3) format |= kStopByRts;
   if (line.data_bits == 8) format |= kEightBits;
   if (tnc.bcc_is_printable) format |= kPrintableBcc;
   if (line.parity != Parity::None) format |= kHasParity;

@@ -70,10 +70,21 @@ INSTANTIATE_TEST_SUITE_P(
                     FormatCase{"one_stop_bit_too", 232, "2400e71", false}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST(TncParameters, RefuseWhatTheLineCanNotDo) {
-  EXPECT_EQ(refusal({{222, 164}}),
-            "MP222 = 164: the control stops the host by RTS (4); a line with flow = heidenhain is "
-            "stopped by DC3 (8)");
+// HD-220: what stops the sender, on the standard interface.
+TEST(TncParameters, SayWhatStopsTheSender) {
+  const auto stop = [](int format, int protocol) {
+    const auto line = line_of_tnc(with({{222, format}, {223, protocol}}));
+    EXPECT_TRUE(line) << line.error().what;
+    return line->heidenhain.stop;
+  };
+  EXPECT_EQ(stop(168, 0), TncStop::Dc3);
+  EXPECT_EQ(stop(160, 0), TncStop::Dc3);
+  EXPECT_EQ(stop(164, 0), TncStop::Rts);
+  EXPECT_EQ(stop(172, 0), TncStop::Both);
+  EXPECT_EQ(stop(164, 1), TncStop::Dc3) << "blockwise the ACK holds the sender";
+}
+
+TEST(TncParameters, RefuseWhatNoControlHas) {
   EXPECT_EQ(refusal({{222, 256}}), "MP222 = 256: expected a whole number from 0 to 255");
   EXPECT_EQ(refusal({{222, 168.5}}), "MP222 = 168.5: expected a whole number from 0 to 255");
   EXPECT_EQ(refusal({{71, -1}}), "MP71 = -1: expected a whole number from 0 to 65535");
@@ -133,7 +144,7 @@ TEST(TncParameters, TakeTheHeadingFromWhoKnowsIt) {
 }
 
 TEST(TncParameters, OfALineGiveThatLineAgain) {
-  for (const char* name : {"tnc155", "tnc155-bcc"}) {
+  for (const char* name : {"tnc155", "tnc155-rts", "tnc155-bcc"}) {
     for (const char* form : {"2400e71", "9600n82", "300o71.5", "110e81"}) {
       LineSettings line = find_template(name).value()->settings;
       ASSERT_TRUE(apply_short_form(form, line));
