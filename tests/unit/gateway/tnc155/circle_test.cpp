@@ -13,7 +13,7 @@ const std::string kPole = "CC X+0 Y+0";
 
 // HD-097, HD-103: a circle lies in the plane of the tool; only CP moves the tool axis besides.
 TEST(TncCircle, OtherAxesThanThePlanesAreRefused) {
-  for (const char* block : {"C X-10 Z+5 DR+", "C X-10 A+5 DR+", "C Z+5 DR+", "C IX-20 IZ+5 DR-",
+  for (const char* block : {"C X-10 Z+5 DR+", "C X-10 C+5 DR+", "C Z+5 DR+", "C IX-20 IZ+5 DR-",
                             "CP PA+90 C+99 DR+", "CP PA+90 X+99 DR+", "CP IPA+90 IY+1 DR+"}) {
     EXPECT_THAT(moves_of({kStart, kPole, block}),
                 ElementsAre("L X10 Y0 F100", "! PLANE WRONGLY DEFINED"))
