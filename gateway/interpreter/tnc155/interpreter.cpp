@@ -193,11 +193,11 @@ bool TncInterpreter::check_number() {
                                           : fmt::format("{} where {} was due", number, wanted));
 }
 
-/// The text ends without END PGM: as if it were there.
+/// The text ends without END PGM: as if it were there, with what the last moves meet.
 TncInterpreter::BlockOutcome TncInterpreter::meet_end() {
   place_origin(run_.reader.place());
   end_program(run_, false);
-  return BlockOutcome::Finished;
+  return check_moves() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }
 
 void TncInterpreter::place_origin(const TextPlace& at) {
@@ -228,12 +228,16 @@ bool TncInterpreter::execute_parts() {
   return true;
 }
 
-bool TncInterpreter::finish_block() {
+/// What the moves up to here have met.
+bool TncInterpreter::check_moves() {
   if (run_.limits.reached()) [[unlikely]]
     return run_.fail_at_limit();
-  if (run_.state.uses_stages) [[unlikely]] {
-    if (!check_stages(run_)) return false;
-  }
+  return !run_.state.uses_stages || check_stages(run_);
+}
+
+bool TncInterpreter::finish_block() {
+  if (!check_moves()) [[unlikely]]
+    return false;
   run_.is_in_block = false;
   run_.end_block();
   ++run_.state.blocks;

@@ -34,6 +34,7 @@ class TncInterpreter final : public Interpreter {
   BlockOutcome find_definition();
   BlockOutcome meet_end();
   bool execute_parts();
+  bool check_moves();
   bool finish_block();
   StepState paused();
   void place_origin(const TextPlace& at);

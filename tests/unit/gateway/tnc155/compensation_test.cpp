@@ -235,6 +235,18 @@ TEST(TncCompensation, ManyMovesAlongZStandAtACorner) {
   EXPECT_EQ(moves[202], "L X35 Y5 Z-200 F100");
 }
 
+// HD-124: the last moves of a contour are looked at where the text ends without END PGM as well.
+TEST(TncCompensation, TheEndOfTheTextEndsAContour) {
+  const std::string text =
+      "0 BEGIN PGM 1 MM\n1 TOOL DEF 1 L+0 R+5\n2 TOOL CALL 1 Z S 500\n3 L X+0 Y+20 R0 F900\n"
+      "4 L X+0 Y+0 RL\n5 L X+40 Y-2\n6 L X+40 Y+0\n";
+  for (const char* end : {"", "7 END PGM 1 MM\n"}) {
+    const auto run = run_text(text + end);
+    EXPECT_EQ(run.alarm_id, "TNC-TOOL-RADIUS") << end;
+    EXPECT_EQ(run.alarm_line, 7u) << end;
+  }
+}
+
 // HD-131: a negative radius goes to the other side.
 TEST(TncCompensation, ANegativeRadiusSwapsTheSide) {
   EXPECT_THAT(path("-2", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L X+40 Y+30 R0"}),
