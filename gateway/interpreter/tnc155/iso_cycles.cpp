@@ -101,9 +101,6 @@ class CycleParts {
 
   bool take_program(Block& part) {
     if (!parameter()) return false;
-    if (block_.called_program == IsoBlock::kNone) {
-      return wrong(fmt::format("P01 of G39 is the number of a program, 0 to {}", kMostProgram));
-    }
     part.target = block_.called_program;
     return true;
   }

@@ -289,7 +289,9 @@ class IsoReader {
                              value.kind == Value::Kind::Number && value.number >= 0 &&
                              value.number % Value::kStepsPerUnit == 0;
       if (is_number) block_.called_program = value.number / Value::kStepsPerUnit;
-      return true;
+      return block_.called_program != IsoBlock::kNone ||
+             cursor_.wrong(
+                 fmt::format("P01 of G39 is the number of a program, 0 to {}", kMostProgram));
     }
     block_.called_program = IsoBlock::kNone;
     if (!long_first_) return true;
