@@ -93,7 +93,7 @@ TEST(CenturionPath, TappingModeIsShown) {
 
 TEST(CenturionPath, TooManyEventsBetweenCompensatedMovesAreRefused) {
   std::string text = "T0101 M6\nG98 F9\nG42 X2 Z1\nZ0\nZ-1\n";
-  for (int i = 0; i < 40; ++i) text += "M8\nM9\n";
+  for (int i = 0; i < 140; ++i) text += "M8\nM9\n";
   EXPECT_EQ(rests_of(text + "X3\n", with_nose(0.05)), "--CEN1021");
 }
 

@@ -112,7 +112,8 @@ TEST(Tnc155ConversionOfFlow, ABlankTakesNothingFromBefore) {
                       "L1.2",
                       Form::Plain),
             "0 BEGIN PGM 1 MM\n1 LBL 1\n2 DEF BLK FORM MIN Z X+5,000 Y+5,000 Z-10,000\n"
-            "3 DEF BLK FORM MAX IX+95,000 IY+95,000 IZ+10,000\n4 CALL LBL 1 REP 2/2\n");
+            "3 DEF BLK FORM MAX IX+95,000 IY+95,000 IZ+10,000\n4 CALL LBL 1 REP 2/2\n5 END PGM 1 "
+            "MM\n");
 }
 
 // HD-046: where the run can come from elsewhere, the ISO text says everything again.
