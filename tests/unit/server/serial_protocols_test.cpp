@@ -165,6 +165,7 @@ TEST_F(SerialProtocolTest, BeginsWithABlockwisePortOfATncWithoutIt) {
   ASSERT_TRUE(setups_->save({"mill", "tnc155", "[control]\nmodel = \"TNC 151 E\"\n", ""}, "cam"));
   auto port = mill();
   port.line_template = "tnc155-bcc";
+  port.settings = {};
   start_ports(*store_, {port});
   EXPECT_EQ(ports_->ports().size(), 1u);
 }
