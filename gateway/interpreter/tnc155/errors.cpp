@@ -24,7 +24,6 @@ constexpr std::array<ErrorRow, static_cast<std::size_t>(Count)> kRows{{
     {NumberAllocated, "TNC-NUMBER-ALLOCATED", "NUMBER ALREADY ALLOCATED"},
     {PathOffsetWronglyStarted, "TNC-PATH-OFFSET", "PATH OFFSET WRONGLY STARTED"},
     {ProgramUnavailable, "TNC-PGM-UNAVAILABLE", "PGM UNAVAILABLE"},
-    {ProbeNotReady, "TNC-PROBE-NOT-READY", "PROBE SYSTEM NOT READY"},
     {MemoryExceeded, "TNC-MEMORY", "PROGRAM MEMORY EXCEEDED"},
     {PlaneWronglyDefined, "TNC-PLANE", "PLANE WRONGLY DEFINED"},
     {ProgramStartUndefined, "TNC-START-UNDEFINED", "PROGRAM START UNDEFINED"},

@@ -23,7 +23,6 @@ enum class ErrorCode : std::uint8_t {
   NumberAllocated,
   PathOffsetWronglyStarted,
   ProgramUnavailable,
-  ProbeNotReady,
   MemoryExceeded,
   PlaneWronglyDefined,
   ProgramStartUndefined,
