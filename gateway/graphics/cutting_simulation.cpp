@@ -85,6 +85,7 @@ void CuttingSimulation::on_probe(const interpreter::Probe& event) {
 /// The control says where its graphics show nothing; a blank of the user has the user's axis.
 void CuttingSimulation::on_warning(const interpreter::Warning& event) {
   if (event.diagnostic.id == "TNC-GRAPHICS" && !settings_.blank) is_across_ = true;
+  if (event.diagnostic.id == "TNC-GRAPHICS-AGAIN") is_across_ = false;
 }
 
 void CuttingSimulation::on_block_end(const interpreter::Origin& event) {

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 #include <algorithm>
+#include <utility>
 
 #include "gateway/interpreter/tnc155/cycles.hpp"
 
@@ -90,14 +91,19 @@ bool define_blank(Run& run, const Block& block) {
   }
   put_on_machine(run.state.transformation, event);
   run.events().on_blank(event);
-  if (run.state.tool.number != 0) warn_of_graphics(run);
+  if (run.state.tool.number != 0) tell_graphics(run);
   return true;
 }
 
-void warn_of_graphics(Run& run) {
-  const BlankState& blank = run.state.blank;
+void tell_graphics(Run& run) {
+  BlankState& blank = run.state.blank;
   const ActiveTool& tool = run.state.tool;
-  if (!blank.has_minimum || (tool.is_called && tool.axis == blank.axis)) return;
+  const bool is_across = blank.has_minimum && !(tool.is_called && tool.axis == blank.axis);
+  const bool was_across = std::exchange(blank.is_tool_across, is_across);
+  if (!is_across) {
+    if (was_across) run.warn("TNC-GRAPHICS-AGAIN", "graphics: the tool is along the blank's axis");
+    return;
+  }
   run.warn("TNC-GRAPHICS",
            fmt::format("graphics: PGM-SECTION CANNOT BE SHOWN: {}, BLK FORM has {}",
                        tool.is_called ? fmt::format("the tool's axis is {}", letter(tool.axis))

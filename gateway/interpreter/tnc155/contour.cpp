@@ -346,13 +346,16 @@ void resume_contour(Run& run) {
 void go_on_with_contour(Run& run, const Position& programmed) {
   const State& state = run.state;
   const PlaneVector at = in_plane(programmed, axes_of(state.plane));
-  if (!state.is_compensating()) return run.compensator.leave(at);
+  if (!state.is_compensating() || state.awaits_contour) {
+    run.compensator.leave(at);
+    return resume_contour(run);
+  }
   run.compensator.begin_contour(cutter_of(state, state.compensation), at);
 }
 
 bool check_stages(Run& run) {
   if (const auto& fault = run.joiner.fault()) {
-    run.origin.line = fault->origin.line;
+    run.origin = fault->origin;
     return run.fail(fault->kind == joining::FaultKind::OtherPlane ||
                             fault->kind == joining::FaultKind::NoElement
                         ? ErrorCode::PlaneWronglyDefined
@@ -362,7 +365,7 @@ bool check_stages(Run& run) {
   const auto& fault = run.compensator.fault();
   if (!fault) [[likely]]
     return true;
-  run.origin.line = fault->origin.line;
+  run.origin = fault->origin;
   switch (fault->kind) {
     case compensation::FaultKind::StartUpNotStraight:
     case compensation::FaultKind::CancelNotStraight:

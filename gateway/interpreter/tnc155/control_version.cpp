@@ -139,6 +139,10 @@ Result<ControlVersion> version_of(const Options& options) {
     return fail(Errc::Syntax, "option software: {}, and nc_software ends in {:02}", *software,
                 **told);
   }
+  const bool is_from_number = told->has_value() && options.find("software") == nullptr;
+  if (is_from_number && *software < 1) {
+    return fail(Errc::Syntax, "option nc_software: it ends in 00, and software begins with 01");
+  }
   if (*software < 1 || *software > ControlVersion::kHighestSoftware) {
     return fail(Errc::Syntax, "option software: {} is not a number from 1 to {}", *software,
                 ControlVersion::kHighestSoftware);

@@ -6,6 +6,20 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
+/// F of an inch program is tenths of an inch, of a rotary axis that moves alone degrees.
+Pace feeding(const Run& run, double feed) {
+  constexpr double kTenthsPerInch = 10;
+  const bool is_inch = run.state.units == Units::Inch;
+  return {false, feed, is_inch ? feed * kTenthsPerInch / Length::kMillimetresPerInch : feed};
+}
+
+/// A hole's moves are none in the plane, unless the rotation of another plane turns them into it.
+bool leaves_contour(const Run& run, CycleMotion::Way way) {
+  const State& state = run.state;
+  return state.uses_stages &&
+         (way == CycleMotion::Way::InThePlane || !state.transformation.keeps_circles(state.plane));
+}
+
 /// Where a contour has led the tool the cycle begins, not where its block pointed to.
 void stand_where_the_tool_is(Run& run) {
   State& state = run.state;
@@ -20,7 +34,7 @@ void stand_where_the_tool_is(Run& run) {
 
 CycleMotion::CycleMotion(Run& run, Way way)
     : run_(run),
-      leaves_contour_(run.state.uses_stages && way == Way::InThePlane),
+      leaves_contour_(leaves_contour(run, way)),
       axes_(axes_of(run.state.plane)),
       machine_(run.state.machine),
       nominal_(run.state.nominal) {
@@ -62,13 +76,13 @@ void CycleMotion::move(PlaneVector to, Pace pace) {
 }
 
 void CycleMotion::feed_to_height(double height, double feed) {
-  move(run_.state.tool.axis, height, {false, feed});
+  move(run_.state.tool.axis, height, feeding(run_, feed));
 }
 void CycleMotion::rapid_to_height(double height) {
   move(run_.state.tool.axis, height, kRapid);
 }
 void CycleMotion::feed_to(PlaneVector to, double feed) {
-  move(to, {false, feed});
+  move(to, feeding(run_, feed));
 }
 void CycleMotion::rapid_to(PlaneVector to) {
   move(to, kRapid);
@@ -84,7 +98,7 @@ void CycleMotion::arc_to(PlaneVector to, PlaneVector centre, Turn turn, double f
   constexpr double kHalf = 180;
   const bool is_full = to == nominal_in_plane(run_.state);
   target.sweep = is_full ? 2 * kHalf : kHalf;
-  tnc155::arc_to(run_, target, {false, feed});
+  tnc155::arc_to(run_, target, feeding(run_, feed));
 }
 
 void CycleMotion::circle(PlaneVector centre, Turn turn, double feed) {

@@ -69,6 +69,9 @@ double stepover(const Run& run) {
          run.state.transformation.factor(run.state.plane);
 }
 
+/// They wait with the block that leads to the corner; other events need room too.
+constexpr double kMostAtCorner = look_ahead::kMaxHeldEvents - 16;
+
 /// How many moves a call comes to, about.
 double moves_of(const Run& run, const MachiningCycle& cycle) {
   if (cycle.number == kTapping) return 2;
@@ -84,6 +87,13 @@ double moves_of(const Run& run, const MachiningCycle& cycle) {
 
 bool check_bounds(Run& run, const MachiningCycle& cycle) {
   const double moves = moves_of(run, cycle);
+  const bool waits = cycle.number < kSlot && run.state.is_compensating();
+  if (waits && moves > kMostAtCorner) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("a hole at a corner of a contour would be {:.0f} moves, at most "
+                                "{:.0f}; R0 before it",
+                                moves, kMostAtCorner));
+  }
   if (moves <= kMostMoves) return true;
   return run.fail(ErrorCode::EntryOutOfRange,
                   fmt::format("a call of CYCL DEF {} would be {:.0f} moves, at most {:.0f}",

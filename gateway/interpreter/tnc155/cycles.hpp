@@ -26,7 +26,7 @@ void end_cycles(Run& run);
 bool define_blank(Run& run, const Block& block);
 /// Where a blank is there and the tool called has no axis or another one than BLK FORM: the
 /// control's graphics show nothing of it (spec 21), which a warning says.
-void warn_of_graphics(Run& run);
+void tell_graphics(Run& run);
 
 /// TCH PROBE 0.0 and 0.1. Asks a ProbeQuestion; called again with `Run::answer`.
 bool probe(Run& run, const Block& block);

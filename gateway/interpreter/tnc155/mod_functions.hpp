@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/tnc155/memory_files.hpp"
 
 /// What the control's MOD menu holds, as data: kept with a machine's setup, shown, and sent. A
 /// program feels the limits only; they, and the size of the memory, are options with names.
@@ -46,6 +47,10 @@ struct ModSettings {
 
 /// Of a setup's `[control]`. Errors: Syntax (the option, its value, what it may be).
 Result<ModSettings> read_mod_settings(const Options& options);
+
+/// Those of the setup's `machine_parameters` and of its user parameters: all that the control is
+/// known to hold. Errors: as of both.
+Result<MachineParameters> all_machine_parameters(const Options& options);
 
 /// A line of the menu.
 struct ModFunction {

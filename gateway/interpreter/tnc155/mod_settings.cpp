@@ -243,4 +243,15 @@ Result<ModSettings> read_mod_settings(const Options& options) {
   return settings;
 }
 
+Result<MachineParameters> all_machine_parameters(const Options& options) {
+  auto parameters = machine_parameters_of(options);
+  if (!parameters) return fail(parameters.error());
+  const auto settings = read_mod_settings(options);
+  if (!settings) return fail(settings.error());
+  for (const UserParameter& user : settings->user_parameters) {
+    (*parameters)[user.parameter] = user.value;
+  }
+  return std::move(*parameters);
+}
+
 }  // namespace dripline::interpreter::tnc155

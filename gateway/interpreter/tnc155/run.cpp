@@ -92,7 +92,7 @@ bool Run::fail_as(ErrorCode code, std::string_view text) {
 
 bool Run::fail_at_limit() {
   const LimitReached& limit = *limits.reached();
-  origin.line = limit.origin.line;
+  origin = limit.origin;
   return fail_as(ErrorCode::LimitSwitch,
                  fmt::format("{} {}{}", error_row(ErrorCode::LimitSwitch).text, letter(limit.axis),
                              limit.is_positive ? '+' : '-'));

@@ -203,7 +203,7 @@ void visit_state(Archive& archive, State& state) {
   for (double& value : state.q) visit(archive, value);
   visit_cycle_state(archive, state.cycle);
   BlankState& blank = state.blank;
-  archive(blank.has_minimum);
+  visit_all(archive, blank.has_minimum, blank.is_tool_across);
   up_to(archive, blank.axis, Axis::W);
   for (double& value : blank.minimum) visit(archive, value);
   visit_flow(archive, state);

@@ -120,6 +120,7 @@ struct Joint {
 /// The first half of DEF BLK FORM.
 struct BlankState {
   bool has_minimum = false;
+  bool is_tool_across = false;  ///< the graphics were told that they show nothing
   Axis axis = Axis::Z;
   std::array<double, 3> minimum{};
 };
@@ -149,7 +150,7 @@ struct State {
   Plane plane = Plane::XY;
   ActiveTool tool;
   std::vector<ToolDefinition> definitions;  ///< executed in this run; the last one last
-  std::vector<ToolPocket> pockets;  ///< of the random changer; empty without one
+  std::vector<ToolPocket> pockets;          ///< of the random changer; empty without one
   SpindleModes spindle;
   CoolantModes coolant;
   /// F in force, by what moves: an inch program counts it in tenths of an inch for linear axes and

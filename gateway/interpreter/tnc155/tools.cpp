@@ -124,7 +124,9 @@ bool call_tool(Run& run, const Block& block) {
   if (names_axis) {
     state.tool.axis = block.is_fourth_axis ? run.options.fourth_axis : *block.axis;
     state.tool.is_called = true;
-    state.plane = plane_of(state.tool.axis);
+    const Plane plane = plane_of(state.tool.axis);
+    if (plane != state.plane) ++run.frame_changes;
+    state.plane = plane;
     state.polar.is_current = false;
     state.last.exists = false;
   }
@@ -132,7 +134,7 @@ bool call_tool(Run& run, const Block& block) {
     const ToolShape shape{Length::mm(state.tool.data.length), Length::mm(state.tool.data.radius)};
     run.events().on_tool({run.origin, state.tool.number, false, {}, shape});
   }
-  if ((is_change || names_axis) && state.tool.number != 0) warn_of_graphics(run);
+  if ((is_change || names_axis) && state.tool.number != 0) tell_graphics(run);
   return !block.spindle.is_programmed() || set_speed(run, run.number(block.spindle));
 }
 

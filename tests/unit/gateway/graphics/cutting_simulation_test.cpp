@@ -129,6 +129,13 @@ TEST_F(CuttingSimulationTest, LeavesOutWhatAToolAcrossTheBlankDoes) {
   call_tool(5);
   simulation_->on_line({line(7), at(60, 50, -5), {}});
   EXPECT_GT(removed(), 0) << "called anew, along the axis";
+  const double before = removed();
+  simulation_->on_warning(across);
+  interpreter::Warning again;
+  again.diagnostic.id = "TNC-GRAPHICS-AGAIN";
+  simulation_->on_warning(again);
+  simulation_->on_line({line(8), at(70, 50, -5), {}});
+  EXPECT_GT(removed(), before) << "only its axis was named anew";
   // another warning means nothing, nor does this one for a blank of the user
   SimulationSettings own;
   own.blank = Cuboid{{0, 0, -20}, {100, 100, 0}};

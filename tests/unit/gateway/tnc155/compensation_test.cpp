@@ -207,6 +207,52 @@ TEST(TncCompensation, APocketDoesNotEndTheContour) {
       ElementsAre("R X50 Y4 Z2", "L X76 Y4 Z2 F100", "L X76 Y50 Z2 F100", "L X60 Y50 Z2 F100"));
 }
 
+// HD-127: a hole whose moves would not fit at the corner is refused before it is begun.
+TEST(TncCompensation, AHoleOfVeryManyPecksIsNotMadeInAContour) {
+  const auto with_pecks = [](const std::string& peck, const std::string& first) {
+    return path("+4", {"CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 SET-UP-2", "CYCL DEF 1.2 DEPTH-20",
+                       "CYCL DEF 1.3 PECKG-" + peck, "CYCL DEF 1.4 DWELL 0", "CYCL DEF 1.5 F80",
+                       "L X+0 Y+20 Z+2 R0 F100 M03", first, "L X+50 Y+0 M99", "L X+80 Y+0",
+                       "L X+80 Y+50 R0"})
+        .back();
+  };
+  EXPECT_EQ(with_pecks("0,2", "L X+0 Y+0 RL"), "! ENTRY VALUE INCORRECT");
+  EXPECT_EQ(with_pecks("0,3", "L X+0 Y+0 RL"), "L X80 Y50 Z2 F100");
+  EXPECT_EQ(with_pecks("0,2", "L X+0 Y+0 R0"), "L X80 Y50 Z2 F100");
+}
+
+// HD-127: a pocket before the first block in the plane leaves the start-up to that block.
+TEST(TncCompensation, APocketBeforeTheFirstBlockLeavesTheStartUpToIt) {
+  const auto moves =
+      path("+3", {"CYCL DEF 5.0 CIRCULAR POCKET", "CYCL DEF 5.1 SET-UP-2", "CYCL DEF 5.2 DEPTH-5",
+                  "CYCL DEF 5.3 PECKG-5 F100", "CYCL DEF 5.4 RADIUS 10", "CYCL DEF 5.5 F200 DR+",
+                  "L X+0 Y+0 R0 F9999 M03", "L Z+2", "L RL F200", "CYCL CALL", "L X+30 Y+0",
+                  "L X+30 Y+30", "L X+60 Y+60 R0"});
+  ASSERT_GT(moves.size(), 8u);
+  EXPECT_THAT(std::vector<std::string>(moves.end() - 3, moves.end()),
+              ElementsAre("L X27 Y0 Z2 F200", "L X27 Y30 Z2 F200", "L X60 Y60 Z2 F200"));
+}
+
+// HD-184: a rotation of another plane turns the hole's way into the plane of the contour.
+TEST(TncCompensation, AHoleUnderARotationOfAnotherPlaneIsNoElement) {
+  const auto moves =
+      path("+3", with_pecking({"TOOL CALL Y", "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+30",
+                               "TOOL CALL Z", "L X-20 Y+0 Z+2 R0 F9999 M03", "L X+0 Y+0 RL F200",
+                               "L X+30 Y+0 M99", "L X+30 Y+30", "L X+60 Y+60 R0"}));
+  for (const std::string& move : moves) {
+    EXPECT_FALSE(move.starts_with("A")) << move;
+    EXPECT_EQ(move.find("Y-"), std::string::npos) << move;
+  }
+}
+
+// HD-089: cycles along a rotary axis feed in degrees.
+TEST(TncCompensation, AHoleAlongARotaryAxisHasItsFeed) {
+  const auto moves = moves_of(with_pecking(
+      {"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 IV S100", "L X+0 Y+0 C+2 R0 F100 M03", "CYCL CALL"}));
+  ASSERT_GE(moves.size(), 2u);
+  EXPECT_NE(moves[1].find(" F80"), std::string::npos) << moves[1];
+}
+
 // HD-093: R+ and R- stand between blocks with R0, along the tool axis as well.
 TEST(TncCompensation, ASingleAxisOffsetIsNoPartOfAContour) {
   EXPECT_EQ(path("+4", {"L X+0 Y+20 Z+0 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0", "Z+5 R+"}).back(),

@@ -230,6 +230,9 @@ TEST(TncMachine, SaysThatTheGraphicsShowNoToolAcrossTheBlank) {
   }
   EXPECT_EQ(warns({"TOOL CALL 1 Z S100", "TOOL CALL Y"}, true), 1);
   EXPECT_EQ(warns({"TOOL CALL 1 Z S100", "TOOL CALL S200"}, true), 0);
+  EXPECT_THAT(events_of({"BLK FORM 0.1 Z X+0 Y+0 Z-20", "BLK FORM 0.2 X+9 Y+9 Z+0",
+                         "TOOL DEF 1 L+0 R+5", "TOOL CALL 1 Y S100", "TOOL CALL Z"}),
+              testing::Contains("warning TNC-GRAPHICS-AGAIN"));
   EXPECT_THAT(events_of({"TOOL DEF 1 L+0 R+5", "TOOL CALL 1 Y S100"}),
               testing::Not(testing::Contains("warning TNC-GRAPHICS")))
       << "without a blank there are no graphics";

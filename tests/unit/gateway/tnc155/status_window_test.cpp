@@ -146,6 +146,16 @@ TEST(TncStatusWindow, NoticesTheEndThatCancelsTransformations) {
   EXPECT_EQ(run.frame().shift[0], 0);
 }
 
+TEST(TncStatusWindow, NoticesAnotherWorkingPlane) {
+  WindowRun run({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S800", "CC X+1 Y+2", "TOOL CALL Y"});
+  run.step(3);
+  const std::uint32_t changes = run.changes();
+  EXPECT_EQ(run.frame().pole_axes, 3);
+  run.step(1);
+  EXPECT_NE(run.changes(), changes);
+  EXPECT_EQ(run.frame().pole_axes, 5);
+}
+
 // HD-185: MP 173 leaves them in force.
 TEST(TncStatusWindow, KeepsTransformationsWhereTheEndDoesNotCancelThem) {
   WindowRun run({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10"},

@@ -127,6 +127,8 @@ TEST(ControlVersion, SoftwareIsTheEndOfItsNumber) {
   EXPECT_EQ(error("nc_software = \"227 020 03\"\nsoftware = 3"), "");
   EXPECT_EQ(error("nc_software = \"227 020 03\"\nsoftware = 8"),
             "option software: 8, and nc_software ends in 03");
+  EXPECT_EQ(error("nc_software = \"227 020 00\""),
+            "option nc_software: it ends in 00, and software begins with 01");
 }
 
 // HD-239: 3100 blocks, of a TNC 151 they may be 1200.
