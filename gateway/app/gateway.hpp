@@ -105,6 +105,7 @@ class Gateway {
   // gateway_line.cpp
   void serve_line(SteadyTime now);
   void take_line_item(feed::LineItem& item);
+  bool is_of_next_run(const feed::LineItem& item) const;
   void take_line_text(std::string_view text);
   void line_text_ended();
   void line_failed(const std::string& reason);
@@ -137,8 +138,8 @@ class Gateway {
 
   std::deque<dds::OrderResult> results_;
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
-  bool is_ending_ = false;           ///< the run's last records are staged, not yet on disk
-  bool is_held_by_trouble_ = false;  ///< not by the operator
+  bool is_ending_ = false;              ///< the run's last records are staged, not yet on disk
+  bool is_held_by_trouble_ = false;     ///< not by the operator
   bool was_emergency_stopped_ = false;  ///< the run; it ends when the switch is released
   SteadyTime last_step_{}, next_commit_{}, next_sync_{};
   dds::Execution last_execution_ = dds::Execution::Ready;
@@ -157,6 +158,7 @@ class Gateway {
   std::string line_program_, line_trouble_;
   std::string line_request_;  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
+  std::vector<feed::LineItem> held_items_;  ///< of the next run: the emergency stop is pressed
 };
 
 }  // namespace dripline::gateway

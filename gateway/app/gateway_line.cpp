@@ -38,11 +38,34 @@ bool is_blank(std::string_view text) {
 
 void Gateway::serve_line(SteadyTime now) {
   if (parts_.line == nullptr) return;
-  if (line_ == Line::Closed) listen(true);
-  for (LineItem& item : parts_.line->take()) take_line_item(item);
+  const bool is_stopped = machine_.panel().emergency_stop;
+  if (line_ == Line::Closed && !is_stopped) listen(true);
+  if (!is_stopped) {
+    for (LineItem& item : std::exchange(held_items_, {})) take_line_item(item);
+  }
+  for (LineItem& item : parts_.line->take()) {
+    if (is_stopped && is_of_next_run(item)) {
+      held_items_.push_back(std::move(item));
+    } else {
+      take_line_item(item);
+    }
+  }
   release_line();
   if (line_ == Line::Draining && !session_ && parts_.line->is_quiet()) listen_at_ = now;
-  if (listen_at_ && now >= *listen_at_) listen(true);
+  if (!listen_at_ || now < *listen_at_) return;
+  if (is_stopped) {
+    listen_at_ = now + kListenAgain;
+  } else {
+    listen(true);
+  }
+}
+
+/// Under an emergency stop no run begins: its text waits where it is, and the line's window holds
+/// the host.
+bool Gateway::is_of_next_run(const LineItem& item) const {
+  return line_ == Line::Listening && !session_ &&
+         (item.what == What::Began || item.what == What::Text || item.what == What::Ended ||
+          item.what == What::Failed);
 }
 
 void Gateway::take_line_item(LineItem& item) {

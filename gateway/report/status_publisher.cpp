@@ -10,7 +10,8 @@ auto content(const dds::Status& s) {
   return std::tie(s.execution, s.mode, s.run, s.program, s.sent, s.accepted, s.executed,
                   s.total_bytes, s.offset, s.line, s.sequence, s.position, s.feed_mm_per_min,
                   s.spindle_rpm, s.feed_override, s.rapid_override, s.spindle_override,
-                  s.buffered_seconds, s.single_block, s.message, s.outbox, s.modes);
+                  s.buffered_seconds, s.single_block, s.message, s.outbox, s.modes, s.coordinates,
+                  s.emergency_stop);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <thread>
 
 #include "protocol/base/digest.hpp"
 #include "tests/integration/line_shop.hpp"
 #include "tests/integration/system.hpp"
+#include "tests/support/host_line.hpp"
 #include "tests/support/program_generator.hpp"
 #include "tests/support/pty.hpp"
 
@@ -72,6 +74,10 @@ std::string contour(std::uint64_t bytes) {
 
 std::uint64_t blocks_of(std::string_view text) {
   return static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+nlohmann::json status(const System& system) {
+  return system.rest().get("/api/v1/machines/lathe-1").json().value("status", nlohmann::json());
 }
 
 struct Protocol {
@@ -166,6 +172,44 @@ TEST(LineSystemLoss, ResumesACheckedProtocolWhenTheCableIsBack) {
   EXPECT_EQ(endings[0].executed, blocks_of(text));
   EXPECT_EQ(endings[0].content_sha256,
             sha256(std::string_view(text).substr(0, endings[0].content_length)).hex());
+}
+
+/// The machine's panel belongs to the server, its text to the line: what comes while the emergency
+/// stop is pressed is neither run nor lost.
+TEST(LineSystemPanel, TextWaitsForTheReleaseOfTheEmergencyStop) {
+  PtyCable cable;
+  System::Options options;
+  options.gateway_arguments = {"--line",         cable.control(),  "--line-template",
+                               "centurion",      "--line-setting", "idle_end_ms=300",
+                               "--line-setting", "baud=115200"};
+  System system(options);
+  system.start_server();
+  system.start_gateway();
+  system.wait_connected();
+  const auto press = [&](bool is_on) {
+    const nlohmann::json order{
+        {"action", "switch"}, {"name", "emergency_stop"}, {"value", is_on ? 1 : 0}};
+    const auto reply = system.rest().post("/api/v1/machines/lathe-1/orders", order);
+    EXPECT_EQ(reply.status, 200) << reply.body;
+    EXPECT_TRUE(
+        eventually([&] { return status(system).value("emergency_stop", !is_on) == is_on; }));
+  };
+  press(true);
+  wire::LineSettings settings = (*wire::find_template("centurion"))->settings;
+  ASSERT_TRUE(wire::set_value(settings, "idle_end_ms", "300"));
+  ASSERT_TRUE(wire::set_value(settings, "baud", "115200"));
+  test_support::HostLine host(cable.host(), settings);
+  const std::string text = "G20 G98\nG1 X1. Z-1. F50.\nM30\n";
+  host.send(text);
+  ASSERT_TRUE(eventually([&] { return host.is_idle(); }));
+  std::this_thread::sleep_for(700ms);  // longer than the silence that ends a program
+  EXPECT_NE(status(system).value("execution", ""), "PROGRAM_COMPLETED");
+  press(false);
+  EXPECT_TRUE(eventually([&] {
+    return status(system).value("execution", "") == "PROGRAM_COMPLETED";
+  })) << status(system).dump();
+  EXPECT_NEAR(status(system).at("coordinates").at("target").at("Z").get<double>(), -25.4, 1e-6)
+      << "all of the text was run";
 }
 
 }  // namespace

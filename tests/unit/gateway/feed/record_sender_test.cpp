@@ -191,5 +191,22 @@ TEST(StatusPublisher, SendsOnChangeAtMostTenTimesASecondAndAHeartbeat) {
   EXPECT_LE(sent, 14);
 }
 
+/// A switch that is released changes nothing else when no run is there.
+TEST(StatusPublisher, SendsSwitchesAndCoordinatesAsTheyChange) {
+  int sent = 0;
+  StatusPublisher publisher([&](const dds::Status&) { return ++sent > 0; });
+  SteadyTime now{std::chrono::hours(1)};
+  dds::Status status;
+  publisher.offer(status, now);
+  status.emergency_stop = true;
+  publisher.offer(status, now += milliseconds(200));
+  EXPECT_EQ(sent, 2);
+  status.coordinates.emplace();
+  publisher.offer(status, now += milliseconds(200));
+  EXPECT_EQ(sent, 3);
+  publisher.offer(status, now += milliseconds(200));
+  EXPECT_EQ(sent, 3);
+}
+
 }  // namespace
 }  // namespace dripline::report
