@@ -7,6 +7,7 @@
 #include "clients/cli/table.hpp"
 #include "clients/cli/value_text.hpp"
 #include "gateway/interpreter/trace/event_words.hpp"
+#include "gateway/interpreter/trace/stop_list.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -165,6 +166,10 @@ std::string stop_lines(const CheckReport& report) {
     if (stop.origin.sequence >= 0) text += fmt::format(", block {}", stop.origin.sequence);
     if (times > 1) text += fmt::format(", met {} times", times);
     text += fmt::format(": {}\n", printable(block));
+  }
+  if (report.stops->places.size() >= interpreter::StopList::kMostPlaces) {
+    text +=
+        fmt::format("(only the first {} places are listed)\n", interpreter::StopList::kMostPlaces);
   }
   return text;
 }

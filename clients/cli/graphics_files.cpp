@@ -6,6 +6,7 @@
 #include "clients/lib/output_file.hpp"
 #include "gateway/graphics/hardcopy.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 
 namespace dripline::cli {
 
@@ -22,7 +23,7 @@ namespace {
 Result<std::optional<graphics::Printer>> printer_of(const interpreter::Setup& setup) {
   constexpr int kFirst = 226;
   constexpr double kMostWord = 65'535;
-  const auto parameters = interpreter::tnc155::machine_parameters_of(setup.control);
+  const auto parameters = interpreter::tnc155::all_machine_parameters(setup.control);
   if (!parameters) return fail(parameters.error());
   std::array<std::uint16_t, 8> words{};
   bool is_there = false;

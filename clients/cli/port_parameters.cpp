@@ -8,6 +8,7 @@
 #include "clients/cli/port_line.hpp"
 #include "gateway/interpreter/setup.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 
 namespace dripline::cli {
@@ -34,12 +35,12 @@ Result<void> read_setup(std::string_view text, Interface& interface) {
   if (!setup) return fail(setup.error());
   const interpreter::Options& options = setup->control;
   if (options.find("machine_parameters") == nullptr && options.find("heading_letter") == nullptr &&
-      options.find("baud_rate") == nullptr) {
+      options.find("baud_rate") == nullptr && options.find("user_parameters") == nullptr) {
     return fail(Errc::NotFound,
                 "the setup says nothing of a TNC's interface: machine_parameters, heading_letter "
                 "or baud_rate in [control]");
   }
-  const auto parameters = tnc::machine_parameters_of(options);
+  const auto parameters = tnc::all_machine_parameters(options);
   if (!parameters) return fail(parameters.error());
   interface.tnc.parameters = *parameters;
   if (options.find("heading_letter") != nullptr) {
@@ -205,8 +206,9 @@ void add_port_parameters_command(CLI::App& group, Context& context) {
   command->add_option("--set", options->changes, "Settings of that line, KEY=VALUE")->needs(line);
   auto* port = command->add_option("--port", options->port,
                                    "Compare this port with FILE, or with its machine's setup");
-  command->add_option("--baud", options->baud,
-                      "The control's, of MOD [the setup's baud_rate, or 2400]");
+  auto* baud = command->add_option("--baud", options->baud,
+                                   "The control's, of MOD [the setup's baud_rate, or 2400]");
+  baud->excludes(line);
   line->excludes(file)->excludes(port);
   add_json_flag(*command, context);
   command->footer(

@@ -71,7 +71,7 @@ client::Reply<double> number_of(const std::string& text) {
 /// A user parameter's value stands with it, and may stand among the machine parameters too.
 Changes changes_of(const interpreter::Setup& data, const tnc155::UserParameter& parameter,
                    std::size_t place, double value) {
-  const std::string text = fmt::format("{:.12g}", value);
+  const std::string text = fmt::format("{}", value);
   Changes changes{{fmt::format("control.user_parameters[{}].value", place), text}};
   const auto machine = tnc155::machine_parameters_of(data.control);
   if (machine && machine->contains(parameter.parameter)) {

@@ -63,11 +63,8 @@ Result<void> check_tool_store(std::string_view toml) {
 Result<std::string> machine_parameters_text(std::string_view toml) {
   const auto data = interpreter::parse_control_data(toml);
   if (!data) return fail(data.error());
-  auto parameters = interpreter::tnc155::machine_parameters_of(data->control);
+  const auto parameters = interpreter::tnc155::all_machine_parameters(data->control);
   if (!parameters) return fail(parameters.error());
-  const auto menu = interpreter::tnc155::read_mod_settings(data->control);
-  if (!menu) return fail(menu.error());
-  for (const auto& user : menu->user_parameters) (*parameters)[user.parameter] = user.value;
   if (parameters->empty()) {
     return fail(Errc::NotFound,
                 "the setup has no [control.machine_parameters] and no user parameters");

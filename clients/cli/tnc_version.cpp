@@ -2,6 +2,7 @@
 
 #include "clients/cli/port_file.hpp"
 #include "gateway/interpreter/tnc155/memory_files.hpp"
+#include "gateway/interpreter/tnc155/mod_functions.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -17,7 +18,7 @@ constexpr int kUsualFormat = 168;  ///< 7 data bits
 Result<void> check_data_bits(const tnc::ControlVersion& version,
                              const interpreter::Options& control) {
   if (version.has(Feature::HardcopyIn8Bits)) return {};
-  const auto parameters = tnc::machine_parameters_of(control);
+  const auto parameters = tnc::all_machine_parameters(control);
   if (!parameters) return fail(parameters.error());
   const auto found = parameters->find(kDataFormat);
   const double format = found == parameters->end() ? kUsualFormat : found->second;

@@ -282,12 +282,20 @@ void add_touch_options(CLI::App& command, TouchCommand& options) {
       ->check(CLI::PositiveNumber);
   command.add_option("--tool-axis", options.tool_axis, "X, Y or Z [Z]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("--ring", options.ring, "Radius of the ring gauge, of radius");
-  command.add_option("--nominal", options.nominal, "Angle the side should have, of rotation [0]");
+  const CLI::Validator is_number(
+      [](std::string& text) {
+        return text.find_first_of("nN") == std::string::npos ? "" : text + " is no number";
+      },
+      "");  // the parser takes inf and nan for numbers
+  command.add_option("--ring", options.ring, "Radius of the ring gauge, of radius")
+      ->check(is_number);
+  command.add_option("--nominal", options.nominal, "Angle the side should have, of rotation [0]")
+      ->check(is_number);
   command
       .add_option("--datum", options.values,
                   "What the place is to be called, a value an axis, e.g. 50,10 [0]")
       ->delimiter(',')
+      ->check(is_number)
       ->allow_extra_args(false);
   command.add_flag("--boss", options.is_boss, "The circle is touched from outside");
   command.add_flag("--rotation-touches", options.takes_rotation_touches,

@@ -45,10 +45,11 @@ Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
   for (const auto& port : *stored) {
     auto entry = prepare(port);
     if (!entry) {
-      spdlog::error("port={} can not be used: {}", port.name, entry.error().what);
+      const std::string why = entry.error().what;
+      spdlog::error("port={} can not be used: {}", port.name, why);
       entry = Entry{};
       entry->port = port;
-      entry->trouble = fmt::format("can not be used as it is stored");
+      entry->trouble = fmt::format("can not be used as it is stored: {}", why);
     }
     put(*std::move(entry));
   }

@@ -21,7 +21,7 @@ Result<wire::LineSettings> effective_settings(const storage::Port& port) {
     }
   }
   // A rate that the control's MOD function does not offer can not be meant.
-  if (template_control(port) == "tnc155") {
+  if (port.is_enabled && template_control(port) == "tnc155") {
     if (auto has = wire::check_tnc_baud(settings.baud); !has) {
       return fail(has.error().code, "port '{}': {}", port.name, has.error().what);
     }

@@ -183,6 +183,12 @@ TEST(DncGraphicsOfATnc, PrintsWithTheBytesOfTheMachineParameters) {
       "MP226 = 602, MP227 = 23040, MP230 = 881, MP231 = 29299, MP222 = 169";  // 5A 5A, 71 72 73
   ASSERT_EQ(print(own, "").status, 0);
   EXPECT_EQ(dnc.read("block.prn").substr(0, 5), "ZZqrs");
+  ASSERT_EQ(print("MP222 = 169 }\n[[control.user_parameters]]\nparameter = 226\nvalue = 602\n"
+                  "[[control.user_parameters]]\nparameter = 227\nvalue = 23040\n#",
+                  "")
+                .status,
+            0);
+  EXPECT_EQ(dnc.read("block.prn").substr(0, 2), "ZZ") << "user parameters count as well";
   ASSERT_EQ(print(own, "epson").status, 0);
   EXPECT_EQ(dnc.read("block.prn").substr(0, 2), "\x1b\x43");
   ASSERT_EQ(print("MP222 = 169", "").status, 0);
