@@ -35,7 +35,7 @@ TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
   std::string came = line().read_until("N20 ");
   line().write("\x13");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
-  came += line().read_for(std::chrono::milliseconds(1));
+  came += line().read_for(std::chrono::milliseconds(50));  // what was on its way
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
   EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
