@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,7 +15,9 @@
 /// well formed, text is UTF-8. MTConnect words where it has them. Members mean what the IDL says.
 namespace dripline::dds {
 
-inline constexpr std::uint32_t kProtocolVersion = 1;
+/// 2: orders carry number and deadline. Gateways of other versions are shown and heard, but started
+/// by nobody.
+inline constexpr std::uint32_t kProtocolVersion = 2;
 inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
 inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
 inline constexpr std::size_t kMaxRecordText = 4096;
@@ -53,7 +56,8 @@ enum class OrderAction : std::uint8_t {
   FeedOverride,
   RapidOverride,
   SpindleOverride,
-  Handwheel
+  Handwheel,
+  Refuse,  ///< no order: the server does not command this gateway; `argument` says why
 };
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
@@ -141,6 +145,7 @@ struct Status {
   std::optional<ActiveModes> modes;        ///< older gateways say none
   std::optional<Coordinates> coordinates;  ///< likewise
   bool emergency_stop = false;
+  std::chrono::microseconds steady{0};  ///< 0: from an older gateway
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -166,7 +171,7 @@ inline constexpr std::size_t kMaxOrderSetup = 64 * 1024;
 
 struct Order {
   std::string machine, id;
-  UtcTime expires;
+  UtcTime expires;  ///< for gateways of protocol 1
   OrderAction action = OrderAction::Hold;
   std::string run, program, revision;
   std::uint64_t size = 0;
@@ -174,6 +179,8 @@ struct Order {
   double value = 0;
   std::uint64_t session = 0;  ///< 0: whichever gateway hears it
   std::string setup;          ///< start: TOML, at most kMaxOrderSetup; empty: the gateway's own
+  std::uint64_t server = 0, number = 0;
+  std::chrono::microseconds deadline{0};  ///< by the gateway's steady clock; 0: none
   friend bool operator==(const Order&, const Order&) = default;
 };
 

@@ -164,6 +164,7 @@ Result<Status> decode(const dripline_idl_Status& s) {
   if (s.modes.is_told) m.modes = modes_of(s.modes, members);
   if (s.coordinates.is_told) m.coordinates = coordinates_of(s.coordinates);
   m.emergency_stop = s.emergency_stop;
+  m.steady = std::chrono::microseconds{s.steady_us};
   return members.finish(std::move(m));
 }
 
@@ -195,7 +196,7 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.machine = members.text(s.machine, "machine");
   m.id = members.text(s.id, "id");
   m.expires = time_point(s.expires_us);
-  m.action = members.enumerator(s.action, OrderAction::Handwheel, "action");
+  m.action = members.enumerator(s.action, OrderAction::Refuse, "action");
   m.run = members.text(s.run, "run");
   m.program = members.text(s.program, "program");
   m.revision = members.text(s.revision, "revision");
@@ -204,6 +205,9 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.argument = members.text(s.argument, "argument");
   m.value = s.value;
   m.session = s.session;
+  m.server = s.server;
+  m.number = s.number;
+  m.deadline = std::chrono::microseconds{s.deadline_us};
   if (const auto setup = as_bytes(s.setup); setup.size() <= kMaxOrderSetup) {
     m.setup.assign(reinterpret_cast<const char*>(setup.data()), setup.size());
   } else {

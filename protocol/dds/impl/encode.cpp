@@ -158,6 +158,7 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   }
   if (m.coordinates) encode(*m.coordinates, s.coordinates);
   s.emergency_stop = m.emergency_stop;
+  s.steady_us = m.steady.count();
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")
@@ -204,6 +205,9 @@ Result<void> encode(const Order& m, dripline_idl_Order& s) {
   s.size = m.size;
   s.value = m.value;
   s.session = m.session;
+  s.server = m.server;
+  s.number = m.number;
+  s.deadline_us = m.deadline.count();
   s.setup._maximum = s.setup._length = static_cast<std::uint32_t>(m.setup.size());
   // Borrowed, read only.
   s.setup._buffer = reinterpret_cast<std::uint8_t*>(const_cast<char*>(m.setup.data()));

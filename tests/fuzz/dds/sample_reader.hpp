@@ -35,7 +35,7 @@ class SampleReader {
         s.buffered_seconds, s.single_block, s.message, s.outbox, s.axes, s.session);
     read(s.modes);
     read(s.coordinates);
-    one(s.emergency_stop);
+    all(s.emergency_stop, s.steady_us);
   }
   void read(dripline_idl_ActiveModes& s) {
     all(s.is_told, s.motion, s.compensation, s.is_inch, s.is_incremental, s.feed_unit, s.feed,
@@ -54,7 +54,7 @@ class SampleReader {
   void read(dripline_idl_RecordAck& s) { all(s.machine, s.epoch, s.number); }
   void read(dripline_idl_Order& s) {
     all(s.machine, s.id, s.expires_us, s.action, s.run, s.program, s.revision, s.size, s.control,
-        s.argument, s.value);
+        s.argument, s.value, s.session, s.server, s.number, s.deadline_us);
   }
   void read(dripline_idl_OrderResult& s) { all(s.machine, s.id, s.accepted, s.reason); }
   void read(dripline_idl_BlockRequest& s) {

@@ -74,6 +74,7 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
                                           .pole_axes = 0b011,
                                           .pole = {3, 4, 5}}};
   status.emergency_stop = true;
+  status.steady = 81'000'000us;
   ASSERT_TRUE(gateway->endpoint->write(status));
   EXPECT_EQ(server->statuses.take(), status);
 
@@ -96,6 +97,9 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
   order.control = "centurion";
   order.argument = "ja";
   order.value = 0.5;
+  order.server = 4711;
+  order.number = 12;
+  order.deadline = 86'000'000us;
   ASSERT_TRUE(server->endpoint->write(order));
   EXPECT_EQ(gateway->orders.take(), order);
 
