@@ -29,9 +29,13 @@ bool is_interrupted(std::string_view execution) {
 
 /// What an operator types next, when the run waits for one.
 std::string next_step(const client::Run& run, const client::MachineStatus& status) {
-  if (status.execution == "WAIT" && status.message.starts_with("asks: ")) {
+  if (status.execution == "WAIT" && status.message.starts_with("asks: ") &&
+      status.remote_enable != "not_given") {
     return fmt::format("dnc run answer {} TEXT answers it", short_id(run.id));
   }
+  const bool is_local = status.remote_enable == "not_given";
+  if (is_local && status.waits_for == "cycle_start")
+    return "cycle start, or the remote enable, is given at the machine";
   if (!is_interrupted(status.execution)) return {};
   return fmt::format("dnc run resume {} goes on", short_id(run.id));
 }
@@ -108,6 +112,16 @@ void add_modes(Details& details, const client::ActiveModes& modes) {
   details.add("spindle state", spindle_state_text(modes));
   details.add("spindle load", modes.spindle_load ? percent(*modes.spindle_load) : "not measured");
   details.add("coolant", coolant_text(modes));
+}
+
+std::string remote_enable_text(const std::string& remote_enable) {
+  if (remote_enable == "unattended") return "not needed (unattended)";
+  return remote_enable == "not_given" ? "not given" : remote_enable;
+}
+
+std::string waits_for_text(const std::string& waits_for) {
+  if (waits_for == "cycle_start") return "cycle start";
+  return waits_for;
 }
 
 void add_program(Details& details, const client::MachineStatus& status) {
@@ -188,6 +202,8 @@ Details machine_details(const client::Machine& machine) {
   if (status.coordinates) add_coordinates(details, status);
   if (status.modes) add_modes(details, *status.modes);
   if (status.emergency_stop) details.add("emergency stop", Cell("pressed", Style::Bad));
+  details.add("remote enable", remote_enable_text(status.remote_enable));
+  details.add("waits for", waits_for_text(status.waits_for));
   details.add("message", status.message);
   details.add("records waiting", std::to_string(status.outbox));
   return details;

@@ -107,6 +107,7 @@ struct MachineStatus {
   std::optional<ActiveModes> modes;
   std::optional<Coordinates> coordinates;
   bool emergency_stop = false;  ///< pressed
+  std::string remote_enable, waits_for;
 };
 
 struct Machine {

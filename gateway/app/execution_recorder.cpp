@@ -152,4 +152,8 @@ void ExecutionRecorder::note_emergency_stop(const interpreter::Origin& origin) {
   append(origin, {RecordKind::Stop, {}, "emergency stop"});
 }
 
+void ExecutionRecorder::note_at_panel(const interpreter::Origin& origin, const std::string& text) {
+  append(origin, {RecordKind::Message, {}, "at the machine's panel: " + text});
+}
+
 }  // namespace dripline::gateway

@@ -76,6 +76,8 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   void on_aborted() override;
   /// The operator pressed it while the block of `origin` was executed.
   void note_emergency_stop(const interpreter::Origin& origin);
+  /// Done at the machine's panel, with a run or without.
+  void note_at_panel(const interpreter::Origin& origin, const std::string& text);
 
   static constexpr std::size_t kMaxBatch = 256;
 

@@ -33,7 +33,8 @@ Gateway::Gateway(Parts parts)
           parts_.options.machine, parts_.outbox, {},
           [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
       publisher_(
-          [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }) {
+          [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }),
+      consent_(parts_.options.is_unattended) {
   machine::OperatorPanel panel;
   panel.single_block = parts_.setup.switches.single_block;
   panel.optional_stop = parts_.setup.switches.optional_stop;
@@ -100,6 +101,8 @@ void Gateway::receive(Incoming incoming, SteadyTime now) {
     announcement_is_due_ = true;
     publisher_.reset();
     if (session_) session_->feed().ask_again();
+  } else if (const auto* request = std::get_if<PanelRequest>(&incoming)) {
+    on_panel(*request);
   } else if (const auto* stop = std::get_if<StopRequested>(&incoming)) {
     spdlog::info("stopping on signal {} machine={}", stop->signal, parts_.options.machine);
     stop_requested_ = true;
@@ -150,7 +153,7 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
       now + (has_work ? report::StatusPublisher::kShortest : report::StatusPublisher::kHeartbeat);
   if (announcement_is_due_ || !results_.empty()) next = std::min(next, now + kSoon);
   // Whatever waits for the machine's next step (a probe's answer, the next block) waits shortly.
-  const bool waits_for_machine = session_ && !is_ending_ &&
+  const bool waits_for_machine = session_ && !is_ending_ && !consent_.is_awaited() &&
                                  machine_.state() == machine::MachineState::Idle &&
                                  session_->waits() != RunSession::Waits::ForText &&
                                  session_->waits() != RunSession::Waits::ForOperator;

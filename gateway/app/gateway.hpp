@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/app/consent.hpp"
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/options.hpp"
@@ -93,6 +94,19 @@ class Gateway {
   std::optional<std::string> refusal_of_spindle(double factor) const;
   Reply turn_handwheel(const dds::Order& order);
 
+  // gateway_consent.cpp
+  /// Why an order that came over the network is not carried out for now.
+  std::optional<Reply> refusal_without_consent(const dds::Order& order) const;
+  void on_panel(const PanelRequest& request);
+  Reply carry_out_at_panel(const PanelCommand& command);
+  Reply set_remote_enable(bool is_enabled);
+  Reply set_emergency_stop_at_panel(bool is_pressed);
+  Reply cycle_start();
+  std::string panel_status() const;
+  bool wait_for_cycle_start(SteadyTime now);
+  dds::RemoteEnable remote_enable() const;
+  dds::WaitsFor waits_for(const dds::Status& status) const;
+
   // gateway_run.cpp
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime& deadline);
@@ -135,6 +149,8 @@ class Gateway {
   report::StatusPublisher publisher_;
   std::unique_ptr<RunSession> session_;
   interpreter::PanelTables panel_tables_;
+  Consent consent_;
+  bool is_stopped_at_panel_ = false;  ///< the emergency stop was pressed there
 
   std::deque<dds::OrderResult> results_;
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;

@@ -68,6 +68,7 @@ Gateway::Reply Gateway::carry_out(const dds::Order& order) {
   if (order.expires < parts_.clock.now())
     return refuse(fmt::format("the order expired at {}", to_iso8601(order.expires)));
   if (order.action == OrderAction::Start) return start(order);
+  if (auto refusal = refusal_without_consent(order)) return *refusal;
   if (order.action == OrderAction::Switch) return set_switch(order);
   if (order.action == OrderAction::FeedOverride || order.action == OrderAction::RapidOverride ||
       order.action == OrderAction::SpindleOverride)
@@ -162,6 +163,7 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   last_step_ = parts_.clock.steady_now();
   last_message_.clear();
   was_emergency_stopped_ = false;
+  consent_.await(last_step_ + parts_.options.cycle_start_wait);
   return {};
 }
 
@@ -175,6 +177,7 @@ Gateway::Reply Gateway::operate(const dds::Order& order) {
       if (machine_.panel().emergency_stop) return refuse(std::string(kEmergencyStop));
       if (!recorder_.trouble().empty())
         return refuse(fmt::format("reports can not be kept: {}", recorder_.trouble()));
+      if (consent_.is_awaited()) return cycle_start();
       if (machine_.resume()) {
         recorder_.clear_notice();
         return {};

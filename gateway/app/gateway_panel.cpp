@@ -88,6 +88,7 @@ Gateway::Reply Gateway::set_emergency_stop(bool is_pressed) {
   OperatorPanel panel = machine_.panel();
   if (panel.emergency_stop == is_pressed) return {};
   panel.emergency_stop = is_pressed;
+  if (is_pressed) consent_.set_enabled(false);
   spdlog::warn("emergency stop {} {}", is_pressed ? "pressed" : "released", label());
   if (is_pressed && session_ && !is_ending_) {
     was_emergency_stopped_ = true;

@@ -26,6 +26,7 @@ void Gateway::run_slice(SteadyTime now) {
   const auto& factor = parts_.options.speed.factor;
   double seconds = factor ? std::chrono::duration<double>(elapsed).count() * *factor
                           : std::numeric_limits<double>::infinity();
+  if (wait_for_cycle_start(now)) return;
   if (wait_out_trouble(now)) {
     (void)machine_.advance(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
     return;
@@ -77,7 +78,7 @@ bool Gateway::wait_out_trouble(SteadyTime now) {
   next_commit_ = now + kCommitRetry;
   if (!recorder_.commit()) return true;
   spdlog::info("reports are kept again {}", label());
-  if (std::exchange(is_held_by_trouble_, false)) machine_.resume();
+  if (std::exchange(is_held_by_trouble_, false) && consent_.is_given()) machine_.resume();
   return false;
 }
 
@@ -106,6 +107,7 @@ void Gateway::end_run(dds::RunOutcome outcome, const std::string& reason) {
   last_execution_ = is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
   last_message_ = end.reason;
   recorder_.end(std::move(end));
+  consent_.end_wait();
   is_ending_ = true;
   is_held_by_trouble_ = false;
   try_to_finish(parts_.clock.steady_now());

@@ -178,6 +178,8 @@ dds::Status Gateway::status() const {
     status.buffered_seconds = now.buffered.count();
   }
   fill_execution(status);
+  status.remote_enable = remote_enable();
+  status.waits_for = waits_for(status);
   return status;
 }
 
@@ -199,6 +201,10 @@ void Gateway::fill_execution(dds::Status& status) const {
 Execution Gateway::execution_of_run(std::string& message) const {
   const MachineState state = machine_.state();
   message.clear();
+  if (consent_.is_awaited()) {
+    message = kAwaitsCycleStart;
+    return Execution::Waiting;
+  }
   if (state == MachineState::Idle) {
     if (session_->waits() == RunSession::Waits::ForOperator) {
       message = "asks: " + session_->prompt();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/base/clock.hpp"
+#include "gateway/app/panel_command.hpp"
 #include "protocol/dds/message.hpp"
 
 namespace dripline::gateway {
@@ -19,10 +20,11 @@ struct StopRequested {
 /// The line has something to be taken.
 struct LineChanged {};
 using Incoming = std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
-                              LineChanged>;
+                              LineChanged, PanelRequest>;
 
 /// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
-/// beyond the bound are dropped, and both are sent again by whoever misses the answer.
+/// beyond the bound are dropped, and both are sent again by whoever misses the answer. Requests of
+/// the machine's panel are never dropped; the panel bounds them itself.
 class Inbox {
  public:
   /// Any thread; never waits.

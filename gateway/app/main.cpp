@@ -9,6 +9,7 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/no_server.hpp"
+#include "gateway/app/panel_socket.hpp"
 #include "gateway/app/setup_line.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
@@ -131,13 +132,17 @@ Result<void> run(const GatewayOptions& options) {
   if (!endpoint) return fail(endpoint.error());
   auto line = open_line(options, *setup, inbox);
   if (!line) return fail(line.error());
+  const auto panel = PanelSocket::open(
+      options.state, [&](PanelRequest request) { inbox.post(std::move(request)); });
+  if (!panel) return fail(panel.error());
   const SignalWatch watch(inbox, signals);
   Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *witness,
                    clock, new_session(), line->get()});
   if (const auto done = gateway.recover(); !done) return done;
-  spdlog::info("gateway ready machine={} control={} state={} server={} domain={} records={}",
-               options.machine, options.control, options.state.string(), options.network.server,
-               options.network.domain, outbox->unacknowledged());
+  spdlog::info(
+      "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",
+      options.machine, options.control, options.state.string(), options.network.server,
+      options.network.domain, outbox->unacknowledged(), options.is_unattended ? "yes" : "no");
   const auto done = serve(gateway, inbox, clock, options.has_server);
   spdlog::info("gateway stopped machine={} records={}", options.machine, outbox->unacknowledged());
   return done;
@@ -171,7 +176,55 @@ Result<void> configure(const std::string& file,
   return complete(options);
 }
 
+/// dncgw panel [--machine NAME | --state FOLDER] VERB [ARGUMENT]: what is done at the machine.
+int panel_main(int argc, char** argv) {
+  CLI::App app(
+      "What is done at a machine's own panel: by hand, or by a button box wired to this computer.",
+      "dncgw panel");
+  std::string machine, state;
+  std::vector<std::string> words;
+  app.add_option("--machine", machine, "The machine whose gateway runs here");
+  app.add_option("--state", state, "Its gateway's state folder [STATE/gateways/MACHINE]");
+  app.add_option("VERB", words, "What is done, with its argument")->required();
+  app.footer("Verbs:\n" + panel_verbs() +
+             "\nThe same lines are understood at the socket `panel` in the state folder, one "
+             "answer line each.\nExit status: 0 done, 1 refused or no gateway there, 2 wrong "
+             "usage.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kExitUsage;
+  }
+  GatewayOptions options;
+  options.machine = machine;
+  options.control = "any";
+  options.state = state;
+  if (machine.empty() && state.empty()) {
+    std::fprintf(stderr, "dncgw panel: --machine NAME or --state FOLDER is required\n");
+    return kExitUsage;
+  }
+  if (machine.empty()) options.machine = "any";
+  if (const auto done = complete(options); !done) {
+    std::fprintf(stderr, "dncgw panel: %s\n", done.error().what.c_str());
+    return kExitUsage;
+  }
+  const std::string line = fmt::format("{}", fmt::join(words, " "));
+  if (const auto good = parse_panel_command(line); !good) {
+    std::fprintf(stderr, "dncgw panel: %s\n", good.error().what.c_str());
+    return kExitUsage;
+  }
+  const auto answer = ask_panel(options.state, line);
+  if (!answer) {
+    std::fprintf(stderr, "dncgw panel: %s\n", answer.error().what.c_str());
+    return 1;
+  }
+  const bool is_done = answer->starts_with("ok");
+  std::fprintf(is_done ? stdout : stderr, "%s\n", answer->c_str());
+  return is_done ? 0 : 1;
+}
+
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "panel") return panel_main(argc - 1, argv + 1);
   CLI::App app("The gateway of one machine: runs the programs that a Dripline server feeds it.",
                "dncgw");
   app.set_version_flag("--version", "dncgw " DRIPLINE_VERSION);
@@ -180,7 +233,8 @@ int main(int argc, char** argv) {
   app.add_option("--config", file, "TOML file with the same keys; the command line goes first")
       ->type_name("file");
   declare(app, given);
-  app.footer("Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
+  app.footer("dncgw panel --help: what is done at the machine itself.\n"
+             "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -154,6 +154,22 @@ constexpr std::array kRows{
           line_of(o).request = v;
           return {};
         }},
+    OptionRow{"unattended", "yes|no", "", "yes; with --line no",
+              "whether the network alone may start the machine; no: its operator gives the remote "
+              "enable, or cycle start, at its panel (dncgw panel --help)",
+              [](Options& o, std::string_view v) -> Result<void> {
+                if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is neither yes nor no", v);
+                o.unattended = v == "yes";
+                return {};
+              }},
+    OptionRow{"cycle-start-wait-s", "number", "s", "1800",
+              "a run that waits so long for cycle start at the machine is ended",
+              [](Options& o, std::string_view v) -> Result<void> {
+                const auto seconds = number<std::uint32_t>(v, 1, 86'400);
+                if (!seconds) return fail(seconds.error());
+                o.cycle_start_wait = std::chrono::seconds(*seconds);
+                return {};
+              }},
     OptionRow{"witness", "file", "", "(none)", "for tests: counts what was truly executed",
               [](Options& o, std::string_view v) -> Result<void> {
                 o.witness = v;
@@ -278,6 +294,7 @@ Result<void> complete(GatewayOptions& options) {
     return fail(Errc::Syntax,
                 "--server none needs --line ADDRESS: programs must come from somewhere");
   }
+  options.is_unattended = options.unattended.value_or(!options.line.has_value());
   if (!options.state.empty()) return {};
   const auto state = default_state_folder(process_environment, ::geteuid() == 0);
   if (!state) return fail(state.error());

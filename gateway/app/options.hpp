@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -41,6 +42,11 @@ struct GatewayOptions {
   std::string description;
   std::optional<LineOptions> line;
   bool has_server = true;  ///< without one the gateway lives on its line alone
+  /// Nobody is at the machine: the network may start it. Left open: a simulated machine is, one
+  /// with a line is not; made by `complete`.
+  std::optional<bool> unattended;
+  bool is_unattended = true;
+  std::chrono::seconds cycle_start_wait{1800};  ///< a run that nobody begins at the machine
 };
 
 /// One key of the configuration: the command line (--key), the TOML file and the help all read this

@@ -53,6 +53,18 @@ std::string_view to_string(SpindleState value) {
   return kNames.at(static_cast<std::size_t>(value));
 }
 
+std::string_view to_string(RemoteEnable value) {
+  static constexpr std::array<std::string_view, 4> kNames{"not_told", "unattended", "given",
+                                                          "not_given"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
+std::string_view to_string(WaitsFor value) {
+  static constexpr std::array<std::string_view, 6> kNames{"not_told", "nothing", "cycle_start",
+                                                          "text",     "answer",  "disk"};
+  return kNames.at(static_cast<std::size_t>(value));
+}
+
 std::string_view to_string(FeedUnit value) {
   static constexpr std::array<std::string_view, 3> kNames{"per_minute", "per_revolution",
                                                           "inverse_time"};

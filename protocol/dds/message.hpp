@@ -63,6 +63,10 @@ enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterCloc
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
 enum class SpindleState : std::uint8_t { NotTold, Off, Clockwise, CounterClockwise, Oriented };
+/// Whether the machine's side lets the network start it.
+enum class RemoteEnable : std::uint8_t { NotTold, Unattended, Given, NotGiven };
+/// What a run goes on with. CycleStart: at the machine's panel, or a resume where that may.
+enum class WaitsFor : std::uint8_t { NotTold, Nothing, CycleStart, Text, Answer, Disk };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
 std::string_view to_string(Execution value);
@@ -74,6 +78,8 @@ std::string_view to_string(MotionKind value);
 std::string_view to_string(CompensationSide value);
 std::string_view to_string(FeedUnit value);
 std::string_view to_string(SpindleState value);
+std::string_view to_string(RemoteEnable value);
+std::string_view to_string(WaitsFor value);
 
 struct Announce {
   std::string machine, control, version;
@@ -146,6 +152,8 @@ struct Status {
   std::optional<Coordinates> coordinates;  ///< likewise
   bool emergency_stop = false;
   std::chrono::microseconds steady{0};  ///< 0: from an older gateway
+  RemoteEnable remote_enable = RemoteEnable::NotTold;
+  WaitsFor waits_for = WaitsFor::NotTold;
   friend bool operator==(const Status&, const Status&) = default;
 };
 

@@ -123,7 +123,13 @@ json status_json(const dds::Status& status) {
           {"outbox", status.outbox},
           {"modes", status.modes ? modes_json(*status.modes) : json(nullptr)},
           {"coordinates", coordinates_json(status)},
-          {"emergency_stop", status.emergency_stop}};
+          {"emergency_stop", status.emergency_stop},
+          {"remote_enable", status.remote_enable == dds::RemoteEnable::NotTold
+                                ? json(nullptr)
+                                : json(dds::to_string(status.remote_enable))},
+          {"waits_for", status.waits_for == dds::WaitsFor::NotTold
+                            ? json(nullptr)
+                            : json(dds::to_string(status.waits_for))}};
 }
 
 }  // namespace

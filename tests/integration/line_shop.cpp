@@ -34,6 +34,8 @@ void LineShop::start() {
                                    options_.address,
                                    "--speed",
                                    options_.speed,
+                                   "--unattended",
+                                   "yes",
                                    "--log",
                                    folder_.path() / "log"};
   for (const std::string& setting : options_.settings) {

@@ -148,6 +148,8 @@ void members(V& v, Is<MachineStatus> auto& x) {
   v("modes", x.modes);
   v("coordinates", x.coordinates);
   v.later("emergency_stop", x.emergency_stop);
+  v("remote_enable", x.remote_enable);
+  v("waits_for", x.waits_for);
 }
 
 template <class V>

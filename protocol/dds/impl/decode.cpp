@@ -165,6 +165,8 @@ Result<Status> decode(const dripline_idl_Status& s) {
   if (s.coordinates.is_told) m.coordinates = coordinates_of(s.coordinates);
   m.emergency_stop = s.emergency_stop;
   m.steady = std::chrono::microseconds{s.steady_us};
+  m.remote_enable = members.enumerator(s.remote_enable, RemoteEnable::NotGiven, "remote_enable");
+  m.waits_for = members.enumerator(s.waits_for, WaitsFor::Disk, "waits_for");
   return members.finish(std::move(m));
 }
 

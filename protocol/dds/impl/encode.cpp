@@ -159,6 +159,8 @@ Result<void> encode(const Status& m, dripline_idl_Status& s) {
   if (m.coordinates) encode(*m.coordinates, s.coordinates);
   s.emergency_stop = m.emergency_stop;
   s.steady_us = m.steady.count();
+  s.remote_enable = number(m.remote_enable);
+  s.waits_for = number(m.waits_for);
   return Texts()
       .exact(s.machine, m.machine, "machine")
       .exact(s.run, m.run, "run")

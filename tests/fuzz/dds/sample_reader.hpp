@@ -35,7 +35,7 @@ class SampleReader {
         s.buffered_seconds, s.single_block, s.message, s.outbox, s.axes, s.session);
     read(s.modes);
     read(s.coordinates);
-    all(s.emergency_stop, s.steady_us);
+    all(s.emergency_stop, s.steady_us, s.remote_enable, s.waits_for);
   }
   void read(dripline_idl_ActiveModes& s) {
     all(s.is_told, s.motion, s.compensation, s.is_inch, s.is_incremental, s.feed_unit, s.feed,

@@ -23,7 +23,7 @@ nlohmann::json status_json() {
       "lag":{"X":0,"Z":0},"program":{"position":{"X":1,"Z":2},"target":{"X":1.5,"Z":2},
       "datum":{"X":1,"Z":0},"shift":{"X":-0.5,"Z":0},"rotation":30,"basic_rotation":0.5,
       "scale":{"X":0.5,"Z":1},"mirrored":["X"],"pole":{"X":3,"Y":4}}},
-      "emergency_stop":true})");
+      "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start"})");
 }
 
 TEST(ApiJson, ReadsAMachineWithItsStatus) {
@@ -50,11 +50,14 @@ TEST(ApiJson, ReadsAStatusOfAnOlderServer) {
   json["status"].erase("modes");
   json["status"].erase("coordinates");
   json["status"].erase("emergency_stop");
+  json["status"].erase("remote_enable");
+  json["status"].erase("waits_for");
   const auto machine = from_json<client::Machine>(json);
   ASSERT_TRUE(machine) << machine.error().what;
   EXPECT_FALSE(machine->status->modes);
   EXPECT_FALSE(machine->status->coordinates);
   EXPECT_FALSE(machine->status->emergency_stop);
+  EXPECT_EQ(machine->status->remote_enable, "");
 }
 
 TEST(ApiJson, GivesBackWhatItRead) {

@@ -141,6 +141,11 @@ TEST(MachineDetails, ShowPositionDisplaysAndTransformations) {
   text = machine_details(machine).render(false);
   EXPECT_NE(text.find("not measured"), std::string::npos) << text;
   EXPECT_NE(text.find("emergency stop"), std::string::npos) << text;
+  machine.status->remote_enable = "not_given";
+  machine.status->waits_for = "cycle_start";
+  text = machine_details(machine).render(false);
+  EXPECT_NE(text.find("not given"), std::string::npos) << text;
+  EXPECT_NE(text.find("cycle start"), std::string::npos) << text;
   EXPECT_EQ(text.find("ROT"), std::string::npos) << text;
 }
 

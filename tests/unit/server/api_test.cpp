@@ -223,6 +223,7 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   EXPECT_TRUE(shown["sequence"].is_null());
   EXPECT_TRUE(shown["coordinates"].is_null()) << "an older gateway";
   EXPECT_EQ(shown["emergency_stop"], false);
+  EXPECT_TRUE(shown["remote_enable"].is_null());
 }
 
 /// HD-082, HD-084.
@@ -233,6 +234,8 @@ TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   status.position = {1, 2, 3};
   status.axes = 0b111;
   status.emergency_stop = true;
+  status.remote_enable = dds::RemoteEnable::NotGiven;
+  status.waits_for = dds::WaitsFor::CycleStart;
   status.modes.emplace().tool_axis = 2;
   status.modes->spindle = dds::SpindleState::Clockwise;
   status.coordinates = dds::Coordinates{
@@ -248,6 +251,8 @@ TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   feeds_.views[0].status = status;
   const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
   EXPECT_EQ(shown["emergency_stop"], true);
+  EXPECT_EQ(shown["remote_enable"], "not_given");
+  EXPECT_EQ(shown["waits_for"], "cycle_start");
   EXPECT_EQ(shown["modes"]["tool_axis"], "Z");
   EXPECT_EQ(shown["modes"]["spindle"], "clockwise");
   const Json& coordinates = shown["coordinates"];

@@ -51,6 +51,19 @@ void Shop::connect(bool up) {
   gateway->receive(ServerSeen{up}, clock.steady);
 }
 
+void Shop::make_attended() {
+  options_.is_unattended = false;
+  restart_gateway();
+}
+
+std::string Shop::panel(const std::string& line) {
+  std::string answer;
+  gateway->receive(
+      PanelRequest{parse_panel_command(line).value(), [&](std::string text) { answer = text; }},
+      clock.steady);
+  return answer;
+}
+
 bool Shop::run_until(const std::function<bool()>& done, milliseconds step) {
   const SteadyTime limit = clock.steady + std::chrono::minutes(1);
   while (clock.steady < limit) {

@@ -36,6 +36,10 @@ class Shop : public dds::GatewayEndpoint {
   /// A new process on the same disk, as after a kill (what was not committed is gone).
   void restart_gateway();
   void connect(bool is_up);
+  /// People may be at the machine: from the next gateway on, it asks for their consent.
+  void make_attended();
+  /// At the machine's panel; the answer.
+  std::string panel(const std::string& line);
   /// Turns of `step` until `done` says so, or a (simulated) minute has passed.
   bool run_until(const std::function<bool()>& done,
                  std::chrono::milliseconds step = std::chrono::milliseconds(10));

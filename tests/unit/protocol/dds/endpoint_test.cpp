@@ -75,6 +75,8 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
                                           .pole = {3, 4, 5}}};
   status.emergency_stop = true;
   status.steady = 81'000'000us;
+  status.remote_enable = RemoteEnable::NotGiven;
+  status.waits_for = WaitsFor::CycleStart;
   ASSERT_TRUE(gateway->endpoint->write(status));
   EXPECT_EQ(server->statuses.take(), status);
 

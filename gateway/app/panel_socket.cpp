@@ -1,0 +1,305 @@
+#include "gateway/app/panel_socket.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace dripline::gateway {
+namespace {
+
+constexpr std::size_t kMaxAnswers = 16 * 1024;  ///< bytes that a connection does not read
+constexpr int kBacklog = 8;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int operator*() const { return number_; }
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// A socket's address has room for about a hundred bytes, a path may be longer: the folder is
+/// named by a descriptor.
+Result<sockaddr_un> address_in(const Descriptor& folder) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = fmt::format("/proc/self/fd/{}/{}", *folder, PanelSocket::kName);
+  if (path.size() >= sizeof address.sun_path) return fail(Errc::Io, "{} is too long", path);
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
+Descriptor open_folder(const std::filesystem::path& folder) {
+  return Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+}
+
+const sockaddr* generic(const sockaddr_un& address) {
+  return reinterpret_cast<const sockaddr*>(&address);
+}
+
+struct Connection {
+  Descriptor socket;
+  std::string received, to_send;
+  bool is_asking = false;  ///< its last request is not answered yet
+  bool is_closing = false;
+  std::uint64_t last_heard = 0;
+};
+
+/// Answers on their way from the gateway's thread; outlives the socket in requests still open.
+struct Answers {
+  std::mutex mutex;
+  std::vector<std::pair<std::uint64_t, std::string>> waiting;
+  Descriptor wake;
+
+  void give(std::uint64_t connection, std::string line) {
+    const std::lock_guard lock(mutex);
+    waiting.emplace_back(connection, std::move(line));
+    signal();
+  }
+  void signal() const {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(*wake, &one, sizeof one);
+  }
+};
+
+Result<Descriptor> listen_at(const std::filesystem::path& folder) {
+  const auto refused = [&](const char* what) {
+    return fail(Errc::Io, "panel socket in {}: {}: {}", folder.string(), what,
+                std::strerror(errno));
+  };
+  const Descriptor place = open_folder(folder);
+  if (!place) return refused("folder");
+  const auto address = address_in(place);
+  if (!address) return fail(address.error());
+  Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket) return refused("socket");
+  ::unlinkat(*place, PanelSocket::kName, 0);  // a former process's; the folder is locked for us
+  if (::fchmod(*socket, S_IRUSR | S_IWUSR) != 0) return refused("mode");  // in force when bound
+  if (::bind(*socket, generic(*address), sizeof *address) != 0) return refused("bind");
+  if (::fchmodat(*place, PanelSocket::kName, S_IRUSR | S_IWUSR, 0) != 0) return refused("mode");
+  if (::listen(*socket, kBacklog) != 0) return refused("listen");
+  return socket;
+}
+
+}  // namespace
+
+class PanelSocket::Server {
+ public:
+  Server(Descriptor listening, std::function<void(PanelRequest)> on_request,
+         std::shared_ptr<Answers> answers)
+      : listening_(std::move(listening)),
+        on_request_(std::move(on_request)),
+        answers_(std::move(answers)),
+        thread_([this] { serve(); }) {}
+  ~Server() {
+    is_stopping_ = true;
+    answers_->signal();
+    thread_.join();
+  }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+ private:
+  void serve();
+  void accept_one();
+  void take_answers();
+  void read(std::uint64_t id, Connection& connection);
+  void ask(std::uint64_t id, Connection& connection);
+  static void reply(Connection& connection, const std::string& line);
+  static void send(Connection& connection);
+
+  Descriptor listening_;
+  std::function<void(PanelRequest)> on_request_;
+  std::shared_ptr<Answers> answers_;
+  std::map<std::uint64_t, Connection> connections_;
+  std::uint64_t last_id_ = 0, clock_ = 0;
+  std::atomic<bool> is_stopping_{false};
+  std::thread thread_;  ///< last: it uses all of the above
+};
+
+void PanelSocket::Server::serve() {
+  while (!is_stopping_) {
+    std::vector<pollfd> polled{{*listening_, POLLIN, 0}, {*answers_->wake, POLLIN, 0}};
+    std::vector<std::uint64_t> ids;
+    for (const auto& [id, connection] : connections_) {
+      const bool may_read = !connection.is_asking && !connection.is_closing;
+      const int events = (may_read ? POLLIN : 0) | (connection.to_send.empty() ? 0 : POLLOUT);
+      polled.push_back({*connection.socket, static_cast<short>(events), 0});
+      ids.push_back(id);
+    }
+    if (::poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR) return;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Connection& connection = connections_.at(ids[i]);
+      const short events = polled[i + 2].revents;
+      if ((events & POLLOUT) != 0) send(connection);
+      if ((events & POLLIN) != 0) read(ids[i], connection);
+      if ((events & (POLLERR | POLLNVAL)) != 0 ||
+          ((events & POLLHUP) != 0 && (events & POLLIN) == 0))
+        connection.is_closing = true, connection.to_send.clear();
+    }
+    if (polled[1].revents != 0) take_answers();
+    std::erase_if(connections_, [](const auto& entry) {
+      return entry.second.is_closing && entry.second.to_send.empty();
+    });
+    if (polled[0].revents != 0) accept_one();
+  }
+}
+
+void PanelSocket::Server::accept_one() {
+  Descriptor socket(::accept4(*listening_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!socket) return;
+  if (connections_.size() >= kMaxConnections) {
+    connections_.erase(std::min_element(
+        connections_.begin(), connections_.end(),
+        [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; }));
+  }
+  Connection& connection = connections_[++last_id_];
+  connection.socket = std::move(socket);
+  connection.last_heard = ++clock_;
+}
+
+void PanelSocket::Server::take_answers() {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const auto drained = ::read(*answers_->wake, &count, sizeof count);
+  std::vector<std::pair<std::uint64_t, std::string>> answers;
+  {
+    const std::lock_guard lock(answers_->mutex);
+    answers.swap(answers_->waiting);
+  }
+  for (const auto& [id, line] : answers) {
+    const auto found = connections_.find(id);
+    if (found == connections_.end()) continue;  // it went away
+    found->second.is_asking = false;
+    reply(found->second, line);
+    ask(id, found->second);  // its next line may be here already
+  }
+}
+
+void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
+  char bytes[512];
+  const auto count = ::read(*connection.socket, bytes, sizeof bytes);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count <= 0) {
+    connection.is_closing = true;
+    connection.to_send.clear();
+    return;
+  }
+  connection.last_heard = ++clock_;
+  connection.received.append(bytes, static_cast<std::size_t>(count));
+  ask(id, connection);
+}
+
+/// Hands on the first whole line. A line that can not be understood is answered here.
+void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
+  while (!connection.is_asking && !connection.is_closing) {
+    const std::size_t end = connection.received.find('\n');
+    if (end == std::string::npos) {
+      if (connection.received.size() <= kMaxPanelLine + 1) return;
+      reply(connection, fmt::format("refused a line of more than {} bytes", kMaxPanelLine));
+      connection.is_closing = true;
+      return;
+    }
+    std::string line = connection.received.substr(0, end);
+    connection.received.erase(0, end + 1);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    auto command = parse_panel_command(line);
+    if (!command) {
+      reply(connection, "refused " + command.error().what);
+      continue;
+    }
+    connection.is_asking = true;
+    on_request_({*std::move(command), [answers = answers_, id](std::string answer) {
+                   answers->give(id, std::move(answer));
+                 }});
+  }
+}
+
+void PanelSocket::Server::reply(Connection& connection, const std::string& line) {
+  if (connection.to_send.size() + line.size() + 1 > kMaxAnswers) {
+    connection.is_closing = true;
+    connection.to_send.clear();
+    return;
+  }
+  connection.to_send += line + "\n";
+  send(connection);
+}
+
+void PanelSocket::Server::send(Connection& connection) {
+  const auto count = ::send(*connection.socket, connection.to_send.data(),
+                            connection.to_send.size(), MSG_NOSIGNAL);
+  if (count > 0) {
+    connection.to_send.erase(0, static_cast<std::size_t>(count));
+  } else if (errno != EAGAIN && errno != EINTR) {
+    connection.is_closing = true;
+    connection.to_send.clear();
+  }
+}
+
+PanelSocket::PanelSocket(std::unique_ptr<Server> server) : server_(std::move(server)) {}
+PanelSocket::~PanelSocket() = default;
+
+Result<std::unique_ptr<PanelSocket>> PanelSocket::open(
+    const std::filesystem::path& folder, std::function<void(PanelRequest)> on_request) {
+  auto listening = listen_at(folder);
+  if (!listening) return fail(listening.error());
+  auto answers = std::make_shared<Answers>();
+  answers->wake = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!answers->wake) return fail(Errc::Io, "panel socket: {}", std::strerror(errno));
+  return std::unique_ptr<PanelSocket>(new PanelSocket(
+      std::make_unique<Server>(*std::move(listening), std::move(on_request), std::move(answers))));
+}
+
+Result<std::string> ask_panel(const std::filesystem::path& folder, const std::string& line) {
+  constexpr int kAnswerMs = 5000;
+  const Descriptor place = open_folder(folder);
+  if (!place) return fail(Errc::NotFound, "{}: {}", folder.string(), std::strerror(errno));
+  const auto address = address_in(place);
+  if (!address) return fail(address.error());
+  const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!socket || ::connect(*socket, generic(*address), sizeof *address) != 0) {
+    return fail(Errc::NotFound, "no gateway answers in {}: {}", folder.string(),
+                std::strerror(errno));
+  }
+  const std::string request = line + "\n";
+  if (::send(*socket, request.data(), request.size(), MSG_NOSIGNAL) !=
+      static_cast<ssize_t>(request.size()))
+    return fail(Errc::Io, "panel of {}: {}", folder.string(), std::strerror(errno));
+  std::string answer;
+  while (answer.find('\n') == std::string::npos && answer.size() < kMaxAnswers) {
+    pollfd polled{*socket, POLLIN, 0};
+    if (::poll(&polled, 1, kAnswerMs) <= 0)
+      return fail(Errc::Timeout, "no answer from the gateway of {} within 5 s", folder.string());
+    char bytes[512];
+    const auto count = ::read(*socket, bytes, sizeof bytes);
+    if (count <= 0) return fail(Errc::Io, "the gateway of {} closed the panel", folder.string());
+    answer.append(bytes, static_cast<std::size_t>(count));
+  }
+  return answer.substr(0, answer.find('\n'));
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,231 @@
+#include "gateway/app/consent.hpp"
+
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "tests/unit/gateway/app/shop.hpp"
+
+/// What the network may do at a machine at which people may be.
+namespace dripline::gateway {
+namespace {
+
+using dds::Execution;
+using dds::OrderAction;
+using dds::RemoteEnable;
+using dds::RunOutcome;
+using dds::WaitsFor;
+using namespace std::chrono_literals;
+
+struct ConsentCase {
+  const char* name;
+  dds::Order order;
+  bool needs;
+};
+dds::Order order_of(OrderAction action, double value = 0, const char* argument = "") {
+  dds::Order order;
+  order.action = action;
+  order.value = value;
+  order.argument = argument;
+  return order;
+}
+
+class NeedsConsent : public testing::TestWithParam<ConsentCase> {};
+
+/// All switches on, every override at 50 %.
+TEST_P(NeedsConsent, IsJudged) {
+  machine::OperatorPanel panel;
+  panel.single_block = panel.optional_stop = panel.block_skip = true;
+  panel.handwheel = panel.emergency_stop = true;
+  panel.feed_override = panel.rapid_override = panel.spindle_override = 0.5;
+  EXPECT_EQ(needs_consent(GetParam().order, panel), GetParam().needs);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , NeedsConsent,
+    testing::Values(
+        ConsentCase{"hold", order_of(OrderAction::Hold), false},
+        ConsentCase{"abort", order_of(OrderAction::Abort), false},
+        ConsentCase{"start_waits", order_of(OrderAction::Start), false},
+        ConsentCase{"resume", order_of(OrderAction::Resume), true},
+        ConsentCase{"answer", order_of(OrderAction::Answer), true},
+        ConsentCase{"handwheel", order_of(OrderAction::Handwheel, 1), true},
+        ConsentCase{"press_stop", order_of(OrderAction::Switch, 1, "emergency_stop"), false},
+        ConsentCase{"release_stop", order_of(OrderAction::Switch, 0, "emergency_stop"), true},
+        ConsentCase{"single_block_on", order_of(OrderAction::Switch, 1, "single_block"), false},
+        ConsentCase{"single_block_off", order_of(OrderAction::Switch, 0, "single_block"), true},
+        ConsentCase{"optional_stop_off", order_of(OrderAction::Switch, 0, "optional_stop"), true},
+        ConsentCase{"handwheel_off", order_of(OrderAction::Switch, 0, "handwheel"), true},
+        ConsentCase{"block_skip_at_next_start", order_of(OrderAction::Switch, 0, "block_skip"),
+                    false},
+        ConsentCase{"slower", order_of(OrderAction::FeedOverride, 0.4), false},
+        ConsentCase{"same", order_of(OrderAction::FeedOverride, 0.5), false},
+        ConsentCase{"faster", order_of(OrderAction::FeedOverride, 0.6), true},
+        ConsentCase{"faster_rapid", order_of(OrderAction::RapidOverride, 0.6), true},
+        ConsentCase{"faster_spindle", order_of(OrderAction::SpindleOverride, 0.6), true},
+        ConsentCase{"no_number", order_of(OrderAction::FeedOverride, std::nan("")), true}),
+    [](const auto& i) { return std::string{i.param.name}; });
+
+class AttendedMachine : public testing::Test {
+ protected:
+  AttendedMachine() {
+    shop_.make_attended();
+    shop_.push("O1", "OUT FIRST\nX40\nSTOP\nX0\nEND\n");
+  }
+  bool reaches(WaitsFor waits_for) {
+    return shop_.run_until([&] { return shop_.status && shop_.status->waits_for == waits_for; });
+  }
+  dds::OrderResult give(OrderAction action, double value = 0, const char* argument = "") {
+    dds::Order order = shop_.order(action);
+    order.value = value;
+    order.argument = argument;
+    return shop_.send(order);
+  }
+  Shop shop_{"1x"};
+};
+
+TEST_F(AttendedMachine, WaitsForCycleStartAtTheMachine) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_EQ(shop_.status->execution, Execution::Waiting);
+  EXPECT_EQ(shop_.status->message, kAwaitsCycleStart);
+  EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::NotGiven);
+  EXPECT_EQ(shop_.status->run, "run-1");
+  EXPECT_EQ(give(OrderAction::Resume).reason, kNoConsent);
+  shop_.run_until([] { return false; });
+  EXPECT_TRUE(shop_.lines().empty()) << "nothing of the program happens";
+  EXPECT_EQ(shop_.status->position[0], 0);
+
+  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  ASSERT_TRUE(shop_.run_until([&] { return shop_.status->position[0] != 0; }));
+  EXPECT_EQ(shop_.lines(), std::vector<std::string>{"FIRST"});
+  EXPECT_EQ(shop_.records[1].text, "at the machine's panel: cycle start");
+}
+
+TEST_F(AttendedMachine, RunsToItsEndByItsPanelAlone) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  ASSERT_TRUE(
+      shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
+  EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
+  EXPECT_EQ(give(OrderAction::Resume).reason, kNoConsent);
+  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop_.panel("cycle-start"), "refused no run is active");
+}
+
+TEST_F(AttendedMachine, IsStartedFromAfarWithTheRemoteEnable) {
+  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(
+      shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
+  EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::Given);
+  EXPECT_TRUE(give(OrderAction::Resume).accepted);
+  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
+
+  EXPECT_EQ(shop_.panel("remote-enable off"), "ok");
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+}
+
+TEST_F(AttendedMachine, IsNotMovedByTheEnableItself) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
+  shop_.run_until([] { return false; });
+  EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
+  EXPECT_EQ(shop_.status->position[0], 0);
+  EXPECT_TRUE(give(OrderAction::Resume).accepted);
+  ASSERT_TRUE(shop_.run_until([&] { return shop_.status->position[0] != 0; }));
+}
+
+TEST_F(AttendedMachine, CanAlwaysBeStopped) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_TRUE(give(OrderAction::Hold).accepted);
+  EXPECT_TRUE(give(OrderAction::FeedOverride, 0.5).accepted);
+  EXPECT_EQ(give(OrderAction::FeedOverride, 0.6).reason, kNoConsent);
+  EXPECT_TRUE(give(OrderAction::Abort).accepted);
+  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Aborted);
+  EXPECT_EQ(shop_.count(dds::RecordKind::Output), 0U);
+}
+
+TEST_F(AttendedMachine, GivesUpARunThatNobodyBegins) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  shop_.clock.steady += 1800s;
+  const auto end = shop_.ended();
+  EXPECT_EQ(end.outcome, RunOutcome::Aborted);
+  EXPECT_EQ(end.reason, "no cycle start at the machine within 1800 s");
+  EXPECT_EQ(end.executed, 0U);
+}
+
+TEST_F(AttendedMachine, LosesTheEnableWithTheEmergencyStop) {
+  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
+  ASSERT_TRUE(give(OrderAction::Switch, 1, "emergency_stop").accepted);
+  EXPECT_EQ(give(OrderAction::Switch, 0, "emergency_stop").reason, kNoConsent);
+  EXPECT_EQ(shop_.panel("remote-enable on"),
+            "refused the emergency stop is pressed: release it first");
+  EXPECT_EQ(shop_.panel("emergency-stop off"), "ok");
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+}
+
+TEST_F(AttendedMachine, ForgetsTheEnableWithItsProcess) {
+  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
+  shop_.restart_gateway();
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+}
+
+TEST_F(AttendedMachine, EndsARunThatWaitsWhenItsEmergencyStopWasPressed) {
+  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_EQ(shop_.panel("emergency-stop"), "ok");
+  EXPECT_EQ(shop_.panel("cycle-start"), "refused the emergency stop is pressed: release it first");
+  EXPECT_EQ(shop_.panel("emergency-stop off"), "ok");
+  EXPECT_EQ(shop_.ended().reason, "EMERGENCY STOP");
+}
+
+TEST_F(AttendedMachine, AnswersItsProgramAtThePanel) {
+  shop_.push("O2", "ASK DEPTH\nEND\n");
+  ASSERT_TRUE(shop_.start("O2").accepted);
+  ASSERT_TRUE(reaches(WaitsFor::CycleStart));
+  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  ASSERT_TRUE(reaches(WaitsFor::Answer));
+  EXPECT_EQ(give(OrderAction::Answer, 0, "5").reason, kNoConsent);
+  EXPECT_EQ(shop_.panel("answer 7"), "ok");
+  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop_.lines(), std::vector<std::string>{"7"});
+}
+
+TEST(UnattendedMachine, IsStartedFromAfarAndSaysSo) {
+  Shop shop;
+  shop.push("O1", "X4\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.status->remote_enable, RemoteEnable::Unattended);
+  EXPECT_TRUE(shop.panel("remote-enable on").starts_with("refused this machine is unattended"));
+}
+
+/// Pressed by somebody who stands there.
+TEST(UnattendedMachine, KeepsAnEmergencyStopOfItsPanelUntilItIsReleasedThere) {
+  Shop shop;
+  EXPECT_EQ(shop.panel("emergency-stop"), "ok");
+  dds::Order release = shop.order(OrderAction::Switch);
+  release.argument = "emergency_stop";
+  EXPECT_EQ(shop.send(release).reason,
+            "the emergency stop was pressed at the machine's panel: release it there");
+  EXPECT_EQ(shop.panel("emergency-stop off"), "ok");
+  shop.push("O1", "X4\nEND\n");
+  EXPECT_TRUE(shop.start("O1").accepted);
+}
+
+TEST(UnattendedMachine, TellsItsPanelWhatItDoes) {
+  Shop shop("1x");
+  EXPECT_EQ(shop.panel("status"),
+            "ok READY remote_enable=unattended waits_for=nothing emergency_stop=released");
+}
+
+}  // namespace
+}  // namespace dripline::gateway
