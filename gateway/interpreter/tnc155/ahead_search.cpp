@@ -100,6 +100,56 @@ std::int32_t AheadSearch::called_program() const {
   return block.has(IsoGroup::Unit) ? Block::kNone : block.program;
 }
 
+/// What the block read last has to do with labels.
+AheadSearch::LabelUse AheadSearch::label_use() const {
+  LabelUse use;
+  if (!is_iso()) {
+    const Block& block = parts_.blocks[0];
+    if (block.kind == BlockKind::Label) use.set = block.target;
+    const bool jumps = block.kind == BlockKind::Function && block.function >= 9;
+    if (block.kind == BlockKind::LabelCall || jumps) use.used = block.target;
+    use.returns = block.kind == BlockKind::LabelCall && block.repeats == Block::kNone;
+    return use;
+  }
+  const IsoBlock& block = reader_.iso_block();
+  if (block.has(IsoGroup::Label)) {
+    use.set = block.label;
+  } else {
+    use.used = block.label;
+    use.returns = block.function == IsoBlock::kNone && block.repeats == IsoBlock::kNone;
+  }
+  return use;
+}
+
+/// Notes the labels before the place; behind it: the block leads back over it.
+bool AheadSearch::comes_back(bool is_before) {
+  const LabelUse use = label_use();
+  const auto is_label = [](std::int32_t label) { return label >= 0 && label < 256; };
+  if (is_before) {
+    if (use.set == 0) is_sub_open_.reset();
+    if (use.set > 0 && is_label(use.set)) {
+      before_.set(static_cast<std::size_t>(use.set));
+      is_sub_open_.set(static_cast<std::size_t>(use.set));
+    }
+    return false;
+  }
+  if (!is_label(use.used)) return false;
+  return (use.returns ? is_sub_open_ : before_).test(static_cast<std::size_t>(use.used));
+}
+
+AheadSearch::Outcome AheadSearch::find_way_back(const TextPlace& place) {
+  reader_.forget_window();
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
+    const Step step = next();
+    if (step == Step::NotYet) return Outcome::NotYet;
+    if (step == Step::End) return Outcome::Missing;
+    if (step == Step::Skipped) continue;
+    if (comes_back(reader_.block_place().offset < place.offset)) return Outcome::Found;
+    if (is_over()) return Outcome::Missing;
+  }
+  return Outcome::More;
+}
+
 AheadSearch::Outcome AheadSearch::look_up() {
   const ProgramLookup lookup = reader_.find(fmt::format("{}", *wanted_));
   if (lookup.state == ProgramLookup::State::NotYet) return Outcome::NotYet;

@@ -37,6 +37,11 @@ class AheadSearch {
   std::int32_t missing_program() const { return called_.back(); }
   const TextPlace& place() const { return reader_.block_place(); }  ///< of the block that calls it
   std::int32_t block_number() const;
+
+  /// The block that comes back over the one at `place` of the program that was started: a repeat or
+  /// a jump from behind it to a label before it, or a call of the subprogram that it is in. Looks
+  /// through the whole program.
+  Outcome find_way_back(const TextPlace& place);
   const ProgramForm& program() const { return state_.program; }
 
  private:
@@ -51,6 +56,13 @@ class AheadSearch {
   bool is_definition(std::int32_t number);
   std::int32_t called_program() const;
   bool is_over() const;
+  struct LabelUse {
+    std::int32_t set = Block::kNone;   ///< LBL
+    std::int32_t used = Block::kNone;  ///< CALL LBL, a jump
+    bool returns = false;              ///< the use: of a subprogram
+  };
+  LabelUse label_use() const;
+  bool comes_back(bool is_before);
   Outcome look_up();
 
   BlockReader reader_;
@@ -61,6 +73,8 @@ class AheadSearch {
   std::int32_t tool_ = Block::kNone;  ///< being looked for
   Block definition_;
   std::bitset<256> undefined_;          ///< tools that were looked for in vain
+  std::bitset<256> before_;             ///< labels in front of the place that is looked at
+  std::bitset<256> is_sub_open_;        ///< and no LBL 0 between them and the place
   std::vector<std::int32_t> called_;    ///< programs looked up
   std::optional<std::int32_t> wanted_;  ///< to be looked up before the search goes on
 };

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/flow.hpp"
 #include "gateway/interpreter/tnc155/machining_cycles.hpp"
+#include "gateway/interpreter/tnc155/start_search.hpp"
 #include "gateway/interpreter/tnc155/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -166,6 +167,7 @@ bool call_cycle(Run& run) {
   const MachiningCycle& cycle = run.state.cycle.machining;
   if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
   if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
+  if (!refuse_before_positioning(run, "a cycle call")) return false;
   if (!check_machining(run, cycle)) return false;
   return run_machining(run, cycle);
 }

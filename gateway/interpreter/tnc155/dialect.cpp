@@ -75,8 +75,9 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   state.transformation.basic_rotation = options->basic_rotation;
   stand_at_start(setup, state);
   if (options->start_block >= 0) {
-    state.jump.kind = JumpKind::Start;
-    state.jump.number = static_cast<std::uint32_t>(options->start_block);
+    state.start.is_searching = true;
+    state.start.block = options->start_block;
+    state.start.stand = setup.stands.value_or(setup.start);
   }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
       *std::move(options), std::move(state), std::move(tools), source, sink));

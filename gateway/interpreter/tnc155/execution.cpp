@@ -8,6 +8,7 @@
 #include "gateway/interpreter/tnc155/machine_functions.hpp"
 #include "gateway/interpreter/tnc155/motion.hpp"
 #include "gateway/interpreter/tnc155/q_parameters.hpp"
+#include "gateway/interpreter/tnc155/start_search.hpp"
 #include "gateway/interpreter/tnc155/target.hpp"
 #include "gateway/interpreter/tnc155/tools.hpp"
 #include "gateway/interpreter/tnc155/word_check.hpp"
@@ -109,14 +110,10 @@ bool cycle_call(Run& run, const Block& block) {
   return finish_m(run, block.m, false);
 }
 
-/// The sub-block that follows the one before it.
-bool is_due(const Run& run, const Block& block) {
-  const CycleState& cycle = run.state.cycle;
-  return block.cycle == cycle.defining && block.part == cycle.next_part;
-}
-
 bool function(Run& run, const Block& block) {
-  if (block.function < 9) return compute(run, block);
+  const bool computes = block.function < 9;
+  if (computes && run.state.start.is_searching && !note_computation(run, block)) return false;
+  if (computes) return compute(run, block);
   return !is_true(run, block) || jump_to_label(run, block.target);
 }
 
@@ -164,9 +161,6 @@ bool execute(Run& run, const Block& block) {
     case BlockKind::Function:
       return function(run, block);
     case BlockKind::CycleDefinition:
-      if (run.state.is_restart && block.part > 0 && !is_due(run, block)) {
-        return run.fail(ErrorCode::ProgramStartUndefined, "GOTO into a cycle definition");
-      }
       return define_cycle(run, block);
     case BlockKind::CycleCall:
       return cycle_call(run, block);

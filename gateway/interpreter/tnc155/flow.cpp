@@ -154,57 +154,6 @@ JumpOutcome find_program(Run& run) {
   return JumpOutcome::Taken;
 }
 
-/// GOTO leads past the block that says the program's number and its units. It is read once: the
-/// search goes on elsewhere, and a source need not have both places at a time.
-JumpOutcome read_first_block(Run& run) {
-  State& state = run.state;
-  if (state.jump.kind == JumpKind::StartSearch) return JumpOutcome::Taken;
-  ReadingState reading;
-  reading.program = state.reading.program;
-  run.reader.seek(TextPlace{});
-  const ReadState read = run.reader.next(reading, run.parts);
-  state.reading.program = reading.program;  // its form is known before the block is
-  switch (read) {
-    case ReadState::NotYet:
-      return JumpOutcome::NeedsText;
-    case ReadState::Failed:
-      run.fail(ErrorCode::TextFailed, run.reader.reason());
-      return JumpOutcome::Failed;
-    case ReadState::Wrong:
-      if (reading.program.form != Form::Unknown) break;
-      run.fail(ErrorCode::TextFailed, run.reader.fault().text());
-      return JumpOutcome::Failed;
-    default:
-      break;
-  }
-  state.jump.kind = JumpKind::StartSearch;
-  state.program_number = reading.program.number;
-  state.units = reading.program.units;
-  return JumpOutcome::Taken;
-}
-
-JumpOutcome find_start(Run& run, TextSearch& search) {
-  if (const JumpOutcome read = read_first_block(run); read != JumpOutcome::Taken) return read;
-  TextPlace found;
-  switch (search.find_block(run.state.jump.number, found)) {
-    case TextSearch::Outcome::Found:
-      go_to(run, found);
-      run.state.is_restart = true;
-      return JumpOutcome::Taken;
-    case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
-    case TextSearch::Outcome::More:
-      return JumpOutcome::More;
-    case TextSearch::Outcome::Failed:
-      run.fail(ErrorCode::TextFailed, search.reason());
-      break;
-    case TextSearch::Outcome::Missing:
-      run.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run.state.jump.number));
-      break;
-  }
-  return JumpOutcome::Failed;
-}
-
 }  // namespace
 
 bool meet_label(Run& run, const Block& block) {
@@ -303,10 +252,6 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
     case JumpKind::Program:
     case JumpKind::CycleProgram:
       outcome = find_program(run);
-      break;
-    case JumpKind::Start:
-    case JumpKind::StartSearch:
-      outcome = find_start(run, search);
       break;
     default:
       outcome = find_label(run, search);

@@ -13,14 +13,25 @@
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::tnc155 {
+namespace {
+
+std::unique_ptr<StartGate> gate_of(const State& state, EventSink& sink) {
+  return state.start.is_searching ? std::make_unique<StartGate>(sink) : nullptr;
+}
+
+}  // namespace
+
 TncInterpreter::TncInterpreter(ControlOptions options, State state,
                                std::vector<ToolDefinition> tools, ProgramSource& source,
                                EventSink& sink)
-    : run_(std::move(options), source, sink),
+    : gate_(gate_of(state, sink)),
+      run_(std::move(options), source, gate_ ? *gate_ : sink),
       search_(source, {run_.options.iso_continuation}),
       calls_ahead_(source, {run_.options.iso_continuation}),
-      definitions_ahead_(source, {run_.options.iso_continuation}) {
+      definitions_ahead_(source, {run_.options.iso_continuation}),
+      way_back_(source, {run_.options.iso_continuation}) {
   run_.state = std::move(state);
+  if (gate_) gate_->attach(run_.state.start);
   run_.tools = std::move(tools);
   run_.reset_stages();
 }
@@ -53,13 +64,20 @@ StepState TncInterpreter::step(std::uint64_t max_blocks) {
       case BlockOutcome::Paused:
         return paused();
     }
-    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
-      return StepState::Ended;
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
+      if (!run_.state.start.is_searching) return StepState::Ended;
+      run_.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run_.state.start.block));
+      return paused();
+    }
   }
   return StepState::Ran;
 }
 
 StepState TncInterpreter::paused() {
+  if (run_.pause == Pause::Question && run_.state.start.is_searching) {
+    run_.fail(ErrorCode::ProgramStartUndefined,
+              "a start after TCH PROBE would lose what the probe has measured");
+  }
   if (run_.pause == Pause::Question) {
     run_.pause = Pause::None;
     is_asking_ = true;
@@ -118,6 +136,9 @@ TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
 /// What the block needs of the text that the run has not come to.
 TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
   peeked_joint_ = false;
+  if (is_start()) {
+    if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
+  }
   const BlockParts& parts = run_.parts;
   if (parts.count == 0) return BlockOutcome::Finished;
   const bool is_move = is_positioning(parts.blocks[parts.count - 1]);
@@ -177,6 +198,34 @@ TncInterpreter::BlockOutcome TncInterpreter::read() {
   run_.state.at = run_.reader.place();
   run_.is_in_block = true;
   part_ = 0;
+  if (is_start() && !begin_at_block(run_, run_.state.start.block, came_back_.value_or(-1))) {
+    return BlockOutcome::Paused;
+  }
+  return BlockOutcome::Finished;
+}
+
+/// The number of the block read last.
+std::int32_t TncInterpreter::block_number() const {
+  if (run_.parts.count != 0) return run_.parts.blocks[0].number;
+  const bool is_iso = run_.state.reading.program.form == Form::Iso;
+  return is_iso ? run_.reader.iso_block().number : Block::kNone;
+}
+
+bool TncInterpreter::is_start() const {
+  const StartState& start = run_.state.start;
+  return start.is_searching && run_.reader.block_place().program == kMainProgram &&
+         block_number() == start.block;
+}
+
+/// Without a label before it the program comes to a block once.
+TncInterpreter::BlockOutcome TncInterpreter::find_way_back() {
+  if (came_back_ || run_.state.known_labels.empty()) return BlockOutcome::Finished;
+  const TextPlace place = run_.reader.block_place();
+  const auto outcome = way_back_.find_way_back(place);
+  run_.reader.forget_window();
+  if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+  if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+  came_back_ = outcome == AheadSearch::Outcome::Found ? way_back_.block_number() : -1;
   return BlockOutcome::Finished;
 }
 
@@ -239,6 +288,8 @@ bool TncInterpreter::finish_block() {
   if (!check_moves()) [[unlikely]]
     return false;
   run_.is_in_block = false;
+  if (run_.state.start.is_searching) [[unlikely]]
+    note_contour_start(run_, block_number());
   run_.end_block();
   ++run_.state.blocks;
   return !run_.state.uses_stages || check_stages(run_);

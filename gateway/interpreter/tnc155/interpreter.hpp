@@ -2,6 +2,7 @@
 
 #include "gateway/interpreter/tnc155/ahead_search.hpp"
 #include "gateway/interpreter/tnc155/run.hpp"
+#include "gateway/interpreter/tnc155/start_search.hpp"
 #include "gateway/interpreter/tnc155/text_search.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -33,17 +34,23 @@ class TncInterpreter final : public Interpreter {
   bool is_joint_next(std::string_view text);
   BlockOutcome find_definition();
   BlockOutcome meet_end();
+  bool is_start() const;
+  BlockOutcome find_way_back();
+  std::int32_t block_number() const;
   bool execute_parts();
   bool check_moves();
   bool finish_block();
   StepState paused();
   void place_origin(const TextPlace& at);
 
+  std::unique_ptr<StartGate> gate_;  ///< while the start is looked for; before run_, which feeds it
   Run run_;
   TextSearch search_;
   AheadSearch calls_ahead_;
   AheadSearch definitions_ahead_;
-  std::size_t part_ = 0;  ///< of the block in hand, to be done next
+  AheadSearch way_back_;
+  std::optional<std::int32_t> came_back_;  ///< the block that comes back over the start; -1: none
+  std::size_t part_ = 0;                   ///< of the block in hand, to be done next
   bool peeked_joint_ = false;
   BlockParts parts_ahead_;            ///< of the block behind the one in hand, where it was read
   bool has_kept_block_ = false;       ///< read, but its successor has not arrived

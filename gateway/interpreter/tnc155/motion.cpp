@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/tnc155/contour.hpp"
+#include "gateway/interpreter/tnc155/start_search.hpp"
 #include "gateway/interpreter/tnc155/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -47,6 +48,7 @@ bool check_start(Run& run, const Block& block, const Target& target) {
         fmt::format("the first positioning block{} {}", state.is_restart ? " after GOTO" : "",
                     is_incremental ? "is incremental" : "has one coordinate"));
   }
+  if (state.is_restart && !check_positions(run, target.named)) return false;
   state.has_positioned = true;
   state.is_restart = false;
   return true;

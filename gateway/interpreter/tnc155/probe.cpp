@@ -3,6 +3,7 @@
 
 #include "gateway/interpreter/tnc155/contour.hpp"
 #include "gateway/interpreter/tnc155/cycles.hpp"
+#include "gateway/interpreter/tnc155/start_search.hpp"
 #include "gateway/interpreter/tnc155/target.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -104,6 +105,7 @@ bool probe(Run& run, const Block& block) {
   if (!run.state.tool.is_called) {
     return run.fail(ErrorCode::ToolCallMissing, "the probe's axis is not known");
   }
+  if (!refuse_before_positioning(run, "TCH PROBE")) return false;
   interrupt_contour(run);
   return begin_probing(run, block);
 }

@@ -178,15 +178,36 @@ void visit_machine(Archive& archive, State& state) {
   visit(archive, state.rotary_feed);
 }
 
+template <class Archive, std::size_t kCount>
+void visit_bits(Archive& archive, std::bitset<kCount>& bits) {
+  for (std::size_t i = 0; i < kCount; ++i) {
+    bool bit = bits.test(i);
+    archive(bit);
+    bits.set(i, bit);
+  }
+}
+
+template <class Archive>
+void visit_start(Archive& archive, StartState& start) {
+  visit_all(archive, start.is_searching, start.block, start.has_changed_tool, start.is_in_contour,
+            start.contour_block);
+  visit(archive, start.stand);
+  visit(archive, start.expected);
+  visit_bits(archive, start.codes);
+  visit_bits(archive, start.assigned);
+  visit_bits(archive, start.carried);
+}
+
 template <class Archive>
 void visit_flow(Archive& archive, State& state) {
   visit_list(archive, state.labels, kMostLabelLevels);
   visit_list(archive, state.programs, kMostProgramLevels);
   visit_list(archive, state.known_labels, kMostLabels);
   Jump& jump = state.jump;
-  up_to(archive, jump.kind, JumpKind::StartSearch);
+  up_to(archive, jump.kind, JumpKind::CycleProgram);
   visit_all(archive, jump.number, jump.repeats);
   visit(archive, jump.call);
+  visit_start(archive, state.start);
   visit_all(archive, state.is_restart, state.has_positioned);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -84,8 +85,6 @@ enum class JumpKind : std::uint8_t {
   Repeat,
   Program,
   CycleProgram,
-  Start,        ///< GOTO: the first block, which says the program's number and units,
-  StartSearch,  ///< and then the search
 };
 struct Jump {
   JumpKind kind = JumpKind::None;
@@ -123,6 +122,20 @@ struct BlankState {
   bool is_tool_across = false;  ///< the graphics were told that they show nothing
   Axis axis = Axis::Z;
   std::array<double, 3> minimum{};
+};
+
+/// A start in the middle of the program (start_search.hpp).
+struct StartState {
+  bool is_searching = false;  ///< nothing reaches the machine yet
+  std::int32_t block = Block::kNone;
+  Position stand;                             ///< where the machine is
+  Position expected;                          ///< where the program has it at the block
+  bool has_changed_tool = false;              ///< before the block
+  bool is_in_contour = false;                 ///< or a corner
+  std::int32_t contour_block = Block::kNone;  ///< that began it
+  std::bitset<100> codes;                 ///< M functions of the machine that were not given out
+  std::bitset<kParameterCount> assigned;  ///< Q parameters that the program has set
+  std::bitset<kParameterCount> carried;   ///< or used in a computation before it set them
 };
 
 struct PolarData {
@@ -179,6 +192,7 @@ struct State {
   std::vector<ProgramFrame> programs;
   std::vector<LabelPlace> known_labels;
   Jump jump;
+  StartState start;
   bool is_restart = false;      ///< after GOTO
   bool has_positioned = false;  ///< the first positioning of the run has said where it goes
 

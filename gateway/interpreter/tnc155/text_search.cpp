@@ -144,19 +144,4 @@ TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t l
   return Outcome::More;
 }
 
-TextSearch::Outcome TextSearch::find_block(std::uint32_t number, TextPlace& found) {
-  reader_.forget_window();
-  if (block_number_ != number) block_way_ = Way{};
-  block_number_ = number;
-  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
-    std::string_view text;
-    const Outcome read = next_block(block_way_, text);
-    if (read != Outcome::Found) return read;
-    if (read_head(text, block_way_.state.program.form).number != number) continue;
-    found = reader_.block_place();
-    return Outcome::Found;
-  }
-  return Outcome::More;
-}
-
 }  // namespace dripline::interpreter::tnc155

@@ -29,8 +29,6 @@ class TextSearch {
 
   /// The first block of the program that sets this label (not 0).
   Outcome find_label(ProgramIndex program, std::uint32_t label, TextPlace& found);
-  /// The first block of the program that was started with this number.
-  Outcome find_block(std::uint32_t number, TextPlace& found);
 
   /// Why the last call said Failed.
   const std::string& reason() const { return reason_; }
@@ -60,8 +58,6 @@ class TextSearch {
   BlockReader reader_;
   std::array<Index, kIndexes> indexes_;
   std::uint64_t uses_ = 0;
-  Way block_way_;
-  std::int64_t block_number_ = -1;
   std::string reason_;
 };
 

