@@ -67,7 +67,11 @@ bool start_contour(Run& run, const Block& block, const PlaneMove& move, Compensa
   note_contour(state);
   state.compensation = side;
   if (block.m == 96) return start_from_offset(run, move, cutter);
-  run.compensator.turn_on(cutter);
+  if (move.has_any && !move.has_way) {
+    run.compensator.begin_contour(cutter);  // the tool is at P1: it goes to P1' all the same
+  } else {
+    run.compensator.turn_on(cutter);
+  }
   return true;
 }
 

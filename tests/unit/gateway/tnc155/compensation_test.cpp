@@ -25,6 +25,15 @@ TEST(TncCompensation, OutsideCornersGetATransitionalArc) {
                           "A X45 Y0 c40,0 ccw90 F100", "L X45 Y30 F100", "L X60 Y30 F100"));
 }
 
+// HD-113: a block that leads to where the tool is begins the contour there: the tool goes to the
+// perpendicular of the element after it, and no element is cut without the radius.
+TEST(TncCompensation, AContourMayBeginWhereTheToolIs) {
+  EXPECT_THAT(path("+5", {"L X+0 Y+0 R0 F100", "L X+0 Y+0 RR", "L X+40 Y+0", "L X+60 Y+0 R0"}),
+              ElementsAre("L X0 Y-5 F100", "L X40 Y-5 F100", "L X60 Y0 F100"));
+  EXPECT_THAT(path("+5", {"L X+10 Y+10 R0 F100", "L X+10 RL", "L X+40 Y+10", "L X+60 Y+10 R0"}),
+              ElementsAre("L X10 Y10 F100", "L X10 Y15 F100", "L X40 Y15 F100", "L X60 Y10 F100"));
+}
+
 // HD-121, HD-122
 TEST(TncCompensation, InsideCornersMeetWhereTheOffsetsDo) {
   EXPECT_THAT(path("+5", {"L X+0 Y+20 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "L X+40 Y+30",
