@@ -9,6 +9,7 @@
 namespace dripline::api {
 namespace {
 
+/// Their handlers wait for nothing.
 bool is_open_to_all(const Request& request) {
   const auto& path = request.target.segments;
   return path.size() == 3 && path[0] == "api" && path[1] == "v1" &&
@@ -29,16 +30,24 @@ Api::Api(Services services, Token token)
   add_port_routes(router_, services_);
 }
 
-Response Api::handle(Request request) const {
-  if (!is_open_to_all(request)) {
-    if (!is_authorized(token_, request.header("authorization"))) {
-      Response response =
-          error_response({Errc::Denied, "send the server's token: Authorization: Bearer TOKEN"});
-      response.headers.emplace_back("WWW-Authenticate", "Bearer");
-      return response;
-    }
-    request.who = token_.name;
+std::optional<Response> Api::judge(Request& head) const {
+  if (is_open_to_all(head)) return route(head);
+  if (is_authorized(token_, head.header("authorization"))) {
+    head.who = token_.name;
+    return std::nullopt;
   }
+  Response response =
+      error_response({Errc::Denied, "send the server's token: Authorization: Bearer TOKEN"});
+  response.headers.emplace_back("WWW-Authenticate", "Bearer");
+  return response;
+}
+
+Response Api::handle(Request request) const {
+  if (auto judged = judge(request)) return *std::move(judged);
+  return route(std::move(request));
+}
+
+Response Api::route(Request request) const {
   try {
     return router_.handle(std::move(request));
   } catch (const std::exception& e) {  // memory, or a mistake of ours: never the end of the server

@@ -44,8 +44,14 @@ class Api {
   Api(Services services, Token token);
   Api(const Api&) = delete;  // the handlers refer to our services
   Api& operator=(const Api&) = delete;
-  /// Checks the token, finds the handler and runs it. Never throws.
+  /// What can be answered from a request's head, before its body is read and without waiting: who
+  /// has no token is refused, and how the server is and what its API is are told to everybody.
+  /// Otherwise nullopt, and `head.who` is whose token it was.
+  std::optional<Response> judge(Request& head) const;
+  /// Judges the request, finds the handler and runs it. Never throws.
   Response handle(Request request) const;
+  /// Does the request's handler wait for a machine?
+  bool waits_for_machine(const Request& head) const { return router_.waits_for_machine(head); }
   const Router& router() const { return router_; }
 
   /// The largest piece of an upload; a body may be kMaxBody.
@@ -53,6 +59,8 @@ class Api {
   static constexpr std::uint64_t kMaxBody = kMaxPiece + 64 * 1024;
 
  private:
+  Response route(Request request) const;
+
   Services services_;
   Token token_;
   Router router_;

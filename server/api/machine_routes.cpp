@@ -47,8 +47,9 @@ void add_machine_routes(Router& router, Services& services) {
              [&](const Request& request) { return list_machines(services, request); });
   router.add("GET", "/api/v1/machines/{name}",
              [&](const Request& request) { return show_machine(services, request); });
-  router.add("POST", "/api/v1/machines/{name}/orders",
-             [&](const Request& request) { return order_machine(services, request); });
+  router.add(
+      "POST", "/api/v1/machines/{name}/orders",
+      [&](const Request& request) { return order_machine(services, request); }, Waits::ForMachine);
 }
 
 }  // namespace dripline::api

@@ -148,7 +148,7 @@ void add_port_routes(Router& router, Services& services) {
   router.add("GET", port, with_ports(services, show_port));
   router.add("PUT", port, with_ports(services, save_port));
   router.add("DELETE", port, with_ports(services, remove_port));
-  router.add("POST", port + "/test", with_ports(services, test_port));
+  router.add("POST", port + "/test", with_ports(services, test_port), Waits::ForMachine);
   router.add("POST", port + "/test-rules", with_ports(services, test_rules));
   router.add("POST", port + "/transfers", with_ports(services, send_programs));
   router.add("POST", port + "/receive", with_ports(services, receive_program));

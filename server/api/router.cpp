@@ -1,6 +1,7 @@
 #include "server/api/router.hpp"
 
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <optional>
 
 namespace dripline::api {
@@ -29,12 +30,20 @@ std::optional<Parameters> match(const std::vector<std::string>& pattern,
 
 }  // namespace
 
-void Router::add(std::string method, std::string_view pattern, Handler handler) {
+void Router::add(std::string method, std::string_view pattern, Handler handler, Waits waits) {
   const auto target = parse_target(pattern);
   routes_.push_back({.method = std::move(method),
                      .pattern = std::string(pattern),
                      .segments = target.value().segments,
-                     .handler = std::move(handler)});
+                     .handler = std::move(handler),
+                     .waits = waits});
+}
+
+bool Router::waits_for_machine(const Request& request) const {
+  return std::ranges::any_of(routes_, [&](const Route& route) {
+    return route.waits == Waits::ForMachine && route.method == request.method &&
+           match(route.segments, request.target.segments);
+  });
 }
 
 Response Router::handle(Request request) const {

@@ -12,19 +12,25 @@ namespace dripline::api {
 
 using Handler = std::function<Response(const Request&)>;
 
+/// What a handler may wait for: machines can take seconds, and each such request gets a thread.
+enum class Waits { ForStorage, ForMachine };
+
 /// Finds the handler of a method and a path. Patterns are written as in README.md:
 /// `/api/v1/programs/{name}`; `{name}` matches one segment, never an empty one.
 class Router {
  public:
-  void add(std::string method, std::string_view pattern, Handler handler);
+  void add(std::string method, std::string_view pattern, Handler handler,
+           Waits waits = Waits::ForStorage);
   /// Runs the handler. No route: 404, or 405 with Allow when only the method is wrong.
   Response handle(Request request) const;
+  bool waits_for_machine(const Request& request) const;
 
   struct Route {
     std::string method;
     std::string pattern;
     std::vector<std::string> segments;
     Handler handler;
+    Waits waits = Waits::ForStorage;
   };
   const std::vector<Route>& routes() const { return routes_; }
 

@@ -86,14 +86,16 @@ Response list_records(Services& services, const Request& request) {
 }  // namespace
 
 void add_run_routes(Router& router, Services& services) {
-  router.add("POST", "/api/v1/runs",
-             [&](const Request& request) { return start_run(services, request); });
+  router.add(
+      "POST", "/api/v1/runs", [&](const Request& request) { return start_run(services, request); },
+      Waits::ForMachine);
   router.add("GET", "/api/v1/runs",
              [&](const Request& request) { return list_runs(services, request); });
   router.add("GET", "/api/v1/runs/{id}",
              [&](const Request& request) { return show_run(services, request); });
-  router.add("POST", "/api/v1/runs/{id}/orders",
-             [&](const Request& request) { return order_run(services, request); });
+  router.add(
+      "POST", "/api/v1/runs/{id}/orders",
+      [&](const Request& request) { return order_run(services, request); }, Waits::ForMachine);
   router.add("GET", "/api/v1/runs/{id}/records",
              [&](const Request& request) { return list_records(services, request); });
 }

@@ -46,6 +46,9 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
   api::HttpOptions options;
   options.address = *address;
   options.max_body = api::Api::kMaxBody;
+  options.limits.connections = settings.http_connections;
+  options.limits.per_address = settings.http_connections_per_address;
+  options.limits.event_streams = settings.http_event_streams;
   if (!settings.tls_key.empty()) {
     options.tls = api::TlsFiles{.certificate = settings.tls_certificate, .key = settings.tls_key};
   }
@@ -53,6 +56,13 @@ Result<api::HttpOptions> http_options(const Settings& settings) {
     return fail(safe.error());
   }
   return options;
+}
+
+api::HttpHandlers http_handlers(const api::Api& api) {
+  return {.handle = [&api](api::Request request) { return api.handle(std::move(request)); },
+          .judge = [&api](api::Request& head) { return api.judge(head); },
+          .waits_for_machine =
+              [&api](const api::Request& head) { return api.waits_for_machine(head); }};
 }
 
 }  // namespace
@@ -132,9 +142,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.feeds.begin(*std::move(endpoint)); !begun) return fail(begun.error());
   server->tidy();
-  auto http = api::HttpServer::start(*options, [&api = parts.api](api::Request request) {
-    return api.handle(std::move(request));
-  });
+  auto http = api::HttpServer::start(*options, http_handlers(parts.api));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);
   api::HttpAddress bound = options->address;

@@ -16,6 +16,7 @@ namespace dripline::app {
 namespace {
 
 constexpr std::uint32_t kLongestMs = 600'000;
+constexpr std::uint32_t kMostConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
 constexpr std::array kRows{
     SettingRow{"state", &Settings::state, "DIR", 0, 0,
@@ -25,6 +26,12 @@ constexpr std::array kRows{
     SettingRow{"tls-certificate", &Settings::tls_certificate, "FILE", 0, 0,
                "certificate chain (PEM); needed to listen beyond this machine"},
     SettingRow{"tls-key", &Settings::tls_key, "FILE", 0, 0, "private key of the certificate (PEM)"},
+    SettingRow{"http-connections", &Settings::http_connections, "NUMBER", 16, kMostConnections,
+               "connections to the REST API at once; the longest silent one makes room"},
+    SettingRow{"http-connections-per-address", &Settings::http_connections_per_address, "NUMBER", 4,
+               kMostConnections, "of these from one address; give more to a proxy in front"},
+    SettingRow{"http-event-streams", &Settings::http_event_streams, "NUMBER", 1, kMostConnections,
+               "event streams at once; at most half of the connections"},
     SettingRow{"dds-domain", &Settings::dds_domain, "NUMBER", 0, 230, "DDS domain"},
     SettingRow{"dds-tag", &Settings::dds_tag, "TEXT", 0, 0,
                "systems with different tags do not see each other"},

@@ -17,6 +17,9 @@ struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/state_location.hpp)
   std::string http = "127.0.0.1:8430";
   std::string tls_certificate, tls_key;
+  std::uint32_t http_connections = 512;
+  std::uint32_t http_connections_per_address = 256;
+  std::uint32_t http_event_streams = 256;
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
   std::string dds_interface = "lo";

@@ -62,7 +62,7 @@ only() {  # pattern, folder
 }
 only 'dds/' protocol/dds
 only 'SQLiteCpp|sqlite3' storage/sqlite
-only 'restinio' server/api
+only 'boost/' server/api
 only 'httplib' clients/lib
 
 echo "$checked includes checked"

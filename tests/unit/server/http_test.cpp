@@ -20,7 +20,11 @@ class Http : public ApiTest {
     options.max_body = api::Api::kMaxBody;
     options.heartbeat = std::chrono::milliseconds(50);
     auto started = api::HttpServer::start(
-        options, [this](api::Request request) { return api_->handle(std::move(request)); });
+        options,
+        {.handle = [this](api::Request request) { return api_->handle(std::move(request)); },
+         .judge = [this](api::Request& head) { return api_->judge(head); },
+         .waits_for_machine =
+             [this](const api::Request& r) { return api_->waits_for_machine(r); }});
     EXPECT_TRUE(started) << started.error().what;
     server_ = *std::move(started);
   }
@@ -193,7 +197,8 @@ TEST_F(Http, ServesManyAtOnce) {
 TEST(HttpServer, RefusesToListenBeyondThisMachineWithoutTls) {
   api::HttpOptions options;
   options.address = api::parse_http_address("0.0.0.0:0").value();
-  const auto server = api::HttpServer::start(options, [](const auto&) { return api::Response{}; });
+  const auto server =
+      api::HttpServer::start(options, {.handle = [](const auto&) { return api::Response{}; }});
   ASSERT_FALSE(server);
   EXPECT_EQ(server.error().code, Errc::Denied);
 }
@@ -201,7 +206,7 @@ TEST(HttpServer, RefusesToListenBeyondThisMachineWithoutTls) {
 TEST(HttpServer, SaysWhenItsAddressIsTaken) {
   api::HttpOptions options;
   options.address = api::parse_http_address("127.0.0.1:0").value();
-  const auto handler = [](const api::Request&) { return api::no_content(); };
+  const api::HttpHandlers handler{.handle = [](const auto&) { return api::no_content(); }};
   const auto first = api::HttpServer::start(options, handler);
   ASSERT_TRUE(first);
   options.address.port = (*first)->port();
@@ -215,9 +220,9 @@ TEST(HttpServer, SpeaksTlsAndNamesACertificateItCanNotRead) {
   api::HttpOptions options;
   options.address = api::parse_http_address("127.0.0.1:0").value();
   options.tls = api::TlsFiles{.certificate = "/nowhere/cert.pem", .key = "/nowhere/key.pem"};
-  const auto handler = [](const api::Request&) {
+  const api::HttpHandlers handler{.handle = [](const auto&) {
     return api::json_response(200, {{"status", "ok"}});
-  };
+  }};
   EXPECT_EQ(api::HttpServer::start(options, handler).error().code, Errc::Io);
 
   const test_support::TemporaryFolder folder;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace dripline {
+
+/// Lets `burst` things pass in each interval and counts the rest, so that a log says how much it
+/// leaves out instead of growing with what a stranger sends. Not for several threads at once.
+class RateLimit {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  RateLimit(std::uint64_t burst, std::chrono::milliseconds interval)
+      : burst_(burst), interval_(interval) {}
+
+  /// The number left out since the last one that passed; nullopt: leave this one out too.
+  std::optional<std::uint64_t> pass(Time now) {
+    if (!begun_ || now - *begun_ >= interval_) {
+      begun_ = now;
+      passed_ = 0;
+    }
+    if (passed_ >= burst_) {
+      ++left_out_;
+      return std::nullopt;
+    }
+    ++passed_;
+    const std::uint64_t left_out = left_out_;
+    left_out_ = 0;
+    return left_out;
+  }
+
+ private:
+  const std::uint64_t burst_;
+  const std::chrono::milliseconds interval_;
+  std::optional<Time> begun_;
+  std::uint64_t passed_ = 0;
+  std::uint64_t left_out_ = 0;
+};
+
+}  // namespace dripline

@@ -1,0 +1,211 @@
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <thread>
+
+#include "protocol/base/rate_limit.hpp"
+#include "server/api/http_server.hpp"
+#include "server/api/impl/http_session.hpp"
+#include "server/api/impl/tls_context.hpp"
+
+namespace dripline::api {
+namespace {
+
+using namespace std::chrono_literals;
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr auto kOutOfDescriptors = 100ms;  ///< before it is tried again
+constexpr auto kLogInterval = 60s;
+constexpr std::uint64_t kLogBurst = 5;  ///< lines about refused connections in each interval
+
+/// Connections may not take the descriptors that storage and DDS need.
+ConnectionTable::Limits seats(const HttpLimits& wanted) {
+  constexpr std::size_t kOthers = 96;
+  constexpr std::size_t kFewest = 16;
+  ConnectionTable::Limits limits{.connections = wanted.connections,
+                                 .per_address = wanted.per_address,
+                                 .reserve = wanted.reserve,
+                                 .streams = wanted.event_streams,
+                                 .streams_per_address = std::max<std::size_t>(
+                                     1, std::min(wanted.event_streams, wanted.per_address / 2))};
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) == 0 &&
+      files.rlim_cur < wanted.connections + wanted.reserve + kOthers) {
+    const std::size_t left =
+        std::max<std::size_t>(files.rlim_cur > kOthers ? files.rlim_cur - kOthers : 0, kFewest);
+    limits.reserve = std::min(wanted.reserve, left / 8);
+    limits.connections = left - limits.reserve;
+    spdlog::warn("{} open files allowed: at most {} connections instead of {}", files.rlim_cur,
+                 limits.connections, wanted.connections);
+  }
+  limits.per_address = std::min(limits.per_address, limits.connections);
+  limits.streams = std::min(limits.streams, std::max<std::size_t>(1, limits.connections / 2));
+  return limits;
+}
+
+/// One who holds an IPv6 network has all its addresses.
+std::string address_key(const asio::ip::address& address) {
+  if (address.is_v4()) return address.to_string();
+  const auto v6 = address.to_v6();
+  if (v6.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string();
+  const auto bytes = v6.to_bytes();
+  constexpr int kNetworkBytes = 8;
+  return {reinterpret_cast<const char*>(bytes.data()), kNetworkBytes};
+}
+
+bool is_out_of_resources(const error_code& error) {
+  const int code = error.value();
+  return code == EMFILE || code == ENFILE || code == ENOBUFS || code == ENOMEM;
+}
+
+class BeastServer final : public HttpServer {
+ public:
+  BeastServer(const HttpOptions& options, HttpHandlers handlers,
+              std::optional<asio::ssl::context> tls)
+      : shared_(options, std::move(handlers), seats(options.limits)),
+        tls_(std::move(tls)),
+        acceptor_(shared_.io) {
+    const tcp::endpoint endpoint(asio::ip::make_address(options.address.host),
+                                 options.address.port);
+    acceptor_.open(endpoint.protocol());
+    acceptor_.set_option(tcp::acceptor::reuse_address(true));
+    acceptor_.bind(endpoint);
+    acceptor_.listen(asio::socket_base::max_listen_connections);
+    port_ = acceptor_.local_endpoint().port();
+    asio::co_spawn(shared_.io, accept(), [](const std::exception_ptr&) {});
+    thread_ = std::thread([this] { serve(); });
+  }
+
+  /// First nobody new and no network, then the handlers that run, then what waited for them.
+  ~BeastServer() override {
+    asio::post(shared_.io, [this] {
+      shared_.is_stopping = true;
+      error_code ignored;
+      acceptor_.close(ignored);
+      for_each_session([](HttpSession& session) { session.close(); });
+    });
+    shared_.pool.stop();
+    shared_.commands.wait();
+    asio::post(shared_.io, [this] {
+      for_each_session([](HttpSession& session) { session.abandon(); });
+      work_.reset();
+    });
+    thread_.join();
+  }
+
+  std::uint16_t port() const override { return port_; }
+
+ private:
+  template <class Action>
+  void for_each_session(Action action) {
+    for (const auto& [id, weak] : shared_.sessions) {
+      if (const auto session = weak.lock()) action(*session);
+    }
+  }
+
+  /// One connection's failure (want of memory, a mistake of ours) must not end all others.
+  void serve() {
+    for (;;) {
+      try {
+        shared_.io.run();
+        return;
+      } catch (const std::exception& e) {
+        spdlog::error("connection failed: {}", e.what());
+      }
+    }
+  }
+
+  asio::awaitable<void> accept() {
+    asio::steady_timer pause(shared_.io);
+    while (!shared_.is_stopping) {
+      tcp::socket socket(shared_.io);
+      error_code error;
+      co_await acceptor_.async_accept(socket, asio::redirect_error(asio::use_awaitable, error));
+      if (shared_.is_stopping) co_return;
+      if (!error) {
+        admit(std::move(socket));
+        continue;
+      }
+      complain("connection not accepted: " + error.message());
+      if (!is_out_of_resources(error)) continue;
+      close_evicted(shared_.table.evict_any());
+      pause.expires_after(kOutOfDescriptors);
+      error_code ignored;
+      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+    }
+  }
+
+  /// Never throws for what a client does: gone before we looked, over its bound.
+  void admit(tcp::socket socket) {
+    try {
+      error_code error;
+      const auto peer = socket.remote_endpoint(error);
+      if (error) return;
+      const auto admission = shared_.table.admit(address_key(peer.address()));
+      if (admission.evicted || admission.is_reserve) {
+        complain(fmt::format(
+            "connections are full address={}: {}", peer.address().to_string(),
+            admission.is_reserve ? "only health is answered" : "the longest silent one is closed"));
+      }
+      close_evicted(admission.evicted);
+      start_session(shared_, std::move(socket), tls_ ? &*tls_ : nullptr, admission);
+    } catch (const std::exception& e) {
+      complain(fmt::format("connection not served: {}", e.what()));
+    }
+  }
+
+  void close_evicted(std::optional<ConnectionTable::Id> id) {
+    if (!id) return;
+    const auto found = shared_.sessions.find(*id);
+    if (found == shared_.sessions.end()) return;
+    if (const auto session = found->second.lock()) session->close();
+  }
+
+  void complain(const std::string& what) {
+    const auto left_out = log_limit_.pass(std::chrono::steady_clock::now());
+    if (!left_out) return;
+    if (*left_out > 0) {
+      spdlog::warn("{} ({} such lines left out before)", what, *left_out);
+    } else {
+      spdlog::warn("{}", what);
+    }
+  }
+
+  HttpShared shared_;
+  std::optional<asio::ssl::context> tls_;
+  tcp::acceptor acceptor_;
+  RateLimit log_limit_{kLogBurst, kLogInterval};
+  std::uint16_t port_ = 0;
+  asio::executor_work_guard<asio::io_context::executor_type> work_{shared_.io.get_executor()};
+  std::thread thread_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<HttpServer>> HttpServer::start(const HttpOptions& options,
+                                                      HttpHandlers handlers) {
+  if (auto safe = check_exposure(options.address, options.tls.has_value()); !safe) {
+    return fail(safe.error());
+  }
+  std::optional<asio::ssl::context> tls;
+  if (options.tls) {
+    auto made = tls_context(*options.tls);
+    if (!made) return fail(made.error());
+    tls = *std::move(made);
+  }
+  try {
+    return std::unique_ptr<HttpServer>(
+        std::make_unique<BeastServer>(options, std::move(handlers), std::move(tls)));
+  } catch (const std::exception& e) {
+    return fail(Errc::Io, "can not listen at {}: {}", options.address.text(), e.what());
+  }
+}
+
+}  // namespace dripline::api

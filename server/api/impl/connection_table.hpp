@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dripline::api {
+
+/// Who is connected, and who goes when it gets full. A connection without a request under way
+/// (Opening, Idle) makes room for a newcomer: of the newcomer's address when that address has all
+/// it may have, of any when the server is full; Opening before Idle, the longest silent first. So
+/// those that only hold a connection never keep out those that use one. When nobody can make room,
+/// the newcomer gets a reserve seat. Pure; one thread.
+class ConnectionTable {
+ public:
+  struct Limits {
+    std::size_t connections = 0, per_address = 0, reserve = 0;
+    std::size_t streams = 0, streams_per_address = 0;
+  };
+  using Id = std::uint64_t;
+  enum class State {
+    Opening,    ///< has sent no whole head yet
+    Idle,       ///< between two requests
+    Busy,       ///< a request is under way
+    Streaming,  ///< takes events
+  };
+  struct Admission {
+    Id id = 0;
+    bool is_reserve = false;    ///< only for who asks how the server is
+    std::optional<Id> evicted;  ///< to be closed; counts no more
+  };
+
+  explicit ConnectionTable(Limits limits) : limits_(limits) {}
+
+  Admission admit(const std::string& address);
+  /// Nothing for one that was evicted.
+  void set(Id id, State state);
+  /// Makes it Streaming; false when there are too many already.
+  bool begin_stream(Id id);
+  /// Somebody silent, to be closed, when the process is out of descriptors.
+  std::optional<Id> evict_any();
+  void leave(Id id);
+
+  std::size_t size() const { return entries_.size(); }
+  const Limits& limits() const { return limits_; }
+
+ private:
+  struct Entry {
+    std::string address;
+    State state = State::Opening;
+    bool is_reserve = false;
+    std::uint64_t since = 0;  ///< when it came into its state; a counter
+  };
+  struct Counts {
+    std::size_t seats = 0, streams = 0;
+  };
+  using Entries = std::map<Id, Entry>;
+
+  template <class Condition>
+  std::optional<Id> evict(Condition may_go);
+  Counts& counts_of(const Entry& entry) { return addresses_[entry.address]; }
+  void forget(Entries::iterator entry);
+
+  Limits limits_;
+  Entries entries_;
+  std::map<std::string, Counts> addresses_;  ///< without reserve seats
+  std::size_t seats_ = 0, reserved_ = 0, streams_ = 0;
+  std::uint64_t ticks_ = 0;
+  Id last_id_ = 0;
+};
+
+/// A place in the table for as long as it lives. On the table's thread.
+class Seat {
+ public:
+  Seat(ConnectionTable& table, ConnectionTable::Id id) : table_(&table), id_(id) {}
+  Seat(Seat&& other) noexcept : table_(std::exchange(other.table_, nullptr)), id_(other.id_) {}
+  Seat& operator=(Seat&&) = delete;
+  ~Seat() {
+    if (table_ != nullptr) table_->leave(id_);
+  }
+  void set(ConnectionTable::State state) { table_->set(id_, state); }
+  bool begin_stream() { return table_->begin_stream(id_); }
+  ConnectionTable::Id id() const { return id_; }
+
+ private:
+  ConnectionTable* table_;
+  ConnectionTable::Id id_;
+};
+
+}  // namespace dripline::api

@@ -1,0 +1,438 @@
+#include "server/api/impl/http_session.hpp"
+
+#include <netinet/tcp.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <algorithm>
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+
+#include "server/api/impl/http_head.hpp"
+#include "server/api/impl/transport.hpp"
+
+namespace dripline::api {
+namespace {
+
+using namespace std::chrono_literals;
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using asio::awaitable;
+using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+using State = ConnectionTable::State;
+
+constexpr std::uint32_t kMaxHead = 16 * 1024;
+constexpr std::size_t kMaxBuffer = 128 * 1024;  ///< bounds what is read of pipelined requests
+constexpr std::size_t kReadHead = 4096;
+constexpr std::size_t kReadBody = 64 * 1024;
+constexpr std::size_t kSmallBody = 16 * 1024;  ///< written together with its head
+constexpr std::uint64_t kSlowestBody = 4096;   ///< bytes a second, over a whole body
+constexpr auto kBodyGrace = 30s;
+constexpr auto kFarewell = 2s;      ///< for TLS to be shut down
+constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
+constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
+constexpr int kStreamBuffer = 64 * 1024;  ///< the kernel holds so much for a listener
+
+/// Wakes a coroutine from other handlers of the same thread. One waiter.
+class Signal {
+ public:
+  explicit Signal(asio::io_context& io) : timer_(io) {}
+  void set() {
+    is_set_ = true;
+    timer_.cancel();
+  }
+  /// True: set; false: it is `until`. A signal is taken by the wait that sees it.
+  awaitable<bool> wait(Clock::time_point until = Clock::time_point::max()) {
+    if (!is_set_) {
+      timer_.expires_at(until);
+      error_code ignored;
+      co_await timer_.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
+    }
+    co_return std::exchange(is_set_, false);
+  }
+
+ private:
+  asio::steady_timer timer_;
+  bool is_set_ = false;
+};
+
+class Session final : public HttpSession, public std::enable_shared_from_this<Session> {
+ public:
+  Session(HttpShared& shared, std::unique_ptr<Transport> transport, bool is_reserve)
+      : shared_(shared),
+        limits_(shared.options.limits),
+        transport_(std::move(transport)),
+        is_reserve_(is_reserve),
+        buffer_(kMaxBuffer),
+        woken_(shared.io) {}
+
+  void close() override {
+    is_closed_ = true;
+    transport_->close();
+    woken_.set();
+  }
+  void abandon() override {
+    is_abandoned_ = true;
+    close();
+  }
+
+  awaitable<void> serve(Seat& seat) {
+    if (!co_await transport_->open(limits_.handshake)) co_return;
+    bool goes_on = true;
+    for (bool is_first = true; goes_on && may_go_on(); is_first = false) {
+      seat.set(is_first ? State::Opening : State::Idle);
+      goes_on = co_await serve_request(is_first, seat);
+    }
+    if (may_go_on()) co_await transport_->say_goodbye(kFarewell);
+  }
+
+ private:
+  using Parser = http::request_parser<http::string_body>;
+
+  bool may_go_on() const { return !is_closed_ && !shared_.is_stopping; }
+
+  /// True: another one may follow.
+  awaitable<bool> serve_request(bool is_first, Seat& seat) {
+    Parser parser;
+    parser.header_limit(kMaxHead);
+    parser.body_limit(boost::none);  // judged after the token
+    const error_code unread = co_await read_head(parser, is_first);
+    if (unread) {
+      const auto refused = refusal_of(unread);
+      if (refused) co_await refuse(*refused);
+      co_return false;
+    }
+    keeps_alive_ = parser.keep_alive() && !is_reserve_;
+    is_old_ = parser.get().version() < 11;
+    auto request = to_request(parser.get().base());
+    if (!request) {
+      const Response refused = refuse_head(request.error());
+      co_await refuse(refused);
+      co_return false;
+    }
+    is_head_only_ = request->method == "HEAD";
+    std::optional<Response> judged;
+    if (shared_.handlers.judge) judged = shared_.handlers.judge(*request);
+    if (!judged && is_reserve_) {
+      judged = refusal(503, Errc::Busy, "the server has all the connections it can take");
+    }
+    if (judged) {
+      if (parser.is_done()) co_return co_await send(*judged);
+      co_await refuse(*judged);
+      co_return false;
+    }
+    seat.set(State::Busy);
+    BodyMemory::Share share;
+    if (!parser.is_done()) {
+      const auto refused = co_await read_body(parser, share);
+      if (refused) {
+        if (refused->status != 0) co_await refuse(*refused);
+        co_return false;
+      }
+      request->body = std::move(parser.get().body());
+    }
+    auto answer = co_await handle(*std::move(request));
+    if (!answer) co_return false;
+    if (answer->events) {
+      co_await stream_events(*std::move(answer), seat);
+      co_return false;
+    }
+    if (answer->source) co_return co_await send_source(*std::move(answer));
+    co_return co_await send(*answer);
+  }
+
+  static Response refuse_head(const Error& error) {
+    const bool is_large = error.code == Errc::LimitExceeded;
+    return refusal(is_large ? 431 : 400, error.code, error.what);
+  }
+
+  /// Parses and reads until the head, or all, of the message is there. `until` is asked before each
+  /// read. Errors of the parser; end_of_stream: nobody is there any more.
+  template <class Until>
+  awaitable<error_code> advance(Parser& parser, bool to_end, Until until) {
+    const auto is_done = [&] { return to_end ? parser.is_done() : parser.is_header_done(); };
+    for (;;) {
+      error_code error;
+      while (buffer_.size() > 0 && !is_done() && !error) {
+        buffer_.consume(parser.put(buffer_.data(), error));
+      }
+      if (is_done()) co_return error_code();
+      if (error && error != http::error::need_more) co_return error;
+      const std::size_t most = to_end ? kReadBody : kReadHead;
+      const std::size_t size = co_await transport_->read(buffer_.prepare(most), until());
+      if (size == 0) co_return http::error::end_of_stream;
+      buffer_.commit(size);
+    }
+  }
+
+  awaitable<error_code> read_head(Parser& parser, bool is_first) {
+    auto end = Clock::now() + (is_first || buffer_.size() > 0 ? limits_.head : limits_.idle);
+    if (buffer_.size() == 0) {
+      const std::size_t size = co_await transport_->read(buffer_.prepare(kReadHead), end);
+      if (size == 0) co_return http::error::end_of_stream;
+      buffer_.commit(size);
+      end = Clock::now() + limits_.head;
+    }
+    co_return co_await advance(parser, false, [end] { return end; });
+  }
+
+  /// Nothing when it was read; else what to say, a status of 0 when nobody listens any more.
+  awaitable<std::optional<Response>> read_body(Parser& parser, BodyMemory::Share& share) {
+    const std::uint64_t most = shared_.options.max_body;
+    const auto length = parser.content_length();
+    if (length && *length > most) {
+      co_return refusal(413, Errc::LimitExceeded,
+                        fmt::format("a body of {} bytes: at most {}", *length, most));
+    }
+    parser.body_limit(most);
+    const std::uint64_t size = length ? *length : most;
+    if (!co_await take_memory(size, share)) {
+      co_return refusal(503, Errc::Busy, "too many bodies are being received at once");
+    }
+    if (parser.get()[http::field::expect] == "100-continue") {
+      if (!co_await write("HTTP/1.1 100 Continue\r\n\r\n")) co_return nobody();
+    }
+    const auto end = Clock::now() + kBodyGrace + std::chrono::seconds(size / kSlowestBody);
+    parser.eager(true);
+    const error_code error =
+        co_await advance(parser, true, [&] { return std::min(end, Clock::now() + limits_.body); });
+    if (!error) co_return std::nullopt;
+    auto refused = refusal_of(error);
+    if (!refused) refused = nobody();
+    co_return refused;
+  }
+
+  static std::optional<Response> nobody() {
+    Response response;
+    response.status = 0;
+    return response;
+  }
+
+  awaitable<bool> take_memory(std::uint64_t size, BodyMemory::Share& share) {
+    const auto end = Clock::now() + limits_.body;
+    const auto waiter = shared_.body_memory.wait([this] { woken_.set(); });
+    while (!shared_.body_memory.has(size) && may_go_on() && Clock::now() < end) {
+      co_await woken_.wait(end);
+    }
+    shared_.body_memory.remove(waiter);
+    if (!may_go_on() || !shared_.body_memory.has(size)) co_return false;
+    share = shared_.body_memory.take(size);
+    co_return true;
+  }
+
+  /// Runs `work` on a worker, or a thread of its own; nullopt when there is no answer any more.
+  template <class T>
+  awaitable<std::optional<T>> on_worker(std::function<T()> work, bool waits_for_machine) {
+    const auto result = std::make_shared<std::optional<T>>();
+    std::function<void()> task = [self = shared_from_this(), work = std::move(work),
+                                  result]() mutable {
+      std::optional<T> made;
+      try {
+        made = work();
+      } catch (const std::exception& e) {  // memory, or a mistake of ours
+        spdlog::error("request failed: {}", e.what());
+      }
+      work = nullptr;
+      auto& io = self->shared_.io;
+      asio::post(io, [self = std::move(self), result, made = std::move(made)]() mutable {
+        *result = std::move(made);
+        self->is_answered_ = true;
+        self->woken_.set();
+      });
+    };
+    is_answered_ = false;
+    if (!waits_for_machine) {
+      shared_.pool.post(std::move(task));
+    } else if (!shared_.commands.run(std::move(task))) {
+      co_return std::nullopt;
+    }
+    while (!is_answered_ && !is_abandoned_) co_await woken_.wait();
+    co_return std::move(*result);
+  }
+
+  awaitable<std::optional<Response>> handle(Request request) {
+    const bool waits =
+        shared_.handlers.waits_for_machine && shared_.handlers.waits_for_machine(request);
+    const auto held = std::make_shared<Request>(std::move(request));
+    std::function<Response()> work = [this, held] {
+      return shared_.handlers.handle(std::move(*held));
+    };
+    auto answer = co_await on_worker<Response>(std::move(work), waits);
+    if (!answer && may_go_on()) {
+      answer = refusal(503, Errc::Busy, "the server could not take this request now");
+    }
+    co_return answer;
+  }
+
+  awaitable<bool> send(const Response& response) {
+    Framing framing;
+    framing.length = response.body.size();
+    framing.keeps_alive = keeps_alive_;
+    std::string text = head_text(response, framing);
+    const bool has_body = !is_head_only_ && response.status != 204;
+    const bool is_small = response.body.size() <= kSmallBody;
+    if (has_body && is_small) text += response.body;
+    bool is_sent = co_await write(text);
+    if (is_sent && has_body && !is_small) is_sent = co_await write(response.body);
+    co_return is_sent&& keeps_alive_;
+  }
+
+  /// Answers a request whose body nobody wants, and reads some of that away: closing at once would
+  /// let the client's kernel throw our answer away.
+  awaitable<void> refuse(const Response& response) {
+    keeps_alive_ = false;
+    co_await send(response);
+    error_code ignored;
+    transport_->socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    const auto end = Clock::now() + kDiscardLimit;
+    std::uint64_t discarded = 0;
+    while (may_go_on() && discarded < kDiscardSize && Clock::now() < end) {
+      buffer_.clear();
+      const auto patience = std::min<Clock::time_point>(end, Clock::now() + kFarewell);
+      const std::size_t size = co_await transport_->read(buffer_.prepare(kReadBody), patience);
+      if (size == 0) break;
+      discarded += size;
+    }
+  }
+
+  awaitable<bool> send_source(Response response) {
+    Framing framing;
+    framing.length = response.source_length;
+    framing.is_chunked = !response.source_length && !is_old_;
+    framing.keeps_alive = keeps_alive_ && (framing.length || framing.is_chunked);
+    const std::string head = head_text(response, framing);
+    bool is_sent = co_await write(head);
+    if (is_head_only_) co_return is_sent&& framing.keeps_alive;
+    using Piece = Result<std::optional<std::string>>;
+    const auto source = std::make_shared<BodySource>(std::move(response.source));
+    std::function<Piece()> pull = [source] { return (*source)(); };
+    while (is_sent) {
+      auto piece = co_await on_worker<Piece>(pull, false);
+      if (!piece) co_return false;
+      if (!*piece) {
+        // Without the end of the body the client notices that this is not all.
+        spdlog::error("answer broken off: {}", piece->error().what);
+        co_return false;
+      }
+      if (!**piece) break;
+      const std::string text = framing.is_chunked ? chunk_text(***piece) : std::move(***piece);
+      is_sent = co_await write(text);
+    }
+    if (is_sent && framing.is_chunked) is_sent = co_await write("0\r\n\r\n");
+    co_return is_sent&& framing.keeps_alive;
+  }
+
+  awaitable<bool> write(std::string_view text) { return transport_->write(text, limits_.write); }
+
+  /// Writes a subscription's events, and a comment now and then so that both sides notice when the
+  /// other one is gone.
+  awaitable<void> stream_events(Response response, Seat& seat) {
+    keeps_alive_ = false;
+    if (!seat.begin_stream()) {
+      const Response refused = refusal(
+          503, Errc::Busy, "too many event streams are open; fewer fit than other connections");
+      co_await send(refused);
+      co_return;
+    }
+    bound_stream();
+    const auto events = std::move(response.events);
+    events->on_ready([weakly = weak_from_this(), &io = shared_.io] {
+      asio::post(io, [weakly] {
+        if (const auto self = weakly.lock()) self->woken_.set();
+      });
+    });
+    Framing framing;
+    framing.is_chunked = !is_old_;
+    framing.keeps_alive = false;
+    response.headers.emplace_back("Cache-Control", "no-cache");
+    watch_for_end();
+    const std::string head = head_text(response, framing);
+    std::string text = ": events follow\n\n";
+    bool goes_on = co_await write(head);
+    while (goes_on && may_go_on() && !is_left_) {
+      const std::string chunk = framing.is_chunked ? chunk_text(text) : text;
+      goes_on = co_await write(chunk);
+      const auto beat = Clock::now() + shared_.options.heartbeat;
+      for (text.clear(); goes_on && text.empty() && may_go_on() && !is_left_;) {
+        if (events->is_closed()) {
+          goes_on = false;
+          break;
+        }
+        text = events->take();
+        if (!text.empty()) break;
+        const bool is_woken = co_await woken_.wait(beat);
+        if (!is_woken) text = ": alive\n\n";
+      }
+    }
+    events->on_ready({});
+    if (framing.is_chunked && may_go_on() && !is_left_) co_await write("0\r\n\r\n");
+  }
+
+  /// A listener that is gone or stuck may not keep megabytes waiting in the kernel.
+  void bound_stream() {
+    error_code ignored;
+    transport_->socket().set_option(asio::socket_base::send_buffer_size(kStreamBuffer), ignored);
+  }
+
+  /// A listener says nothing more, so whatever comes is its end. Looks without taking: reading
+  /// through the stream would share the deadline of the writes.
+  void watch_for_end() {
+    transport_->socket().async_wait(asio::ip::tcp::socket::wait_read,
+                                    [self = shared_from_this()](const error_code& ec) {
+                                      if (ec) return;
+                                      self->is_left_ = true;
+                                      self->woken_.set();
+                                    });
+  }
+
+  HttpShared& shared_;
+  const HttpLimits& limits_;
+  std::unique_ptr<Transport> transport_;
+  const bool is_reserve_;
+  beast::flat_buffer buffer_;
+  Signal woken_;
+  bool is_closed_ = false;
+  bool is_abandoned_ = false;
+  bool is_answered_ = false;
+  bool is_left_ = false;
+  bool keeps_alive_ = true;
+  bool is_old_ = false;
+  bool is_head_only_ = false;
+};
+
+awaitable<void> run(HttpShared& shared, std::shared_ptr<Session> session, Seat seat) {
+  try {
+    co_await session->serve(seat);
+  } catch (const std::exception& e) {  // one connection's failure must not end the others
+    spdlog::error("connection failed: {}", e.what());
+  }
+  session->close();
+  shared.sessions.erase(seat.id());
+}
+
+}  // namespace
+
+void start_session(HttpShared& shared, asio::ip::tcp::socket socket, asio::ssl::context* tls,
+                   const ConnectionTable::Admission& admission) {
+  Seat seat(shared.table, admission.id);
+  error_code ignored;
+  socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+  // A peer whose kernel no longer answers is given up.
+  const auto patience = static_cast<unsigned>(shared.options.limits.write.count());
+  ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &patience, sizeof patience);
+  auto session = std::make_shared<Session>(shared, make_transport(std::move(socket), tls),
+                                           admission.is_reserve);
+  shared.sessions[admission.id] = session;
+  asio::co_spawn(shared.io, run(shared, std::move(session), std::move(seat)),
+                 [](const std::exception_ptr&) {});
+}
+
+}  // namespace dripline::api

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <chrono>
+#include <memory>
+#include <string_view>
+
+namespace dripline::api {
+
+/// The bytes of one connection, in clear or through TLS. Every wait has a deadline; one that passes
+/// closes the connection. On the socket thread.
+class Transport {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Limit = std::chrono::milliseconds;
+  virtual ~Transport() = default;
+
+  /// TLS's handshake; false: the connection is of no use.
+  virtual boost::asio::awaitable<bool> open(Limit limit) = 0;
+  /// Some bytes; 0: it has ended, or `until` has passed.
+  virtual boost::asio::awaitable<std::size_t> read(boost::asio::mutable_buffer to, Time until) = 0;
+  /// All of it; false: it has ended. The limit is for each kWritePiece, so that a client that reads
+  /// slowly is served and one that does not is cut off.
+  virtual boost::asio::awaitable<bool> write(std::string_view text, Limit limit) = 0;
+  /// Tells the other side that nothing follows.
+  virtual boost::asio::awaitable<void> say_goodbye(Limit limit) = 0;
+  virtual boost::asio::ip::tcp::socket& socket() = 0;
+  void close();
+
+  static constexpr std::size_t kWritePiece = 256 * 1024;
+};
+
+/// `tls` null: in clear.
+std::unique_ptr<Transport> make_transport(boost::asio::ip::tcp::socket socket,
+                                          boost::asio::ssl::context* tls);
+
+}  // namespace dripline::api
