@@ -175,9 +175,9 @@ void Line::lose(const Error& error) {
 }
 
 void Line::fail_transfer(const Error& error) {
-  if (discipline_->state().phase == wire::Phase::Idle) return;
+  const bool is_idle = discipline_->state().phase == wire::Phase::Idle;
   publish();
-  discipline_->abort(now());
+  discipline_->abort(now());  // who asked may not be there any more either
   // What it would say to end the transfer must not reach whoever is there after reopening.
   std::array<std::byte, 64> nobody;
   for (int i = 0; i < 64 && discipline_->transmit(nobody, now()) > 0;) ++i;
@@ -186,6 +186,7 @@ void Line::fail_transfer(const Error& error) {
     if (std::holds_alternative<wire::TransferFailed>(event)) is_told = true;
     if (parts_.listener.on_event) parts_.listener.on_event(event);
   }
+  if (is_idle) return;
   wire::Event failed = wire::TransferFailed{error};
   if (!is_told && parts_.listener.on_event) parts_.listener.on_event(failed);
 }

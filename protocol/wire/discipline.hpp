@@ -91,6 +91,12 @@ struct LineState {
   bool is_stopping = false;             ///< we hold the other end
   std::string_view waiting_for;         ///< "DC1", "ACK", "CTS", ...; empty: for nothing
   bool may_wait_without_limit = false;  ///< the protocol demands it of this wait
+  /// The other end's TransferRequest still waits for an answer: begin_send or refuse gives it.
+  bool is_asked = false;
+  /// What is being sent waits for the other end to begin it: nothing of it has left.
+  bool awaits_start = false;
+  /// What is being received is no transfer of this protocol, and begin_send would end it.
+  bool is_stray = false;
   /// Of the text offered for the transfer being sent, or sent last: bytes whose characters have all
   /// been given to transmit's caller. Cumulative; 0 again with the next begin_send. What a run
   /// counts as sent where no TextAccepted says more.
@@ -106,6 +112,9 @@ struct LineState {
 ///
 /// Plain lines carry both directions at once: a reception may begin and end while the phase is
 /// Sending, begin_send and begin_receive only look at their own direction, and a failure ends both.
+///
+/// A TransferRequest need not be answered. It stays in force until begin_send or refuse, or until
+/// the other end takes it back: DC3 where DC1 asked, EOT, silence over XMODEM, DSR off, or `abort`.
 ///
 /// Bounds: what `room()` says is all the text it keeps (at most 64 KiB); events are taken after
 /// each call; TextReceived that its owner can not keep is held off by `set_ready(false)`. Not
@@ -149,7 +158,8 @@ class Discipline {
   virtual Result<void> refuse(std::string_view reason, LineTime now) = 0;
   /// Room for received text, or not: XOFF, RTS off, a withheld ACK.
   virtual void set_ready(bool is_ready, LineTime now) = 0;
-  /// Ends the transfer in progress, telling the other end where the protocol can. Idle afterwards.
+  /// Ends the transfer in progress, telling the other end where the protocol can, and drops a
+  /// request of the other end that waits. Idle afterwards.
   virtual void abort(LineTime now) = 0;
 
   virtual LineState state() const = 0;

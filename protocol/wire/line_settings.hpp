@@ -76,6 +76,13 @@ enum class ControlKind : std::uint8_t {
 /// How a Centurion uses what comes in: kept as a program, or run while it comes.
 enum class DncMode : std::uint8_t { Off, Fast, Run, Verify, Continue };
 
+/// What a host sends to a control that asks while no run waits for it.
+enum class Offer : std::uint8_t {
+  None,   ///< nothing: the request is kept for the next run, or refused where the protocol can
+  Named,  ///< the program it names, of the machine's control, as a run
+  All,    ///< and, when it names none, each numbered program of the machine's control in turn
+};
+
 struct ControlSettings {
   ControlKind kind = ControlKind::Plain;
   /// Characters the control still takes after it asked the host to stop; more is an overrun.
@@ -107,12 +114,19 @@ struct LineSettings {
   std::chrono::microseconds character_delay{0};  ///< pause behind each character
   /// Silence that ends what a control punches without an end character.
   std::chrono::milliseconds idle_end{2000};
-  /// For the other end's answer (ACK, first NAK, DC1), and for XON after XOFF; nullopt: no limit,
-  /// which a drip feed to a control that is holding needs.
+  /// As a host: how long a program waits for the control to begin (DC1, the first NAK, a heading,
+  /// the reader's start); nullopt: until the operator is there.
+  std::optional<std::chrono::milliseconds> start_limit;
+  /// For the other end's answer (ACK, EOT), and for XON after XOFF; nullopt: no limit, which a drip
+  /// feed to a control that is holding needs.
   std::optional<std::chrono::milliseconds> answer_limit = std::chrono::milliseconds{10000};
   std::optional<std::chrono::milliseconds> hold_limit;
-  unsigned retries = 10;   ///< of one block of a checked protocol; a TNC's is 3
-  bool xmodem_crc = true;  ///< as receiver: ask for CRC first, then fall back to the checksum
+  /// As a host: how long what comes in may pause before it is given up, where silence is not its
+  /// end. Always limited: a port must not stay busy with half a program.
+  std::chrono::milliseconds pause_limit{10000};
+  Offer offer = Offer::None;  ///< as a host
+  unsigned retries = 10;      ///< of one block of a checked protocol; a TNC's is 3
+  bool xmodem_crc = true;     ///< as receiver: ask for CRC first, then fall back to the checksum
   /// As a host: each O line in a text that the control sends begins a program of its own. The
   /// control's own splitting is `control.splits_programs`.
   bool extracts_programs = false;

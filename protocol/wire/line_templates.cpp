@@ -64,6 +64,7 @@ LineSettings tnc155(Flow flow) {
   LineSettings settings = line(2400, 7, Parity::Even, StopBits::One);
   settings.flow = flow;
   settings.retries = 3;
+  settings.offer = Offer::All;  // read-in of a selected program, of all, of the ones offered
   if (flow == Flow::Heidenhain) settings.leader = 50;
   return settings;
 }

@@ -39,13 +39,13 @@ constexpr SettingRow number(std::string_view text) {
           [](const LineSettings& settings) { return fmt::format("{}", at<kPath...>(settings)); }};
 }
 
-template <Key kKey, auto kMember>
+template <Key kKey, auto kMember, std::uint64_t kLeast = 0>
 constexpr SettingRow duration(std::string_view text) {
   using Duration = std::remove_reference_t<decltype(std::declval<LineSettings&>().*kMember)>;
   return {
       kKey.view(), "number", text,
       [](LineSettings& settings, std::string_view value) -> Result<void> {
-        const auto parsed = parse_number(kKey.view(), value, {0, kMaximumWait});
+        const auto parsed = parse_number(kKey.view(), value, {kLeast, kMaximumWait});
         if (!parsed) return fail(parsed.error());
         settings.*kMember = Duration(static_cast<std::int64_t>(*parsed));
         return {};
@@ -133,6 +133,7 @@ constexpr Words<3> kCodes{"ascii|iso|eia", {"ascii", "iso", "eia"}};
 constexpr Words<5> kEndsOfBlock{"lf|cr|crlf|lfcr|lfcrcr", {"lf", "cr", "crlf", "lfcr", "lfcrcr"}};
 constexpr Words<4> kControls{"plain|fanuc|prototrak|centurion",
                              {"plain", "fanuc", "prototrak", "centurion"}};
+constexpr Words<3> kOffers{"none|named|all", {"none", "named", "all"}};
 constexpr Words<3> kTncStops{"dc3|rts|both", {"dc3", "rts", "both"}};
 constexpr Words<5> kReaderFaults{
     "none|parity|chad|missing_sprocket|sprocket_spacing",
@@ -190,8 +191,13 @@ constexpr std::array kRows{
     duration<"line_delay_ms", &S::line_delay>("pause behind each end of block"),
     duration<"char_delay_us", &S::character_delay>("pause behind each character"),
     duration<"idle_end_ms", &S::idle_end>("silence that ends what comes in without an end_char"),
+    limit<"start_limit_ms", &S::start_limit>("longest wait for the control to begin a program"),
     limit<"answer_limit_ms", &S::answer_limit>("longest wait for the other end's answer"),
     limit<"hold_limit_ms", &S::hold_limit>("longest wait for XON or CTS while held"),
+    duration<"pause_limit_ms", &S::pause_limit, 100>(
+        "longest pause in what comes in before it is given up"),
+    choice<"offer", kOffers, &S::offer>(
+        "what a control gets that asks while no run waits: nothing, the program it names, or all"),
     number<"retries", 0, kMaximumRetries, &S::retries>("repeats of one block, checked protocols"),
     flag<"xmodem_crc", &S::xmodem_crc>("XMODEM: ask for CRC before the checksum"),
     flag<"extract_programs", &S::extracts_programs>(

@@ -40,6 +40,7 @@ bool PlainLine::take_dc(char dc, LineTime now) {
     return true;
   }
   set_stopped(dc == kDc3, now);
+  if (dc == kDc3) is_asked_ = false;  // it stops the reader that it had started
   if (dc == kDc1 && waits_for_dc1() && !is_sending() && !std::exchange(is_asked_, true)) {
     emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
   }
@@ -57,7 +58,9 @@ void PlainLine::fault(LineFault fault, LineTime now) {
 
 void PlainLine::lines(InputLines lines, LineTime now) {
   const bool had_cts = input_.cts;
+  const bool is_gone = input_.dsr && !lines.dsr;
   DisciplineBase::lines(lines, now);
+  if (is_gone && !is_sending()) drop_request();
   if (settings_.flow == Flow::RtsCts && had_cts != lines.cts) {
     emit(FlowChanged{!lines.cts});
     note_hold(now);
@@ -102,12 +105,18 @@ Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   return {};
 }
 
+/// A control that asks after this asks again with a DC1 of its own.
+void PlainLine::drop_request() {
+  if (std::exchange(is_asked_, false)) is_stopped_ = waits_for_dc1();
+}
+
 void PlainLine::abort(LineTime now) {
   const bool was_punching = is_sending() && is_dc_codes() && role_ == Role::Control;
   const bool was_reading = reception_.is_open;
   if (was_punching) say(kDc4);
   if (was_reading) stop_reading();
   drop_transfer(now);
+  is_asked_ = false;
   is_stopped_ = waits_for_dc1();
 }
 
@@ -127,14 +136,17 @@ LineState PlainLine::state() const {
   state.phase = !is_sending() && reception_.is_open ? Phase::Receiving : phase_;
   state.is_stopped = !may_send();
   state.is_stopping = !is_ready_;
+  state.is_asked = is_asked_;
   state.text_sent = text_sent();
   if (is_sending() && !may_send()) {
     state.waiting_for = is_stopped_ ? "DC1" : "CTS";
     state.may_wait_without_limit = !hold_deadline();
+    state.awaits_start = waits_for_dc1() && !has_started_;
   } else if (!is_sending() && reception_.is_open && is_ready_) {
     state.waiting_for = "text";
     state.may_wait_without_limit = !silence_deadline();
   }
+  state.is_stray = is_stray();
   return state;
 }
 

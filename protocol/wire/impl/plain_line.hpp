@@ -7,8 +7,8 @@
 namespace dripline::wire {
 
 /// A line without checks: text as it is, held by XON/XOFF, RTS/CTS, DC1 to DC4, or not at all. Both
-/// directions are independent: a control may answer (DPRNT) while it is fed, except on DC1 to DC4.
-/// A transfer that fails ends both.
+/// directions are independent: a control may answer (DPRNT) while it is fed, on DC1 to DC4 between
+/// its DC3 and DC1. A transfer that fails ends both.
 class PlainLine final : public DisciplineBase, private TextSink {
  public:
   PlainLine(const LineSettings& settings, Role role);
@@ -37,6 +37,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
     return role_ == Role::Host && (is_dc_codes() || settings_.wait_for_xon);
   }
   void say(char dc);
+  void drop_request();
   void start_reading();
   void stop_reading();
 
@@ -45,6 +46,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   std::optional<LineTime> hold_deadline() const;
   std::optional<std::byte> next_character();
   void pause_behind(std::size_t characters, bool ends_block, LineTime now);
+  void skip_said();
   void finish_sending(LineTime now);
   void set_stopped(bool is_stopped, LineTime now);
   void note_hold(LineTime now);
@@ -54,6 +56,8 @@ class PlainLine final : public DisciplineBase, private TextSink {
   bool take_dc(char dc, LineTime now);
   void take_data(std::byte character, LineTime now);
   bool is_overrun(LineTime now);
+  bool is_stray() const;
+  void drop_stray(LineTime now);
   void punch_on(LineTime now);
   void punch_off(LineTime now);
   void open_reception(std::string name, LineTime now);
@@ -61,6 +65,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   void close_reception();
   void fail_reception(Error error, LineTime now);
   std::optional<LineTime> silence_deadline() const;
+  std::optional<std::chrono::milliseconds> pause_limit() const;
   void silent_too_long(LineTime now);
 
   // TextSink
@@ -84,6 +89,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
 
   struct Reception {
     bool is_open = false;
+    bool is_punch = false;          ///< DC2 began it, DC4 ends it
     std::optional<LineTime> heard;  ///< the last character that meant something
   };
   Reception reception_;

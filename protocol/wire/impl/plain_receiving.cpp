@@ -37,9 +37,11 @@ void PlainLine::stop_reading() {
   if (is_dc_codes()) say(kDc3);
 }
 
-void PlainLine::open_reception(std::string name, LineTime /*now*/) {
+void PlainLine::open_reception(std::string name, LineTime now) {
   reception_ = {};
   reception_.is_open = true;
+  // A control waits for its host; what a host hears has begun.
+  if (role_ == Role::Host) reception_.heard = now;
   reader_.begin();
   after_stop_ = 0;
   emit(TransferBegan{true, std::move(name)});
@@ -69,8 +71,7 @@ void PlainLine::fail_reception(Error error, LineTime now) {
 void PlainLine::take_data(std::byte character, LineTime now) {
   if (!reception_.is_open) {
     // A control only listens when its operator has said so. Leaders and line ends begin nothing.
-    const bool listens = role_ == Role::Host && !(is_dc_codes() && is_sending());
-    if (!listens || !reader_.begins(character)) return;
+    if (role_ != Role::Host || !reader_.begins(character)) return;
     if (is_dc_codes()) emit_trouble({Errc::Corrupt, "text came without DC2 before it"});
     open_reception("", now);
   }
@@ -99,15 +100,35 @@ bool PlainLine::is_overrun(LineTime now) {
   return false;
 }
 
+/// What a host hears is of no transfer that it knows: text that came before DC2 or before the start
+/// character, or DC2 and nothing after it. It must not keep a program from the line.
+bool PlainLine::is_stray() const {
+  if (!reception_.is_open || role_ != Role::Host) return false;
+  if (is_dc_codes()) return !reception_.is_punch || !reader_.has_begun();
+  return settings_.start_character && !reader_.has_mark();
+}
+
+/// What came of it is kept.
+void PlainLine::drop_stray(LineTime now) {
+  reader_.finish();
+  end_reception(now);
+}
+
 void PlainLine::punch_on(LineTime now) {
-  if (is_sending()) return emit_trouble({Errc::Corrupt, "DC2 came while we send"});
-  if (!reception_.is_open) return open_reception("", now);
+  if (reception_.is_open && !reception_.is_punch) end_reception(now);  // stray text before it
+  if (!reception_.is_open) {
+    open_reception("", now);
+    reader_.expect_print();
+    reception_.is_punch = true;
+    return;
+  }
   if (reader_.has_begun()) emit_trouble({Errc::Corrupt, "DC2 came again inside a program"});
 }
 
+/// A program has its end character before DC4; what a control prints has neither mark.
 void PlainLine::punch_off(LineTime now) {
   if (!reception_.is_open) return;  // its end character was the end
-  if (reader_.is_framed() && reader_.has_begun()) {
+  if (reader_.is_framed() && reader_.has_mark()) {
     return fail_reception({Errc::Corrupt, "DC4 came before the end character"}, now);
   }
   reader_.finish();
@@ -119,8 +140,13 @@ std::optional<LineTime> PlainLine::silence_deadline() const {
   if (!reception_.is_open || !reception_.heard || !is_ready_) return std::nullopt;
   const bool is_framed = reader_.is_framed() || (is_dc_codes() && role_ == Role::Host);
   if (!is_framed) return *reception_.heard + settings_.idle_end;
-  if (!settings_.answer_limit) return std::nullopt;
-  return *reception_.heard + *settings_.answer_limit;
+  const auto limit = pause_limit();
+  return limit ? std::optional(*reception_.heard + *limit) : std::nullopt;
+}
+
+/// A control may be held by its host for as long as that likes; a host gives up.
+std::optional<std::chrono::milliseconds> PlainLine::pause_limit() const {
+  return role_ == Role::Host ? settings_.pause_limit : settings_.answer_limit;
 }
 
 void PlainLine::silent_too_long(LineTime now) {
@@ -128,7 +154,7 @@ void PlainLine::silent_too_long(LineTime now) {
   if (reader_.is_framed() || is_punch) {
     const std::string_view what = reader_.is_framed() ? "the end character" : "DC4";
     return fail_reception({Errc::Timeout, fmt::format("{} did not come: silence for {} ms", what,
-                                                      settings_.answer_limit->count())},
+                                                      pause_limit()->count())},
                           now);
   }
   reader_.finish();

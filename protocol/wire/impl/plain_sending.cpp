@@ -5,6 +5,7 @@ namespace dripline::wire {
 
 Result<void> PlainLine::begin_send(std::string_view name, LineTime now) {
   if (const auto idle = check_idle(); !idle) return idle;
+  if (is_dc_codes() && is_stray()) drop_stray(now);
   // One that only waits goes on waiting.
   if (is_dc_codes() && reception_.is_open && reader_.has_begun()) {
     return fail(Errc::Busy, "the line is receiving");
@@ -33,11 +34,28 @@ std::size_t PlainLine::transmit(std::span<std::byte> room, LineTime now) {
     has_started_ = true;
     pause_behind(count, writer_.ends_block(), now);
   }
+  if (is_sending() && !may_send()) skip_said();
   // What the control does not want to hear any more (it stopped us at the end character) is not
   // worth waiting for.
   const bool is_over = writer_.is_done() || (writer_.is_all_said() && !may_send());
   if (is_sending() && is_text_taken() && is_over) finish_sending(now);
   return count;
+}
+
+/// Text behind its end character has nothing more to say: what is left of it needs no line.
+void PlainLine::skip_said() {
+  while (writer_.is_end_said() && writer_.wants_text()) {
+    count_sent(std::exchange(text_under_way_, 0));
+    if (has_text()) {
+      writer_.put_text(queued_text().front());
+      take_text(1);
+      text_under_way_ = 1;
+    } else if (is_last_offered()) {
+      return writer_.end_text();
+    } else {
+      return;
+    }
+  }
 }
 
 /// nullopt: nothing to send until more text is offered.
@@ -95,7 +113,7 @@ void PlainLine::note_hold(LineTime now) {
 std::optional<LineTime> PlainLine::hold_deadline() const {
   if (!held_since_) return std::nullopt;
   const auto& limit =
-      waits_for_dc1() && !has_started_ ? settings_.answer_limit : settings_.hold_limit;
+      waits_for_dc1() && !has_started_ ? settings_.start_limit : settings_.hold_limit;
   if (!limit) return std::nullopt;
   return *held_since_ + *limit;
 }

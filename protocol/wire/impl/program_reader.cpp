@@ -19,7 +19,7 @@ ProgramReader::ProgramReader(const LineSettings& settings, Role role, TextSink& 
 void ProgramReader::begin() {
   decoder_ = CharacterDecoder(settings_.code);
   place_ = Place::Before;
-  has_mark_ = false;
+  has_mark_ = may_print_ = false;
   block_length_ = 0;
   rules_->begin();
 }
@@ -81,6 +81,7 @@ Result<bool> ProgramReader::read_mark(char character) {
     }
     return take(character);  // an ordinary character by now
   }
+  if (may_print_) tell_missing_start();  // its end character shows that it is a program
   finish();
   return true;
 }
@@ -102,9 +103,12 @@ Result<bool> ProgramReader::read_text(char character) {
 
 void ProgramReader::begin_text() {
   place_ = Place::Text;
-  if (settings_.start_character && !has_mark_) {
-    sink_.trouble(Error{Errc::Corrupt, "the start character before the program is missing"});
-  }
+  if (!may_print_) tell_missing_start();
+}
+
+void ProgramReader::tell_missing_start() {
+  if (!settings_.start_character || has_mark_) return;
+  sink_.trouble(Error{Errc::Corrupt, "the start character before the program is missing"});
 }
 
 Result<bool> ProgramReader::take(char character) {

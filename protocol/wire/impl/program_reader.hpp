@@ -14,6 +14,8 @@ class ProgramReader {
   ProgramReader(const LineSettings& settings, Role role, TextSink& sink);
 
   void begin();
+  /// After `begin`: what comes may be printed lines, which have no start character.
+  void expect_print() { may_print_ = true; }
   /// true: the end character, the program is complete. Errors: the reception fails.
   Result<bool> read(std::byte character);
   Result<void> read_fault(LineFault fault);
@@ -21,6 +23,8 @@ class ProgramReader {
   void finish();
 
   bool has_begun() const { return place_ != Place::Before || has_mark_; }
+  /// The start character has come.
+  bool has_mark() const { return has_mark_; }
   bool is_framed() const { return end_character_.has_value(); }
   ControlRules& rules() { return *rules_; }
   const ControlRules& rules() const { return *rules_; }
@@ -32,6 +36,7 @@ class ProgramReader {
   Result<bool> read_text(char character);
   Result<bool> read_mark(char character);
   void begin_text();
+  void tell_missing_start();
   Result<bool> take(char character);
   bool is_mark(char character) const {
     return character == settings_.start_character || character == end_character_;
@@ -43,7 +48,7 @@ class ProgramReader {
   std::optional<char> end_character_;
   CharacterDecoder decoder_;
   Place place_ = Place::Before;
-  bool has_mark_ = false;
+  bool has_mark_ = false, may_print_ = false;
   char mark_ = 0;
   std::size_t block_length_ = 0;
 };

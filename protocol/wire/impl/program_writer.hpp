@@ -26,6 +26,8 @@ class ProgramWriter {
   bool has_next() const { return blanks_ > 0 || next_ < pending_.size(); }
   std::byte next();
   bool ends_block() const { return ends_block_; }  ///< the character that next() gave last
+  /// The text's own end character was given: the rest of the text is dropped.
+  bool is_end_said() const { return place_.is_ended && next_ == pending_.size(); }
   /// Nothing that means anything to the other end is left.
   bool is_all_said() const { return stage_ == Stage::End && next_ == pending_.size(); }
   bool is_done() const { return stage_ == Stage::End && !has_next(); }

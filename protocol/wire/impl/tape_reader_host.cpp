@@ -77,6 +77,7 @@ class TapeReaderHost final : public DisciplineBase {
     is_asked_ = false;
     const bool runs_at_once = !settings_.wait_for_xon && input_.cts && !is_stopped_;
     runs_at_once ? run(now) : wait(now);
+    if (!runs_at_once) limit_ = after(settings_.start_limit, now);
     return {};
   }
   Result<void> begin_receive(std::string_view, LineTime) override {
@@ -92,6 +93,7 @@ class TapeReaderHost final : public DisciplineBase {
   }
   void set_ready(bool, LineTime) override {}
   void abort(LineTime now) override {
+    is_asked_ = false;
     if (phase_ != Phase::Idle) drop_transfer(now);
   }
 
@@ -101,6 +103,8 @@ class TapeReaderHost final : public DisciplineBase {
     state.is_stopped = is_sending() && !is_running_;
     if (state.is_stopped) state.waiting_for = "run";
     state.may_wait_without_limit = state.is_stopped && !limit_;
+    state.is_asked = is_asked_;
+    state.awaits_start = state.is_stopped && row_ == 0;
     state.text_sent = text_sent();
     return state;
   }
@@ -219,7 +223,11 @@ class TapeReaderHost final : public DisciplineBase {
 
   void wait(LineTime now) {
     is_running_ = false;
-    limit_ = settings_.hold_limit ? std::optional(now + *settings_.hold_limit) : std::nullopt;
+    limit_ = after(settings_.hold_limit, now);
+  }
+  static std::optional<LineTime> after(std::optional<std::chrono::milliseconds> limit,
+                                       LineTime now) {
+    return limit ? std::optional(now + *limit) : std::nullopt;
   }
 
   void wind_back(LineTime now) {

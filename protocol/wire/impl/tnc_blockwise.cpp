@@ -118,7 +118,7 @@ void TncBlockwise::acknowledge(LineTime now) {
   queue_control(settings_.heidenhain.ack);
   const bool is_host = role_ == Role::Host;
   wait_for(Wait::Block,
-           is_host ? after_answer_limit(now, settings_.retries + 1) : after_hold_limit(now));
+           is_host ? after_pause_limit(now, settings_.retries + 1) : after_hold_limit(now));
 }
 
 void TncBlockwise::set_ready(bool is_ready, LineTime now) {
@@ -262,7 +262,7 @@ void TncBlockwise::begin_receiving(std::string name, LineTime now) {
   begin_tries();
   const bool is_host = role_ == Role::Host;
   wait_for(Wait::Block,
-           is_host ? after_answer_limit(now, settings_.retries + 1) : after_hold_limit(now));
+           is_host ? after_pause_limit(now, settings_.retries + 1) : after_hold_limit(now));
 }
 
 void TncBlockwise::transfer_over(LineTime) {
@@ -292,6 +292,7 @@ void TncBlockwise::give_up(Error error, LineTime now) {
 }
 
 void TncBlockwise::abort(LineTime now) {
+  drop_request();
   if (phase_ == Phase::Idle) return;
   const bool is_known_there = wait_ != Wait::Heading;
   drop_transfer(now);
@@ -309,6 +310,11 @@ std::optional<LineTime> TncBlockwise::after_answer_limit(LineTime now, unsigned 
   return now + *settings_.answer_limit * times;
 }
 
+/// The control repeats a block that got no answer, and is given the chance to.
+std::optional<LineTime> TncBlockwise::after_pause_limit(LineTime now, unsigned times) const {
+  return now + settings_.pause_limit * times;
+}
+
 std::optional<LineTime> TncBlockwise::after_hold_limit(LineTime now) const {
   if (!settings_.hold_limit) return std::nullopt;
   return now + *settings_.hold_limit;
@@ -322,8 +328,9 @@ void TncBlockwise::set_stopped(bool is_stopped) {
 
 bool TncBlockwise::has_no_limit() const {
   const bool is_host = role_ == Role::Host;
-  if (wait_ == Wait::Heading || owes_ack_) return true;
-  if (wait_ == Wait::Block) return !(is_host ? settings_.answer_limit : settings_.hold_limit);
+  if (wait_ == Wait::Heading) return !limit_;
+  if (owes_ack_) return true;
+  if (wait_ == Wait::Block) return !is_host && !settings_.hold_limit;
   if (wait_ != Wait::BlockAnswer) return false;
   return !(repeats_unanswered() ? settings_.answer_limit : settings_.hold_limit);
 }
@@ -336,6 +343,8 @@ LineState TncBlockwise::state() const {
   state.is_stopping = !is_ready_;
   state.waiting_for = kWords[static_cast<std::size_t>(wait_)];
   state.may_wait_without_limit = has_no_limit();
+  state.is_asked = is_asked();
+  state.awaits_start = is_sending() && wait_ == Wait::Heading;
   state.text_sent = text_sent();
   return state;
 }

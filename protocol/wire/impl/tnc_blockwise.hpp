@@ -43,9 +43,11 @@ class TncBlockwise : public DisciplineBase {
   virtual void on_eot(LineTime now) = 0;
   /// A block, good or broken, while nothing is being received.
   virtual void on_stray_block(LineTime now) = 0;
-  virtual void on_limit(LineTime now) = 0;  ///< of Wait other than BlockAnswer
-  virtual void send_end(LineTime now) = 0;  ///< all text is accepted
-  virtual void on_out_sent(LineTime) {}     ///< the last of `out` was given to the line
+  virtual void on_limit(LineTime now) = 0;         ///< of Wait other than BlockAnswer
+  virtual void send_end(LineTime now) = 0;         ///< all text is accepted
+  virtual void on_out_sent(LineTime) {}            ///< the last of `out` was given to the line
+  virtual bool is_asked() const { return false; }  ///< a heading waits for its answer
+  virtual void drop_request() {}
   /// Tells the other end that the transfer is over before its end.
   virtual void tell_abort(std::string_view reason) = 0;
 
@@ -72,6 +74,7 @@ class TncBlockwise : public DisciplineBase {
   Result<void> check_complete() const;
   void give_up(Error error, LineTime now);
   std::optional<LineTime> after_answer_limit(LineTime now, unsigned times = 1) const;
+  std::optional<LineTime> after_pause_limit(LineTime now, unsigned times = 1) const;
   std::optional<LineTime> after_hold_limit(LineTime now) const;
   /// One more try of what was refused or not answered; false: there were enough.
   bool may_try_again();

@@ -33,11 +33,8 @@ class TncBlockwiseHost final : public TncBlockwise {
     }
     begin_transfer(Phase::Sending, std::string(name));
     armed_ = std::string(name);
-    if (!std::exchange(pending_, std::nullopt)) {
-      wait_for(Wait::Heading, std::nullopt);
-      return {};
-    }
-    accept(now);
+    wait_for(Wait::Heading, after_start_limit(now));
+    if (const auto asked = std::exchange(pending_, std::nullopt)) begin_armed(*asked, now);
     return {};
   }
 
@@ -110,7 +107,7 @@ class TncBlockwiseHost final : public TncBlockwise {
   void accept(LineTime now) {
     queue_control(settings_.heidenhain.ack);
     if (is_receiving()) {
-      return wait_for(Wait::Block, after_answer_limit(now, settings_.retries + 1));
+      return wait_for(Wait::Block, after_pause_limit(now, settings_.retries + 1));
     }
     wait_for(Wait::Nothing, std::nullopt);
     send_next(now);
@@ -144,7 +141,7 @@ class TncBlockwiseHost final : public TncBlockwise {
   }
 
   void on_etx(LineTime now) override {
-    if (is_receiving() && wait_ == Wait::Block) wait_for(Wait::AfterEnd, after_answer_limit(now));
+    if (is_receiving() && wait_ == Wait::Block) wait_for(Wait::AfterEnd, after_pause_limit(now));
   }
 
   void on_eot(LineTime now) override {
@@ -165,7 +162,14 @@ class TncBlockwiseHost final : public TncBlockwise {
     if (phase_ == Phase::Idle) refuse_broken("a block came that is no heading");
   }
 
+  std::optional<LineTime> after_start_limit(LineTime now) const {
+    return settings_.start_limit ? std::optional(now + *settings_.start_limit) : std::nullopt;
+  }
+
   void on_limit(LineTime now) override {
+    if (wait_ == Wait::Heading) {
+      return fail_transfer({Errc::Timeout, "the control did not ask for the program in time"}, now);
+    }
     if (wait_ == Wait::AfterEnd) {
       emit_trouble({Errc::Timeout, "no EOT behind ETX"});
       return end_receiving(now);
@@ -181,6 +185,8 @@ class TncBlockwiseHost final : public TncBlockwise {
   }
 
   void tell_abort(std::string_view reason) override { refuse_heading(reason); }
+  bool is_asked() const override { return pending_.has_value(); }
+  void drop_request() override { pending_.reset(); }
   char etx() const { return settings_.heidenhain.etx; }
 
   std::optional<TransferRequest> pending_;  ///< asked by the control, not yet answered

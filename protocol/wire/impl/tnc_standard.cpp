@@ -27,7 +27,7 @@ Result<void> TncStandard::begin_send(std::string_view name, LineTime now) {
   is_stopped_ = false;
   const bool may_begin = !is_host() || std::exchange(is_asked_, false);
   stage_ = may_begin ? Stage::Leader : Stage::Start;
-  limit_ = may_begin ? std::nullopt : after(settings_.hold_limit, now);
+  limit_ = may_begin ? std::nullopt : after(settings_.start_limit, now);
   note_hold(now);
   return {};
 }
@@ -77,6 +77,7 @@ void TncStandard::hold(bool is_holding) {
 }
 
 void TncStandard::abort(LineTime now) {
+  is_asked_ = false;
   if (phase_ == Phase::Idle) return;
   const bool is_known_there = !is_host() || stage_ != Stage::Start || has_received_;
   drop_transfer(now);
@@ -88,6 +89,8 @@ LineState TncStandard::state() const {
   state.phase = phase_;
   state.is_stopped = is_held();
   state.is_stopping = is_holding_;
+  state.is_asked = is_asked_;
+  state.awaits_start = is_sending() && stage_ == Stage::Start;
   if (is_sending()) {
     if (stage_ == Stage::Start || is_held()) state.waiting_for = is_cts_off() ? "CTS" : "DC1";
     if (stage_ == Stage::Answer) state.waiting_for = "EOT";
@@ -115,6 +118,7 @@ void TncStandard::transfer_over(LineTime) {
 }
 
 void TncStandard::lines(InputLines lines, LineTime now) {
+  if (input_.dsr && !lines.dsr) is_asked_ = false;
   DisciplineBase::lines(lines, now);
   note_hold(now);
 }
@@ -284,6 +288,7 @@ void TncStandard::on_character(char c, LineTime now) {
   const bool is_line_end = c == '\r' || c == '\n';
   if ((c < ' ' && !is_line_end) || c == 0x7F) return;
   if (phase_ == Phase::Idle && is_host() && !is_line_end) {
+    is_asked_ = false;  // it sends now
     begin_transfer(Phase::Receiving, "");
     if (spoiled_ && now - *spoiled_ < settings_.idle_end) {
       emit_trouble({Errc::Corrupt, "a character before the first one was spoiled"});
@@ -371,7 +376,7 @@ void TncStandard::restart_silence(LineTime now) {
   if (!is_receiving() || is_holding_) return limit_.reset();
   const bool may_end = !is_open_ && wanted_.empty();
   limit_ = may_end ? std::optional<LineTime>(now + settings_.idle_end)
-                   : after(settings_.answer_limit, now);
+                   : after(is_host() ? settings_.pause_limit : settings_.answer_limit, now);
 }
 
 std::unique_ptr<Discipline> make_tnc_standard(const LineSettings& settings, Role role) {

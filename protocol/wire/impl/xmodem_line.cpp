@@ -10,6 +10,8 @@ using namespace xmodem;
 namespace {
 
 constexpr int kCancels = 5;  // any two in a row are enough
+/// A receiver asks every three seconds (C) or ten (NAK): one that was silent for longer gave up.
+constexpr LineTime kRequestLife = std::chrono::seconds(15);
 
 }  // namespace
 
@@ -49,7 +51,9 @@ void XmodemLine::take_idle(char character, LineTime now) {
   if (character != kNak && character != kCrcWanted) return;
   asked_at_ = now;
   check_ = character == kCrcWanted ? Check::Crc : Check::Sum;
-  if (role_ == Role::Host && !std::exchange(is_asked_, true)) {
+  if (role_ != Role::Host) return;
+  deadline_ = now + kRequestLife;
+  if (!std::exchange(is_asked_, true)) {
     emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
   }
 }
@@ -87,13 +91,22 @@ Result<void> XmodemLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   if (!std::exchange(is_asked_, false)) {
     return fail(Errc::ModalConflict, "the other end asked for nothing");
   }
+  drop_request();
   cancel();
   return {};
+}
+
+/// Nothing is in progress.
+void XmodemLine::drop_request() {
+  is_asked_ = false;
+  asked_at_.reset();
+  deadline_.reset();
 }
 
 void XmodemLine::abort(LineTime now) {
   if (step_ != Step::Idle) cancel();
   drop_transfer(now);
+  drop_request();
 }
 
 void XmodemLine::transfer_over(LineTime /*now*/) {
@@ -110,10 +123,13 @@ LineState XmodemLine::state() const {
   state.phase = phase_;
   state.text_sent = text_sent();
   state.is_stopping = !is_ready_;
+  state.is_asked = is_asked_;
   if (step_ == Step::AwaitStart) state.waiting_for = "NAK";
   if (step_ == Step::AwaitAnswer || step_ == Step::AwaitEnd) state.waiting_for = "ACK";
   if (is_receiving() && step_ != Step::Withhold) state.waiting_for = "block";
-  state.may_wait_without_limit = !state.waiting_for.empty() && !settings_.answer_limit;
+  state.awaits_start = step_ == Step::AwaitStart;
+  const bool has_limit = state.awaits_start ? deadline_.has_value() : !!settings_.answer_limit;
+  state.may_wait_without_limit = !state.waiting_for.empty() && !has_limit;
   return state;
 }
 

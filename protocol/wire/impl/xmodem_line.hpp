@@ -50,6 +50,7 @@ class XmodemLine final : public DisciplineBase {
   void take(std::byte character, LineTime now);
   bool is_cancelled(char character, LineTime now);
   void take_idle(char character, LineTime now);
+  void drop_request();
   void say(char character) { queue_control(character); }
   void cancel();
 
@@ -63,6 +64,7 @@ class XmodemLine final : public DisciplineBase {
   void prepare_block(LineTime now);
   void say_end(LineTime now);
   std::optional<LineTime> patience(LineTime now) const;
+  std::optional<LineTime> start_deadline(LineTime now) const;
 
   // Receiver
   void ask(LineTime now);

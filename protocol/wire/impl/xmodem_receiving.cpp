@@ -39,7 +39,8 @@ LineTime XmodemLine::asking_period() const {
 /// For the first block: the sender may not be there yet.
 void XmodemLine::ask(LineTime now) {
   const unsigned limit = settings_.retries + kCrcAsks;
-  if (settings_.answer_limit && tries_ > limit) {
+  const bool is_limited = settings_.answer_limit || role_ == Role::Host;
+  if (is_limited && tries_ > limit) {
     return give_up({Errc::Timeout, fmt::format("no block came, asked {} times", tries_)}, now);
   }
   if (!is_sender_there_ && tries_ >= kCrcAsks) check_ = Check::Sum;
@@ -172,6 +173,8 @@ void XmodemLine::tick(LineTime now) {
     case Step::InBlock:
     case Step::Purge:
       return ask_again(now);
+    case Step::Idle:
+      return drop_request();
     default:
       deadline_.reset();
   }

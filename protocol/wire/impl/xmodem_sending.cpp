@@ -27,8 +27,14 @@ Result<void> XmodemLine::begin_send(std::string_view name, LineTime now) {
   tries_ = 0;
   begin_transfer(Phase::Sending, std::string(name));
   step_ = is_asked ? Step::NeedText : Step::AwaitStart;
-  deadline_ = is_asked ? std::nullopt : patience(now);
+  deadline_ = is_asked ? std::nullopt : start_deadline(now);
   return {};
+}
+
+/// A host waits for the operator at the control, a control for its host.
+std::optional<LineTime> XmodemLine::start_deadline(LineTime now) const {
+  if (role_ == Role::Control) return patience(now);
+  return settings_.start_limit ? std::optional(now + *settings_.start_limit) : std::nullopt;
 }
 
 std::optional<LineTime> XmodemLine::patience(LineTime now) const {

@@ -67,6 +67,153 @@ TEST(DcCodes, HostNeedsAnotherDc1ForTheNextProgram) {
   EXPECT_EQ(host.say(), "%\nO2\n%");
 }
 
+TEST(DcCodes, KeepsTheReadersStartForTheProgramThatComesLater) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  EXPECT_TRUE(host.line->state().is_asked);
+  host.pass(std::chrono::hours(1));
+  host.hear("\x11");
+  EXPECT_EQ(host.events(), "goes on\nwants a program\n") << "one request";
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\n"));
+  EXPECT_EQ(host.say(), "%\nO1\n%");
+  EXPECT_FALSE(host.line->state().is_asked);
+}
+
+TEST(DcCodes, TakesARequestBackWhenTheControlStopsTheReader) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11\x13");
+  EXPECT_FALSE(host.line->state().is_asked);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\n"));
+  EXPECT_EQ(host.say_now(), "");
+  EXPECT_TRUE(host.line->state().awaits_start);
+  host.hear("\x11");
+  EXPECT_EQ(host.say(), "%\nO1\n%");
+}
+
+TEST(DcCodes, TakesARequestBackWhenTheControlIsSwitchedOff) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  host.line->lines({.dsr = false}, host.now);
+  EXPECT_FALSE(host.line->state().is_asked);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\n"));
+  EXPECT_EQ(host.say_now(), "");
+}
+
+TEST(DcCodes, WaitsForTheOperatorWithoutALimitUnlessToldTo) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  host.pass(std::chrono::hours(1));
+  EXPECT_EQ(host.line->state().phase, Phase::Sending);
+  EXPECT_TRUE(host.line->state().may_wait_without_limit);
+  EXPECT_TRUE(host.line->state().awaits_start);
+  TestedLine limited(template_with("fanuc", {{"start_limit_ms", "700"}}), Role::Host);
+  ASSERT_TRUE(limited.line->begin_send("", limited.now));
+  limited.pass(milliseconds(700));
+  EXPECT_THAT(limited.events(), HasSubstr("failed timeout: no DC1 came to start for 700 ms"));
+}
+
+TEST(DcCodes, AStopBehindTheTextsOwnEndCharacterEndsTheTransfer) {
+  TestedLine host(template_with("fanuc", {{"trailer", "5"}}), Role::Host);
+  host.hear("\x11");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("%\nO1\nM30\n%\n", false));
+  EXPECT_EQ(host.say_now(10), "%\nO1\nM30\n%");
+  host.hear("\x13");
+  EXPECT_EQ(host.say_now(), "");
+  EXPECT_EQ(host.line->state().phase, Phase::Sending) << "more text may come";
+  ASSERT_TRUE(host.offer("\n"));
+  EXPECT_EQ(host.say_now(), "");
+  EXPECT_THAT(host.events(), testing::EndsWith("sent\n"));
+  EXPECT_EQ(host.line->state().phase, Phase::Idle);
+}
+
+TEST(DcCodes, AStopBeforeTheEndCharacterHoldsTheTransfer) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("%\nO1\nM30\n%\n"));
+  EXPECT_EQ(host.say_now(9), "%\nO1\nM30\n");
+  host.hear("\x13");
+  EXPECT_EQ(host.say_now(), "");
+  EXPECT_EQ(host.line->state().phase, Phase::Sending);
+  host.hear("\x11");
+  EXPECT_EQ(host.say(), "%");
+}
+
+TEST(DcCodes, TakesWhatIsPrintedWhileTheControlHoldsTheFeed) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\nG1 X1\n", false));
+  EXPECT_EQ(host.say_now(4), "%\nO1");
+  host.hear("\x13");
+  host.events();
+  host.hear("\x12PROBE 3.14\n\x14");
+  EXPECT_EQ(host.events(), "receiving\ntext \"PROBE 3.14\\n\"\nreceived\n");
+  EXPECT_EQ(host.say_now(), "") << "it still holds the feed";
+  host.hear("\x11");
+  ASSERT_TRUE(host.offer("M30\n"));
+  EXPECT_EQ(host.say(), "\nG1 X1\nM30\n%");
+  EXPECT_EQ(host.events(), "goes on\nsent\n");
+}
+
+TEST(DcCodes, KeepsTextThatComesWithoutDc2WhileItSends) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\n", false));
+  host.say_now();
+  host.hear("X7\n");
+  EXPECT_THAT(host.events(), HasSubstr("text \"X7\\n\""));
+  EXPECT_EQ(host.line->state().phase, Phase::Sending);
+}
+
+TEST(DcCodes, TakesPrintedLinesWithoutTheMarksOfAProgram) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear(
+      "\x12"
+      "B 2\n\x14");
+  EXPECT_EQ(host.events(), "receiving\ntext \"B 2\\n\"\nreceived\n");
+}
+
+TEST(DcCodes, SaysThatAPunchedProgramLostItsStartCharacter) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x12O7\nM30\n%\x14");
+  EXPECT_EQ(host.events(),
+            "receiving\ntext \"O7\\nM30\\n\"\ntrouble corrupt: the start character before the "
+            "program is missing\nreceived\n");
+}
+
+TEST(DcCodes, GivesUpWhatIsPunchedAndDoesNotEnd) {
+  for (const auto* heard : {"\x12", "\x12%\nO7\n", "\x12X1\n", "%\nO7\n"}) {
+    TestedLine host(template_with("fanuc", {{"answer_limit_ms", "none"}}), Role::Host);
+    host.hear(heard);
+    host.pass(milliseconds(9999));
+    EXPECT_EQ(host.line->state().phase, Phase::Receiving) << heard;
+    EXPECT_FALSE(host.line->state().may_wait_without_limit) << heard;
+    host.pass(milliseconds(1));
+    EXPECT_EQ(host.line->state().phase, Phase::Idle) << heard;
+  }
+}
+
+TEST(DcCodes, StrayCharactersGiveWayToAProgram) {
+  for (const auto* heard : {"\x12", "XYZ", "X\nO7"}) {
+    TestedLine host(template_with("fanuc"), Role::Host);
+    host.hear("\x11");
+    host.hear(heard);
+    EXPECT_TRUE(host.line->state().is_stray) << heard;
+    EXPECT_TRUE(host.line->begin_send("", host.now)) << heard;
+    EXPECT_THAT(host.events(), HasSubstr("received\nsending\n")) << heard;
+  }
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x12%\nO7\n");
+  EXPECT_FALSE(host.line->state().is_stray);
+  EXPECT_EQ(host.line->begin_send("", host.now).error().code, Errc::Busy);
+}
+
 TEST(DcCodes, AStopAtTheEndCharacterEndsTheTransfer) {
   TestedLine host(template_with("fanuc", {{"trailer", "50"}}), Role::Host);
   host.hear("\x11");

@@ -173,7 +173,7 @@ TEST(PlainSending, WaitsForTheControlsDc1WhenToldTo) {
 }
 
 TEST(PlainSending, FailsWhenNoDc1ComesInTime) {
-  TestedLine host(settings_with({{"wait_for_xon", "yes"}, {"answer_limit_ms", "700"}}), Role::Host);
+  TestedLine host(settings_with({{"wait_for_xon", "yes"}, {"start_limit_ms", "700"}}), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   host.pass(milliseconds(700));
   EXPECT_THAT(host.events(), HasSubstr("failed timeout: no DC1 came to start for 700 ms"));
@@ -256,7 +256,7 @@ TEST(PlainReceiving, KeepsATitleBehindTheStartCharacter) {
 }
 
 TEST(PlainReceiving, FailsWhenTheEndCharacterDoesNotCome) {
-  TestedLine host(settings_with({{"end_char", "%"}, {"answer_limit_ms", "3000"}}), Role::Host);
+  TestedLine host(settings_with({{"end_char", "%"}, {"pause_limit_ms", "3000"}}), Role::Host);
   host.hear("O1\r\n");
   host.pass(seconds(3));
   EXPECT_THAT(host.events(), HasSubstr("failed timeout: the end character did not come"));

@@ -336,6 +336,36 @@ TEST(TncBlockwise, RefusesControlCharactersThatExcludeEachOther) {
   EXPECT_FALSE(make_discipline(settings, Role::Host));
 }
 
+TEST(TncBlockwise, SendsNoOtherProgramThanTheOneAskedFor) {
+  auto wire = line(settings_of(Flow::HeidenhainBcc));
+  ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "15"}, wire.now()));
+  wire.run(seconds(2));
+  EXPECT_TRUE(wire.host().line->state().is_asked);
+  EXPECT_TRUE(wire.host().send(kProgram, wire.now(), "27"));
+  wire.run(seconds(20));
+  EXPECT_EQ(wire.control().received, "");
+  ASSERT_FALSE(wire.control().failures.empty());
+  EXPECT_THAT(wire.control().failures[0].what, HasSubstr("15 NOT READY"));
+  EXPECT_TRUE(wire.host().line->state().awaits_start);
+}
+
+TEST(TncStandard, KeepsTheRequestUntilTheControlTakesItBack) {
+  auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
+  const auto hear = [&](std::string_view text) {
+    host->receive(std::as_bytes(std::span(text)), LineTime{});
+  };
+  hear("\x11");
+  EXPECT_TRUE(host->state().is_asked);
+  hear("\x04");
+  EXPECT_FALSE(host->state().is_asked);
+  ASSERT_TRUE(host->begin_send("", {}));
+  EXPECT_TRUE(host->state().awaits_start);
+  host->abort({});
+  hear("\x11");
+  ASSERT_TRUE(host->begin_send("", {}));
+  EXPECT_FALSE(host->state().awaits_start);
+}
+
 // Rows: HD-221 (leader, line ends, end characters).
 TEST(TncStandard, SendsExactlyTheCharactersOfTheProtocol) {
   auto settings = settings_of(Flow::Heidenhain);

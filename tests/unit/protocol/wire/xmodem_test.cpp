@@ -164,8 +164,16 @@ TEST(XmodemSender, StopsWhenTheReceiverCancels) {
   EXPECT_EQ(line.say_now(), "");
 }
 
-TEST(XmodemSender, GivesUpWhenNothingIsHeard) {
-  TestedLine line = sender(xmodem_line(), "M30\n");
+TEST(XmodemSender, WaitsForTheReceiverAsLongAsItIsTold) {
+  TestedLine patient = sender(xmodem_line(), "M30\n");
+  EXPECT_TRUE(patient.line->state().awaits_start);
+  EXPECT_TRUE(patient.line->state().may_wait_without_limit);
+  patient.pass(std::chrono::hours(1));
+  patient.hear("C");
+  EXPECT_EQ(patient.say_now(), block(1, "M30\n"));
+  LineSettings settings = xmodem_line();
+  settings.start_limit = seconds(60);
+  TestedLine line = sender(settings, "M30\n");
   line.pass(seconds(60));
   EXPECT_THAT(line.events(), HasSubstr("failed timeout: the receiver did not ask"));
 }
@@ -185,6 +193,31 @@ TEST(XmodemHost, HearsThatAControlWantsAProgram) {
   ASSERT_TRUE(line.line->begin_send("", line.now));
   ASSERT_TRUE(line.offer("M30\n"));
   EXPECT_EQ(line.say_now(), block(1, "M30\n"));
+}
+
+TEST(XmodemHost, KeepsARequestWhileTheReceiverAsks) {
+  TestedLine line(xmodem_line(), Role::Host);
+  for (int i = 0; i < 5; ++i) {
+    line.hear("C");
+    line.pass(seconds(3));
+  }
+  EXPECT_EQ(line.say_now(), "") << "nobody has ordered anything";
+  EXPECT_TRUE(line.line->state().is_asked);
+  ASSERT_TRUE(line.line->begin_send("", line.now));
+  ASSERT_TRUE(line.offer("M30\n"));
+  EXPECT_EQ(line.say_now(), "") << "it may have given up since";
+  line.hear("C");
+  EXPECT_EQ(line.say_now(), block(1, "M30\n"));
+}
+
+TEST(XmodemHost, DropsTheRequestOfAReceiverThatIsSilent) {
+  TestedLine line(xmodem_line(), Role::Host);
+  line.hear("C");
+  line.pass(seconds(15));
+  EXPECT_FALSE(line.line->state().is_asked);
+  EXPECT_FALSE(line.line->deadline());
+  line.hear("C");
+  EXPECT_EQ(line.events(), "wants a program\nwants a program\n") << "each sequence is told";
 }
 
 TEST(XmodemHost, RefusesByCancelling) {
