@@ -155,6 +155,12 @@ Result<std::vector<Record>> SqliteStore::records(const std::string& run, const s
                                                  Page page) {
   return repositories_->records.of_run(run, kind, page);
 }
+Result<std::vector<MachineReport>> SqliteStore::machine_reports() {
+  return repositories_->records.reports();
+}
+Result<std::vector<Record>> SqliteStore::machine_report(const std::string& machine, Page page) {
+  return repositories_->records.without_run(machine, page);
+}
 
 Result<void> SqliteStore::save_port(const Port& port) {
   return repositories_->ports.save(port);

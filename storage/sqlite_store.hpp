@@ -73,6 +73,8 @@ class SqliteStore final : public Store {
                                std::int64_t sequence) override;
 
   Result<std::uint64_t> store_records(const RecordBatch& batch) override;
+  Result<std::vector<MachineReport>> machine_reports() override;
+  Result<std::vector<Record>> machine_report(const std::string& machine, Page page) override;
   Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
                                       Page page) override;
 

@@ -123,6 +123,13 @@ struct Record {
   std::string device, text;
 };
 
+/// How much a machine printed outside any run, and when.
+struct MachineReport {
+  std::string machine;
+  std::uint64_t lines = 0;
+  UtcTime first, last;
+};
+
 /// What a record that ends a run says of it; stored in the same transaction as the record.
 struct RunEnding {
   std::string run;
@@ -286,6 +293,12 @@ class Store {
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
                                               Page page) = 0;
+  /// What machines printed (kinds output and probe) while no run of the server was theirs: from
+  /// their controls' own memory, for instance. In order of their names; those that printed nothing
+  /// are left out.
+  virtual Result<std::vector<MachineReport>> machine_reports() = 0;
+  /// Its lines, in order of (epoch, number). A machine not known has none.
+  virtual Result<std::vector<Record>> machine_report(const std::string& machine, Page page) = 0;
 
   // Serial ports
   /// Adds or changes one. Errors: Syntax and LimitExceeded (names, settings, rules), Busy (the

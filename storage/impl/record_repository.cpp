@@ -146,4 +146,32 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
   });
 }
 
+/// The condition is the index's own, word for word: only so is it used.
+Result<std::vector<MachineReport>> RecordRepository::reports() {
+  static const std::string kSelect =
+      "SELECT machine.name, count(*), min(time_us), max(time_us) FROM record "
+      "JOIN machine ON machine.id = record.machine "
+      "WHERE run IS NULL AND kind IN ('output', 'probe') "
+      "GROUP BY record.machine ORDER BY machine.name";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSelect, [](const sqlite::Statement& row) {
+      return MachineReport{.machine = row.text(0),
+                           .lines = row.number(1),
+                           .first = row.time(2),
+                           .last = row.time(3)};
+    });
+  });
+}
+
+Result<std::vector<Record>> RecordRepository::without_run(const std::string& machine, Page page) {
+  static const std::string kSelect =
+      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text "
+      "FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND run IS NULL AND kind IN ('output', 'probe') "
+      "ORDER BY epoch, number LIMIT ?2 OFFSET ?3";
+  return connections_.read([&](sqlite::Database& database) {
+    return sqlite::all_rows(database, kSelect, read_record, machine, page.limit, page.offset);
+  });
+}
+
 }  // namespace dripline::storage

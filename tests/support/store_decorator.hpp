@@ -86,6 +86,13 @@ class StoreDecorator : public storage::Store {
   Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
     return inner_.store_records(batch);
   }
+  Result<std::vector<storage::MachineReport>> machine_reports() override {
+    return inner_.machine_reports();
+  }
+  Result<std::vector<storage::Record>> machine_report(const std::string& machine,
+                                                      storage::Page page) override {
+    return inner_.machine_report(machine, page);
+  }
   Result<std::vector<storage::Record>> records(const std::string& run, const std::string& kind,
                                                storage::Page page) override {
     return inner_.records(run, kind, page);

@@ -52,6 +52,36 @@ TEST_F(RecordTest, ComesBackAsItWasReported) {
   EXPECT_EQ(record.text, batch.records[0].text);
 }
 
+TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
+  RecordBatch batch = make_batch(1, 5);
+  for (const std::size_t i : {0u, 1u, 2u, 3u}) batch.records[i].run.clear();
+  batch.records[1].kind = "probe";
+  batch.records[2].kind = "message";
+  ASSERT_EQ(store_->store_records(batch), 5u);
+  RecordBatch later = make_batch(1, 1);
+  later.epoch = later.records[0].epoch = 8;
+  later.records[0].run.clear();
+  later.records[0].time = batch.records[0].time - std::chrono::hours(1);  // the clock was put back
+  ASSERT_EQ(store_->store_records(later), 1u);
+  reopen();
+  const auto lines = store_->machine_report("m1", {});
+  ASSERT_TRUE(lines) << lines.error().what;
+  std::string places;
+  for (const auto& line : *lines) {
+    places += fmt::format("{}.{} {} ", line.epoch, line.number, line.kind);
+    EXPECT_EQ(line.machine, "m1");
+    EXPECT_EQ(line.run, "");
+  }
+  EXPECT_EQ(places, "7.1 output 7.2 probe 7.4 output 8.1 output ");
+  EXPECT_EQ(store_->machine_report("m1", {.limit = 1, .offset = 1})->at(0).number, 2u);
+  EXPECT_TRUE(store_->machine_report("nobody", {})->empty());
+  const auto reports = store_->machine_reports();
+  ASSERT_EQ(reports->size(), 1u);
+  EXPECT_EQ(reports->at(0).machine, "m1");
+  EXPECT_EQ(reports->at(0).lines, 4u);
+  EXPECT_EQ(reports->at(0).first, later.records[0].time);
+}
+
 TEST_F(RecordTest, SentAgainAreStoredOnce) {
   EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
   EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
