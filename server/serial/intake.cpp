@@ -54,7 +54,7 @@ bool Intake::is_program_line(const std::string& line) const {
       (hit.action == RuleAction::Report || hit.action == RuleAction::Ignore)) {
     return false;
   }
-  return begins_program(line, is_behind_percent_);
+  return takes_programs_only_ || begins_program(line, is_behind_percent_);
 }
 
 /// Another program than the one in hand. `:15` is what ISO tapes have for O15.

@@ -35,6 +35,8 @@ class Intake {
   explicit Intake(const RuleSet& rules, bool extracts = false)
       : rules_(rules), extracts_(extracts) {}
 
+  /// What such a control sends is a program whatever it looks like: it prints nothing.
+  void take_programs_only(bool only) { takes_programs_only_ = only; }
   /// A transfer begins; one with a name, or that somebody asked for, is a program and nothing else.
   void begin(std::string name, bool is_program = false);
   std::vector<Item> take(std::string_view text);
@@ -55,6 +57,7 @@ class Intake {
 
   const RuleSet& rules_;
   const bool extracts_;
+  bool takes_programs_only_ = false;
   interpreter::centurion::ProgramSplitter splitter_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete

@@ -40,10 +40,20 @@ bool is_letter_and_digit(std::string_view line, std::string_view letters) {
          is_digit(line[1]);
 }
 
+/// "PN7" of a ProtoTRAK's header `PN7 G20 ;`; empty: it is none.
+std::string prototrak_name(std::string_view line) {
+  if (line.size() < 3 || upper(line[0]) != 'P' || upper(line[1]) != 'N') return {};
+  const auto digits = leading_digits(line.substr(2));
+  const auto rest = trim(line.substr(2 + digits.size()));
+  const bool is_header = rest.empty() || rest.front() == ';' || upper(rest.front()) == 'G';
+  return digits.empty() || !is_header ? std::string() : "PN" + std::string(digits);
+}
+
 /// The name in one line of a head; empty: none.
 std::string name_in(std::string_view line) {
   line = trim(line);
   if (line.starts_with('%')) line = trim(line.substr(1));
+  if (auto name = prototrak_name(line); !name.empty()) return name;
   if (is_letter_and_digit(line, "O:")) return "O" + std::string(leading_digits(line.substr(1)));
   const std::string big = upper(line);
   const auto begin = big.find(kBeginOfTnc);

@@ -10,12 +10,13 @@ namespace dripline::ports {
 inline constexpr std::size_t kProgramHead = 4096;
 
 /// Whether a line that comes from a control begins a program of its own accord: `O` or `:` and a
-/// number, `%` and a name, a TNC's `BEGIN PGM`; behind a line of `%` alone also an N number, a G
-/// code, a comment or a block skip. What control prints (DPRNT) looks otherwise, or a rule says so.
+/// number, `%` and a name, a TNC's `BEGIN PGM`, a ProtoTRAK's `PN7`; behind a line of `%` alone
+/// also an N number, a G code, a comment or a block skip. What control prints (DPRNT) looks
+/// otherwise, or a rule says so.
 bool begins_program(std::string_view line, bool is_behind_percent);
 
-/// The name a program gives itself in its head: "O9999", "O15" for `:15`, a TNC's "15"; empty:
-/// none.
+/// The name a program gives itself in its head: "O9999", "O15" for `:15`, a TNC's "15", a
+/// ProtoTRAK's "PN7"; empty: none.
 std::string program_name(std::string_view head);
 /// Whether two names are the same program's: `O0015`, `o15` and `15` are.
 bool is_same_program(std::string_view a, std::string_view b);

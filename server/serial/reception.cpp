@@ -10,6 +10,7 @@ namespace dripline::ports {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
+constexpr std::string_view kProtoTrak = "prototrak-plus";
 
 /// The line as it was printed; other control characters than TAB become escapes.
 std::string printed_text(const std::string& line) {
@@ -37,6 +38,7 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
     case Incoming::What::Began:
       is_in_transfer_ = true;
       program_name_ = incoming.text;
+      intake_.take_programs_only(parts_.sends_programs_only || machine_control() == kProtoTrak);
       intake_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:

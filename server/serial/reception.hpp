@@ -24,7 +24,8 @@ class Reception {
     std::shared_ptr<LineRecords> records;
     std::string machine, port;
     std::shared_ptr<const RuleSet> rules;
-    bool extracts_programs = false;  ///< a text with several programs becomes several
+    bool extracts_programs = false;    ///< a text with several programs becomes several
+    bool sends_programs_only = false;  ///< the control prints nothing
     CallDesk::Parts calls;
   };
   explicit Reception(Parts parts);
