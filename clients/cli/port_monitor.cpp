@@ -90,6 +90,7 @@ class PortMonitor {
   void take_state(const client::Port& port) {
     if (context_.wants_json) return;
     std::string state = state_text(port);
+    if (port.request) state += "; " + request_text(port.request);
     if (!port.trouble.empty()) state += "; " + port.trouble;
     if (state != state_) note("state", state);
     state_ = state;

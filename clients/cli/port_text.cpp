@@ -58,6 +58,14 @@ std::string state_text(const client::Port& port) {
   return text;
 }
 
+std::string request_text(const std::optional<client::Port::Request>& request) {
+  if (!request) return {};
+  return fmt::format("the control asked for {} at {}; {}",
+                     request->program.empty() ? "a program" : "program " + request->program,
+                     time_text(request->since),
+                     request->answer.empty() ? "no run waits" : "refused: " + request->answer);
+}
+
 std::string short_state(const client::Port& port) {
   if (!port.enabled) return "disabled";
   if (!port.open) return closed_text(port);
@@ -68,7 +76,11 @@ std::string short_state(const client::Port& port) {
 }
 
 std::string wait_text(const client::Port& port, std::string_view now) {
-  if (!port.open || port.line.waiting_for.empty()) return {};
+  if (!port.open) return {};
+  if (port.line.waiting_for.empty()) {
+    if (!port.request) return {};
+    return port.request->answer.empty() ? "asked: no run waits" : "asked: refused";
+  }
   std::string text = port.line.waiting_for;
   if (!port.waiting_since.empty()) {
     text += " for " + duration_text(seconds_between(port.waiting_since, now));
@@ -102,6 +114,7 @@ Details port_details(const client::Port& port) {
   details.add("state", Cell(state_text(port), style_of_state(port)));
   details.add("trouble", Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad));
   details.add("run", port.run);
+  details.add("request", request_text(port.request));
   details.add("transfer", transfer_text(port.transfer));
   details.add("sent", bytes_text(port.sent));
   details.add("received", bytes_text(port.received));

@@ -18,6 +18,8 @@ std::string state_text(const client::Port& port);
 /// ISO 8601 UTC.
 std::string short_state(const client::Port& port);
 std::string wait_text(const client::Port& port, std::string_view now);
+/// What the control asked for in vain: "the control asked for a program at 12:01; no run waits".
+std::string request_text(const std::optional<client::Port::Request>& request);
 Style style_of_state(const client::Port& port);
 Details port_details(const client::Port& port);
 /// Where the control's baud rate, as its setup says it, is not the line's; else empty.

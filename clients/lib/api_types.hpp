@@ -189,6 +189,11 @@ struct Port {
   std::optional<Transfer> transfer;  ///< the last one
   std::uint64_t sent = 0, received = 0;
   std::string waiting_since;
+  /// What the control asked for while no run waited.
+  struct Request {
+    std::string since, program, answer;
+  };
+  std::optional<Request> request;
 };
 
 /// One thing that passed over a line: sent and received have bytes, the others words.

@@ -49,6 +49,12 @@ json line_json(const wire::LineState& line) {
           {"without_limit", line.may_wait_without_limit}};
 }
 
+json request_json(const ports::PortRequest& request) {
+  return {{"since", to_iso8601(request.since)},
+          {"program", optional_text(request.program)},
+          {"answer", optional_text(request.answer)}};
+}
+
 std::string hex(std::string_view bytes) {
   std::string text;
   text.reserve(2 * bytes.size());
@@ -67,23 +73,24 @@ json transfer_json(const ports::PortTransfer& transfer) {
 }
 
 json port_json(const ports::PortView& view) {
-  return {{"name", view.port.name},
-          {"machine", view.port.machine},
-          {"address", view.port.address},
-          {"template", optional_text(view.port.line_template)},
-          {"settings", own_settings_json(view.port)},
-          {"rules", optional_text(view.port.rules)},
-          {"enabled", view.port.is_enabled},
-          {"effective", settings_json(view.settings)},
-          {"open", view.is_open},
-          {"trouble", optional_text(view.trouble)},
-          {"line", line_json(view.line)},
-          {"run", optional_text(view.run)},
-          {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
-          {"sent", view.sent},
-          {"received", view.received},
-          {"waiting_since",
-           view.waiting_since ? json(to_iso8601(*view.waiting_since)) : json(nullptr)}};
+  return {
+      {"name", view.port.name},
+      {"machine", view.port.machine},
+      {"address", view.port.address},
+      {"template", optional_text(view.port.line_template)},
+      {"settings", own_settings_json(view.port)},
+      {"rules", optional_text(view.port.rules)},
+      {"enabled", view.port.is_enabled},
+      {"effective", settings_json(view.settings)},
+      {"open", view.is_open},
+      {"trouble", optional_text(view.trouble)},
+      {"line", line_json(view.line)},
+      {"run", optional_text(view.run)},
+      {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},
+      {"sent", view.sent},
+      {"received", view.received},
+      {"waiting_since", view.waiting_since ? json(to_iso8601(*view.waiting_since)) : json(nullptr)},
+      {"request", view.request ? request_json(*view.request) : json(nullptr)}};
 }
 
 json traffic_json(const ports::PortTraffic& traffic) {

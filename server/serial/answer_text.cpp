@@ -77,7 +77,8 @@ std::vector<storage::Revision> numbered_programs(std::span<const storage::Progra
   std::map<std::pair<std::size_t, std::string>, storage::Revision> in_order;
   for (const auto& program : programs) {
     const std::string number = program_number(program.latest.program);
-    if (number.empty() || !is_offered(program, control)) continue;
+    const bool is_for_it = !control.empty() && program.latest.control == control;
+    if (number.empty() || !is_for_it || !is_offered(program, control)) continue;
     in_order.emplace(std::pair(number.size(), number), program.latest);
   }
   std::vector<storage::Revision> revisions;

@@ -24,7 +24,8 @@ std::string comment_program(const std::string& name, std::span<const std::string
 std::vector<std::string> listing(std::span<const storage::ProgramSummary> programs,
                                  const std::string& control);
 
-/// Those of them that a protocol with numbered programs can name, in order of their numbers.
+/// Those of them that a protocol with numbered programs can name and that are known to be for
+/// `control`, in order of their numbers.
 std::vector<storage::Revision> numbered_programs(std::span<const storage::ProgramSummary> programs,
                                                  const std::string& control);
 

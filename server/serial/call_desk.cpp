@@ -9,6 +9,7 @@
 #include "server/feeds/start_point.hpp"
 #include "server/library/control_words.hpp"
 #include "server/serial/answer_text.hpp"
+#include "server/serial/line_transfer.hpp"
 #include "server/serial/program_head.hpp"
 #include "server/serial/program_stream.hpp"
 
@@ -53,6 +54,17 @@ Result<std::string> CallDesk::find_program(const std::string& name) const {
   return fail(Errc::NotFound, "program {} is not in the library", name);
 }
 
+Result<std::string> CallDesk::find_offered(const std::string& name) const {
+  auto program = find_program(name);
+  if (!program) return program;
+  const auto revision = parts_.store.revision(*program, std::nullopt);
+  if (!revision) return fail(revision.error());
+  const std::string control = this->control();
+  if (!control.empty() && revision->control == control) return program;
+  return fail(Errc::Unsupported, "program {} is not known to be for the control of this machine",
+              name);
+}
+
 void CallDesk::carry_out(RuleAction action, const std::string& argument) {
   spdlog::info("call from the control machine={} action={} argument={}", parts_.machine,
                to_string(action), argument);
@@ -63,13 +75,30 @@ void CallDesk::carry_out(RuleAction action, const std::string& argument) {
 
 void CallDesk::answer(const wire::TransferRequest& request) {
   using Kind = wire::TransferRequest::Kind;
-  if (request.kind == Kind::Directory) return send_listing(true);
-  if (request.kind == Kind::SendProgram && request.name.empty()) return send_next();
-  offered_.clear();
-  if (request.kind == Kind::SendProgram) return send(request.name, true);
-  if (const auto line = parts_.directory.line_of(parts_.machine)) {
-    line->accept_receive(request.name);
+  if (request.kind == Kind::TakeProgram) {
+    offers_.reset();
+    if (const auto line = parts_.directory.line_of(parts_.machine)) {
+      line->accept_receive(request.name);
+    }
+    return;
   }
+  const bool names_one = request.kind == Kind::SendProgram && !request.name.empty();
+  const auto needed = names_one ? wire::Offer::Named : wire::Offer::All;
+  if (parts_.offer < needed) return leave(request);
+  if (request.kind == Kind::Directory) return send_listing(true);
+  if (!names_one) return send_next();
+  offers_.reset();
+  send(request.name, true);
+}
+
+/// Nothing is sent that nobody ordered: the request stays for the run that is started next.
+void CallDesk::leave(const wire::TransferRequest& request) const {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  const PortRequest asked{.since = {}, .program = request.name, .answer = {}};
+  spdlog::info("port={} machine={}: {}", line->port().name, parts_.machine, request_words(asked));
+  line->note(request_words(asked));
+  if (parts_.refuses) line->refuse("NO RUN WAITS");
 }
 
 SerialFeed::Started CallDesk::on_started(bool is_request) const {
@@ -80,7 +109,7 @@ SerialFeed::Started CallDesk::on_started(bool is_request) const {
 
 void CallDesk::send(const std::string& name, bool is_request) {
   if (name.empty()) return say_no("no program is named", is_request);
-  const auto program = find_program(name);
+  const auto program = is_request ? find_offered(name) : find_program(name);
   if (!program) {
     return say_no(program.error().what, is_request, library::Refusal::NoSuchProgram);
   }
@@ -123,26 +152,43 @@ void CallDesk::send_listing(bool is_request) {
 /// A control that names none gets all that have a number, one a request, and then "no more": so it
 /// lists them, or takes those it wants. They are no runs.
 void CallDesk::send_next() {
-  const SteadyTime now = parts_.clock.steady_now();
-  const bool is_forgotten = now - std::exchange(offered_at_, now) > kOfferLife;
-  if (offered_.empty() || is_forgotten) {
-    const auto programs = parts_.store.programs({.limit = kMostPrograms});
-    if (!programs) return say_no(programs.error().what, true);
-    offered_ = numbered_programs(*programs, control());
-    next_offered_ = 0;
-  }
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
-  if (next_offered_ >= offered_.size()) {
-    offered_.clear();
+  if (auto listed = list_offers(); !listed) return say_no(listed.error().what, true);
+  if (next_offer_ >= offers_->size()) {
+    if (!std::exchange(is_end_told_, true)) {
+      line->note(
+          fmt::format("the control has been offered {} programs: none is left", next_offer_));
+    }
     return line->refuse("");
   }
-  const auto& revision = offered_[next_offered_++];
+  const auto& revision = (*offers_)[next_offer_++];
+  line->note(fmt::format("the control asked: program {} revision {} is offered", revision.program,
+                         revision.number));
   SendJob job;
   job.name = program_number(revision.program);
   job.stream = std::make_shared<ProgramStream>(ProgramStream::of(revision.content, revision.size));
   job.size = revision.size;
   put_on_line(std::move(job));
+}
+
+/// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).
+Result<void> CallDesk::list_offers() {
+  const SteadyTime now = parts_.clock.steady_now();
+  const auto silence = now - std::exchange(asked_at_, now);
+  const bool is_over = is_end_told_ ? silence > kOfferLife : silence > kOfferPause;
+  if (offers_ && !is_over) return {};
+  const std::string control = this->control();
+  if (control.empty()) {
+    return fail(Errc::Unsupported, "machine '{}' has no control: no program can be offered to it",
+                parts_.machine);
+  }
+  const auto programs = parts_.store.programs({.limit = kMostPrograms});
+  if (!programs) return fail(programs.error());
+  offers_ = numbered_programs(*programs, control);
+  next_offer_ = 0;
+  is_end_told_ = false;
+  return {};
 }
 
 void CallDesk::say_no(const std::string& why, bool is_request, library::Refusal refusal) const {

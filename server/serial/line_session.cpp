@@ -190,7 +190,8 @@ void LineSession::on_room(wire::Discipline& line, wire::LineTime now) {
 }
 
 void LineSession::on_lost(const Error& error, wire::Discipline& line) {
-  if (is_checked_) return;
+  // It goes on unless it waited without a limit: then the driver has dropped it.
+  if (is_checked_ && line.state().phase != wire::Phase::Idle) return;
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = error.what});
   if (!sending_ || sending_->waits_for_line) return;
   count(line);

@@ -127,6 +127,12 @@ bool has_numbered_programs(wire::Flow flow) {
   return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
 }
 
+std::string request_words(const PortRequest& request) {
+  return fmt::format("the control asked for {}; {}",
+                     request.program.empty() ? "a program" : "program " + request.program,
+                     request.answer.empty() ? "no run waits" : "refused: " + request.answer);
+}
+
 std::string what_it_does(const PortView& port) {
   if (!port.run.empty()) return "sending run " + port.run;
   if (port.transfer && port.transfer->state == "sending") {

@@ -20,6 +20,8 @@ Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::str
 
 /// Whose transfers carry a program's number and nothing else of its name.
 bool has_numbered_programs(wire::Flow flow);
+/// What a control asked for in vain, for people.
+std::string request_words(const PortRequest& request);
 /// Of a busy port: "receiving", "sending run ..." or which programs it sends.
 std::string what_it_does(const PortView& port);
 

@@ -29,6 +29,13 @@ struct ProgramChoice {
 };
 inline constexpr std::size_t kMaxTransferPrograms = 256;
 
+/// What the control asked for last, while no run waited for it.
+struct PortRequest {
+  UtcTime since;
+  std::string program;  ///< as the protocol named it; empty: whichever is ready
+  std::string answer;   ///< why it was refused; empty: it still waits, a run would begin at once
+};
+
 /// A port as it is configured; kept in the store (storage::Port). `settings` are pairs of
 /// wire::setting_rows() keys and values over those of `line_template`.
 struct PortView {
@@ -42,6 +49,7 @@ struct PortView {
   std::uint64_t sent = 0;  ///< characters since the line was opened
   std::uint64_t received = 0;
   std::optional<UtcTime> waiting_since;  ///< of a wait that the protocol does not limit
+  std::optional<PortRequest> request;    ///< until it is taken back, or something is sent
 };
 
 /// One thing on a line: what monitors show and the flight recorder keeps.

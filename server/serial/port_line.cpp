@@ -154,6 +154,8 @@ PortView PortLine::view() const {
   if (!driver_) return view;
   view.is_open = driver_->is_open();
   view.line = driver_->state();
+  const bool is_over = request_ && request_->answer.empty() && !view.line.is_asked;
+  if (!is_over) view.request = request_;
   return view;
 }
 
@@ -164,7 +166,8 @@ std::optional<SendProgress> PortLine::progress() const {
 
 bool PortLine::is_busy() const {
   const std::lock_guard lock(mutex_);
-  return (progress_ && !is_answer(*progress_)) || is_receiving_;
+  if (progress_ && !is_answer(*progress_)) return true;
+  return is_receiving_ && !(driver_ && driver_->state().is_stray);
 }
 
 void PortLine::drop_answer() {
@@ -189,7 +192,7 @@ void PortLine::begin(SendJob job, Answer answer) {
       [this, shared](wire::Discipline& line, wire::LineTime now) {
         auto before = show_transfer(*shared);
         auto begun = session_.begin(std::move(*shared), line, now);
-        if (!begun) take_back(std::move(before));
+        begun ? answer_request() : take_back(std::move(before));
         return begun;
       },
       std::move(answer));
@@ -239,6 +242,10 @@ void PortLine::abort(const std::string& id, const std::string& reason, Answer an
 }
 
 void PortLine::refuse(const std::string& reason) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_) request_->answer = reason.empty() ? "no program is left" : reason;
+  }
   with_line([reason](wire::Discipline& line, wire::LineTime now) {
     if (auto refused = line.refuse(reason, now); !refused) {
       spdlog::warn("refusal not sent: {}", refused.error().what);
@@ -335,7 +342,17 @@ void PortLine::on_incoming(Incoming incoming) {
   });
 }
 
+/// What is sent now is the answer.
+void PortLine::answer_request() {
+  const std::lock_guard lock(mutex_);
+  request_.reset();
+}
+
 void PortLine::on_request(const wire::TransferRequest& request) {
+  if (request.kind != wire::TransferRequest::Kind::TakeProgram) {
+    const std::lock_guard lock(mutex_);
+    request_ = PortRequest{.since = parts_.clock.now(), .program = request.name, .answer = {}};
+  }
   parts_.strand.post([on_request = parts_.listener.on_request, request] { on_request(request); });
 }
 

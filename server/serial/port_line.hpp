@@ -55,7 +55,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
 
   PortView view() const;
   std::optional<SendProgress> progress() const;
-  /// A run is on the line, or the control is sending.
+  /// A run is on the line, or the control is sending; stray characters do not count.
   bool is_busy() const;
   FlightRecorder& recorder() { return recorder_; }
   const storage::Port& port() const { return parts_.port; }
@@ -90,6 +90,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   std::optional<PortTransfer> show_transfer(const SendJob& job);
   void take_back(std::optional<PortTransfer> before);
   void end_transfer(const SendEnd& end);
+  void answer_request();
 
   void fetch(const SendJob& job, std::uint64_t offset) override;
   void on_sent(const SendEnd& end) override;
@@ -108,6 +109,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   std::optional<PortTransfer> transfer_;  ///< the last one
   bool is_receiving_ = false;
   std::optional<UtcTime> waiting_since_;
+  std::optional<PortRequest> request_;
 };
 
 }  // namespace dripline::ports

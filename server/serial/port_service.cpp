@@ -210,16 +210,19 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                         .directory = *this,
                         .clock = clock_,
                         .machine = name,
-                        .rules = entry.rules};
-  const auto reception = std::make_shared<Reception>(
-      Reception::Parts{.store = store_,
-                       .programs = programs_,
-                       .records = machine.records,
-                       .machine = name,
-                       .port = entry.port.name,
-                       .rules = entry.rules,
-                       .extracts_programs = entry.settings.extracts_programs,
-                       .calls = std::move(calls)});
+                        .rules = entry.rules,
+                        .offer = entry.settings.offer,
+                        .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc};
+  const auto reception = std::make_shared<Reception>(Reception::Parts{
+      .store = store_,
+      .programs = programs_,
+      .records = machine.records,
+      .machine = name,
+      .port = entry.port.name,
+      .rules = entry.rules,
+      .extracts_programs = entry.settings.extracts_programs,
+      .sends_programs_only = entry.settings.control.kind == wire::ControlKind::ProtoTrak,
+      .calls = std::move(calls)});
   return {.on_incoming =
               [reception](Incoming incoming, std::function<void()> kept) {
                 reception->take(std::move(incoming), std::move(kept));
@@ -227,6 +230,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
           .on_sent =
               [this, reception, name](const SendEnd& end) {
                 if (end.progress.id.starts_with(kTransferPrefix)) note_transfer(name, end);
+                if (end.progress.id.starts_with(kAnswerPrefix)) reception->on_answer_over();
                 if (!is_run(end.progress.id)) return;
                 reception->on_run(end.progress.id);
                 feed_.on_sent(name, end);

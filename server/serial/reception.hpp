@@ -33,6 +33,7 @@ class Reception {
   /// `kept` is called when the text is stored, or needs not be.
   void take(Incoming incoming, std::function<void()> kept);
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
+  void on_answer_over() { calls_.on_answer_over(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
   /// prints while it executes, and that goes on when everything has been sent.
   void on_run(const std::string& run) {

@@ -32,8 +32,14 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
   if (!port.is_open) return fmt::format("port {} is not open: {}", port.port.name, port.trouble);
   if (progress && progress->is_waiting_for_line) return "waits for its line";
   if (progress && progress->is_held) return "held by the operator";
-  if (port.line.is_stopped) return "the control holds the line";
+  if (progress && port.line.awaits_start) {
+    return fmt::format("waits for the operator to start it at the control ({})",
+                       port.line.waiting_for);
+  }
+  if (progress && port.line.is_stopped) return "the control holds the line";
   if (progress && port.transfer && progress->id == port.transfer->id) return what_it_does(port);
+  if (port.request) return request_words(*port.request);
+  if (port.line.is_stopped && !port.line.waiting_for.empty()) return "the control holds the line";
   if (!port.line.waiting_for.empty()) return fmt::format("waits for {}", port.line.waiting_for);
   return port.trouble;
 }

@@ -126,6 +126,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
     [](const auto& i) { return std::string(i.param.name); });
 
+/// A control that asks when it is switched on, before anybody has ordered anything.
+TEST(LineSystemOrders, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
+  for (const auto* flow : {"flow=dc_codes", "flow=xmodem"}) {
+    ServedLine line({flow, "control=plain"});
+    line.system.push("O0001", "G20 G98\nG1 X9. Z-9. F50.\nM30\n");
+    ASSERT_TRUE(eventually([&] { return line.port_view()["request"].is_object(); })) << flow;
+    EXPECT_TRUE(line.port_view()["request"]["answer"].is_null()) << line.port_view().dump();
+    EXPECT_EQ(line.system.rest().get("/api/v1/runs").json().at("runs").size(), 0U);
+    EXPECT_EQ(line.port_view().value("sent", 1U), 0U) << "not one character";
+    const std::string text = "G20 G98\nG1 X1. Z-1. F50.\nM30\n";
+    const std::string id = line.start("O0077", text);
+    EXPECT_EQ(line.system.wait_ended(id).value("state", ""), "completed") << flow;
+    ASSERT_TRUE(line.shop->wait_ended(1)) << flow;
+    const auto endings = line.shop->endings();
+    ASSERT_EQ(endings.size(), 1U) << flow;
+    EXPECT_EQ(endings[0].executed, 3U) << flow;
+  }
+}
+
 TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
   ServedLine line({"flow=xonxoff"});
   const std::string text = contour(150'000);

@@ -249,6 +249,13 @@ void members(V& v, Is<Port::Line> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<Port::Request> auto& x) {
+  v("since", x.since);
+  v("program", x.program);
+  v("answer", x.answer);
+}
+
+template <class V>
 void members(V& v, Is<Port> auto& x) {
   v("name", x.name);
   v("machine", x.machine);
@@ -266,6 +273,7 @@ void members(V& v, Is<Port> auto& x) {
   v("sent", x.sent);
   v("received", x.received);
   v("waiting_since", x.waiting_since);
+  v.later("request", x.request);
 }
 
 template <class V>

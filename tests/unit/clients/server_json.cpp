@@ -53,7 +53,8 @@ json port_json(const std::string& name) {
           {"transfer", nullptr},
           {"sent", 0},
           {"received", 0},
-          {"waiting_since", nullptr}};
+          {"waiting_since", nullptr},
+          {"request", nullptr}};
 }
 
 json setup_json(const std::string& machine, const std::string& text) {

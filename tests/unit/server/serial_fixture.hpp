@@ -21,6 +21,8 @@ class SerialTest : public ServerTest {
  protected:
   static constexpr std::chrono::seconds kPatience{10};
 
+  SerialTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
+
   void start_ports(storage::Store& store, const std::vector<storage::Port>& configured = {}) {
     ports::PortService::Options options;
     options.recordings = folder_.path() / "recordings";

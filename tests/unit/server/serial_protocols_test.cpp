@@ -10,11 +10,11 @@ using test_support::PlayedControl;
 /// A control that speaks a protocol of its own, at the end of the port's line.
 class SerialProtocolTest : public SerialTest {
  protected:
-  void add_control(const std::string& flow) {
+  void add_control(const std::string& flow, const std::string& offer = "none") {
     start_ports();
     add_machine("mill", "tnc155");
     auto port = mill();
-    port.settings = {{"baud", "115200"}, {"flow", flow}};
+    port.settings = {{"baud", "115200"}, {"flow", flow}, {"offer", offer}};
     add_port(port);
     control_ = std::make_unique<PlayedControl>(ports_->port("com1")->settings, line());
   }
@@ -63,7 +63,7 @@ TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
 }
 
 TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
-  add_control("heidenhain_bcc");
+  add_control("heidenhain_bcc", "all");
   const std::string text = tnc_program(15, 50);
   push("15.h", text, "tnc155");
   ASSERT_TRUE(
@@ -76,7 +76,7 @@ TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
 }
 
 TEST_F(SerialProtocolTest, TellsATncWhatThereIsNot) {
-  add_control("heidenhain_bcc");
+  add_control("heidenhain_bcc", "all");
   ASSERT_TRUE(
       control_->line().request({wire::TransferRequest::Kind::SendProgram, "77"}, control_->now()));
   ASSERT_TRUE(control_->until([&] { return !control_->failures.empty(); }));
@@ -84,7 +84,7 @@ TEST_F(SerialProtocolTest, TellsATncWhatThereIsNot) {
 }
 
 TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
-  add_control("heidenhain_bcc");
+  add_control("heidenhain_bcc", "all");
   push("O0007", tnc_program(7, 2), "tnc155");
   push("15.h", tnc_program(15, 2), "tnc155");
   push("no-number", tnc_program(1, 2), "tnc155");
@@ -101,7 +101,136 @@ TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
   EXPECT_EQ(control_->failures[0].what, "the device has no program left");
   EXPECT_NE(control_->programs[0].find("BEGIN PGM 7 "), std::string::npos);
   EXPECT_NE(control_->programs[1].find("BEGIN PGM 15 "), std::string::npos);
+  // Asked again and again, it has no more to offer.
+  for (std::size_t count = 2; count <= 4; ++count) {
+    ASSERT_TRUE(ask());
+    ASSERT_TRUE(control_->until([&] { return control_->failures.size() == count; }));
+  }
+  EXPECT_EQ(control_->programs.size(), 2u);
   EXPECT_TRUE(runs().empty());
+}
+
+TEST_F(SerialProtocolTest, OffersOnlyWhatIsKnownToBeForTheControl) {
+  add_control("heidenhain_bcc", "all");
+  push("O3", "%C\nG0\n", "centurion");
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::Directory, ""}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->failures.size() == 1; }));
+  ASSERT_TRUE(
+      control_->line().request({wire::TransferRequest::Kind::SendProgram, "3"}, control_->now()));
+  ASSERT_TRUE(control_->until([&] { return control_->failures.size() == 2; }));
+  EXPECT_TRUE(control_->programs.empty());
+  EXPECT_TRUE(runs().empty());
+}
+
+TEST_F(SerialProtocolTest, SendsATncNothingThatIsNotOffered) {
+  add_control("heidenhain_bcc");
+  push("15.h", tnc_program(15, 2), "tnc155");
+  for (const auto* name : {"15", ""}) {
+    control_->failures.clear();
+    ASSERT_TRUE(control_->line().request({wire::TransferRequest::Kind::SendProgram, name},
+                                         control_->now()));
+    ASSERT_TRUE(control_->until([&] { return !control_->failures.empty(); })) << name;
+    EXPECT_NE(control_->failures[0].what.find("NO RUN WAITS"), std::string::npos)
+        << control_->failures[0].what;
+    const auto request = ports_->port("com1")->request;
+    ASSERT_TRUE(request) << name;
+    EXPECT_EQ(request->program, name);
+    EXPECT_EQ(request->answer, "NO RUN WAITS");
+  }
+  EXPECT_TRUE(control_->received.empty());
+  EXPECT_TRUE(runs().empty());
+}
+
+TEST_F(SerialProtocolTest, LetsAnXmodemReceiverWaitForTheRun) {
+  add_control("xmodem");
+  push("21.h", tnc_program(21, 2), "tnc155");
+  const std::string text = blocks(20);
+  push("O1", text, "tnc155");
+  ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
+  ASSERT_TRUE(control_->until([&] { return ports_->port("com1")->request.has_value(); }));
+  EXPECT_TRUE(control_->failures.empty());
+  EXPECT_TRUE(control_->received.empty());
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
+  EXPECT_EQ(control_->programs[0], text);
+  EXPECT_FALSE(ports_->port("com1")->request);
+}
+
+/// A Fanuc at the end of the line.
+class SerialFanucTest : public SerialTest {
+ protected:
+  void add_fanuc(const std::string& more_key = "retries", const std::string& more_value = "10") {
+    start_ports();
+    add_machine("mill", "fanuc");
+    auto port = mill();
+    port.line_template = "fanuc";
+    port.settings = {{"baud", "115200"}, {more_key, more_value}};
+    add_port(port);
+  }
+  bool is_noted(const std::string& text) {
+    for (const auto& entry : recording()) {
+      if (entry.text.find(text) != std::string::npos) return true;
+    }
+    return false;
+  }
+};
+
+TEST_F(SerialFanucTest, SendsNothingThatNobodyOrdered) {
+  add_fanuc();
+  push("O2001", "O2001\nM30\n", "fanuc");
+  line().write("\x11");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->request.has_value(); }));
+  ASSERT_TRUE(wait([&] { return is_noted("the control asked for a program; no run waits"); }));
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "");
+  EXPECT_EQ(ports_->port("com1")->request->answer, "");
+  EXPECT_EQ(ports_->feed().machine("mill")->status->message,
+            "the control asked for a program; no run waits");
+  EXPECT_TRUE(store_->runs({.machine = "mill", .program = {}, .state = {}}, {})->empty());
+  line().write("\x13");
+  EXPECT_TRUE(wait([&] { return !ports_->port("com1")->request.has_value(); }));
+}
+
+TEST_F(SerialFanucTest, SendsTheRunThatIsStartedAfterTheOperatorAsked) {
+  add_fanuc();
+  push("O2001", "O2001\nM30\n", "fanuc");
+  push("O2002", "O2002\nG0\nM30\n", "fanuc");
+  line().write("\x11");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->request.has_value(); }));
+  const auto run = start("O2002");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(line().read_until("M30\n%"), "%\nO2002\nG0\nM30\n%");
+  line().write("\x13");
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  EXPECT_FALSE(ports_->port("com1")->request);
+}
+
+TEST_F(SerialFanucTest, ForgetsARequestWithItsLine) {
+  add_fanuc();
+  push("O2001", "O2001\nM30\n", "fanuc");
+  line().write("\x11");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->request.has_value(); }));
+  line().pull();
+  ASSERT_TRUE(wait([&] { return !ports_->port("com1")->is_open; }));
+  line().put_back();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  const auto run = start("O2001");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "");
+  line().write("\x11");
+  EXPECT_EQ(line().read_until("M30\n%"), "%\nO2001\nM30\n%");
+}
+
+TEST_F(SerialFanucTest, WaitsForTheOperatorAtTheControl) {
+  add_fanuc();
+  push("O2001", "O2001\nM30\n", "fanuc");
+  const auto run = start("O2001");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
+  const auto status = ports_->feed().machine("mill")->status;
+  EXPECT_EQ(status->execution, dds::Execution::Waiting);
+  EXPECT_EQ(status->message, "waits for the operator to start it at the control (DC1)");
 }
 
 TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
@@ -115,7 +244,7 @@ TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
 
 // HD-235: the setup came after the port, so that it is the start that is refused.
 TEST_F(SerialProtocolTest, StartsNothingBlockwiseOnATncWithoutIt) {
-  add_control("heidenhain_bcc");
+  add_control("heidenhain_bcc", "all");
   push("O0015", tnc_program(15, 5), "tnc155");
   const auto keep = [&](const std::string& model) {
     return setups_->save({"mill", "tnc155", "[control]\nmodel = \"" + model + "\"\n", ""}, "cam");

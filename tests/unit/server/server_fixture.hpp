@@ -15,13 +15,15 @@
 
 namespace dripline::server_test {
 
-/// Two controls; a text that begins with `%C` is for the first, one with `%2` for both.
+/// Two controls, unless a test knows more; a text that begins with `%C` is for the first, one with `%2` for both.
 class FakeCatalog final : public library::ControlCatalog {
  public:
-  std::vector<std::string> names() const override { return {"centurion", "tnc155"}; }
+  std::vector<std::string> known = {"centurion", "tnc155"};
+
+  std::vector<std::string> names() const override { return known; }
   std::vector<std::string> detect(std::string_view head, std::string_view) const override {
     if (head.starts_with("%C")) return {"centurion"};
-    if (head.starts_with("%2")) return names();
+    if (head.starts_with("%2")) return {"centurion", "tnc155"};
     return {};
   }
   Result<void> check_setup(std::string_view control, std::string_view toml) const override {
