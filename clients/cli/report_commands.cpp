@@ -21,6 +21,49 @@ struct ExportCommand {
   std::string run, format, output;
 };
 
+/// What machines printed outside any run; of `machine` only when it is named.
+client::Reply<std::vector<client::MachineReport>> machine_reports(client::Client& client,
+                                                                  const std::string& machine) {
+  auto reports = client.machine_reports();
+  if (reports && !machine.empty()) {
+    std::erase_if(*reports, [&](const auto& report) { return report.machine != machine; });
+  }
+  return reports;
+}
+
+Table table_of(const std::vector<client::Report>& reports) {
+  Table table({{"RUN"},
+               {"MACHINE"},
+               {"PROGRAM"},
+               {"REV", Align::Right},
+               {"STATE"},
+               {"LINES", Align::Right},
+               {"STARTED"},
+               {"ENDED"}});
+  for (const auto& report : reports) {
+    table.add({short_id(report.run), report.machine, report.program,
+               std::to_string(report.revision), Cell(report.state, style_of_state(report.state)),
+               std::to_string(report.lines), time_text(report.started), time_text(report.ended)});
+  }
+  return table;
+}
+
+Table table_of(const std::vector<client::MachineReport>& reports) {
+  Table table({{"MACHINE"}, {"LINES OUTSIDE RUNS", Align::Right}, {"FIRST"}, {"LAST"}});
+  for (const auto& report : reports) {
+    table.add({report.machine, std::to_string(report.lines), time_text(report.first),
+               time_text(report.last)});
+  }
+  return table;
+}
+
+template <class T>
+nlohmann::ordered_json json_array(const std::vector<T>& list) {
+  auto array = nlohmann::ordered_json::array();
+  for (const auto& item : list) array.push_back(client::to_json_value(item));
+  return array;
+}
+
 int list(Context& context, const ListCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
@@ -30,35 +73,56 @@ int list(Context& context, const ListCommand& command) {
     return client->reports(query);
   });
   if (!reports) return complain(reports.error());
+  client::Reply<std::vector<client::MachineReport>> machines{};
+  if (command.query.program.empty()) machines = machine_reports(*client, command.query.machine);
+  if (!machines) return complain(machines.error());
   if (context.wants_json) {
-    context.print(json_list_text("reports", *reports));
+    context.print(json_text(nlohmann::ordered_json{{"reports", json_array(*reports)},
+                                                   {"machine_reports", json_array(*machines)}}));
     return kExitOk;
   }
   if (reports->empty()) {
     context.print("No run has reported a line yet.\n");
-    return kExitOk;
+  } else {
+    context.print(table_of(*reports));
   }
-  Table table({{"RUN"},
-               {"MACHINE"},
-               {"PROGRAM"},
-               {"REV", Align::Right},
-               {"STATE"},
-               {"LINES", Align::Right},
-               {"STARTED"},
-               {"ENDED"}});
-  for (const auto& report : *reports) {
-    table.add({short_id(report.run), report.machine, report.program,
-               std::to_string(report.revision), Cell(report.state, style_of_state(report.state)),
-               std::to_string(report.lines), time_text(report.started), time_text(report.ended)});
-  }
-  context.print(table);
+  if (machines->empty()) return kExitOk;
+  context.print("\n");
+  context.print(table_of(*machines));
   return kExitOk;
 }
 
-int print_report(client::Client& client, const std::string& run, const std::string& format) {
+/// Whose lines are meant.
+struct ReportOf {
+  std::optional<client::Run> run;
+  std::string machine;  ///< what it printed outside runs; empty: the run's
+
+  std::string name() const {
+    return run ? "run " + short_id(run->id) : "machine " + machine + " outside runs";
+  }
+  client::Reply<void> write(client::Client& client, const std::string& format,
+                            const std::function<bool(std::string_view)>& sink) const {
+    return run ? client.export_report(run->id, format, sink)
+               : client.export_machine_report(machine, format, sink);
+  }
+};
+
+/// A run goes before a machine of that name. The error speaks of runs.
+client::Reply<ReportOf> find_report(client::Client& client, const std::string& reference) {
+  auto run = find_run(client, reference);
+  if (run) return ReportOf{.run = *std::move(run), .machine = {}};
+  if (run.error().kind != client::Failure::Kind::Refused) return client::failed(run.error());
+  if (auto machine = client.machine(reference)) {
+    return ReportOf{.run = {}, .machine = machine->name};
+  }
+  return client::failed(run.error());
+}
+
+int print_report(client::Client& client, const ReportOf& report, const std::string& format) {
   StandardOutput output;
-  auto printed = client.export_report(
-      run, format, [&output](std::string_view bytes) { return output.write(bytes).has_value(); });
+  auto printed = report.write(client, format, [&output](std::string_view bytes) {
+    return output.write(bytes).has_value();
+  });
   if (output.error()) return output.complain();
   return printed ? kExitOk : complain(printed.error());
 }
@@ -66,47 +130,53 @@ int print_report(client::Client& client, const std::string& run, const std::stri
 int show(Context& context, const std::string& reference) {
   auto client = context.connect();
   if (!client) return context.status;
-  auto run = find_run(*client, reference);
-  if (!run) return complain(run.error());
-  if (!context.wants_json) {
+  auto report = find_report(*client, reference);
+  if (!report) return complain(report.error());
+  if (context.wants_json) return print_report(*client, *report, "json");
+  if (const auto& run = report->run) {
     context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
                               short_id(run->id), run->program, run->revision, run->machine,
                               run->state, count_text(run->outputs, "line")));
+  } else {
+    context.print(fmt::format("What machine {} printed outside any run\n\n", report->machine));
   }
-  return print_report(*client, run->id, context.wants_json ? "json" : "text");
+  return print_report(*client, *report, "text");
 }
 
-int export_to_file(client::Client& client, const client::Run& run, const ExportCommand& command) {
+int export_to_file(client::Client& client, const ReportOf& report, const ExportCommand& command) {
   auto file = client::OutputFile::create(command.output);
   if (!file) return complain(file.error());
   std::optional<Error> unwritten;
-  auto exported = client.export_report(run.id, command.format, [&](std::string_view bytes) {
+  auto exported = report.write(client, command.format, [&](std::string_view bytes) {
     if (auto written = file->write(bytes); !written) unwritten = written.error();
     return !unwritten;
   });
   if (unwritten) return complain(*unwritten);
   if (!exported) return complain(exported.error());
   if (auto kept = file->commit(); !kept) return complain(kept.error());
-  fmt::print(stderr, "Wrote the report of run {} to {}\n", short_id(run.id), command.output);
+  fmt::print(stderr, "Wrote the report of {} to {}\n", report.name(), command.output);
   return kExitOk;
 }
 
 int export_report(Context& context, const ExportCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
-  auto run = find_run(*client, command.run);
-  if (!run) return complain(run.error());
+  auto report = find_report(*client, command.run);
+  if (!report) return complain(report.error());
   if (!command.output.empty() && command.output != "-") {
-    return export_to_file(*client, *run, command);
+    return export_to_file(*client, *report, command);
   }
-  return print_report(*client, run->id, command.format);
+  return print_report(*client, *report, command.format);
 }
+
+constexpr const char* kReportHelp =
+    "Run: its id, the beginning of it, or latest; or a machine: what it printed outside any run";
 
 void add_export(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("export", "Write a run's report lines for other programs");
   auto options = std::make_shared<ExportCommand>();
   options->format = "text";
-  command->add_option("RUN", options->run, kRunHelp)->required();
+  command->add_option("RUN|MACHINE", options->run, kReportHelp)->required();
   command->add_option("--format", options->format, "text, csv or json (default: text)")
       ->check(CLI::IsMember({"text", "csv", "json"}));
   command->add_option("-o,--output", options->output,
@@ -123,7 +193,8 @@ void add_report_commands(CLI::App& app, Context& context) {
   auto* group = app.add_subcommand("report", "What machines wrote: DPRNT and other output lines");
   group->require_subcommand(1);
 
-  auto* list_command = group->add_subcommand("list", "Runs that reported lines, newest first");
+  auto* list_command = group->add_subcommand(
+      "list", "Runs that reported lines, newest first, and machines that printed outside runs");
   auto options = std::make_shared<ListCommand>();
   list_command->add_option("--machine", options->query.machine, "Only of this machine");
   list_command->add_option("--program", options->query.program, "Only of this program");
@@ -132,8 +203,9 @@ void add_report_commands(CLI::App& app, Context& context) {
   list_command->callback([&context, options] { context.status = list(context, *options); });
 
   auto shown = std::make_shared<std::string>();
-  auto* show_command = group->add_subcommand("show", "Print a run's report");
-  show_command->add_option("RUN", *shown, kRunHelp)->required();
+  auto* show_command =
+      group->add_subcommand("show", "Print the report of a run, or a machine's own");
+  show_command->add_option("RUN|MACHINE", *shown, kReportHelp)->required();
   add_json_flag(*show_command, context);
   show_command->callback([&context, shown] { context.status = show(context, *shown); });
 

@@ -159,6 +159,13 @@ struct Report {
   std::string started, ended;
 };
 
+/// What a machine printed outside any run.
+struct MachineReport {
+  std::string machine;
+  std::uint64_t lines = 0;
+  std::string first, last;
+};
+
 /// Key and value, both as people write them.
 using Settings = std::map<std::string, std::string>;
 

@@ -335,4 +335,17 @@ Reply<void> Client::export_report(std::string_view run, std::string_view format,
   return {};
 }
 
+Reply<std::vector<MachineReport>> Client::machine_reports() {
+  return fetch_list<MachineReport>(path_of("machine-reports"), "reports");
+}
+
+Reply<void> Client::export_machine_report(std::string_view machine, std::string_view format,
+                                          const std::function<bool(std::string_view)>& sink) {
+  HttpRequest request = get(with_query(path_of("machines", machine) + "/report", "format", format));
+  request.on_body = sink;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  return {};
+}
+
 }  // namespace dripline::client

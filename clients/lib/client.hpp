@@ -155,6 +155,10 @@ class Client {
   /// `format`: text, csv or json. The bytes go to `sink` as they come; false from it ends the call.
   Reply<void> export_report(std::string_view run, std::string_view format,
                             const std::function<bool(std::string_view)>& sink);
+  Reply<std::vector<MachineReport>> machine_reports();
+  /// As `export_report`, of what a machine printed outside any run.
+  Reply<void> export_machine_report(std::string_view machine, std::string_view format,
+                                    const std::function<bool(std::string_view)>& sink);
 
  private:
   Reply<void> send_order(const std::string& path, const OrderRequest& request);

@@ -7,6 +7,13 @@
 namespace dripline::api {
 namespace {
 
+nlohmann::json machine_report_json(const storage::MachineReport& report) {
+  return {{"machine", report.machine},
+          {"lines", report.lines},
+          {"first", to_iso8601(report.first)},
+          {"last", to_iso8601(report.last)}};
+}
+
 Response list_reports(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);
@@ -22,6 +29,16 @@ Response list_reports(Services& services, const Request& request) {
   return json_response(200, {{"reports", std::move(list)}});
 }
 
+Response list_machine_reports(Services& services, const Request& request) {
+  QueryReader query(request);
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const auto reports = services.store.machine_reports();
+  if (!reports) return error_response(reports.error());
+  auto list = nlohmann::json::array();
+  for (const auto& report : *reports) list.push_back(machine_report_json(report));
+  return json_response(200, {{"reports", std::move(list)}});
+}
+
 std::string content_type(library::ReportFormat format) {
   switch (format) {
     case library::ReportFormat::Text:
@@ -34,6 +51,25 @@ std::string content_type(library::ReportFormat format) {
   return "text/plain";
 }
 
+Response send(const std::shared_ptr<library::ReportReader>& reader, library::ReportFormat format) {
+  Response response;
+  response.content_type = content_type(format);
+  response.source = [reader] { return reader->next(); };
+  return response;
+}
+
+/// What it printed while no run was its.
+Response send_machine_report(Services& services, const Request& request) {
+  QueryReader query(request);
+  const auto format = library::parse_report_format(query.text("format").value_or("text"));
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  if (!format) return error_response(format.error());
+  const auto machine = services.store.machine(request.parameter("name"));
+  if (!machine) return error_response(machine.error());
+  return send(std::make_shared<library::ReportReader>(services.store, machine->name, *format),
+              *format);
+}
+
 Response send_report(Services& services, const Request& request) {
   QueryReader query(request);
   const auto format = library::parse_report_format(query.text("format").value_or("text"));
@@ -41,17 +77,17 @@ Response send_report(Services& services, const Request& request) {
   if (!format) return error_response(format.error());
   auto run = services.store.run(request.parameter("run"));
   if (!run) return error_response(run.error());
-  Response response;
-  response.content_type = content_type(*format);
-  const auto reader =
-      std::make_shared<library::ReportReader>(services.store, *std::move(run), *format);
-  response.source = [reader] { return reader->next(); };
-  return response;
+  return send(std::make_shared<library::ReportReader>(services.store, *std::move(run), *format),
+              *format);
 }
 
 }  // namespace
 
 void add_report_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machine-reports",
+             [&](const Request& request) { return list_machine_reports(services, request); });
+  router.add("GET", "/api/v1/machines/{name}/report",
+             [&](const Request& request) { return send_machine_report(services, request); });
   router.add("GET", "/api/v1/reports",
              [&](const Request& request) { return list_reports(services, request); });
   router.add("GET", "/api/v1/reports/{run}",

@@ -36,13 +36,23 @@ Result<ReportFormat> parse_report_format(std::string_view text) {
 ReportReader::ReportReader(storage::Store& store, storage::Run run, ReportFormat format)
     : store_(store), run_(std::move(run)), format_(format) {}
 
+ReportReader::ReportReader(storage::Store& store, const std::string& machine, ReportFormat format)
+    : store_(store), format_(format) {
+  run_.machine = machine;
+}
+
+Result<std::vector<storage::Record>> ReportReader::records() const {
+  const storage::Page page{.limit = kLinesPerPiece, .offset = lines_};
+  if (run_.id.empty()) return store_.machine_report(run_.machine, page);
+  return store_.records(run_.id, "output", page);
+}
+
 Result<std::optional<std::string>> ReportReader::next() {
   if (stage_ == Stage::Done) return std::nullopt;
   std::string text;
   if (stage_ == Stage::Head) text = head();
   stage_ = Stage::Lines;
-  const auto records =
-      store_.records(run_.id, "output", {.limit = kLinesPerPiece, .offset = lines_});
+  const auto records = this->records();
   if (!records) return fail(records.error());
   for (const auto& record : *records) append_line(record, text);
   if (records->size() < kLinesPerPiece) {
@@ -55,6 +65,10 @@ Result<std::optional<std::string>> ReportReader::next() {
 std::string ReportReader::head() const {
   if (format_ == ReportFormat::Csv) return "number,time,device,block,line,sequence,text\r\n";
   if (format_ == ReportFormat::Text) return {};
+  if (run_.id.empty()) {
+    return fmt::format(R"({{"run":null,"machine":{},"program":null,"revision":null,"lines":[)",
+                       json_text(run_.machine));
+  }
   return fmt::format(R"({{"run":{},"machine":{},"program":{},"revision":{},"lines":[)",
                      json_text(run_.id), json_text(run_.machine), json_text(run_.program),
                      run_.revision);

@@ -12,21 +12,24 @@ enum class ReportFormat { Text, Csv, Json };
 /// Errors: Unsupported, naming the known ones.
 Result<ReportFormat> parse_report_format(std::string_view text);
 
-/// The output lines of one run, rendered piece by piece so that a report of any length needs
-/// constant memory. One thread at a time; the store must outlive it.
+/// The output lines of one run, or what a machine printed outside any, rendered piece by piece so
+/// that a report of any length needs constant memory. One thread at a time; the store must outlive
+/// it.
 class ReportReader {
  public:
   ReportReader(storage::Store& store, storage::Run run, ReportFormat format);
+  ReportReader(storage::Store& store, const std::string& machine, ReportFormat format);
   /// The next piece; nullopt after the last one.
   Result<std::optional<std::string>> next();
 
  private:
+  Result<std::vector<storage::Record>> records() const;
   std::string head() const;
   std::string tail() const;
   void append_line(const storage::Record& record, std::string& text);
 
   storage::Store& store_;
-  storage::Run run_;
+  storage::Run run_;  ///< without an id: of the machine alone
   ReportFormat format_;
   std::uint64_t lines_ = 0;
   enum class Stage { Head, Lines, Done } stage_ = Stage::Head;

@@ -13,9 +13,9 @@
 namespace dripline::ports {
 
 /// What a machine without a gateway is known to have done, as records: numbered here, in an epoch
-/// that begins with the server's process, and stored before anybody is told. While the store
-/// refuses, everything waits in its order and is tried again with the same numbers, so that a
-/// commit whose answer was lost doubles nothing. Used on the strand only.
+/// of the server's process that is later than all before, and stored before anybody is told. While
+/// the store refuses, everything waits in its order and is tried again with the same numbers, so
+/// that a commit whose answer was lost doubles nothing. Used on the strand only.
 class LineRecords : public std::enable_shared_from_this<LineRecords> {
  public:
   static constexpr std::chrono::milliseconds kFirstPause{250};  ///< doubled up to kLongestPause
@@ -40,6 +40,7 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
   /// Stores them, at once or later. Whoever adds keeps the number of waiting ones bounded.
   void add(std::vector<Entry> entries);
   std::size_t waiting() const { return waiting_.size(); }
+  std::uint64_t epoch() const { return parts_.epoch; }
 
  private:
   void commit();

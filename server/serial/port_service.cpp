@@ -1,6 +1,7 @@
 #include "server/serial/port_service.hpp"
 
 #include <spdlog/spdlog.h>
+#include <algorithm>
 #include <future>
 
 #include "protocol/base/names.hpp"
@@ -153,19 +154,29 @@ Result<PortService::Entry> PortService::find(const std::string& name) const {
   return found->second;
 }
 
-/// A run needs its machine in the store, and its records an epoch.
-Result<void> PortService::enter_machine(const storage::Port& port) {
+/// Records are in order of their epochs, also when the clock was put back between two starts of the
+/// server: later than the last one that the store knows.
+std::uint64_t PortService::epoch_of(const storage::Machine& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = machines_.find(machine.name);
+  if (found != machines_.end()) return found->second.records->epoch();
+  return std::max(epoch_, machine.epoch + 1);
+}
+
+/// A run needs its machine in the store, and its records an epoch, which is returned.
+Result<std::uint64_t> PortService::enter_machine(const storage::Port& port) {
   storage::Machine machine;
   machine.name = port.machine;
   machine.first_seen = clock_.now();
   if (auto known = store_.machine(port.machine)) machine = *std::move(known);
   if (machine.control.empty()) machine.control = template_control(port);
-  machine.epoch = epoch_;
+  machine.epoch = epoch_of(machine);
   machine.last_seen = clock_.now();
-  return store_.save_machine(machine);
+  if (auto saved = store_.save_machine(machine); !saved) return fail(saved.error());
+  return machine.epoch;
 }
 
-PortService::Machine PortService::machine_of(const std::string& name) {
+PortService::Machine PortService::machine_of(const std::string& name, std::uint64_t epoch) {
   const std::lock_guard lock(mutex_);
   if (const auto found = machines_.find(name); found != machines_.end()) return found->second;
   const Strand strand(pool_);
@@ -173,7 +184,7 @@ PortService::Machine PortService::machine_of(const std::string& name) {
                            .clock = clock_,
                            .strand = strand,
                            .machine = name,
-                           .epoch = epoch_,
+                           .epoch = epoch,
                            .on_stored = [this](const auto& batch) { on_stored(batch); }};
   const Machine machine{.strand = strand,
                         .records = std::make_shared<LineRecords>(std::move(parts))};
@@ -193,11 +204,12 @@ void PortService::put(Entry entry) {
 
 void PortService::open(Entry& entry) {
   if (!entry.port.is_enabled || !entry.trouble.empty()) return;
-  if (auto entered = enter_machine(entry.port); !entered) {
-    entry.trouble = entered.error().what;
+  const auto epoch = enter_machine(entry.port);
+  if (!epoch) {
+    entry.trouble = epoch.error().what;
     return;
   }
-  const Machine machine = machine_of(entry.port.machine);
+  const Machine machine = machine_of(entry.port.machine, *epoch);
   entry.line = make_line(entry, machine.strand, listener_for(entry, machine));
   entry.line->open();
   machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line)] { tick(line, 0); });

@@ -80,8 +80,9 @@ class PortService final : public PortControl, private LineDirectory {
   Result<PortView> save_prepared(Entry entry);
   Result<Entry> find(const std::string& name) const;
   Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;
-  Result<void> enter_machine(const storage::Port& port);
-  Machine machine_of(const std::string& name);
+  Result<std::uint64_t> enter_machine(const storage::Port& port);
+  std::uint64_t epoch_of(const storage::Machine& machine) const;
+  Machine machine_of(const std::string& name, std::uint64_t epoch);
   void put(Entry entry);
   void open(Entry& entry);
   PortListener listener_for(const Entry& entry, const Machine& machine);
@@ -98,7 +99,7 @@ class PortService final : public PortControl, private LineDirectory {
   const Clock& clock_;
   const Options options_;
   const feeds::FeedListener listener_;
-  const std::uint64_t epoch_;  ///< of the records of this process
+  const std::uint64_t epoch_;  ///< of this process, as the clock has it: see epoch_of
   SerialFeed feed_;
   std::mutex change_mutex_;  ///< held by save, remove and test: one at a time
   mutable std::mutex mutex_;

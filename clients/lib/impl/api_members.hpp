@@ -230,6 +230,14 @@ void members(V& v, Is<Report> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<MachineReport> auto& x) {
+  v("machine", x.machine);
+  v("lines", x.lines);
+  v("first", x.first);
+  v("last", x.last);
+}
+
+template <class V>
 void members(V& v, Is<Transfer> auto& x) {
   v("id", x.id);
   v("programs", x.programs);

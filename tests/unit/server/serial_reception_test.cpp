@@ -48,6 +48,114 @@ TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   EXPECT_EQ(store_->run(run->id)->outputs, 1u);
 }
 
+std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
+  std::vector<std::string> texts;
+  for (const auto& record : records) texts.push_back(record.text);
+  return texts;
+}
+
+TEST_F(SerialTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
+  start_ports();
+  add_port(mill(kCalls));
+  line().write("B 2\nPROBE Z-1.125\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
+  EXPECT_EQ(texts_of(*store_->machine_report("mill", {})),
+            (std::vector<std::string>{"B 2", "PROBE Z-1.125"}));
+  ports_.reset();  // the server stops, and starts again
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  line().write("B 3\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 3; }));
+  EXPECT_EQ(store_->machine_report("mill", {})->back().text, "B 3");
+  EXPECT_EQ(store_->machine_reports()->at(0).lines, 3u);
+}
+
+TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  line().write(
+      "\x12"
+      "B 2\n\x14\x12"
+      "B 3\n\x14");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
+  EXPECT_EQ(ports_->port("com1")->trouble, "") << "nothing is wrong with it";
+}
+
+TEST_F(SerialTest, KeepsWhatAFanucPrintsWhileItIsFed) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  const std::string text = blocks(40);
+  push("O1", text, "fanuc");
+  line().write("\x11");
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  std::string came = line().read_until("N50 ");
+  line().write("\x13");
+  came += line().read_for(std::chrono::milliseconds(50));
+  line().write("\x12PROBE 3.14\n\x14");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 1; }));
+  EXPECT_EQ(records_of(run->id, "output")[0].text, "PROBE 3.14");
+  line().write("\x11");
+  came += line().read_until("-40.25\n%");
+  EXPECT_EQ(came, "%\n" + text + "%");
+  line().write("\x13");
+  EXPECT_TRUE(wait_state(run->id, RunState::Completed));
+}
+
+TEST_F(SerialTest, BeginsARunInSpiteOfStrayCharacters) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}, {"answer_limit_ms", "none"}};
+  add_port(port);
+  push("O1", "O1\nM30\n", "fanuc");
+  line().write("\x12");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->line.is_stray; }));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  line().write("\x11");
+  EXPECT_EQ(line().read_until("M30\n%"), "%\nO1\nM30\n%");
+}
+
+TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {
+  start_ports();
+  add_machine("mill", "prototrak-plus");
+  auto port = mill();
+  port.line_template = "prototrak";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  line().write("PN7 G20 ;\r\nN1 G100 X1. Y1. ;\r\n%");
+  ASSERT_TRUE(wait([&] { return store_->revision("PN7", 1).has_value(); }));
+  EXPECT_TRUE(store_->revision("PN7", 1)->is_held);
+  line().write("N5 G100 X1. Y1. ;\r\n%");  // one without a header is a program too
+  ASSERT_TRUE(wait([&] { return store_->revision("mill-punched", 1).has_value(); }));
+  EXPECT_TRUE(store_->machine_reports()->empty());
+}
+
+TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
+  storage::Machine machine;
+  machine.name = "mill";
+  machine.first_seen = machine.last_seen = system_clock_.now();
+  machine.epoch = static_cast<std::uint64_t>(
+      (system_clock_.now() + std::chrono::hours(1)).time_since_epoch().count());
+  ASSERT_TRUE(store_->save_machine(machine));
+  start_ports();
+  add_port(mill());
+  add_port(mill());  // changed: the same epoch
+  line().write("B 2\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 1; }));
+  EXPECT_EQ(store_->machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
+}
+
 TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
   start_ports();
   add_machine("mill");
