@@ -140,11 +140,23 @@ void add_start(CLI::App& group, Context& context) {
       "--from", options->request.from,
       "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or behind blocks "
       "(+25)");
+  auto* send = command->add_flag_callback(
+      "--send-head", [options] { options->request.head = "send"; },
+      "On a serial line: send the words before the beginning that the rest relies on first (units, "
+      "feed, tool ...)");
+  command
+      ->add_flag_callback(
+          "--modes-set", [options] { options->request.head = "set"; },
+          "On a serial line: they are in force at the control, nothing is sent for them")
+      ->excludes(send);
   auto* follow = command->add_flag("--follow", options->follows, "Watch it to its end");
   command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
       ->excludes(follow);
   add_json_flag(*command, context);
   command->footer(
+      "On a serial line a run with --from is refused while the rest of the program relies on words "
+      "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
+      "send.\n\n"
       "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
       "ends\nthe watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 "
       "--follow");

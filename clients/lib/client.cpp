@@ -279,6 +279,7 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
   if (!request.from.empty()) json["from"] = request.from;
+  if (!request.head.empty()) json["head"] = request.head;
   const std::string body = dumped(json);
   HttpRequest http = with_method("POST", path_of("runs"));
   http.body = body;

@@ -55,6 +55,7 @@ struct RunRequest {
   std::optional<std::uint64_t> revision;  ///< nullopt: the latest
   std::string from =
       {};  ///< N120, L7 (line), B4096 (byte); empty: the beginning. Serial lines only
+  std::string head = {};  ///< on a serial line, with from: send, set; empty: ask
 };
 
 /// Texts empty: all.
@@ -77,7 +78,7 @@ struct OrderRequest {
 /// What a port is set to; saving replaces all of it.
 struct SetupRequest {
   std::string machine, text, comment;
-  std::string control;  ///< of a machine that was never seen; else empty
+  std::string control;                     ///< of a machine that was never seen; else empty
   std::optional<std::uint64_t> base = {};  ///< refused unless this one is still the newest
 };
 

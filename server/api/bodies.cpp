@@ -112,7 +112,12 @@ Result<feeds::StartRequest> decode_start(std::string_view body) {
   start.program = object->required_text("program", kMaxName);
   start.revision = object->optional_unsigned("revision");
   const auto from = object->optional_text("from", kMaxStartPoint);
+  const auto head = object->optional_text("head", kMaxStartPoint);
   if (auto good = object->finish(); !good) return fail(good.error());
+  if (head && *head != "send" && *head != "set") {
+    return fail(Errc::Syntax, "head is '{}'; expected send or set", *head);
+  }
+  if (head) start.head = *head == "send" ? feeds::StartHead::Send : feeds::StartHead::Set;
   if (auto good = check_machine_name(start.machine); !good) return fail(good.error());
   if (auto good = check_program_name(start.program); !good) return fail(good.error());
   if (!from) return start;

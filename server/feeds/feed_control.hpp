@@ -20,10 +20,9 @@ struct MachineView {
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
 };
 
-/// Where a run begins when it does not begin at the program's first byte. At most one is given. Over
-/// a serial line what the control must have in force by then is its operator's business, and `tool`
-/// and `skipped` are Unsupported. A gateway looks through the program up to there; a control whose
-/// interpreter can not do that refuses.
+/// Where a run begins when it does not begin at the program's first byte. At most one is given.
+/// Over a serial line `tool` and `skipped` are Unsupported. A gateway looks through the program up
+/// to there; a control whose interpreter can not do that refuses.
 struct StartPoint {
   std::optional<std::uint64_t> byte;      ///< offset; the rest of its block is sent first
   std::optional<std::uint64_t> line;      ///< 1-based
@@ -32,12 +31,21 @@ struct StartPoint {
   std::optional<std::uint64_t> skipped;   ///< behind so many blocks
 };
 
+/// Over a serial line, what becomes of the words before the beginning that the rest relies on
+/// (units, feed, tool ...).
+enum class StartHead : std::uint8_t {
+  Ask,   ///< the run is refused, and they are named
+  Send,  ///< they are sent first
+  Set,   ///< whoever starts the run says that they are in force at the control
+};
+
 struct StartRequest {
   std::string machine;
   std::string program;
   std::optional<std::uint64_t> revision;  ///< absent: the latest
   std::string author;
   StartPoint from = {};
+  StartHead head = StartHead::Ask;
 };
 
 struct OrderRequest {
@@ -65,7 +73,8 @@ class FeedControl {
   /// Errors: NotFound.
   virtual Result<MachineView> machine(const std::string& name) const = 0;
   /// The run once the gateway has taken it. Errors: NotFound (machine, program, revision),
-  /// Unsupported (the program is for another control), Busy (the machine has a run, or the gateway
+  /// Unsupported (the program is for another control; `head` for a gateway), ModalConflict (the
+  /// rest of the program relies on what is not sent), Busy (the machine has a run, or the gateway
   /// refused: the run's state is then Refused), Timeout (not connected, or no answer in time).
   virtual Result<storage::Run> start(const StartRequest& request) = 0;
   /// Errors: NotFound (run, machine), ModalConflict (it has ended), Busy (refused, with the

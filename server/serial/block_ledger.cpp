@@ -20,6 +20,12 @@ std::int64_t sequence_number(std::string_view block) {
   return read.ec == std::errc{} && number >= 0 ? number : -1;
 }
 
+std::string BlockLedger::add_head(std::string_view head) {
+  offered_ += head.size();
+  block_begin_ = passed_offered_ = offered_;
+  return std::string(head);
+}
+
 std::string BlockLedger::add(std::string_view piece, bool is_last) {
   std::string offered;
   offered.reserve(piece.size() + 1);

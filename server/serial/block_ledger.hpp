@@ -28,6 +28,8 @@ class BlockLedger {
   /// `first_line`: of the program, 1-based, where the run begins.
   explicit BlockLedger(std::uint64_t first_line = 1) : next_line_(first_line) {}
 
+  /// Whole blocks that are offered before the program and are none of it; what to offer for them.
+  std::string add_head(std::string_view head);
   /// The next piece of the program, cut anywhere; what to offer for it. `is_last`: the text ends
   /// with this piece, and its last block is ended if it is not.
   std::string add(std::string_view piece, bool is_last);

@@ -119,8 +119,13 @@ void CallDesk::send(const std::string& name, bool is_request) {
 }
 
 void CallDesk::restart(const std::string& block) {
-  const auto point = feeds::parse_start_point(block);
+  const auto blank = block.find(' ');
+  const auto point = feeds::parse_start_point(block.substr(0, blank));
   if (!point) return say_no(point.error().what, false);
+  const std::string choice = blank == std::string::npos ? "" : block.substr(blank + 1);
+  if (!choice.empty() && choice != "HEAD" && choice != "SET") {
+    return say_no("after the block comes HEAD or SET, not " + choice, false);
+  }
   const auto last =
       parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
   if (!last || last->empty()) return say_no("there was no run to begin again", false);
@@ -128,7 +133,10 @@ void CallDesk::restart(const std::string& block) {
                            .program = last->front().program,
                            .revision = last->front().revision,
                            .author = kAuthor,
-                           .from = *point},
+                           .from = *point,
+                           .head = choice == "HEAD"  ? feeds::StartHead::Send
+                                   : choice == "SET" ? feeds::StartHead::Set
+                                                     : feeds::StartHead::Ask},
                           on_started(false));
 }
 

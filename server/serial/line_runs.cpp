@@ -7,6 +7,7 @@
 #include "server/feeds/identifiers.hpp"
 #include "server/serial/program_stream.hpp"
 #include "server/serial/start_finder.hpp"
+#include "server/serial/start_head.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -81,10 +82,13 @@ Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
   return run;
 }
 
-Result<SendJob> LineRuns::job(const storage::Run& run, const feeds::StartPoint& from) {
-  const auto place = find_start(store_, run, from);
+Result<SendJob> LineRuns::job(const storage::Run& run, const feeds::StartRequest& request) {
+  const auto place = find_start(store_, run, request.from);
   if (!place) return fail(place.error());
+  auto head = start_head(store_, run, *place, request.head);
+  if (!head) return fail(head.error());
   SendJob job;
+  job.head = *std::move(head);
   job.id = run.id;
   job.name = run.program;
   job.stream = std::make_shared<ProgramStream>(ProgramStream::of(run.content, run.size));

@@ -24,8 +24,8 @@ class LineRuns {
   /// ModalConflict (nothing but held revisions), Busy (the machine has a run).
   Result<storage::Run> create(const feeds::StartRequest& request, const storage::Machine& machine);
   /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
-  /// or N number), Corrupt.
-  Result<SendJob> job(const storage::Run& run, const feeds::StartPoint& from);
+  /// or N number), ModalConflict (start_head), Corrupt.
+  Result<SendJob> job(const storage::Run& run, const feeds::StartRequest& request);
 
   void started(const storage::Run& run, LineRecords& records);
   /// Refused; nothing of it has left.

@@ -64,8 +64,9 @@ Result<void> LineSession::start_over(wire::Discipline& line, wire::LineTime now)
   fresh.next_fetch = fresh.job.first_byte;
   sending_ = std::move(fresh);
   if (auto begun = line.begin_send(sending_->job.name, now); !begun) return begun;
+  sending_->text = sending_->ledger.add_head(sending_->job.head);
   if (sending_->job.text) {
-    sending_->text = sending_->ledger.add(*sending_->job.text, true);
+    sending_->text += sending_->ledger.add(*sending_->job.text, true);
     sending_->is_fetched = true;
   }
   fetch_more();

@@ -32,6 +32,7 @@ struct SendJob {
   std::uint64_t size = 0;                       ///< its bytes
   std::uint64_t first_byte = 0;                 ///< where the run begins
   std::uint64_t first_line = 1;                 ///< the same in blocks
+  std::string head = {};                        ///< sent before it, and not counted
   std::optional<std::string> text;
 };
 

@@ -31,7 +31,13 @@ Result<feeds::MachineView> MachineFeeds::machine(const std::string& name) const 
 }
 
 Result<storage::Run> MachineFeeds::start(const feeds::StartRequest& request) {
-  if (!lines_.machine(request.machine)) return gateways_.start(request);
+  if (!lines_.machine(request.machine)) {
+    if (request.head == feeds::StartHead::Ask) return gateways_.start(request);
+    return fail(Errc::Unsupported,
+                "machine '{}' has a gateway, which looks through the program up to the beginning: "
+                "head is for serial lines",
+                request.machine);
+  }
   if (const auto view = machine(request.machine); view && view->is_contested) {
     return fail(Errc::Busy,
                 "a gateway says that it is machine '{}', which has a port: stop the gateway or "

@@ -127,8 +127,9 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const feeds::Start
   const auto run = runs_.create(request, *machine);
   if (!run) return started(run);
   announce(run->id);
-  auto job = runs_.job(*run, request.from);
+  auto job = runs_.job(*run, request);
   if (!job) return started(conclude(*run, fail(job.error())));
+  if (!job->head.empty()) line->note("sent before the program: " + job->head);
   if (!wire_name.empty()) {
     job->name = wire_name;
   } else if (has_numbered_programs(port.settings.flow)) {

@@ -137,6 +137,36 @@ TEST_F(SerialTest, BeginsWhereItIsTold) {
   EXPECT_NE(nowhere.error().what.find("N7"), std::string::npos);
 }
 
+TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  add_port(mill());
+  const std::string text =
+      "O1\nN1 G21 G90 G17\nN2 T2 M6\nN3 S1000 M3\nN4 G0 X0 Y0\nN5 G1 X1. F200\nN6 Y2.\nM30\n";
+  push("O1", text, "fanuc");
+  const auto refused = start("O1", at_sequence(6));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_EQ(refused.error().what,
+            "line 7 and what follows rely on G21 (line 2), G17 (line 2), G90 (line 2), T2 M6 (line "
+            "3), S1000 (line 4), M3 (line 4), G1 (line 6), F200 (line 6), which would not be sent: "
+            "--send-head sends 'G21 G17 G90 / T2 M6 / S1000 M3 / G1 F200' first, --modes-set says "
+            "that all of it is in force at the control");
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
+  feeds::StartRequest request{
+      .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = at_sequence(6)};
+  request.head = feeds::StartHead::Send;
+  const auto sent = ports_->feed().start(request);
+  ASSERT_TRUE(sent) << sent.error().what;
+  EXPECT_EQ(line().read_until("M30\n"), "G21 G17 G90\nT2 M6\nS1000 M3\nG1 F200\nN6 Y2.\nM30\n");
+  ASSERT_TRUE(wait_state(sent->id, RunState::Completed));
+  EXPECT_EQ(store_->run(sent->id)->counters.sent, 11u) << "the head is none of the program";
+  request.head = feeds::StartHead::Set;
+  const auto bare = ports_->feed().start(request);
+  ASSERT_TRUE(bare) << bare.error().what;
+  EXPECT_EQ(line().read_until("M30\n"), "N6 Y2.\nM30\n");
+}
+
 TEST_F(SerialTest, RefusesASecondRunAndAHeldRevision) {
   start_ports();
   add_port(mill());
