@@ -38,7 +38,8 @@ CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState st
     : dry_run_(dry_run_of(options, sink)),
       start_(start_search_of(options, dry_run_ ? *dry_run_ : sink)),
       run_(std::move(options), source, front_of(start_.get(), dry_run_.get(), sink)),
-      search_(run_.text) {
+      search_(run_.text),
+      memory_units_(state.units) {
   run_.state = std::move(state);
   run_.parameters = parameters;
   run_.update_origin();

@@ -6,11 +6,12 @@
 #include "gateway/interpreter/centurion/run.hpp"
 #include "gateway/interpreter/centurion/status_window.hpp"
 #include "gateway/interpreter/centurion/text_search.hpp"
+#include "gateway/interpreter/retained_memory.hpp"
 
 namespace dripline::interpreter::centurion {
 
 /// The Milltronics Centurion lathe control: text to events, one block at a time.
-class CenturionInterpreter final : public Interpreter {
+class CenturionInterpreter final : public Interpreter, public RetainedMemory {
  public:
   CenturionInterpreter(ControlOptions options, ModalState state, Parameters parameters,
                        ProgramSource& source, EventSink& sink);
@@ -23,6 +24,8 @@ class CenturionInterpreter final : public Interpreter {
   ActiveModes modes() const override { return active_modes(run_); }
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
+  std::vector<MemoryCell> memory_cells() const override;
+  bool read_memory(std::vector<double>& values) override;
 
  private:
   enum class BlockOutcome : std::uint8_t { Finished, NoBlock, Paused };
@@ -48,6 +51,8 @@ class CenturionInterpreter final : public Interpreter {
   Run run_;
   TextSearch search_;
   bool is_asking_ = false;
+  Units memory_units_;       ///< of the tables at the start
+  Parameters known_memory_;  ///< when it was read last
 };
 
 }  // namespace dripline::interpreter::centurion

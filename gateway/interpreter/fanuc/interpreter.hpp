@@ -2,11 +2,12 @@
 
 #include "gateway/interpreter/fanuc/run.hpp"
 #include "gateway/interpreter/fanuc/text_search.hpp"
+#include "gateway/interpreter/retained_memory.hpp"
 
 namespace dripline::interpreter::fanuc {
 
 /// A Fanuc-class machining centre control: text to events, one block at a time.
-class FanucInterpreter final : public Interpreter {
+class FanucInterpreter final : public Interpreter, public RetainedMemory {
  public:
   FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
                    ProgramSource& source, EventSink& sink);
@@ -20,6 +21,8 @@ class FanucInterpreter final : public Interpreter {
   std::optional<CoordinateFrame> frame() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
+  std::vector<MemoryCell> memory_cells() const override;
+  bool read_memory(std::vector<double>& values) override;
 
  private:
   enum class BlockOutcome : std::uint8_t { Finished, NoBlock, NeedsText, Paused };
@@ -40,6 +43,14 @@ class FanucInterpreter final : public Interpreter {
   bool is_asking_ = false;
   bool is_leader_ = false;
   std::size_t answers_of_reading_ = 0;
+  struct KnownMemory {
+    decltype(ModalState::commons) commons{};
+    decltype(ModalState::kept) kept{};
+    decltype(ModalState::counters) counters{};
+    decltype(Coordinates::work) work{};
+    ToolOffsets tools;
+  };
+  KnownMemory known_memory_;  ///< when it was read last
 };
 
 }  // namespace dripline::interpreter::fanuc

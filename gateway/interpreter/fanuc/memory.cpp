@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/fanuc/options.hpp"
+#include "gateway/interpreter/fanuc/retained_memory.hpp"
 #include "gateway/interpreter/fanuc/variables.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -51,9 +52,32 @@ Result<void> load_tool(const ToolRecord& tool, ToolOffsets& tools) {
   return {};
 }
 
+/// G54.X, tool.12.length_wear, #3901: not among the variables that a program counts as its own.
+bool is_offset_or_counter(std::string_view name) {
+  return !name.starts_with('#') || (name.size() == 5 && name[1] == '3');
+}
+
+/// Cells of the control's memory by their names (retained_memory.hpp).
+Result<void> load_cells(const Setup& setup, const ControlOptions& options, ModalState& state,
+                        Memory& memory) {
+  std::map<std::string, double> cells;
+  for (const VariableRecord& variable : setup.variables) {
+    if (is_offset_or_counter(variable.name)) cells[variable.name] = variable.value;
+  }
+  const auto unknown = write_cells(std::move(cells), [&](auto visit) {
+    for_each_variable(state, options, visit);
+    for_each_offset(memory, visit);
+  });
+  if (unknown.empty()) return {};
+  return fail(Errc::Unsupported,
+              "variable {}: this control has #1 to #33, #100 to #{} and #500 to #{}",
+              unknown.begin()->first, options.last_common, options.last_kept);
+}
+
 Result<void> load_variable(const VariableRecord& variable, const ControlOptions& options,
                            ModalState& state) {
   const std::string_view name = variable.name;
+  if (is_offset_or_counter(name)) return {};
   const auto number = parse_decimal(name.substr(name.starts_with('#') ? 1 : 0));
   if (!name.starts_with('#') || !number || number->scale != 0 || number->digits < 0 ||
       number->digits > options.last_kept) {
@@ -103,7 +127,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Moda
   for (const VariableRecord& variable : setup.variables) {
     if (auto done = load_variable(variable, options, state); !done) return done;
   }
-  return {};
+  return load_cells(setup, options, state, memory);
 }
 
 }  // namespace dripline::interpreter::fanuc

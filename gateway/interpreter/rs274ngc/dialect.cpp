@@ -1,6 +1,7 @@
 #include "gateway/interpreter/rs274ngc/dialect.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 
 #include "gateway/interpreter/rs274ngc/characters.hpp"
@@ -10,6 +11,20 @@ namespace dripline::interpreter {
 namespace {
 
 using namespace rs274ngc;
+
+/// The free parameters that the setup gives are those that the control's file lists.
+std::vector<int> listed_parameters(const Setup& setup) {
+  std::vector<int> numbers;
+  for (const VariableRecord& variable : setup.variables) {
+    const std::size_t digits = variable.name.starts_with('#') ? 1 : 0;
+    int number = 0;
+    const char* end = variable.name.data() + variable.name.size();
+    const auto read = std::from_chars(variable.name.data() + digits, end, number);
+    if (read.ec == std::errc() && read.ptr == end) numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
 
 Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
                                           EventSink& sink) {
@@ -21,8 +36,10 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (auto loaded = load_memory(setup, *options, state, *parameters, tools); !loaded) {
     return fail(loaded.error());
   }
-  return std::unique_ptr<Interpreter>(std::make_unique<Rs274NgcInterpreter>(
-      std::move(*options), std::move(tools), std::move(state), *parameters, source, sink));
+  auto made = std::make_unique<Rs274NgcInterpreter>(
+      std::move(*options), std::move(tools), std::move(state), *parameters, source, sink);
+  made->set_parameter_file(listed_parameters(setup));
+  return std::unique_ptr<Interpreter>(std::move(made));
 }
 
 /// The text without blanks and comments, in capitals: marks are looked for in this.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/retained_memory.hpp"
 #include "gateway/interpreter/rs274ngc/flow.hpp"
 #include "gateway/interpreter/rs274ngc/run.hpp"
 
@@ -8,10 +9,13 @@ namespace dripline::interpreter::rs274ngc {
 
 /// One run of one program; see Interpreter for the contract. A block is every line that is
 /// executed, empty ones included; lines that a condition or a call passes over are none.
-class Rs274NgcInterpreter final : public Interpreter {
+class Rs274NgcInterpreter final : public Interpreter, public RetainedMemory {
  public:
   Rs274NgcInterpreter(ControlOptions options, std::vector<Tool> tools, State state,
                       const Parameters& parameters, ProgramSource& source, EventSink& sink);
+
+  /// Which free parameters its parameter file lists, rising: these it keeps for good.
+  void set_parameter_file(std::vector<int> numbers) { in_file_ = std::move(numbers); }
 
   StepState step(std::uint64_t max_blocks) override;
   const Question& question() const override { return run_.question; }
@@ -22,6 +26,8 @@ class Rs274NgcInterpreter final : public Interpreter {
   std::optional<CoordinateFrame> frame() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
+  std::vector<MemoryCell> memory_cells() const override;
+  bool read_memory(std::vector<double>& values) override;
 
  private:
   enum class Outcome : std::uint8_t { Finished, PassedOver, Paused };
@@ -38,6 +44,9 @@ class Rs274NgcInterpreter final : public Interpreter {
   Run run_;
   Flow flow_;
   bool is_asking_ = false;
+  std::vector<int> in_file_;     ///< free parameters that the parameter file lists, rising
+  Parameters known_parameters_;  ///< when the memory was read last
+  std::vector<Tool> known_tools_;
 };
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/option.hpp"
+#include "gateway/interpreter/rs274ngc/retained_memory.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -130,9 +131,25 @@ Result<void> load_offset(const OffsetRecord& offset, const ControlOptions& optio
   return {};
 }
 
+/// tool.3.Z: what the tool table kept (retained_memory.hpp).
+bool is_of_tool(std::string_view name) {
+  return name.starts_with("tool.");
+}
+Result<void> load_tool_cells(const Setup& setup, std::vector<Tool>& tools) {
+  std::map<std::string, double> cells;
+  for (const VariableRecord& variable : setup.variables) {
+    if (is_of_tool(variable.name)) cells[variable.name] = variable.value;
+  }
+  const auto unknown =
+      write_cells(std::move(cells), [&](auto visit) { for_each_tool_cell(tools, visit); });
+  if (unknown.empty()) return {};
+  return fail(Errc::Unsupported, "variable {}: the tool table has none", unknown.begin()->first);
+}
+
 /// `#100` or `100`.
 Result<void> load_variable(const VariableRecord& variable, const ControlOptions& options,
                            Parameters& parameters) {
+  if (is_of_tool(variable.name)) return {};
   std::string_view digits = variable.name;
   if (digits.starts_with('#')) digits.remove_prefix(1);
   int number = 0;
@@ -189,6 +206,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Stat
     }
     tools.push_back(tool_of(record));
   }
+  if (auto loaded = load_tool_cells(setup, tools); !loaded) return loaded;
   const double system = parameters[kSystemNumber];
   if (!(system >= 1 && system <= kSystems) || system != std::round(system)) {
     return fail(Errc::Unsupported, "variable #5220: {} is not a coordinate system, 1 to 9", system);

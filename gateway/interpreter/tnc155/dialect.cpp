@@ -27,9 +27,21 @@ Result<void> load_datum(const Setup& setup, State& state) {
   return {};
 }
 
+/// datum.C: as the control kept it (retained_memory.cpp).
+bool load_datum_cell(const VariableRecord& variable, State& state) {
+  for (const Axis axis : kAllAxes) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (variable.name != std::string("datum").append(kAxisSuffixes[i])) continue;
+    state.transformation.datum[i] = variable.value;
+    return true;
+  }
+  return false;
+}
+
 Result<void> load_parameters(const Setup& setup, State& state) {
   for (const VariableRecord& variable : setup.variables) {
     const std::string_view name = variable.name;
+    if (load_datum_cell(variable, state)) continue;
     const auto number = parse_decimal(name.substr(name.starts_with('Q') ? 1 : 0));
     if (!name.starts_with('Q') || !number || number->scale != 0 || number->digits < 0 ||
         number->digits >= kParameterCount) {

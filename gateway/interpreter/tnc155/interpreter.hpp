@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gateway/interpreter/retained_memory.hpp"
 #include "gateway/interpreter/tnc155/ahead_search.hpp"
 #include "gateway/interpreter/tnc155/run.hpp"
 #include "gateway/interpreter/tnc155/start_search.hpp"
@@ -8,7 +9,7 @@
 namespace dripline::interpreter::tnc155 {
 
 /// A TNC 151/155: text of either form to events, one block at a time.
-class TncInterpreter final : public Interpreter {
+class TncInterpreter final : public Interpreter, public RetainedMemory {
  public:
   TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
                  ProgramSource& source, EventSink& sink);
@@ -22,6 +23,8 @@ class TncInterpreter final : public Interpreter {
   std::optional<CoordinateFrame> frame() const override;
   Snapshot snapshot() const override;
   Result<void> restore(const Snapshot& snapshot) override;
+  std::vector<MemoryCell> memory_cells() const override;
+  bool read_memory(std::vector<double>& values) override;
 
  private:
   enum class BlockOutcome : std::uint8_t { Finished, NeedsText, More, Paused };
