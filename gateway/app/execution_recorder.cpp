@@ -152,6 +152,14 @@ void ExecutionRecorder::note_emergency_stop(const interpreter::Origin& origin) {
   append(origin, {RecordKind::Stop, {}, "emergency stop"});
 }
 
+void ExecutionRecorder::note_memory(const std::string& text) {
+  interpreter::Origin origin;
+  origin.block = reached_.executed;
+  origin.line = reached_.line;
+  origin.sequence = reached_.sequence;
+  append(origin, {RecordKind::Message, kMemoryDevice, text});
+}
+
 void ExecutionRecorder::note_at_panel(const interpreter::Origin& origin, const std::string& text) {
   append(origin, {RecordKind::Message, {}, "at the machine's panel: " + text});
 }

@@ -79,6 +79,10 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// Done at the machine's panel, with a run or without.
   void note_at_panel(const interpreter::Origin& origin, const std::string& text);
 
+  /// What the control keeps: a message of a device of its own, JSON.
+  void note_memory(const std::string& text);
+  static constexpr const char* kMemoryDevice = "memory";
+
   static constexpr std::size_t kMaxBatch = 256;
 
  private:

@@ -28,6 +28,7 @@ Gateway::Gateway(Parts parts)
       recorder_({parts_.options.machine, parts_.outbox, parts_.journal, parts_.witness,
                  parts_.clock,
                  [this](const interpreter::Output& output) { print_on_line(output); }}),
+      memory_(parts_.outbox),
       machine_(limits_of(parts_.options.control), parts_.setup.workpiece, recorder_),
       sender_(
           parts_.options.machine, parts_.outbox, {},
@@ -78,6 +79,14 @@ Result<void> Gateway::recover() {
                parts_.options.machine, run->run, run->program);
   last_execution_ = dds::Execution::Stopped;
   last_message_ = fmt::format("run {} was interrupted at block {}", run->run, progress.executed);
+  dds::Record kept = record;
+  kept.kind = dds::RecordKind::Message;
+  kept.device = ExecutionRecorder::kMemoryDevice;
+  const auto memory = outbox_.memory().empty() ? std::vector<std::string>() : memory_.report();
+  for (const std::string& text : memory) {
+    kept.text = text;
+    outbox_.append(kept);
+  }
   outbox_.append(std::move(record));
   outbox_.end_run();
   const auto done = outbox_.commit();

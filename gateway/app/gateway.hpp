@@ -111,6 +111,8 @@ class Gateway {
   void run_slice(SteadyTime now);
   bool run_round(double& machine_seconds, SteadyTime& deadline);
   void commit_reports();
+  void keep_memory();
+  void report_memory();
   bool wait_out_trouble(SteadyTime now);
   void judge_end();
   void end_run(dds::RunOutcome outcome, const std::string& reason);
@@ -144,6 +146,7 @@ class Gateway {
   Parts parts_;
   report::Outbox& outbox_;
   ExecutionRecorder recorder_;
+  ControlMemory memory_;
   machine::Machine machine_;
   report::RecordSender sender_;
   report::StatusPublisher publisher_;

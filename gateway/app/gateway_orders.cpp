@@ -141,11 +141,13 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
                                    .feed = std::move(feed),
                                    .machine = machine_,
                                    .recorder = recorder_,
-                                   .clock = parts_.clock},
+                                   .clock = parts_.clock,
+                                   .memory = memory_},
                                   parts_.dialect, setup);
   if (!session) return fail(session.error().code, "setup: {}", session.error().what);
 
   outbox_.discard();
+  memory_.stage();
   recorder_.begin(run, [raw = session->get()] {
     return ExecutionRecorder::Supply{raw->feed().sent(), raw->accepted()};
   });

@@ -39,6 +39,7 @@ void Gateway::run_slice(SteadyTime now) {
   judge_end();
   if (now >= next_sync_) {
     next_sync_ = now + kSyncInterval;
+    keep_memory();
     if (const auto done = parts_.journal.sync(); !done)
       spdlog::warn("{} {}", done.error().what, label());
   }
@@ -54,6 +55,26 @@ bool Gateway::run_round(double& machine_seconds, SteadyTime& deadline) {
   const bool has_advanced = used > 0 || machine_.status().queued != before.queued;
   const bool can_go_on = (blocks > 0 || has_advanced) && machine_seconds > 0;
   return can_go_on && recorder_.trouble().empty() && parts_.clock.steady_now() < deadline;
+}
+
+/// What executed blocks have changed in the control's memory goes to disk with the next reports, or
+/// by itself: a kill loses what the last kSyncInterval has changed.
+void Gateway::keep_memory() {
+  if (!session_ || is_ending_) return;
+  session_->keep_memory(machine_.status().executed);
+  if (!memory_.has_unstaged()) return;
+  memory_.stage();
+  const bool has_reports = outbox_.has_staged_records();
+  if (!has_reports && recorder_.is_between_blocks() && recorder_.trouble().empty())
+    (void)recorder_.commit();
+}
+
+/// Before the record of the run's end, and with it.
+void Gateway::report_memory() {
+  session_->keep_memory(machine_.status().executed);
+  memory_.stage();
+  if (!memory_.take_change()) return;
+  for (const std::string& text : memory_.report()) recorder_.note_memory(text);
 }
 
 /// What was reported goes to disk as soon as the block it belongs to is finished, or stands still.
@@ -106,6 +127,7 @@ void Gateway::end_run(dds::RunOutcome outcome, const std::string& reason) {
   const bool is_completed = outcome == dds::RunOutcome::Completed;
   last_execution_ = is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
   last_message_ = end.reason;
+  report_memory();
   recorder_.end(std::move(end));
   consent_.end_wait();
   is_ending_ = true;

@@ -1,6 +1,7 @@
 #include "gateway/app/run_session.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace dripline::gateway {
@@ -29,8 +30,24 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   std::unique_ptr<RunSession> session(new RunSession(std::move(parts), setup));
   interpreter::Setup given = setup;
   given.answers.clear();
-  auto made = dialect.make(given, session->feed(), session->parts_.machine.events());
+  const auto make = [&](const interpreter::Setup& its_setup) {
+    return dialect.make(its_setup, session->feed(), session->parts_.machine.events());
+  };
+  auto made = make(given);
   if (!made) return fail(made.error());
+  if (auto* alone = dynamic_cast<interpreter::RetainedMemory*>(made->get())) {
+    // What the setup alone gives decides which of what was kept is given besides.
+    (void)alone->read_memory(session->known_);
+    const auto kept =
+        session->parts_.memory.begin(alone->memory_cells(), session->known_, given);
+    given.variables.insert(given.variables.end(), kept.begin(), kept.end());
+    if (!kept.empty()) made = make(given);
+    if (!made) return fail(made.error());
+    session->retained_ = dynamic_cast<interpreter::RetainedMemory*>(made->get());
+    session->known_.clear();
+    (void)session->retained_->read_memory(session->known_);
+    session->cells_ = session->known_;
+  }
   session->interpreter_ = std::move(*made);
   session->note_modes();
   return session;
@@ -50,6 +67,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
       case StepState::Ran:
         ++blocks;
         note_modes();
+        note_memory();
         break;
       case StepState::NeedsText:
         waits_ = Waits::ForText;
@@ -61,6 +79,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
       case StepState::Ended:
       case StepState::Alarmed:
         note_modes();
+        note_memory();
         is_over_ = true;
         return blocks + 1;
     }
@@ -80,6 +99,30 @@ void RunSession::note_modes() {
   }
   if (modes_.empty() || modes_.back().modes != modes)
     modes_.push_back({interpreter_->blocks(), modes});
+}
+
+namespace {
+
+/// Tables that were converted to another unit and back differ in the last digits.
+bool is_unchanged(double before, double now) {
+  constexpr double kNoise = 1e-14;
+  return report::is_same_number(before, now) || std::fabs(now - before) <= kNoise * std::fabs(before);
+}
+
+}  // namespace
+
+void RunSession::note_memory() {
+  if (retained_ == nullptr || !retained_->read_memory(cells_)) return;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (is_unchanged(known_[i], cells_[i])) continue;
+    known_[i] = cells_[i];
+    changes_.push_back({interpreter_->origin().block, i, cells_[i]});
+  }
+}
+
+void RunSession::keep_memory(std::uint64_t executed) {
+  for (; !changes_.empty() && changes_.front().block <= executed; changes_.pop_front())
+    parts_.memory.note(changes_.front().cell, changes_.front().value);
 }
 
 void RunSession::forget_modes() {

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "gateway/app/control_memory.hpp"
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/feed/program_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
@@ -23,6 +25,7 @@ class RunSession {
     machine::Machine& machine;
     ExecutionRecorder& recorder;
     const Clock& clock;
+    ControlMemory& memory;
   };
   /// Errors: those of Dialect::make. Nothing has happened to the machine then.
   static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
@@ -48,6 +51,8 @@ class RunSession {
   const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
   /// How program coordinates lie while it runs; nothing when the control does not say.
   const std::optional<interpreter::CoordinateFrame>& frame_at(std::uint64_t block) const;
+  /// Tells the control's memory what the blocks up to `executed` have changed.
+  void keep_memory(std::uint64_t executed);
   /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
   void size_feed(std::optional<double> speed_factor);
 
@@ -62,12 +67,21 @@ class RunSession {
   bool give(const interpreter::Answer& answer);
   bool machine_rests() const;
   void note_modes();
+  void note_memory();
   void forget_modes();
 
   Parts parts_;
   interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
   std::size_t next_answer_ = 0;
   std::unique_ptr<interpreter::Interpreter> interpreter_;
+  interpreter::RetainedMemory* retained_ = nullptr;  ///< of it; null: its control keeps nothing
+  struct Change {
+    std::uint64_t block = 0;
+    std::size_t cell = 0;
+    double value = 0;
+  };
+  std::deque<Change> changes_;         ///< of blocks that are not executed yet
+  std::vector<double> cells_, known_;  ///< as read last, and as it was before
   Waits waits_ = Waits::ForNothing;
   struct Modes {
     std::uint64_t block = 0;  ///< the first that runs under them

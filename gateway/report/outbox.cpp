@@ -1,6 +1,11 @@
 #include "gateway/report/outbox.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "gateway/report/outbox_schema.hpp"
 #include "protocol/base/random.hpp"
@@ -23,7 +28,27 @@ std::uint64_t epoch_after(std::uint64_t epoch) {
   return epoch + 1 + (random_number() >> 32);
 }
 
+/// A vacant cell is NULL.
+double number_or_vacant(const sqlite::Statement& row, int column) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const std::string text = row.optional_text(column).value_or("");
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+std::optional<std::string> stored(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional(fmt::format("{}", value));
+}
+
 }  // namespace
+
+bool is_same_number(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+bool operator==(const KeptCell& a, const KeptCell& b) {
+  return is_same_number(a.value, b.value) && is_same_number(a.base, b.base) &&
+         a.is_named == b.is_named;
+}
 
 Result<Outbox> Outbox::open(const std::filesystem::path& file, const OutboxOptions& options) {
   auto database = sqlite::Database::open(
@@ -68,12 +93,38 @@ Result<void> Outbox::load_run() {
   if (!query) return fail(query.error());
   const auto row = query->step();
   if (!row) return fail(row.error());
-  if (!*row) return {};
+  if (!*row) return load_memory();
   committed_run_ =
       ActiveRun{query->text(0), query->text(1), query->text(2), query->text(3), query->number(4)};
   committed_progress_ = {query->number(5), query->number(6),  query->number(7),
                          query->number(8), query->integer(9), query->number(10)};
   progress_ = committed_progress_;
+  return load_memory();
+}
+
+Result<void> Outbox::load_memory() {
+  auto query = database_.prepare("SELECT name, value, base, is_named FROM memory");
+  if (!query) return fail(query.error());
+  for (;;) {
+    const auto row = query->step();
+    if (!row) return fail(row.error());
+    if (!*row) return {};
+    memory_[query->text(0)] = {number_or_vacant(*query, 1), number_or_vacant(*query, 2),
+                               query->integer(3) != 0};
+  }
+}
+
+Result<void> Outbox::write_cells() {
+  if (staged_cells_.empty()) return {};
+  auto replace = database_.prepare("INSERT OR REPLACE INTO memory VALUES (?1, ?2, ?3, ?4)");
+  if (!replace) return fail(replace.error());
+  auto drop = database_.prepare("DELETE FROM memory WHERE name = ?1");
+  if (!drop) return fail(drop.error());
+  for (const auto& [name, cell] : staged_cells_) {
+    if (cell) replace->bind(name, stored(cell->value), stored(cell->base), cell->is_named ? 1 : 0);
+    const auto done = cell ? replace->run() : drop->bind(name).run();
+    if (!done) return done;
+  }
   return {};
 }
 
@@ -101,10 +152,13 @@ void Outbox::discard() {
   run_change_ = RunChange::None;
   staged_.clear();
   staged_results_.clear();
+  staged_cells_.clear();
 }
 
 Result<void> Outbox::commit() {
-  if (staged_.empty() && staged_results_.empty() && run_change_ == RunChange::None) return {};
+  const bool has_change = !staged_.empty() || !staged_results_.empty() ||
+                          !staged_cells_.empty() || run_change_ != RunChange::None;
+  if (!has_change) return {};
   auto transaction = sqlite::Transaction::begin(database_);
   if (!transaction) return fail(transaction.error());
   if (const auto done = write_all(); !done) return fail(done.error());
@@ -118,6 +172,13 @@ Result<void> Outbox::commit() {
   committed_progress_ = progress_;
   staged_.clear();
   staged_results_.clear();
+  for (const auto& [name, cell] : std::exchange(staged_cells_, {})) {
+    if (cell) {
+      memory_[name] = *cell;
+    } else {
+      memory_.erase(name);
+    }
+  }
   return {};
 }
 
@@ -125,6 +186,7 @@ Result<void> Outbox::write_all() {
   if (const auto done = write_records(); !done) return done;
   if (const auto done = write_run(); !done) return done;
   if (const auto done = write_order_results(); !done) return done;
+  if (const auto done = write_cells(); !done) return done;
   return delete_acknowledged();
 }
 

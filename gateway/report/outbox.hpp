@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,16 @@
 #include "storage/sqlite/database.hpp"
 
 namespace dripline::report {
+
+/// One thing that the machine's control keeps when a program is over; a vacant one is NaN.
+struct KeptCell {
+  double value = 0;
+  double base = 0;        ///< what the setup gave it, under which the value came to be
+  bool is_named = false;  ///< the setup gave it as a variable
+  friend bool operator==(const KeptCell& a, const KeptCell& b);
+};
+/// Two vacant ones are the same.
+bool is_same_number(double a, double b);
 
 struct OutboxOptions {
   std::uint64_t max_bytes = 4ULL << 30;  ///< of the file; more is refused as a full disk is
@@ -42,6 +53,13 @@ class Outbox {
   /// Stages how far the active run has come; what was staged last is written.
   void note_progress(const Progress& progress) { progress_ = progress; }
   void add_order_result(const std::string& id, bool is_accepted, const std::string& reason);
+
+  /// Stages what the control keeps under a name; nullopt: no longer.
+  void stage_cell(const std::string& name, const std::optional<KeptCell>& cell) {
+    staged_cells_[name] = cell;
+  }
+  /// As it was at the last commit.
+  const std::map<std::string, KeptCell>& memory() const { return memory_; }
 
   /// Forgets what was staged since the last commit.
   void discard();
@@ -84,6 +102,8 @@ class Outbox {
   Result<void> write_records();
   Result<void> write_run();
   Result<void> write_order_results();
+  Result<void> write_cells();
+  Result<void> load_memory();
   Result<void> delete_acknowledged();
 
   struct StagedResult {
@@ -100,6 +120,8 @@ class Outbox {
 
   std::vector<dds::Record> staged_;
   std::vector<StagedResult> staged_results_;
+  std::map<std::string, KeptCell> memory_;
+  std::map<std::string, std::optional<KeptCell>> staged_cells_;
   RunChange run_change_ = RunChange::None;
   ActiveRun staged_run_;
   Progress progress_;

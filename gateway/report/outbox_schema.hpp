@@ -43,6 +43,15 @@ CREATE TABLE order_result (
   is_accepted INTEGER NOT NULL,
   reason      TEXT NOT NULL
 ) STRICT;
+)sql"},
+                                        storage::sqlite::Migration{2, "memory", R"sql(
+-- What the control keeps when a program is over, as far as programs have changed it.
+CREATE TABLE memory (
+  name     TEXT PRIMARY KEY,  -- the control's own: P10, #500, G54.X
+  value    TEXT,              -- decimal, as many digits as it takes; NULL: vacant
+  base     TEXT,              -- what the setup gave it when the value came to be; NULL: vacant
+  is_named INTEGER NOT NULL   -- 1: it gave it as a variable
+) STRICT;
 )sql"}};
 
 }  // namespace dripline::report

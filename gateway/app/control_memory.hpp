@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/retained_memory.hpp"
+#include "gateway/interpreter/setup.hpp"
+#include "gateway/report/outbox.hpp"
+
+namespace dripline::gateway {
+
+/// What the control of this machine keeps from one program to the next (retained_memory.hpp): the
+/// cells that programs have changed, each with what the setup gave it then. At a start the kept
+/// number wins, unless the setup now gives the cell something else, or names it as a variable and
+/// did not before: then whoever changed the setup meant it, and the cell begins as the setup says.
+/// What the control keeps for good is in the outbox and outlives the process. One thread.
+class ControlMemory {
+ public:
+  explicit ControlMemory(report::Outbox& outbox);
+
+  /// A program begins under `setup`, which alone gives `cells` the numbers `base`. Returns what it
+  /// is to be given besides.
+  std::vector<interpreter::VariableRecord> begin(std::vector<interpreter::MemoryCell> cells,
+                                                 std::vector<double> base,
+                                                 const interpreter::Setup& setup);
+  /// The machine has executed a block that changed a cell (its place among those of `begin`).
+  void note(std::size_t cell, double value);
+
+  /// Stages what the outbox does not have yet, to go to disk with its next commit.
+  void stage();
+  bool has_unstaged() const { return has_unstaged_; }
+  /// Everything kept for good, as JSON of at most kMaxRecordText bytes each: {"part", "parts",
+  /// "cells": {name: [number, what the setup gave]}}, null for a vacant one.
+  std::vector<std::string> report() const;
+  /// Whether anything has changed since this was asked last.
+  bool take_change() { return std::exchange(has_changed_, false); }
+
+ private:
+  struct Cell {
+    report::KeptCell kept;
+    interpreter::Keeps keeps = interpreter::Keeps::Always;
+  };
+  report::Outbox& outbox_;
+  std::map<std::string, Cell> cells_;
+  std::vector<interpreter::MemoryCell> known_;  ///< of the program that runs, or the last one
+  std::vector<double> base_;
+  std::map<std::string, bool> named_;  ///< variables of its setup
+  bool has_unstaged_ = false, has_changed_ = false;
+};
+
+}  // namespace dripline::gateway

@@ -1,0 +1,213 @@
+#include "gateway/app/control_memory.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+
+#include "gateway/interpreter/centurion/dialect.hpp"
+#include "gateway/interpreter/fanuc/dialect.hpp"
+#include "gateway/interpreter/rs274ngc/dialect.hpp"
+#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "tests/unit/gateway/app/shop.hpp"
+
+/// What a control keeps from one program to the next.
+namespace dripline::gateway {
+namespace {
+
+using dds::RunOutcome;
+
+interpreter::Setup setup_of(const interpreter::Dialect& control, const std::string& toml) {
+  auto setup = interpreter::parse_setup(toml, control.units);
+  EXPECT_TRUE(setup) << setup.error().what;
+  return *setup;
+}
+
+/// Runs programs one after the other, each pushed under a name of its own.
+class MemoryShop : public Shop {
+ public:
+  explicit MemoryShop(const interpreter::Dialect& control, const std::string& toml = "",
+                      const std::string& speed = "max")
+      : Shop(control, setup_of(control, toml), speed) {}
+
+  dds::RunEndText run(const std::string& text, const std::string& setup_toml = "") {
+    const std::string name = "P" + std::to_string(++programs_);
+    push(name, text);
+    dds::Order order = start_order(name);
+    order.setup = setup_toml;
+    const auto result = send(order);
+    EXPECT_TRUE(result.accepted) << result.reason;
+    return ended();
+  }
+  /// The lines that the last program printed.
+  std::vector<std::string> printed(const std::string& text, const std::string& setup_toml = "") {
+    const std::size_t before = lines().size();
+    const auto end = run(text, setup_toml);
+    EXPECT_EQ(end.outcome, RunOutcome::Completed) << end.reason;
+    auto all = lines();
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before));
+    return all;
+  }
+  /// What was reported last of the memory.
+  std::string reported() const {
+    for (auto record = records.rbegin(); record != records.rend(); ++record) {
+      if (record->device == "memory") return record->text;
+    }
+    return {};
+  }
+
+ private:
+  int programs_ = 0;
+};
+
+using Lines = std::vector<std::string>;
+
+constexpr const char* kChange = "O0001\nP10=7.5\nPB50=2\nG10\nP500=1.25\nP511=.5\nG11\nM30\n";
+constexpr const char* kPrint =
+    "O0002\nP1=PB50\nP2=P500\nP3=P511\nPOPEN P0\nDPRNT[A#10 B#1 C#2 D#3]\nPCLOS\nM30\n";
+
+TEST(CenturionMemory, OutlivesTheProgram) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  const Lines before = shop.printed(kPrint);
+  shop.run(kChange);
+  const Lines after = shop.printed(kPrint);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_NE(after, before);
+  EXPECT_NE(after[0].find("7.5"), std::string::npos) << after[0];
+  EXPECT_NE(after[0].find("1.25"), std::string::npos) << after[0];
+  EXPECT_NE(after[0].find("2.0"), std::string::npos) << after[0];
+}
+
+TEST(CenturionMemory, OutlivesTheGateway) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  shop.run(kChange);
+  const Lines after = shop.printed(kPrint);
+  shop.restart_gateway();
+  EXPECT_EQ(shop.printed(kPrint), after);
+}
+
+TEST(CenturionMemory, IsReportedBeforeTheEndOfTheRun) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  shop.run(kChange);
+  EXPECT_EQ(shop.reported(),
+            R"({"part":1,"parts":1,"cells":{"P10":[7.5,0],"P500":[1.25,0],"P511":[0.5,0],)"
+            R"("PB50":[2,1]}})");
+  ASSERT_GE(shop.records.size(), 2U);
+  EXPECT_EQ(shop.records.back().kind, dds::RecordKind::RunEnded);
+  const auto told = [&] {
+    return std::count_if(shop.records.begin(), shop.records.end(),
+                         [](const dds::Record& record) { return record.device == "memory"; });
+  };
+  ASSERT_EQ(told(), 1);
+  shop.run("O0003\nG0 X1\nM30\n");
+  EXPECT_EQ(told(), 1) << "nothing new is said";
+}
+
+constexpr const char* kSlow = "O0001\nP10=1\nG0 X40\nX0\nX40\nX0\nP10=2\nM30\n";
+constexpr const char* kPrintP10 = "O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n";
+
+/// A part that was not made is not counted.
+TEST(CenturionMemory, IsThatOfTheBlocksThatWereExecuted) {
+  MemoryShop shop(interpreter::kCenturionDialect, "", "1x");
+  shop.push("O1", kSlow);
+  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->position[0] > 100; }));
+  ASSERT_TRUE(shop.send(shop.order(dds::OrderAction::Abort)).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
+  EXPECT_NE(shop.printed(kPrintP10).at(0).find('1'), std::string::npos);
+}
+
+TEST(CenturionMemory, IsKeptThroughAKillInTheMiddle) {
+  MemoryShop shop(interpreter::kCenturionDialect, "", "1x");
+  shop.push("O1", kSlow);
+  ASSERT_TRUE(shop.start("O1").accepted);
+  const SteadyTime begun = shop.clock.steady;
+  ASSERT_TRUE(
+      shop.run_until([&] { return shop.clock.steady > begun + std::chrono::milliseconds(1500); }));
+  shop.restart_gateway();
+  ASSERT_TRUE(shop.run_until([&] { return shop.count(dds::RecordKind::RunEnded) == 1; }));
+  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
+  EXPECT_NE(shop.printed(kPrintP10).at(0).find('1'), std::string::npos);
+}
+
+TEST(CenturionMemory, IsKeptInTheUnitOfTheSetup) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  shop.run("O0001\nG21\nG10\nP500=25.4\nG11\nM30\n");
+  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P500":[1,0]}})");
+}
+
+/// What somebody changes in the setup is meant; all else stays as the control has it.
+TEST(CenturionMemory, GivesWayToASetupThatWasChanged) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  const std::string setup = "[[variable]]\nname = \"P10\"\nvalue = 3\n";
+  shop.run("O0001\nP10=7\nP11=8\nM30\n", setup);
+  const std::string print = "O0002\nPOPEN P0\nDPRNT[A#10 B#11]\nPCLOS\nM30\n";
+  const Lines kept = shop.printed(print, setup);
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_NE(kept[0].find('7'), std::string::npos) << kept[0];
+  const Lines changed = shop.printed(print, "[[variable]]\nname = \"P10\"\nvalue = 4\n");
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_NE(changed[0].find('4'), std::string::npos) << changed[0];
+  EXPECT_NE(changed[0].find('8'), std::string::npos) << changed[0];
+  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P11":[8,0]}})");
+}
+
+TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
+  MemoryShop shop(interpreter::kCenturionDialect);
+  shop.run("O0001\nP10=7\nM30\n");
+  const Lines cleared = shop.printed("O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n",
+                                     "[[variable]]\nname = \"P10\"\nvalue = 0\n");
+  ASSERT_EQ(cleared.size(), 1U);
+  EXPECT_EQ(cleared[0].find('7'), std::string::npos) << cleared[0];
+}
+
+TEST(FanucMemory, KeepsVariablesFrom500AndOffsets) {
+  MemoryShop shop(interpreter::kFanucDialect);
+  shop.run("O0001\n#500=7.5\n#100=9\n#1=8\nG10 L2 P1 X1.5\nG10 L10 P3 R2.5\n#3901=4\nM30\n");
+  shop.restart_gateway();
+  const Lines after = shop.printed(
+      "O0002\nPOPEN\nDPRNT[#500[33]*#5221[33]*#2003[33]*#3901[33]*#100[33]]\nPCLOS\nM30\n");
+  ASSERT_EQ(after.size(), 1U);
+  for (const char* number : {"7.500", "1.500", "2.500", "4.000"})
+    EXPECT_NE(after[0].find(number), std::string::npos) << number << " in " << after[0];
+  EXPECT_EQ(after[0].find("9.000"), std::string::npos) << after[0];
+  EXPECT_NE(shop.reported().find(R"("#500":[7.5,null])"), std::string::npos) << shop.reported();
+  EXPECT_NE(shop.reported().find(R"("G54.X":[1.5,0])"), std::string::npos) << shop.reported();
+}
+
+TEST(FanucMemory, KeepsVariablesFrom100UntilPowerOffIfResetLeavesThem) {
+  MemoryShop shop(interpreter::kFanucDialect, "[control]\nreset_clears_commons = false\n");
+  const std::string print = "O0002\nPOPEN\nDPRNT[#100[33]]\nPCLOS\nM30\n";
+  shop.run("O0001\n#100=9\nM30\n");
+  EXPECT_NE(shop.printed(print).at(0).find("9.000"), std::string::npos);
+  shop.restart_gateway();
+  EXPECT_EQ(shop.printed(print).at(0).find("9.000"), std::string::npos);
+}
+
+TEST(Rs274Memory, KeepsWhatItsParameterFileLists) {
+  const std::string setup =
+      "[control]\nprofile = \"linuxcnc\"\n[[variable]]\nname = \"#100\"\nvalue = 0\n"
+      "[[tool]]\nnumber = 1\nlength = 10\nradius = 2\n";
+  MemoryShop shop(interpreter::kRs274NgcDialect, setup);
+  shop.run("#100=7.5\n#101=8.5\nG10 L2 P2 X1.25\nG10 L1 P1 Z12.5\nM2\n");
+  const std::string print = "(LOGOPEN,a)\n(LOG,#100 #101 #5241)\n(LOGCLOSE)\nT1 M6\n(LOG,x)\nM2\n";
+  const Lines same_session = shop.printed(print);
+  ASSERT_FALSE(same_session.empty());
+  EXPECT_NE(same_session[0].find("7.5"), std::string::npos) << same_session[0];
+  EXPECT_NE(same_session[0].find("8.5"), std::string::npos) << same_session[0];
+  EXPECT_NE(same_session[0].find("1.25"), std::string::npos) << same_session[0];
+  shop.restart_gateway();
+  const Lines next_session = shop.printed(print);
+  ASSERT_FALSE(next_session.empty());
+  EXPECT_NE(next_session[0].find("7.5"), std::string::npos) << next_session[0];
+  EXPECT_EQ(next_session[0].find("8.5"), std::string::npos) << next_session[0];
+  EXPECT_NE(shop.reported().find(R"("tool.1.Z":[12.5,10])"), std::string::npos) << shop.reported();
+}
+
+TEST(TncMemory, BeginsEveryProgramWithoutQParameters) {
+  MemoryShop shop(interpreter::kTnc155Dialect);
+  shop.run("0 BEGIN PGM 1 MM\n1 FN 0: Q1 = +7,5\n2 L C+730 R0 F9999 M94\n3 END PGM 1 MM\n");
+  EXPECT_EQ(shop.reported().find("Q1"), std::string::npos) << shop.reported();
+}
+
+}  // namespace
+}  // namespace dripline::gateway
