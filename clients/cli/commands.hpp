@@ -16,6 +16,7 @@ void add_port_doctor_command(CLI::App& group, Context& context);
 void add_port_replay_command(CLI::App& group, Context& context);
 void add_port_page_command(CLI::App& group, Context& context);
 void add_setup_commands(CLI::App& app, Context& context);
+void add_memory_commands(CLI::App& app, Context& context);
 void add_report_commands(CLI::App& app, Context& context);
 void add_server_commands(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);

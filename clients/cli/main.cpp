@@ -89,6 +89,7 @@ int run(int argc, char** argv) {
   add_run_commands(app, context);
   add_port_commands(app, context);
   add_setup_commands(app, context);
+  add_memory_commands(app, context);
   add_report_commands(app, context);
   add_server_commands(app, context);
   add_check_command(app, context);

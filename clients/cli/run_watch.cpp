@@ -5,6 +5,7 @@
 #include "clients/cli/change_log.hpp"
 #include "clients/cli/interrupt.hpp"
 #include "clients/cli/json_text.hpp"
+#include "clients/cli/kept_memory.hpp"
 #include "clients/cli/live_area.hpp"
 #include "clients/cli/machine_text.hpp"
 #include "clients/cli/value_text.hpp"
@@ -22,6 +23,7 @@ constexpr auto kGiveUpAfter = 60s;
 
 /// What the operator must see even when the next status replaces it.
 bool is_for_people(const client::Record& record) {
+  if (record.device == kMemoryDevice) return false;  // for dnc memory
   return record.kind == "message" || record.kind == "stop" || record.kind == "warning" ||
          record.kind == "alarm";
 }

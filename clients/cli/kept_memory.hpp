@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+
+namespace dripline::cli {
+
+/// What a machine's control keeps when a program is over, as its gateway reports it at the end of
+/// a run: records of kind message from the device "memory".
+struct KeptCell {
+  std::optional<double> value;  ///< none: vacant
+  std::optional<double> base;   ///< what the setup gave it
+  friend bool operator==(const KeptCell&, const KeptCell&) = default;
+};
+using KeptMemory = std::map<std::string, KeptCell>;
+
+inline constexpr std::string_view kMemoryDevice = "memory";
+
+/// Adds one record's text. Errors: Syntax, LimitExceeded (no record is so long).
+Result<void> add_memory_text(std::string_view text, KeptMemory& memory);
+
+/// `name` matches when it holds `filter`, or all of it when that is empty.
+KeptMemory filtered(const KeptMemory& memory, std::string_view filter);
+
+/// A setup that gives these cells as variables, over those it has of the same names; comments and
+/// layout stay. Errors: Syntax (no TOML; `variable` written as one list).
+Result<std::string> with_variables(std::string_view setup,
+                                   const std::map<std::string, double>& variables);
+
+}  // namespace dripline::cli

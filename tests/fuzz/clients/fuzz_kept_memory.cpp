@@ -1,0 +1,21 @@
+// A gateway's text about what its control keeps. Properties: it is understood or refused with a
+// reason; what was understood can be given back as variables of a setup, which then reads as TOML
+// and has no name twice, however often it is done.
+#include <cstdint>
+#include <cstdlib>
+
+#include "clients/cli/kept_memory.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace dripline::cli;
+  KeptMemory memory;
+  const auto read = add_memory_text({reinterpret_cast<const char*>(data), size}, memory);
+  if (!read && read.error().what.empty()) std::abort();
+  std::map<std::string, double> variables;
+  for (const auto& [name, cell] : memory) {
+    if (cell.value) variables[name] = *cell.value;
+  }
+  const auto once = with_variables("", variables);
+  if (!once || with_variables(*once, variables).value() != *once) std::abort();
+  return 0;
+}
