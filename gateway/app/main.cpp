@@ -1,5 +1,6 @@
 #include <pthread.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "gateway/app/setup_line.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
+#include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/stop_signals.hpp"
 
@@ -22,14 +24,18 @@ namespace {
 constexpr int kExitUsage = 2;
 constexpr std::chrono::seconds kFarewell{2};  ///< for the last records to be acknowledged
 
-/// Turns SIGTERM and SIGINT into a message. All threads have them blocked, so only this one gets
-/// them.
+/// Turns SIGTERM and SIGINT into a message, SIGHUP into a log file opened anew. All threads have
+/// them blocked, so only this one gets them.
 class SignalWatch {
  public:
   SignalWatch(Inbox& inbox, const sigset_t& signals)
       : thread_([&inbox, signals] {
           int signal = 0;
-          if (::sigwait(&signals, &signal) == 0) inbox.post(StopRequested{signal});
+          // Without a log file a hang-up is the end, as of any program whose terminal is gone.
+          do {
+            if (::sigwait(&signals, &signal) != 0) return;
+          } while (signal == SIGHUP && process::reopen_log());
+          inbox.post(StopRequested{signal});
         }) {}
   ~SignalWatch() {
     ::pthread_kill(thread_.native_handle(), SIGTERM);  // ends the wait; nobody reads it any more
@@ -233,8 +239,9 @@ int main(int argc, char** argv) {
   app.add_option("--config", file, "TOML file with the same keys; the command line goes first")
       ->type_name("file");
   declare(app, given);
-  app.footer("dncgw panel --help: what is done at the machine itself.\n"
-             "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
+  app.footer(
+      "dncgw panel --help: what is done at the machine itself.\n"
+      "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -245,12 +252,16 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return kExitUsage;
   }
-  if (const auto done =
-          process::start_log("dncgw", options.log ? options.log->string() : "", options.log_level);
-      !done) {
+  ::umask(S_IRWXG | S_IRWXO);  // reports, programs and the log are the owner's alone
+  const process::LogOptions log{.file = options.log ? options.log->string() : "",
+                                .level = options.log_level,
+                                .max_mb = options.log_mb,
+                                .kept = options.log_files};
+  if (const auto done = process::start_log("dncgw", log); !done) {
     std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return 1;
   }
+  dds::send_log_to(process::log_foreign);
   if (const auto done = run(options); !done) {
     spdlog::critical("{} machine={}", done.error().what, options.machine);
     if (options.log) std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());

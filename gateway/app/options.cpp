@@ -108,6 +108,11 @@ constexpr std::array kRows{
                 o.log = v;
                 return {};
               }},
+    OptionRow{"log-mb", "number", "", "10",
+              "MB of the log file; then it is numbered and a new one begun",
+              [](Options& o, std::string_view v) { return set_number(o.log_mb, v, 1, 10'000); }},
+    OptionRow{"log-files", "number", "", "5", "numbered log files that are kept",
+              [](Options& o, std::string_view v) { return set_number(o.log_files, v, 0, 1000); }},
     OptionRow{"log-level", "level", "", "info", "trace, debug, info, warn or error",
               [](Options& o, std::string_view v) -> Result<void> {
                 for (const std::string_view known : {"trace", "debug", "info", "warn", "error"}) {
@@ -158,7 +163,8 @@ constexpr std::array kRows{
               "whether the network alone may start the machine; no: its operator gives the remote "
               "enable, or cycle start, at its panel (dncgw panel --help)",
               [](Options& o, std::string_view v) -> Result<void> {
-                if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is neither yes nor no", v);
+                if (v != "yes" && v != "no")
+                  return fail(Errc::Syntax, "'{}' is neither yes nor no", v);
                 o.unattended = v == "yes";
                 return {};
               }},

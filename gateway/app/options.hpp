@@ -39,6 +39,8 @@ struct GatewayOptions {
   Speed speed;
   std::optional<std::filesystem::path> setup, log, witness;
   std::string log_level = "info";
+  std::uint32_t log_mb = 10;
+  std::uint32_t log_files = 5;
   std::string description;
   std::optional<LineOptions> line;
   bool has_server = true;  ///< without one the gateway lives on its line alone

@@ -1,13 +1,15 @@
 #include "gateway/app/state_folder.hpp"
 
-#include <system_error>
+#include <spdlog/spdlog.h>
+
+#include "protocol/base/private_folder.hpp"
 
 namespace dripline::gateway {
 
 Result<StateFolder> StateFolder::open(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return fail(Errc::Io, "state folder {}: {}", folder.string(), error.message());
+  const auto closed = make_private_folder(folder);
+  if (!closed) return fail(closed.error().code, "state {}", closed.error().what);
+  if (!closed->empty()) spdlog::warn("state {}", *closed);
   auto lock = FileLock::acquire(folder / "lock", "state folder " + folder.string());
   if (!lock) return fail(lock.error());
   return StateFolder(folder, std::move(*lock));

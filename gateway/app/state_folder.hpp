@@ -11,7 +11,8 @@ namespace dripline::gateway {
 /// A gateway's own folder: one process at a time.
 class StateFolder {
  public:
-  /// Creates it when there is none. Errors: Busy (naming the owner's process id), Io.
+  /// Creates it when there is none, for its owner alone; closes it to others. Errors: Busy (naming
+  /// the owner's process id), Denied, Io.
   static Result<StateFolder> open(const std::filesystem::path& folder);
 
   std::filesystem::path outbox() const { return folder_ / "outbox.sqlite"; }

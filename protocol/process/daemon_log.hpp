@@ -1,15 +1,30 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "protocol/base/result.hpp"
 
 namespace dripline::process {
 
+struct LogOptions {
+  std::string file;            ///< empty: standard error
+  std::string level = "info";  ///< debug, info, warn, error or off
+  std::uint32_t max_mb = 10;   ///< then it becomes FILE.1 (its suffix kept), that FILE.2 ...
+  std::uint32_t kept = 5;      ///< such older files
+};
+
 /// Makes spdlog's default logger: UTC offset, level and the message on one line, whatever is in it.
-/// `file` empty: standard error. `level`: debug, info, warn, error or off. Errors: Denied (another
-/// level), Io (the file can not be written).
-Result<void> start_log(const std::string& program, const std::string& file,
-                       const std::string& level);
+/// Call after umask: the file is as private as that says. Errors: Denied (another level), Io (the
+/// file can not be written).
+Result<void> start_log(const std::string& program, const LogOptions& options);
+
+/// Opens the log file anew, after something else moved it away. False: there is none. Any thread.
+bool reopen_log();
+
+/// Passes what a library says on to the log, ten lines in ten seconds, and counts the rest: what
+/// strangers send must not fill the disk. Any thread.
+void log_foreign(bool is_error, std::string_view text);
 
 }  // namespace dripline::process

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 
+#include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/stop_signals.hpp"
 #include "server/app/server.hpp"
@@ -32,18 +33,25 @@ void keep_memory_small() {
 
 void serve_until(const sigset_t& signals, Server& server) {
   constexpr timespec kTidyInterval{.tv_sec = 3600, .tv_nsec = 0};
-  while (sigtimedwait(&signals, nullptr, &kTidyInterval) < 0) {
-    if (errno == EAGAIN) server.tidy();
+  for (;;) {
+    const int signal = sigtimedwait(&signals, nullptr, &kTidyInterval);
+    if (signal < 0 && errno == EAGAIN) server.tidy();
+    // Without a log file a hang-up is the end, as of any program whose terminal is gone.
+    if (signal == SIGHUP && process::reopen_log()) continue;
+    if (signal >= 0) return;
   }
 }
 
 int run(const Settings& settings) {
   keep_memory_small();
   const sigset_t signals = process::block_stop_signals();
-  if (auto opened = process::start_log("dncd", settings.log, settings.log_level); !opened) {
-    return complain(opened.error());
-  }
-  ::umask(S_IRWXG | S_IRWXO);  // programs, reports and the token are the owner's alone
+  ::umask(S_IRWXG | S_IRWXO);  // programs, reports, the log and the token are the owner's alone
+  const process::LogOptions log{.file = settings.log,
+                                .level = settings.log_level,
+                                .max_mb = settings.log_mb,
+                                .kept = settings.log_files};
+  if (auto opened = process::start_log("dncd", log); !opened) return complain(opened.error());
+  dds::send_log_to(process::log_foreign);
   const SystemClock clock;
   auto server = Server::start(settings, clock);
   if (!server) {

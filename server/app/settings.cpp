@@ -43,6 +43,10 @@ constexpr std::array kRows{
                "a silent gateway is given up after this"},
     SettingRow{"log", &Settings::log, "FILE", 0, 0, "log file; without it, standard error"},
     SettingRow{"log-level", &Settings::log_level, "LEVEL", 0, 0, "debug, info, warn, error or off"},
+    SettingRow{"log-mb", &Settings::log_mb, "MB", 1, 10'000,
+               "size of the log file; then it is numbered and a new one begun"},
+    SettingRow{"log-files", &Settings::log_files, "NUMBER", 0, 1000,
+               "numbered log files that are kept"},
 };
 
 const SettingRow* find_row(std::string_view name) {

@@ -27,6 +27,8 @@ struct Settings {
   std::uint32_t lease_ms = 2000;
   std::string log;
   std::string log_level = "info";
+  std::uint32_t log_mb = 10;
+  std::uint32_t log_files = 5;
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 

@@ -1,6 +1,7 @@
 #include "server/app/state_folder.hpp"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "protocol/base/private_folder.hpp"
 #include "protocol/base/random.hpp"
 
 namespace dripline::app {
@@ -48,10 +50,9 @@ Result<void> replace_private_file(const std::filesystem::path& path, const std::
 }  // namespace
 
 Result<StateFolder> StateFolder::open(const std::string& path) {
-  std::error_code ec;
-  const bool is_new = std::filesystem::create_directories(path, ec);
-  if (ec) return fail(Errc::Io, "state folder '{}': {}", path, ec.message());
-  if (is_new) std::filesystem::permissions(path, std::filesystem::perms::owner_all, ec);
+  const auto closed = make_private_folder(path);
+  if (!closed) return fail(closed.error().code, "state {}", closed.error().what);
+  if (!closed->empty()) spdlog::warn("state {}", *closed);
   return StateFolder(std::filesystem::absolute(path));
 }
 

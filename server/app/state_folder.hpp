@@ -12,7 +12,8 @@ namespace dripline::app {
 /// finds a server of this machine without being told.
 class StateFolder {
  public:
-  /// Makes the folder when it is missing, for its owner alone. Errors: Io.
+  /// Makes the folder when it is missing, for its owner alone; closes it to others. Errors: Io,
+  /// Denied.
   static Result<StateFolder> open(const std::string& path);
 
   /// The bearer token; made of random bytes at the first start, readable by the owner alone.
