@@ -126,7 +126,7 @@ TEST_F(SerialTest, BeginsARunInSpiteOfStrayCharacters) {
   EXPECT_EQ(line().read_until("M30\n%"), "%\nO1\nM30\n%");
 }
 
-TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {
+TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
   start_ports();
   add_machine("mill", "prototrak-plus");
   auto port = mill();
