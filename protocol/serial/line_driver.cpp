@@ -176,6 +176,7 @@ void Line::lose(const Error& error) {
 
 void Line::fail_transfer(const Error& error) {
   const bool is_idle = discipline_->state().phase == wire::Phase::Idle;
+  if (is_idle && !discipline_->state().is_asked) return;
   publish();
   discipline_->abort(now());  // who asked may not be there any more either
   // What it would say to end the transfer must not reach whoever is there after reopening.

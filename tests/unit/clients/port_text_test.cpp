@@ -74,6 +74,20 @@ TEST(PortText, SaysInAListingHowLongALineWaits) {
   EXPECT_EQ(short_state(port), "closed");
 }
 
+TEST(PortText, ShowsWhatTheControlAskedForInVain) {
+  ::setenv("TZ", "UTC", 1);
+  auto port = open_port();
+  port.request = {.since = "2026-11-21T07:40:06.5Z", .program = "", .answer = ""};
+  EXPECT_EQ(wait_text(port, "2026-11-21T07:52:40Z"), "asked: no run waits");
+  EXPECT_EQ(request_text(port.request),
+            "the control asked for a program at 2026-11-21 07:40:06; no run waits");
+  port.request->program = "15";
+  port.request->answer = "NO RUN WAITS";
+  EXPECT_EQ(wait_text(port, "2026-11-21T07:52:40Z"), "asked: refused");
+  EXPECT_EQ(request_text(port.request),
+            "the control asked for program 15 at 2026-11-21 07:40:06; refused: NO RUN WAITS");
+}
+
 TEST(PortText, ShowsOwnSettingsOfAPort) {
   auto port = open_port();
   port.settings = {{"baud", "9600"}, {"eob", "lf"}};

@@ -188,6 +188,32 @@ TEST_F(ApiHandlers, WriteReportsAsTextCsvAndJson) {
   EXPECT_EQ(json(get("/api/v1/reports"))["reports"][0]["lines"], 2);
 }
 
+TEST_F(ApiHandlers, WriteWhatAMachinePrintedOutsideRuns) {
+  stored_run(2);
+  EXPECT_EQ(json(get("/api/v1/machine-reports"))["reports"].size(), 0u);
+  storage::RecordBatch batch{
+      .machine = "lathe-1", .epoch = 8, .records = {}, .beginnings = {}, .endings = {}};
+  storage::Record record;
+  record.machine = "lathe-1";
+  record.epoch = 8;
+  record.number = 1;
+  record.time = clock_.now();
+  record.kind = "output";
+  record.device = "line-1";
+  record.text = "B 2";
+  batch.records.push_back(record);
+  ASSERT_TRUE(store_->store_records(batch));
+  const Json listed = json(get("/api/v1/machine-reports"))["reports"];
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0]["machine"], "lathe-1");
+  EXPECT_EQ(listed[0]["lines"], 1);
+  EXPECT_EQ(body(get("/api/v1/machines/lathe-1/report")), "B 2\n");
+  const Json report = json(get("/api/v1/machines/lathe-1/report?format=json"));
+  EXPECT_TRUE(report["run"].is_null());
+  EXPECT_EQ(report["lines"][0]["device"], "line-1");
+  expect_error(get("/api/v1/machines/none/report"), 404, "not_found", "none");
+}
+
 TEST_F(ApiHandlers, WriteAReportOfManyPages) {
   const std::string text = body(get("/api/v1/reports/" + stored_run(2500) + "?format=json"));
   const Json report = Json::parse(text, nullptr, false);

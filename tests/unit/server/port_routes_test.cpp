@@ -84,6 +84,10 @@ TEST_F(PortRoutes, ShowHowALineStands) {
   EXPECT_EQ(port["received"], 7);
   EXPECT_EQ(port["trouble"], "parity error");
   EXPECT_EQ(port["waiting_since"], to_iso8601(clock_.now()));
+  EXPECT_TRUE(port["request"].is_null());
+  view.request = {.since = clock_.now(), .program = "15", .answer = ""};
+  EXPECT_EQ(json(get("/api/v1/ports/line-1"))["request"],
+            (Json{{"since", to_iso8601(clock_.now())}, {"program", "15"}, {"answer", nullptr}}));
 }
 
 TEST_F(PortRoutes, TestALineAndJudgeAText) {
