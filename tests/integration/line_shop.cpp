@@ -34,10 +34,12 @@ void LineShop::start() {
                                    options_.address,
                                    "--speed",
                                    options_.speed,
-                                   "--unattended",
-                                   "yes",
                                    "--log",
                                    folder_.path() / "log"};
+  if (options_.is_unattended) {
+    command.push_back("--unattended");
+    command.push_back("yes");
+  }
   for (const std::string& setting : options_.settings) {
     command.push_back("--line-setting");
     command.push_back(setting);

@@ -20,6 +20,7 @@ class LineShop {
     std::vector<std::string> settings;  ///< key=value
     std::string speed = "max";
     std::vector<std::string> arguments = {};
+    bool is_unattended = true;  ///< else as a gateway with a line is by itself
   };
   explicit LineShop(Options options);
   ~LineShop();
@@ -30,6 +31,8 @@ class LineShop {
                   std::chrono::milliseconds limit = std::chrono::seconds(30)) const;
   bool wait_logged(std::string_view text, std::size_t times = 1) const;
   std::string log() const;
+  /// The gateway's state folder, where its panel is.
+  std::filesystem::path state() const { return folder_.path() / "gw"; }
 
   /// Stops the gateway and reads what it kept for a server.
   const std::vector<dds::Record>& records();

@@ -9,7 +9,7 @@
 #include "gateway/interpreter/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
-/// What a control keeps from one program to the next.
+/// What a control keeps from one program to the next. Rows: CEN-074, CEN-171, NGC-016.
 namespace dripline::gateway {
 namespace {
 
