@@ -50,7 +50,7 @@ const ForecastResult& Forecast::finish() {
 }
 
 /// When the line has brought so many more characters: it goes on while there is room for them.
-double Forecast::arrival(std::uint64_t characters) {
+Forecast::Arrival Forecast::arrival(std::uint64_t characters) {
   double begins = received_;
   const auto has_room = [&] {
     return held_.empty() || held_characters_ + characters <= line_.buffer;
@@ -64,7 +64,8 @@ double Forecast::arrival(std::uint64_t characters) {
   const double start = line_.buffer == 0 || stood ? line_.start_seconds : 0;
   // The first character stands under the reader when it starts.
   const double count = static_cast<double>(characters) - (line_.start_seconds > 0 ? 1 : 0);
-  return begins + start + std::max(0.0, count) / line_.characters_per_second;
+  const double reading = start + std::max(0.0, count) / line_.characters_per_second;
+  return {begins + reading, reading};
 }
 
 void Forecast::take(const Block& block, std::uint64_t characters) {
@@ -72,8 +73,7 @@ void Forecast::take(const Block& block, std::uint64_t characters) {
   result_.move_seconds += block.seconds;
   double begins = finish_;
   if (characters > 0) {
-    const double there = arrival(characters);
-    const double reading = there - received_;
+    const auto [there, reading] = arrival(characters);
     received_ = there;
     if (has_previous_ && there > finish_ + kNoWait)
       note(previous_, characters, there - finish_, reading);

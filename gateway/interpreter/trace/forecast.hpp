@@ -22,8 +22,8 @@ struct FeedLine {
 struct StarvedBlock {
   ProgramIndex program = kMainProgram;  ///< of the block that is over too soon
   std::uint64_t line = 0;               ///< there
-  std::int64_t sequence = -1;    ///< its N number
-  std::uint64_t characters = 0;  ///< of the block that is waited for
+  std::int64_t sequence = -1;           ///< its N number
+  std::uint64_t characters = 0;         ///< of the block that is waited for
   double wait_seconds = 0;
   Length moved;  ///< by the block
   double move_seconds = 0;
@@ -73,7 +73,11 @@ class Forecast final : public EventSink {
     Length fed;
   };
   void take(const Block& block, std::uint64_t characters);
-  double arrival(std::uint64_t characters);
+  struct Arrival {
+    double there = 0;
+    double reading = 0;  ///< for how long the line was busy with it
+  };
+  Arrival arrival(std::uint64_t characters);
   void note(const Block& before, std::uint64_t characters, double wait, double reading);
 
   FeedLine line_;

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/trace/forecast.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <string>
 
 #include "gateway/interpreter/memory_source.hpp"
@@ -53,6 +54,20 @@ INSTANTIATE_TEST_SUITE_P(, ReaderLimit,
                                          ReaderCase{"a_tenth_long_block", 1000, 40, 300, 42.9},
                                          ReaderCase{"a_half_150", 5000, 40, 150, 111.1}),
                          [](const auto& row) { return std::string{row.param.name}; });
+
+/// The reader that has read ahead and waits is not reading: T2 of 15 characters is .010 + 14/300 s,
+/// and .05 inch in that time are 52.9 inch a minute.
+TEST(Forecast, TheReadersRestIsNotReadingTime) {
+  const auto result =
+      forecast("%\nN001G00X5000Y5000F2000\nN002G01X5500\nN003X6000Y5100\nN004G00X9000Y9000\nM30\n",
+               {300, 0.010, 0});
+  ASSERT_GE(result.starved, 1U);
+  const auto second = std::find_if(result.worst.begin(), result.worst.end(),
+                                   [](const StarvedBlock& block) { return block.sequence == 2; });
+  ASSERT_NE(second, result.worst.end());
+  EXPECT_EQ(second->characters, 15U);
+  EXPECT_NEAR(second->feed_that_would_do.inch(), 52.94, 0.01);
+}
 
 TEST(Forecast, TheFeedItNamesDoesIndeed) {
   EXPECT_EQ(forecast(two_blocks(1000, 20), {300, 0.010, 0}).starved, 1U);
