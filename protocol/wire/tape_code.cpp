@@ -118,6 +118,7 @@ std::optional<CodeVerdict> judge(std::size_t at, std::uint8_t row, const RowsBeh
 
 struct Census {
   std::size_t odd = 0, even = 0, high = 0, eia_ends = 0, line_ends = 0;
+  std::size_t low_odd = 0, low_even = 0;  ///< without an eighth hole
   std::size_t first_line_end = 0;
 };
 
@@ -127,7 +128,11 @@ Census count(std::span<const std::byte> rows) {
     const auto row = static_cast<std::uint8_t>(rows[at]);
     if (row == 0) continue;
     ++(is_odd(row) ? census.odd : census.even);
-    if (row >= 0x80) ++census.high;
+    if (row >= 0x80) {
+      ++census.high;
+    } else {
+      ++(is_odd(row) ? census.low_odd : census.low_even);
+    }
     if (row == 0x80) ++census.eia_ends;
     if (row == 0x0A || row == 0x0D) {
       if (census.line_ends++ == 0) census.first_line_end = at;
@@ -136,11 +141,36 @@ Census count(std::span<const std::byte> rows) {
   return census;
 }
 
-/// Text that somebody stripped of its parity, or that never had one.
+/// Text that somebody stripped of its parity, or that never had one: rows without an eighth hole
+/// have all one parity on a tape, both in text, whatever umlauts its comments hold.
 bool is_plain_ascii(const Census& census) {
-  const std::size_t all = census.odd + census.even;
-  const bool is_mixed = census.odd * 20 >= all && census.even * 20 >= all;
-  return is_mixed && census.line_ends > census.eia_ends && census.high * 50 <= all;
+  const std::size_t low = census.low_odd + census.low_even;
+  const bool is_mixed = census.low_odd * 5 >= low && census.low_even * 5 >= low;
+  return is_mixed && census.line_ends > census.eia_ends && census.high * 4 <= low;
+}
+
+/// Rows with an eighth hole make whole UTF-8 characters, which those of a tape do not. One may be
+/// cut off at the end.
+bool is_utf8(std::span<const std::byte> rows) {
+  std::size_t left = 0;  // of a character
+  for (const std::byte each : rows) {
+    const auto row = std::to_integer<std::uint8_t>(each);
+    const bool continues = (row & 0xC0) == 0x80;
+    if (continues != (left > 0)) return false;
+    if (left > 0) {
+      --left;
+    } else if (row >= 0x80) {
+      if (row < 0xC2 || row > 0xF4) return false;
+      left = row < 0xE0 ? 1 : row < 0xF0 ? 2 : 3;
+    }
+  }
+  return true;
+}
+
+CodeVerdict ascii_verdict(const Census& census) {
+  const double all = static_cast<double>(census.odd + census.even);
+  const double fitting = 1 - static_cast<double>(census.high) / all;
+  return {CharacterCode::Ascii, fitting * (1 - std::pow(0.5, all)), census.first_line_end};
 }
 
 }  // namespace
@@ -189,12 +219,8 @@ std::string_view code_name(CharacterCode code) {
 Result<CodeVerdict> detect_code(std::span<const std::byte> rows) {
   rows = rows.first(std::min(rows.size(), kDetectionWindow));
   const Census census = count(rows);
-  if (is_plain_ascii(census)) {
-    const double all = static_cast<double>(census.odd + census.even);
-    const double fitting = 1 - static_cast<double>(census.high) / all;
-    return CodeVerdict{CharacterCode::Ascii, fitting * (1 - std::pow(0.5, all)),
-                       census.first_line_end};
-  }
+  const bool has_text = census.low_odd != 0 && census.line_ends != 0;
+  if (is_plain_ascii(census) || (has_text && is_utf8(rows))) return ascii_verdict(census);
   std::optional<CodeVerdict> verdict;
   RowsBehind behind;
   for (std::size_t at = rows.size(); at-- > 0;) {

@@ -64,7 +64,7 @@ inline constexpr std::size_t kDetectionWindow = 1 << 20;
 
 /// Judges the first `kDetectionWindow` rows: an end of block of one code, with rows behind it of
 /// which 98 in 100 have that code's parity and which begin as a block begins. A leader may hold any
-/// punching. Text whose eighth bit is clear and whose parity is mixed is ASCII.
+/// punching. Text of mixed parity is ASCII, with UTF-8 or a few Latin-1 characters in its comments.
 /// Errors: Corrupt (code not recognised; with the counts of both parities).
 Result<CodeVerdict> detect_code(std::span<const std::byte> rows);
 

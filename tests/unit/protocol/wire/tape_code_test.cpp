@@ -115,6 +115,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Tape{"iso_title_with_track_eight", Iso, "\xFE\x80\x80\x92\xFE", 6}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
+struct CommentedText {
+  const char* name;
+  std::string text;
+};
+class DetectText : public testing::TestWithParam<CommentedText> {};
+
+/// Short programs, whose comments are a good part of them.
+TEST_P(DetectText, IsNoTapeWhateverItsComments) {
+  const auto verdict = detect_code(bytes(GetParam().text));
+  ASSERT_TRUE(verdict) << verdict.error().what;
+  EXPECT_EQ(verdict->code, Ascii);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , DetectText,
+    testing::Values(CommentedText{"one_umlaut", "O0815 (\xC3\x98 12 BOHRER)\nG0X0\nM30\n"},
+                    CommentedText{"one_latin_1_umlaut", "O0815 (\xD8 12 BOHRER)\nG0X0\nM30\n"},
+                    CommentedText{"cyrillic",
+                                  "(\xD0\xA1\xD0\xB2\xD0\xB5\xD1\x80\xD0\xBB\xD0\xBE)\nG0X0\n"},
+                    CommentedText{"chinese", "(\xE9\x92\xBB\xE5\xAD\x94)\nG0X1\nM30\n"},
+                    CommentedText{"byte_order_mark", "\xEF\xBB\xBF%\nO1\nG0X1\nM30\n%\n"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
 TEST(DetectCode, RefusesWhatIsNoTape) {
   const auto nothing = detect_code({});
   EXPECT_FALSE(nothing);
