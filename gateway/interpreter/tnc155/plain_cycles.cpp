@@ -49,6 +49,7 @@ bool read_rotation(TextCursor& cursor, Block& block) {
 
 bool read_word(TextCursor& cursor, const CyclePart& part) {
   if (cursor.take(part.word)) return true;
+  if (part.word == "SET-UP" && cursor.take("SET UP")) return true;  // as some listings have it
   if (part.word.starts_with("PECK") && (cursor.take("PECKING") || cursor.take("PECKG")))
     return true;
   return cursor.wrong(fmt::format("{} is missing", part.word));
