@@ -9,6 +9,7 @@
 #include "gateway/interpreter/trace/trace_writer.hpp"
 #include "tests/golden/golden_case.hpp"
 #include "tests/support/event_log.hpp"
+#include "tests/support/vanished_words.hpp"
 
 /// Every golden program of every dialect: its trace, and that neither the windows its text comes
 /// in nor a restart at any block boundary can be seen in what it does.
@@ -87,6 +88,13 @@ class SlowSource final : public ProgramSource {
   bool is_ready_ = false;
   std::string text_;
 };
+
+TEST_P(Golden, NoAxisWordVanishes) {
+  constexpr std::uint64_t kMostBlocks = 300;
+  const auto found =
+      find_vanished_word(*dialect_, program_, setup_, kMostBlocks, loader_of(GetParam()));
+  EXPECT_FALSE(found) << *found;
+}
 
 struct Boundary {
   Snapshot snapshot;

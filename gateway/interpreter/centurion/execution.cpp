@@ -43,6 +43,8 @@ bool run_aside(Run& run, bool (*cycle)(Run&)) {
 bool act(Run& run) {
   if (run.block.parts.has_joins && !check_join_words(run)) [[unlikely]]
     return false;
+  // each of these refuses what it has no use for
+  if (run.action() != GAction::None) run.ledger.take_all();
   switch (run.action()) {
     case GAction::FloatingZero:
     case GAction::LocalZero:
@@ -87,7 +89,8 @@ bool execute_move(Run& run) {
     run.item_done();
     return true;
   }
-  return apply_one_shots(run) && act(run);
+  if (!apply_one_shots(run) || !act(run)) return false;
+  return run.ledger.left() == 0 || check_words_used(run);
 }
 
 /// A question in a stage resumes there.

@@ -238,6 +238,18 @@ bool apply_speed(Run& run) {
   return true;
 }
 
+bool refuse_words(Run& run, AddressSet left) {
+  const Block& block = run.block;
+  for (std::size_t i = 0; i < kAddressCount; ++i) {
+    const auto address = static_cast<Address>(i);
+    if ((left & set_of(address)) == 0) continue;
+    return run.fail(
+        ErrorCode::IllegalAddress, block.words.column(address),
+        fmt::format("nothing in this block takes {}{}", to_string(address), block.words[address]));
+  }
+  return true;
+}
+
 bool is_data_block(const Run& run) {
   const Block& block = run.block;
   if (block.parts.is_assignment_only && block.words.present() == 0) return true;
@@ -249,6 +261,7 @@ bool is_data_block(const Run& run) {
 
 bool check_words(Run& run) {
   const Block& block = run.block;
+  run.ledger.open(block.words.present() & kLineWords);
   AddressSet taken = kWordsOfAnyBlock | block.parts.taken;
   if (block.parts.macro != 0 || passes_arguments(run)) return true;
   if (run.action() == GAction::MacroCall) taken = kWordsOfAnyBlock | kLineWords;
@@ -260,16 +273,11 @@ bool check_words(Run& run) {
     if (m_row(block.m[i]).action == MAction::Call) taken |= set_of(Address::P, Address::L);
   }
   const AddressSet left = block.words.present() & ~taken;
-  if (left == 0) [[likely]]
-    return true;
-  for (std::size_t i = 0; i < kAddressCount; ++i) {
-    const auto address = static_cast<Address>(i);
-    if ((left & set_of(address)) == 0) continue;
-    return run.fail(
-        ErrorCode::IllegalAddress, block.words.column(address),
-        fmt::format("nothing in this block takes {}{}", to_string(address), block.words[address]));
-  }
-  return true;
+  return left == 0 || refuse_words(run, left);
+}
+
+bool check_words_used(Run& run) {
+  return refuse_words(run, static_cast<AddressSet>(run.ledger.left()));
 }
 
 bool apply_modes(Run& run) {

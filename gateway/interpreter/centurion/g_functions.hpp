@@ -10,7 +10,9 @@ bool apply_modes(Run& run);
 /// Dwell and coordinate settings; leaves moves to motion.hpp.
 bool apply_one_shots(Run& run);
 
-/// Words that nothing in the block takes are error 501.
+/// Words that nothing in the block takes are error 501: before anything is done by the tables of
+/// the codes, which say what each may have, afterwards by what has used them.
 bool check_words(Run& run);
+bool check_words_used(Run& run);
 
 }  // namespace dripline::interpreter::centurion

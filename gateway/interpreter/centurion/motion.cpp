@@ -120,6 +120,7 @@ bool move(Run& run) {
   const Words& words = run.block.words;
   // AA means nothing to a line (spec 5.2); alone it moves nothing.
   if (!words.has_any(kEndWords | kPolarWords)) return true;
+  run.ledger.take_all();
   if (run.block.parts.thread_code != 0) [[unlikely]]
     take_lead_change(run);
   const MotionMode mode =

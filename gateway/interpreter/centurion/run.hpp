@@ -16,6 +16,8 @@
 #include "gateway/interpreter/centurion/travel_guard.hpp"
 #include "gateway/interpreter/interpreter.hpp"
 #include "gateway/interpreter/joining/joiner.hpp"
+#include "gateway/interpreter/language/loop_guard.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 
 namespace dripline::interpreter::centurion {
 
@@ -129,6 +131,8 @@ struct Run {
   bool name_is_settled = false;
 
   Block block;
+  language::LoopGuard loops;
+  language::WordLedger ledger;  ///< of the block in hand: the words of a line
   Origin origin;
   std::vector<Answer> answers;  ///< of the item in hand, in the order asked
   std::size_t answers_used = 0;

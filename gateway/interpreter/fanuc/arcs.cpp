@@ -179,6 +179,7 @@ bool move_on_arc(Run& run) {
   if (state.g[kRotationGroup] == 68 && state.rotation.plane != state.plane()) {
     return run.fail(ErrorCode::RotationPlane, words.first_column(kAxisWords | kCentreWords));
   }
+  run.ledger.take(kAxisWords | kCentreWords | set_of(R));  // of R and I J K, R counts
   Position end;
   if (!read_target(run, end) || !check_feed(run)) return false;
   ArcWords arc;

@@ -43,6 +43,7 @@ bool plan_subprogram(Run& run, int code) {
     program %= 10000;
   }
   if (takes_l) {
+    run.ledger.take(set_of(L));
     const double repeats = run.whole(words[L]);
     if (!(repeats >= 1 && repeats <= 9999)) {
       return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", repeats));
@@ -58,6 +59,7 @@ bool plan_return(Run& run) {
   const Words& words = run.block.words;
   run.block.parts.ending = Ending::Return;
   if (words.has(L)) {
+    run.ledger.take(set_of(L));
     const double passes = run.whole(words[L]);
     if (!(passes >= 0 && passes <= 9999)) {
       return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", passes));

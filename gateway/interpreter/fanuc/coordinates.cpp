@@ -67,6 +67,7 @@ bool select_work_system(Run& run) {
 }
 
 bool set_local_zero(Run& run) {
+  run.ledger.take(kAxisWords);
   if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
   interrupt_compensation(run);
   each_axis_word(run,
@@ -80,6 +81,7 @@ bool set_position(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
   if (!words.has_any(kAxisWords)) return true;  // G92 S
+  run.ledger.take(kAxisWords);
   if (state.is_transformed) return refuse_transformed(run, ErrorCode::PositionUnderTransform);
   interrupt_compensation(run);
   Coordinates& all = run.memory.coordinates;
@@ -101,8 +103,10 @@ bool set_data(Run& run) {
   const double list = words.has(L) ? run.whole(words[L]) : 1;
   if (list == 2 || list == 20) {
     if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+    run.ledger.take(kAxisWords | set_of(L));
     return set_work_offset(run, list == 20);
   }
+  run.ledger.take(set_of(L, R));
   if (list == 1 || (list >= 10 && list <= 13)) return set_offset_data(run, static_cast<int>(list));
   return run.fail(ErrorCode::IllegalPInG10, words.column(L), fmt::format("G10 L{}", list));
 }
@@ -113,6 +117,7 @@ bool set_stroke_zone(Run& run) {
   state.g[kStrokeGroup] = code;
   state.zone.is_on = false;
   if (code == 23) return true;
+  run.ledger.take(set_of(X, Y, Z, I, J, K));
   constexpr std::array<Address, 3> kOneCorner{X, Y, Z};
   constexpr std::array<Address, 3> kOther{I, J, K};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -73,6 +73,7 @@ constexpr std::array kRows{
              "a change of coordinates while scaling or rotation is on"},
     ErrorRow{PositionUnderTransform, "PS-g92-transform", "G92 while scaling or rotation is on"},
     ErrorRow{OffsetArc, "PS-g45-arc", "G45 to G48 on an arc that is no quarter"},
+    ErrorRow{UnusedAxis, "unused-axis", "nothing in the block takes"},
     ErrorRow{LoopLimit, "loop-limit", "the program repeats without end"},
     ErrorRow{LineTooLong, "line-too-long", "line too long"},
     ErrorRow{TextFailed, "text-failed", "program text can not be read"},
@@ -95,6 +96,8 @@ constexpr std::array kWarnings{
     WarningRow{"no-tool-selected", "M06 without a T word before; the tool stays"},
     WarningRow{"g87-level", "G87 returns to the initial level; G99 means nothing to it"},
     WarningRow{"nested-reference", "##1 is read as #[#1]"},
+    WarningRow{"unused-word", "nothing in the block takes"},
+    WarningRow{"g53-in-g91", "G53 is ignored in G91"},
     WarningRow{"m99-ends-tape", "M99 in a program from the line ends it; a line does not rewind"},
 };
 

@@ -69,6 +69,7 @@ enum class ErrorCode : std::uint16_t {
   RotationOffset,
   PositionUnderTransform,
   OffsetArc,
+  UnusedAxis,
   LoopLimit,
   LineTooLong,
   TextFailed,
@@ -100,6 +101,8 @@ enum class WarningCode : std::uint8_t {
   NoToolSelected,
   BackBoringLevel,
   NestedReference,
+  UnusedWord,
+  IgnoredG53,
   EndOfTapeByReturn,
 };
 struct WarningRow {

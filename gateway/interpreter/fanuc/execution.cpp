@@ -1,5 +1,6 @@
 #include "gateway/interpreter/fanuc/execution.hpp"
 
+#include <fmt/format.h>
 #include <bit>
 
 #include "gateway/interpreter/fanuc/calls.hpp"
@@ -104,6 +105,7 @@ bool dwell(Run& run) {
   std::uint32_t column = 0;
   if (words.has(X) || words.has(U)) {
     const Word& word = words[words.has(X) ? X : U];
+    run.ledger.take(set_of(words.has(X) ? X : U));
     const bool counts = word.form == WordForm::Whole && !run.options.calculator_point;
     seconds = counts ? word.value / 1000 : word.value;
     column = word.column;
@@ -124,6 +126,7 @@ bool set_imaginary(Run& run) {
   for (const Axis axis : kAllAxes) {
     const AddressSet set = set_of_axis(axis);
     if (!run.block.words.has_any(set)) continue;
+    run.ledger.take(set);
     const auto i = static_cast<std::size_t>(axis);
     const auto address = static_cast<Address>(std::countr_zero(set));
     const bool was_on = (state.imaginary >> i & 1u) != 0;
@@ -161,6 +164,7 @@ bool execute_one_shot(Run& run) {
         return run.fail(ErrorCode::HomeInCycle, block.parts.g_column, "G31");
       return start_skip(run);
     case 39:
+      run.ledger.take(kCentreWords);
       return round_corner(run);
     case 52:
       return set_local_zero(run);
@@ -193,7 +197,10 @@ bool is_data_code(std::uint8_t one_shot) {
 bool execute_motion(Run& run) {
   Block& block = run.block;
   if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);
-  if (words_are_data(block)) return true;
+  if (words_are_data(block)) {
+    run.ledger.take_all();
+    return true;
+  }
   if (run.state.is_cycle()) {
     block.parts.has_motion = block.words.has_any(kAxisWords | set_of(R));
     return execute_cycle(run);
@@ -232,6 +239,24 @@ bool execute_call(Run& run) {
 }
 
 }  // namespace
+
+void open_ledger(Run& run) {
+  constexpr AddressSet kOwed = kAxisWords | kCentreWords | set_of(L, Q, R);
+  const bool has_data = run.block.parts.kind == BlockKind::Nc;
+  run.ledger.open(has_data ? run.block.words.present() & kOwed : 0);
+}
+
+bool report_left_words(Run& run) {
+  const auto left = static_cast<AddressSet>(run.ledger.left());
+  const std::string text = language::listed(left, [&](std::size_t i) {
+    const auto address = static_cast<Address>(i);
+    return fmt::format("{}{}", letter(address), run.block.words[address].value);
+  });
+  const std::uint32_t column = run.block.words.first_column(left);
+  if ((left & kAxisWords) != 0) return run.fail(ErrorCode::UnusedAxis, column, text);
+  run.warn(WarningCode::UnusedWord, column, text);
+  return true;
+}
 
 bool execute_block(Run& run) {
   switch (run.block.parts.kind) {

@@ -8,4 +8,9 @@ namespace dripline::interpreter::fanuc {
 /// taken up by calling it again.
 bool execute_block(Run& run);
 
+/// Before `execute_block` of a block just read: which of its words have to lead to something.
+void open_ledger(Run& run);
+/// After it, when words are left: told, or, where the tool would be elsewhere, an alarm.
+[[gnu::cold]] bool report_left_words(Run& run);
+
 }  // namespace dripline::interpreter::fanuc

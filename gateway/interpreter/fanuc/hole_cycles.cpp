@@ -241,6 +241,7 @@ bool read_repeats(Run& run, double& repeats) {
   repeats = 1;
   if (!by_k && !by_l) return true;
   const Word& word = words[by_k ? K : L];
+  run.ledger.take(set_of(by_k ? K : L));
   repeats = run.whole(word);
   if (repeats >= 0 && repeats <= 9999 && repeats == std::trunc(repeats)) return true;
   return run.fail(ErrorCode::TooManyDigits, word.column,
@@ -320,6 +321,9 @@ bool execute_cycle(Run& run) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
   if (!words.has_any(kAxisWords | set_of(R))) return true;
+  run.ledger.take(kAxisWords | set_of(R));
+  // Q stays, for a cycle that has a use for it; a tap that leaves it out goes down in one stroke
+  if (state.g[kCycleGroup] != 74 && state.g[kCycleGroup] != 84) run.ledger.take(set_of(Q));
   const double present = program_position(run)[place(axes_of(state.plane()).normal)];
   double repeats = 1;
   if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;

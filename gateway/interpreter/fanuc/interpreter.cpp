@@ -63,10 +63,11 @@ StepState FanucInterpreter::paused() {
 }
 
 FanucInterpreter::BlockOutcome FanucInterpreter::run_block() {
+  const bool is_new = run_.block.parts.stage == Stage::Start;
   const TextCursor::State loaded = run_.text.load(run_.state.at);
   if (loaded != TextCursor::State::Ready) [[unlikely]]
     return meet_line_state(loaded);
-  if (run_.block.parts.stage == Stage::Start) {
+  if (is_new) {
     const BlockOutcome outcome = read();
     if (outcome != BlockOutcome::Finished) [[unlikely]]
       return outcome;
@@ -75,8 +76,11 @@ FanucInterpreter::BlockOutcome FanucInterpreter::run_block() {
   }
   if (is_plain()) [[likely]] {
     if (!execute_plain(run_)) return BlockOutcome::Paused;
-  } else if (!execute_block(run_)) {
-    return BlockOutcome::Paused;
+  } else {
+    if (is_new) open_ledger(run_);
+    if (!execute_block(run_)) return BlockOutcome::Paused;
+    if (run_.ledger.left() != 0 && !report_left_words(run_)) [[unlikely]]
+      return BlockOutcome::Paused;
   }
   return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }

@@ -101,6 +101,7 @@ bool cut_thread(Run& run, const Position& to) {
   if (!(state.feed[1] > 0)) return run.fail(ErrorCode::NoFeed, words.first_column(kAxisWords));
   std::optional<Angle> start;
   if (words.has(Q)) start = Angle::degrees(run.angle(words[Q]));
+  run.ledger.take(set_of(Q));
   return thread_to(run, to, Length::mm(state.feed[1]), start);
 }
 
@@ -196,7 +197,11 @@ bool execute_plain(Run& run) {
   const Words& words = run.block.words;
   if (run.block.names(kMotionGroup)) run.state.g[kMotionGroup] = run.block.g[kMotionGroup];
   if (words.has(F) && !apply_feed(run)) return false;
-  if (run.state.g[kMotionGroup] > 1) return move_on_arc(run);
+  if (run.state.g[kMotionGroup] > 1) {
+    if (!words.has_any(kAxisWords | kCentreWords) && words.has(R)) [[unlikely]]
+      run.warn(WarningCode::UnusedWord, words.column(R), "R");
+    return move_on_arc(run);
+  }
   if (!words.has_any(kAxisWords)) return true;
   Line line{run.origin, run.state.position, {}};
   if (!read_target(run, line.to)) return false;
@@ -253,6 +258,7 @@ bool move(Run& run) {
   const std::uint8_t mode = state.g[kMotionGroup];
   if (run.block.parts.one_shot != 60 && (mode == 2 || mode == 3)) return move_on_arc(run);
   if (!words.has_any(kAxisWords)) return true;
+  run.ledger.take(kAxisWords);
   Position to;
   if (!read_target(run, to)) return false;
   const std::uint8_t one_shot = run.block.parts.one_shot;
@@ -264,7 +270,11 @@ bool move(Run& run) {
 
 bool move_in_machine_coordinates(Run& run) {
   const Words& words = run.block.words;
-  if (run.state.is_incremental()) return true;  // G53 is ignored in G91
+  run.ledger.take(kAxisWords);
+  if (run.state.is_incremental()) {
+    run.warn(WarningCode::IgnoredG53, run.block.parts.g_column);
+    return true;
+  }
   Position to = run.state.position;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     if (!words.has(kWordOfAxis[i])) continue;
@@ -278,6 +288,7 @@ bool start_skip(Run& run) {
   if (run.state.is_compensating()) {
     return run.fail(ErrorCode::SkipInCompensation, run.block.parts.g_column);
   }
+  run.ledger.take(kAxisWords);
   Position to;
   if (!check_feed(run) || !read_target(run, to) || !check_stroke(run, to)) return false;
   if (run.state.position.same_point(to)) {

@@ -85,6 +85,7 @@ bool execute_reference(Run& run) {
   if (state.is_cycle()) return run.fail(ErrorCode::HomeInCycle, column);
   if (state.is_transformed) return run.fail(ErrorCode::RotationHome, column);
   if (!words.has_any(kAxisWords)) return true;
+  run.ledger.take(kAxisWords);
   switch (run.block.parts.one_shot) {
     case 27:
       interrupt_compensation(run);

@@ -13,6 +13,7 @@
 #include "gateway/interpreter/fanuc/state.hpp"
 #include "gateway/interpreter/fanuc/text_cursor.hpp"
 #include "gateway/interpreter/interpreter.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 
 namespace dripline::interpreter::fanuc {
 
@@ -127,6 +128,7 @@ struct Run {
   bool name_is_settled = false;
 
   Block block;
+  language::WordLedger ledger;  ///< of the block in hand, unless it is a plain move
   Origin origin;
   std::vector<Answer> answers;  ///< of the block in hand, in the order asked
   std::size_t answers_used = 0;

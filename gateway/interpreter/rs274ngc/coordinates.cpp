@@ -132,7 +132,8 @@ bool select_system(Run& run, int g_code) {
   return true;
 }
 
-void take_axis_words(const Run& run, Axes& axes) {
+void take_axis_words(Run& run, Axes& axes) {
+  run.ledger.take(kAxisWords);
   for (const Axis axis : kAllAxes) {
     const char word = letter(axis);
     if (!run.block.words.has(word)) continue;
@@ -272,6 +273,7 @@ void store_g92(Run& run) {
 void set_axis_offsets(Run& run, bool is_offset_itself) {
   State& state = run.state;
   const Words& words = run.block.words;
+  run.ledger.take(kAxisWords);
   for (const Axis axis : kAllAxes) {
     const char word = letter(axis);
     if (!words.has(word)) continue;
@@ -313,6 +315,9 @@ bool change_axis_offsets(Run& run, int g_code) {
 }
 
 void store_home(Run& run, int first) {
+  if (run.block.words.has_any(kAxisWords))
+    run.warn(kUnusedAxisWords, "the point that is stored is the present one, whatever the words");
+  run.ledger.take(kAxisWords);
   const Axes machine = machine_with_length(run);
   for (const Axis axis : kAllAxes) {
     run.parameters[static_cast<std::size_t>(first) + index_of(axis)] =

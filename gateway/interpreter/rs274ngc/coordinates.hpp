@@ -21,7 +21,7 @@ struct Turned {
 Turned turned(double x, double y, double degrees);
 
 /// The coordinates of the line's axis words over those of `axes`.
-void take_axis_words(const Run& run, Axes& axes);
+void take_axis_words(Run& run, Axes& axes);
 
 /// The point of G53, G28 and G30: machine coordinates with the tool length on top.
 Axes machine_with_length(const Run& run);

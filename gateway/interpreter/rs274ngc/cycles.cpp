@@ -136,6 +136,7 @@ bool CycleRun::read_words() {
       (!run_.is_linuxcnc() && !check_words_of_code())) {
     return false;
   }
+  run_.ledger.take(set_of(axes_.first) | set_of(axes_.second) | set_of(axes_.bottom) | kPolarWords);
   cycle.r = words().value_or('R', cycle.r);
   cycle.bottom = words().value_or(axes_.bottom, cycle.bottom);
   cycle.p = words().value_or('P', cycle.p);

@@ -182,6 +182,7 @@ constexpr std::array kRows{
     ErrorRow{PolarWords, "NGC0344", "Polar coordinates with x or y, or at the origin"},
     ErrorRow{OrientWords, "NGC0345", "R word missing or out of range with m19"},
     ErrorRow{ToolNumber, "NGC0346", "Q word missing or negative with m61"},
+    ErrorRow{UnusedAxis, "NGC0351", "Nothing on the line takes"},
     ErrorRow{NotSupported, "NGC0350", "Not supported by this interpreter"},
 };
 

@@ -174,6 +174,7 @@ enum class ErrorCode : std::uint16_t {
   OrientWords = 345,
   ToolNumber = 346,
   NotSupported = 350,
+  UnusedAxis = 351,
 };
 
 struct ErrorRow {
@@ -189,5 +190,6 @@ const ErrorRow& error_row(ErrorCode code);
 inline constexpr std::string_view kCommentLost = "NGC0901";
 inline constexpr std::string_view kDeadCode = "NGC0902";
 inline constexpr std::string_view kDuplicateSetting = "NGC0903";
+inline constexpr std::string_view kUnusedAxisWords = "NGC0904";
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -1,5 +1,7 @@
 #include "gateway/interpreter/rs274ngc/execution.hpp"
 
+#include <fmt/format.h>
+
 #include "gateway/interpreter/rs274ngc/arcs.hpp"
 #include "gateway/interpreter/rs274ngc/comments.hpp"
 #include "gateway/interpreter/rs274ngc/coordinates.hpp"
@@ -25,7 +27,10 @@ bool before_machine(Run& run) {
 
 bool execute_one_shots(Run& run) {
   const int code = run.block.g(GGroup::OneShot);
-  if (code == 280 || code == 300) return home_move(run, code);
+  if (code == 280 || code == 300) {
+    run.ledger.take_all();
+    return home_move(run, code);
+  }
   if (code == 40 || code == 530) return true;
   return execute_one_shot(run, code);
 }
@@ -68,11 +73,23 @@ bool execute_motion(Run& run) {
   if (code < 0) return true;
   State& state = run.state;
   const bool keeps_series = is_cycle(code);
-  if (!keeps_series) state.cycle.is_series = false;
+  if (!keeps_series) {
+    state.cycle.is_series = false;
+    run.ledger.take_all();  // one that can not use a word refuses it
+  }
   if (code != 50) state.follows_spline = false;
   if (!execute_motion_code(run, code)) return false;
   state.modes.motion = static_cast<std::int16_t>(run.block.motion);
   return true;
+}
+
+bool refuse_left_words(Run& run) {
+  const auto left = static_cast<AddressSet>(run.ledger.left());
+  const std::string words = language::listed(left, [&](std::size_t i) {
+    const char word = letter_of(static_cast<Address>(i));
+    return fmt::format("{}{}", word, run.block.words[word]);
+  });
+  return run.fail_word(ErrorCode::UnusedAxis, words.front(), words);
 }
 
 }  // namespace
@@ -92,6 +109,7 @@ void apply_settings(Run& run) {
 bool execute_line(Run& run) {
   Block& block = run.block;
   if (block.stage == Stage::Before) {
+    run.ledger.open(block.words.present() & (kAxisWords | kPolarWords));
     if (!before_machine(run)) return false;
     block.stage = Stage::Input;
   }
@@ -111,6 +129,8 @@ bool execute_line(Run& run) {
   }
   if (block.stage == Stage::Motion) {
     if (!execute_motion(run)) return false;
+    if (run.ledger.left() != 0) [[unlikely]]
+      return refuse_left_words(run);
     block.stage = Stage::After;
   }
   return !block.has(MGroup::Stop) || apply_stops(run);

@@ -7,6 +7,7 @@
 
 #include "gateway/interpreter/interpreter.hpp"
 #include "gateway/interpreter/language/line_reader.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 #include "gateway/interpreter/rs274ngc/block.hpp"
 #include "gateway/interpreter/rs274ngc/errors.hpp"
 #include "gateway/interpreter/rs274ngc/held_events.hpp"
@@ -66,6 +67,7 @@ struct Run {
   const char* line_end = line_begin;
   std::array<char, kMaxLine + 2> last_line{};  ///< a last line without end, with one
   Block block;
+  language::WordLedger ledger;  ///< axis and polar words of the line
   Origin origin;
   std::optional<Answer> answer;
   std::uint32_t frame_changes = 0;  ///< system or G92 offsets became others so often

@@ -165,6 +165,7 @@ void load_center(Run& run) {
     if (!words.has(address)) continue;
     run.state.center[axis] =
         (run.state.is_incremental ? run.state.program[axis] : 0) + words[address];
+    run.ledger.take(bit(address));
   }
 }
 

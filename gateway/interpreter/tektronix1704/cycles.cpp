@@ -129,6 +129,7 @@ bool run_cycle(Run& run) {
   constexpr std::uint16_t kStarts = kEndWords | bit(Address::R);
   if (!state.block.words.has_any(kStarts)) return true;
   load_levels(run);
+  run.ledger.take(kStarts);
   const bool only_positions = state.cycle == 80;
   if (!only_positions && !state.has_clearance) return run.fail(Fault::NoClearance);
   if (!only_positions && !state.has_depth) return run.fail(Fault::NoDepth);

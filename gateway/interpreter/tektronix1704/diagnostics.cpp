@@ -47,6 +47,7 @@ constexpr std::array kRows{
     FaultRow{PresetValue, "TEK0423", "TEK0423", "G94 sets zero, whatever value is given"},
     FaultRow{OddCount, "TEK0424", "TEK0424", "odd count is rounded down to the resolution"},
     FaultRow{NotFitted, "TEK0425", "TEK0425", "word of an option that is not fitted is ignored"},
+    FaultRow{Unused, "TEK0426", "TEK0426", "nothing in the block takes"},
     FaultRow{ReaderLimited, "TEK0431", "TEK0431", "reader is slower than the move"},
     FaultRow{Tape, "TEK0441", "TEK0441", "tape is not as the manual wants it"},
 };

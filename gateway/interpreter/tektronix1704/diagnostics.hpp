@@ -43,6 +43,7 @@ enum class Fault : std::uint8_t {
   PresetValue,      // W423
   OddCount,         // W424
   NotFitted,        // W425
+  Unused,           // T426, W426
   ReaderLimited,    // W431
   Tape,             // W441
 };

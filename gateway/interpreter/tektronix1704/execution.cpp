@@ -1,6 +1,7 @@
 #include "gateway/interpreter/tektronix1704/execution.hpp"
 
 #include <fmt/format.h>
+#include <string>
 
 #include "gateway/interpreter/tektronix1704/arcs.hpp"
 #include "gateway/interpreter/tektronix1704/machine_functions.hpp"
@@ -78,6 +79,7 @@ void preset(Run& run) {
     state.origin[axis] += run.options.mirror[axis] ? -state.program[axis] : state.program[axis];
     state.program[axis] = 0;
   }
+  run.ledger.take(kEndWords);
 }
 
 /// F is tenths of a second here and leaves the feedrate alone (spec 11).
@@ -124,11 +126,23 @@ bool execute_motion(Run& run, OneShot one_shot) {
   return move_and_drill(run);
 }
 
+/// What has led to nothing: an axis word stops the tape.
+bool report_left_words(Run& run) {
+  const Words& words = run.state.block.words;
+  const std::string text = language::listed(run.ledger.left(), [&](std::size_t i) {
+    return fmt::format("{}{}", kLetters[i], words[static_cast<Address>(i)]);
+  });
+  if ((run.ledger.left() & kEndWords) != 0) return run.fail(Fault::Unused, 0, text);
+  run.warn(Fault::Unused, run.state.at, 0, text);
+  return true;
+}
+
 }  // namespace
 
 bool execute_block(Run& run) {
   State& state = run.state;
   const Words& words = state.block.words;
+  run.ledger.open(words.present() & (kEndWords | kCenterWords | bit(Address::R)));
   GFunction function{true};
   if (words.has(Address::G)) {
     function = apply_g(run, words[Address::G]);
@@ -140,7 +154,9 @@ bool execute_block(Run& run) {
   if (words.has(Address::F) && !is_dwell && !load_feed(run, words[Address::F])) return false;
   load_codes(run);
   if (words.has_any(kCenterWords)) load_center(run);
-  return do_m_before(run) && execute_motion(run, function.one_shot) && do_m_after(run);
+  if (!do_m_before(run) || !execute_motion(run, function.one_shot)) return false;
+  if (run.ledger.left() != 0 && !report_left_words(run)) return false;
+  return do_m_after(run);
 }
 
 }  // namespace dripline::interpreter::tektronix

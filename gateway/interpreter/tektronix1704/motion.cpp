@@ -135,6 +135,7 @@ bool move_block(Run& run) {
   State& state = run.state;
   if (state.motion == Motion::Cycle) return run_cycle(run);
   if (!state.block.words.has_any(kEndWords)) return true;
+  run.ledger.take(kEndWords);
   if (is_arc(state.motion)) return move_arc(run);
   LineMove move{end_point(run), state.motion == Motion::G50 ? Pace::Rapid : Pace::Feed,
                 flows_on(state.motion)};

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 #include "gateway/interpreter/tektronix1704/diagnostics.hpp"
 #include "gateway/interpreter/tektronix1704/state.hpp"
 
@@ -40,6 +41,7 @@ struct Run {
   State state;
   Position position;  ///< of the machine; axes that have moved are marked
   Diagnostic alarm;
+  language::WordLedger ledger;  ///< of the block being executed
 
  private:
   [[gnu::cold]] void deliver_header();

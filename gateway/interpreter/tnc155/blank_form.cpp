@@ -62,6 +62,7 @@ void put_on_machine(const Transformation& transformation, Blank& blank) {
 }  // namespace
 
 bool define_blank(Run& run, const Block& block) {
+  run.ledger.take_all();
   const ControlVersion& version = run.options.version;
   if (!block.is_maximum && !version.has(Feature::Graphics)) {
     run.warn("TNC-NO-GRAPHICS", "BLK FORM is for graphics: " + version.lacks(Feature::Graphics));

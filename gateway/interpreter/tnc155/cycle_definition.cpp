@@ -56,6 +56,7 @@ bool transform(Run& run, const Transformation& changed) {
 }
 
 bool shift_datum(Run& run, const Block& block) {
+  run.ledger.take_all();
   Transformation changed = run.state.transformation;
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     const Coordinate& word = block.coordinates[i];
@@ -66,6 +67,7 @@ bool shift_datum(Run& run, const Block& block) {
 }
 
 bool mirror(Run& run, const Block& block) {
+  run.ledger.take_all();
   // In whichever order the axes stand, the same one is complained about.
   const ActiveTool& tool = run.state.tool;
   const auto names = [&](Axis axis) {
@@ -141,6 +143,7 @@ void take_length(MachiningCycle& draft, std::string_view word, double value) {
 
 void take_side(Run& run, const Block& block, MachiningCycle& draft) {
   const Coordinate& side = block.coordinates[0];
+  run.ledger.take(1);
   const double value = run.coordinate(side.axis, side.value);
   const bool is_first = block.part == 4;
   (is_first ? draft.first_axis : draft.second_axis) = side.axis;

@@ -117,16 +117,7 @@ bool function(Run& run, const Block& block) {
   return !is_true(run, block) || jump_to_label(run, block.target);
 }
 
-}  // namespace
-
-bool execute(Run& run, const Block& block) {
-  if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
-    return run.fail(
-        ErrorCode::CycleIncomplete,
-        fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
-  }
-  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
-    return false;
+bool dispatch(Run& run, const Block& block) {
   switch (block.kind) {
     case BlockKind::Line:
     case BlockKind::PolarLine:
@@ -170,6 +161,30 @@ bool execute(Run& run, const Block& block) {
       return probe(run, block);
   }
   return true;
+}
+
+bool refuse_left_words(Run& run, const Block& block) {
+  const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
+    const Coordinate& word = block.coordinates[i];
+    return fmt::format("{}{}", letter(word.axis), run.number(word.value));
+  });
+  return run.fail(ErrorCode::BlockFormatIncorrect,
+                  fmt::format("nothing in the block takes {}", words));
+}
+
+}  // namespace
+
+bool execute(Run& run, const Block& block) {
+  if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
+    return run.fail(
+        ErrorCode::CycleIncomplete,
+        fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
+  }
+  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
+    return false;
+  run.ledger.open((1u << block.coordinate_count) - 1);
+  if (!dispatch(run, block)) return false;
+  return run.ledger.left() == 0 || refuse_left_words(run, block);
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -15,7 +15,8 @@ bool is_machine_block(const Block& block) {
 }
 
 /// Where the words of such a block lead: machine coordinates.
-Target machine_target(const Run& run, const Block& block) {
+Target machine_target(Run& run, const Block& block) {
+  run.ledger.take_all();
   Target target;
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     const Coordinate& word = block.coordinates[i];

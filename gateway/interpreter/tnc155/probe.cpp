@@ -94,6 +94,7 @@ bool finish_probing(Run& run, const ProbeResult& result) {
 bool probe(Run& run, const Block& block) {
   if (block.part == 0) return define_probe(run, block);
   if (run.answer) {
+    run.ledger.take_all();  // of the question that is answered
     const bool went_well = finish_probing(run, std::get<ProbeResult>(*run.answer));
     run.state.last = LastMove{};
     resume_contour(run);

@@ -7,6 +7,8 @@
 #include "gateway/interpreter/compensation/compensator.hpp"
 #include "gateway/interpreter/interpreter.hpp"
 #include "gateway/interpreter/joining/joiner.hpp"
+#include "gateway/interpreter/language/loop_guard.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 #include "gateway/interpreter/tnc155/block_reader.hpp"
 #include "gateway/interpreter/tnc155/errors.hpp"
 #include "gateway/interpreter/tnc155/options.hpp"
@@ -84,7 +86,9 @@ struct Run {
   std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
   std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL in hand
 
-  BlockParts parts;             ///< of the block in hand
+  BlockParts parts;  ///< of the block in hand
+  language::LoopGuard loops;
+  language::WordLedger ledger;  ///< of the part in hand: its coordinates, by their place
   bool is_in_block = false;     ///< read, and not finished
   bool is_measuring = false;    ///< moves are held against the limits and not made
   bool joint_follows = false;   ///< RND or a chamfer stands behind the part in hand

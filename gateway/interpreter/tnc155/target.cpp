@@ -52,6 +52,7 @@ bool read_polar(Run& run, const Block& block, Target& target) {
     angle = block.is_angle_incremental ? angle + read : read;
   }
   polar = {true, true, radius, angle};
+  run.ledger.take_all();
   set_in_plane(state, target, pole_in_plane(state) + radius * unit_vector(angle));
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     const Coordinate& word = block.coordinates[i];

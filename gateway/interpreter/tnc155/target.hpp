@@ -6,7 +6,8 @@
 namespace dripline::interpreter::tnc155 {
 
 /// Takes the block's coordinates over into `target`, incremental ones from the nominal position.
-inline void read_coordinates(const Run& run, const Block& block, Target& target) {
+inline void read_coordinates(Run& run, const Block& block, Target& target) {
+  run.ledger.take_all();
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     const Coordinate& word = block.coordinates[i];
     double value = run.coordinate(word.axis, word.value);

@@ -1,7 +1,8 @@
 #include "tests/fuzz/interpreter/run_in_windows.hpp"
 
 /// Any text is executed or refused, in a bounded number of steps, and the windows it comes in can
-/// not be seen in what it does. The first byte chooses the windows, and the profile.
+/// not be seen in what it does; no axis word vanishes. The first byte chooses the windows, and the
+/// profile.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::interpreter;
   if (size == 0) return 0;
@@ -15,5 +16,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto whole = run_in_windows(dialect, text, ProgramSource::kMaxWindow, setup);
   const auto pieces = run_in_windows(dialect, text, data[0] % 32, setup);
   if (whole != pieces) __builtin_trap();
+  expect_no_vanished_word(dialect, text, setup);
   return 0;
 }

@@ -1,8 +1,8 @@
 #include "tests/fuzz/interpreter/run_in_windows.hpp"
 
 /// Any text is executed or refused, in a bounded number of steps, and the windows it comes in can
-/// not be seen in what it does. The first byte chooses the windows, and the form: what follows
-/// stands behind a start that makes the text plain language or ISO.
+/// not be seen in what it does; no axis word vanishes. The first byte chooses the windows, and the
+/// form: what follows stands behind a start that makes the text plain language or ISO.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::interpreter;
   if (size == 0) return 0;
@@ -19,5 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto whole = run_in_windows(dialect, text, ProgramSource::kMaxWindow);
   const auto pieces = run_in_windows(dialect, text, data[0] % 32);
   if (whole != pieces) __builtin_trap();
+  expect_no_vanished_word(dialect, text);
   return 0;
 }

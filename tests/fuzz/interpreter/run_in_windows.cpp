@@ -1,13 +1,16 @@
 #include "tests/fuzz/interpreter/run_in_windows.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tests/support/event_log.hpp"
+#include "tests/support/vanished_words.hpp"
 
 namespace dripline::interpreter {
 namespace {
 
 constexpr std::uint64_t kMostBlocks = 2'000;
+constexpr std::uint64_t kMostCheckedBlocks = 100;
 /// Some blocks do much: hole cycles with repeats.
 constexpr std::size_t kMostEvents = 50'000;
 /// NotYet at each fetch and one more byte a fetch: a few steps for each byte of each block.
@@ -71,6 +74,13 @@ std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view
     if (before % 64 == 0 && !run.restore(run.snapshot())) __builtin_trap();
   }
   return log.lines();
+}
+
+void expect_no_vanished_word(const Dialect& dialect, std::string_view text, const Setup& setup) {
+  const auto found = find_vanished_word(dialect, text, setup, kMostCheckedBlocks);
+  if (!found) return;
+  std::fprintf(stderr, "does nothing: %s\n", found->c_str());
+  __builtin_trap();
 }
 
 }  // namespace dripline::interpreter

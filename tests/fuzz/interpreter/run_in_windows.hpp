@@ -14,4 +14,8 @@ namespace dripline::interpreter {
 std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view text,
                                         std::size_t spare, const Setup& setup = {});
 
+/// Traps when an axis word of an executed block does nothing (tests/support/vanished_words.hpp).
+void expect_no_vanished_word(const Dialect& dialect, std::string_view text,
+                             const Setup& setup = {});
+
 }  // namespace dripline::interpreter
