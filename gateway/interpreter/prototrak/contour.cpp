@@ -138,6 +138,10 @@ double distance(XY a, XY b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
+double join_tolerance(bool is_metric) {
+  return is_metric ? 0.01 : 0.0001 * Length::kMillimetresPerInch;
+}
+
 XY direction_at_start(const Element& element) {
   if (element.is_arc) return direction_on_arc(element, element.from);
   return unit(element.to - element.from);
@@ -146,6 +150,10 @@ XY direction_at_start(const Element& element) {
 XY direction_at_end(const Element& element) {
   if (element.is_arc) return direction_on_arc(element, element.to);
   return unit(element.to - element.from);
+}
+
+XY beside(XY at, XY direction, double by) {
+  return at + by * left_of(direction);
 }
 
 double turn_at(const Element& first, const Element& second) {

@@ -17,9 +17,14 @@ struct Element {
 Element element_of(const ProgramEvent& cut);
 
 double distance(XY a, XY b);
+/// Within a resolution step: so far, in mm, events may lie apart and still be one corner (spec
+/// 11.2).
+double join_tolerance(bool is_metric);
 /// Of travel at an element's ends; unit length.
 XY direction_at_start(const Element& element);
 XY direction_at_end(const Element& element);
+/// The point `by` to the left of `at`, seen along `direction`.
+XY beside(XY at, XY direction, double by);
 /// The corner turns left (> 0), right (< 0) or not at all: the sine of the change of direction.
 double turn_at(const Element& first, const Element& second);
 

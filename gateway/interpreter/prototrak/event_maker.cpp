@@ -2,14 +2,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/prototrak/contour.hpp"
 #include "gateway/interpreter/prototrak/receiver.hpp"
 
 /// Blocks to events: the Receiver's second half (spec 8 to 10, 13).
 namespace dripline::interpreter::prototrak {
 namespace {
 
-bool is_axis(Address address) {
-  return address <= Address::YO || (address >= Address::X && address <= Address::K);
+using enum Address;
+
+using AddressSet = language::WordLedger::Words;
+static_assert(kAddressCount <= 64);
+constexpr AddressSet set_of(Address address) {
+  return AddressSet{1} << static_cast<unsigned>(address);
+}
+constexpr AddressSet set_of(std::initializer_list<Address> addresses) {
+  AddressSet set = 0;
+  for (const Address address : addresses) set |= set_of(address);
+  return set;
+}
+
+/// Coordinates. Z and K never move anything here, I and J belong to arcs.
+constexpr AddressSet kMovingWords = set_of({XB, YB, XE, YE, XC, YC, XD, YD, XO, YO, X, Y});
+/// Words of one event alone (spec 7.3).
+constexpr AddressSet kEventWords = set_of({CR, FC, DR, HL, A, R, RE, FE, LE});
+
+constexpr bool makes_event(int code) {
+  return code <= 3 || (code >= 100 && code <= 109);
+}
+/// It only sets what other words mean (Receiver::apply_modes).
+constexpr bool is_mode(int code) {
+  return code == 20 || code == 21 || (code >= 40 && code <= 42) || code == 90 || code == 91;
 }
 
 }  // namespace
@@ -20,68 +43,104 @@ XY Receiver::reference() const {
 }
 
 bool Receiver::make_event(const BlockWords& block) {
-  if (block.has(Address::Z)) z_changed_ = true;
-  int event_code = -1;
-  bool has_other = false;
+  AddressSet present = 0;
+  for (const Word& word : block.words) present |= set_of(word.address);
+  ledger_.open(present & (kMovingWords | kEventWords | set_of({Z, I, J, K})));
+  if (block.has(Z)) z_changed_ = true;
+  std::optional<int> event_code;
+  bool is_ignored = false;
   for (const int code : block.g_codes) {
-    const bool makes_event = code <= 3 || (code >= 100 && code <= 109);
-    if (makes_event && event_code >= 0 && code != event_code) {
+    is_ignored |= !makes_event(code) && !is_mode(code);
+    if (!makes_event(code)) continue;
+    // the second one, the same or another, is that of an event whose ';' is missing before it
+    if (event_code) {
       return fail(Fault::UnknownWord,
-                  fmt::format("G{:02} and G{:02} in one block", event_code, code));
+                  fmt::format("G{:02} and G{:02} in one block", *event_code, code));
     }
-    if (makes_event) event_code = code;
-    has_other |=
-        code == 28 || code == 92 || (code >= 43 && code <= 49) || (code >= 80 && code <= 89);
+    event_code = code;
   }
-  if (block.has_g(92) || block.has_g(28)) {
-    if (block.has_g(92)) {
-      XY here = reference();
-      double x = here.x, y = here.y;
-      if (!dimension(block, Address::X, x) || !dimension(block, Address::Y, y)) return false;
-      moved_reference_ = XY{x, y};
-    }
-    return true;
+  if (block.has_g(92) || block.has_g(28)) return !block.has_g(92) || move_reference(block);
+  // a code that was told to be ignored takes its words with it (spec 13)
+  if (!event_code && is_ignored) return true;
+  const bool is_native = event_code.value_or(0) >= 100;
+  if (!is_native && !block.g_codes.empty()) ledger_.take(set_of(Z));
+  if (event_code) {
+    const bool is_made =
+        is_native ? make_native(block, *event_code) : make_converted(block, *event_code);
+    if (!is_made) return false;
   }
-  if (event_code >= 100) return make_native(block, event_code);
-  if (event_code >= 0) return make_converted(block, event_code);
-  const bool has_axes = std::any_of(block.words.begin(), block.words.end(),
-                                    [](const Word& word) { return is_axis(word.address); });
-  const bool is_excused = has_other || !block.g_codes.empty();
-  if (has_axes && !is_excused) return fail(Fault::NoFunction, block_);
+  return ledger_.left() == 0 || report_left_words(block, event_code);
+}
+
+bool Receiver::move_reference(const BlockWords& block) {
+  XY here = reference();
+  if (!dimension(block, X, here.x) || !dimension(block, Y, here.y)) return false;
+  moved_reference_ = here;
   return true;
 }
 
-/// G00 to G03 (spec 13): Z decides whether cuts are connected.
+/// A coordinate that nothing takes would be missing on the part.
+bool Receiver::report_left_words(const BlockWords& block, std::optional<int> event_code) {
+  const AddressSet left = ledger_.left();
+  const std::string words =
+      language::listed(left, [](std::size_t i) { return std::string(kAddressNames[i]); });
+  if (event_code && (left & kMovingWords) != 0)
+    return fail(Fault::UnknownWord, fmt::format("{} in G{:02}", words, *event_code));
+  if ((left & kMovingWords) != 0 || (block.g_codes.empty() && (left & ~kEventWords) != 0))
+    return fail(Fault::NoFunction, block_);
+  notice(Fault::Ignored, words);
+  return true;
+}
+
+/// G00 to G03 (spec 13): Z decides whether cuts are connected, unless a conrad says so.
 bool Receiver::make_converted(const BlockWords& block, int code) {
-  const bool moves = block.has(Address::X) || block.has(Address::Y);
-  const bool is_circle = code >= 2 && (block.has(Address::I) || block.has(Address::J));
-  if (!moves && !is_circle) return true;
+  if ((block.has(X) && block.has(XE)) || (block.has(Y) && block.has(YE)))
+    return fail(Fault::UnknownWord, "two end points in one block");
+  const bool ends = block.has(X) || block.has(Y) || block.has(XE) || block.has(YE);
+  const bool begins = block.has(XB) || block.has(YB);
+  const bool is_circle =
+      code >= 2 && (block.has(I) || block.has(J) || block.has(XC) || block.has(YC));
+  if (!ends && !is_circle) return !begins || fail(Fault::MissingWord, "an end point");
   ProgramEvent event;
   event.is_converted = true;
   const XY from = reference();
   event.begin = from;
-  if (!coordinate(block, Address::XB, from.x, event.begin.x) ||
-      !coordinate(block, Address::YB, from.y, event.begin.y)) {
-    return false;
-  }
-  XY to = event.begin;
-  if (!coordinate(block, Address::X, from.x, to.x) ||
-      !coordinate(block, Address::Y, from.y, to.y)) {
-    return false;
-  }
-  event.end = to;
   if (code == 0) {
-    event.begin = to;
+    if (!coordinate(block, X, from.x, event.begin.x) ||
+        !coordinate(block, Y, from.y, event.begin.y)) {
+      return false;
+    }
+    event.end = event.begin;
     return store(event);
+  }
+  if (!coordinate(block, XB, from.x, event.begin.x) ||
+      !coordinate(block, YB, from.y, event.begin.y)) {
+    return false;
+  }
+  event.end = event.begin;
+  if (!coordinate(block, X, from.x, event.end.x) || !coordinate(block, Y, from.y, event.end.y) ||
+      !coordinate(block, XE, event.begin.x, event.end.x) ||
+      !coordinate(block, YE, event.begin.y, event.end.y)) {
+    return false;
   }
   event.kind = code == 1 ? EventKind::Mill : EventKind::Arc;
   event.is_counter_clockwise = code == 3;
   if (code >= 2 && !fill_arc_center(block, event)) return false;
-  if (!program_.events.empty()) {
-    ProgramEvent& last = program_.events.back();
-    if (last.is_converted && last.is_cut() && !z_changed_) last.is_connected = true;
-  }
-  return store(event);
+  connect_previous(event);
+  if (block.has(CR) && !fill_conrad(block, event)) return false;
+  if (!store(event)) return false;
+  z_decides_ = !block.has(CR);
+  return true;
+}
+
+/// The cut before this one, where both came from a Fanuc program.
+void Receiver::connect_previous(const ProgramEvent& event) {
+  if (program_.events.empty()) return;
+  ProgramEvent& last = program_.events.back();
+  if (!last.is_converted || !last.is_cut()) return;
+  if (z_changed_) last.is_connected = false;
+  if (z_decides_ && !z_changed_)
+    last.is_connected = distance(last.end, event.begin) <= join_tolerance(last.is_metric);
 }
 
 bool Receiver::make_native(const BlockWords& block, int code) {
@@ -91,15 +150,15 @@ bool Receiver::make_native(const BlockWords& block, int code) {
     case 100: {
       event.kind = EventKind::Position;
       event.begin = reference();
-      is_good = coordinate(block, Address::X, event.begin.x, event.begin.x) &&
-                coordinate(block, Address::Y, event.begin.y, event.begin.y) &&
-                (block.has(Address::X) || require(block, {Address::Y}));
+      is_good = coordinate(block, X, event.begin.x, event.begin.x) &&
+                coordinate(block, Y, event.begin.y, event.begin.y) &&
+                (block.has(X) || require(block, {Y}));
       event.end = event.begin;
       break;
     }
     case 101:
       event.kind = EventKind::Mill;
-      is_good = (block.has(Address::XE) || require(block, {Address::YE})) && fill_cut(block, event);
+      is_good = (block.has(XE) || require(block, {YE})) && fill_cut(block, event);
       break;
     case 102:
     case 103:
@@ -129,29 +188,32 @@ bool Receiver::make_native(const BlockWords& block, int code) {
 
 bool Receiver::fill_cut(const BlockWords& block, ProgramEvent& event) {
   event.begin = reference();
-  if (!coordinate(block, Address::XB, event.begin.x, event.begin.x) ||
-      !coordinate(block, Address::YB, event.begin.y, event.begin.y)) {
+  if (!coordinate(block, XB, event.begin.x, event.begin.x) ||
+      !coordinate(block, YB, event.begin.y, event.begin.y)) {
     return false;
   }
   event.end = event.begin;
-  return coordinate(block, Address::XE, event.begin.x, event.end.x) &&
-         coordinate(block, Address::YE, event.begin.y, event.end.y) && fill_conrad(block, event);
+  return coordinate(block, XE, event.begin.x, event.end.x) &&
+         coordinate(block, YE, event.begin.y, event.end.y) && fill_conrad(block, event);
 }
 
 /// XC and YC count from the end point when incremental, I and J always from the begin point.
 bool Receiver::fill_arc_center(const BlockWords& block, ProgramEvent& event) {
-  const bool has_center = block.has(Address::XC) || block.has(Address::YC);
-  const bool has_distance = block.has(Address::I) || block.has(Address::J);
-  if (!has_center && !has_distance) return require(block, {Address::XC});
+  const bool has_center = block.has(XC) || block.has(YC);
+  const bool has_distance = block.has(I) || block.has(J);
+  if (!has_center && !has_distance) {
+    return fail(Fault::MissingWord,
+                block.has(R) ? "XC YC or I J: the control takes no R for an arc" : "XC YC or I J");
+  }
   if (has_center && has_distance) notice(Fault::Noticed, "XC and YC count, I and J do not");
   double i = 0, j = 0;
-  if (!dimension(block, Address::I, i) || !dimension(block, Address::J, j)) return false;
+  if (!dimension(block, I, i) || !dimension(block, J, j)) return false;
   event.center = {event.begin.x + i, event.begin.y + j};
   if (has_center) {
     event.center = {};
     if (modal_.is_incremental) event.center = event.end;
-    if (!coordinate(block, Address::XC, event.end.x, event.center.x) ||
-        !coordinate(block, Address::YC, event.end.y, event.center.y)) {
+    if (!coordinate(block, XC, event.end.x, event.center.x) ||
+        !coordinate(block, YC, event.end.y, event.center.y)) {
       return false;
     }
   }
@@ -162,11 +224,11 @@ bool Receiver::fill_arc_center(const BlockWords& block, ProgramEvent& event) {
 
 bool Receiver::fill_conrad(const BlockWords& block, ProgramEvent& event) {
   event.is_connected = true;
-  const Word* word = block.find(Address::CR);
+  const Word* word = block.find(CR);
   if (word == nullptr) return true;
   event.is_connected = !word->number.is_negative;
   double value = 0;
-  if (!dimension(block, Address::CR, value)) return false;
+  if (!dimension(block, CR, value)) return false;
   event.conrad = event.is_connected ? value : 0;
   return true;
 }
@@ -174,23 +236,22 @@ bool Receiver::fill_conrad(const BlockWords& block, ProgramEvent& event) {
 bool Receiver::fill_repeat(const BlockWords& block, ProgramEvent& event) {
   const auto previous = static_cast<std::int64_t>(program_.events.size());
   std::int64_t from = previous, to = previous, passes = 0, tool = 0;
-  if (!require(block, {Address::RE}) || !integer(block, Address::FE, 1, 255, from) ||
-      !integer(block, Address::LE, 1, 255, to) || !integer(block, Address::RE, 1, 99, passes) ||
-      !integer(block, Address::T, 1, 99, tool) || !dimension(block, Address::XO, event.end.x) ||
-      !dimension(block, Address::YO, event.end.y) || !size(block, Address::D, 0, event.diameter)) {
+  if (!require(block, {RE}) || !integer(block, FE, 1, 255, from) ||
+      !integer(block, LE, 1, 255, to) || !integer(block, RE, 1, 99, passes) ||
+      !integer(block, T, 1, 99, tool) || !dimension(block, XO, event.end.x) ||
+      !dimension(block, YO, event.end.y) || !size(block, D, 0, event.diameter)) {
     return false;
   }
   event.from_event = static_cast<std::uint8_t>(from);
   event.to_event = static_cast<std::uint8_t>(to);
   event.passes = static_cast<std::uint8_t>(passes);
-  event.has_tool = block.has(Address::T);
-  event.has_diameter = block.has(Address::D);
+  event.has_tool = block.has(T);
+  event.has_diameter = block.has(D);
   if (event.has_tool) event.tool = static_cast<std::uint8_t>(tool);
   return true;
 }
 
 bool Receiver::fill_rectangle(const BlockWords& block, ProgramEvent& event) {
-  using enum Address;
   const XY from = reference();
   std::int64_t direction = 1;
   if (!require(block, {XB, YB, XD, YD}) || !coordinate(block, XB, from.x, event.begin.x) ||
@@ -207,7 +268,6 @@ bool Receiver::fill_rectangle(const BlockWords& block, ProgramEvent& event) {
 }
 
 bool Receiver::fill_circle(const BlockWords& block, ProgramEvent& event) {
-  using enum Address;
   const XY from = reference();
   std::int64_t direction = 1, holes = 0;
   const double least = modal_.is_metric ? 0.01 : 0.0005 * Length::kMillimetresPerInch;
@@ -218,7 +278,10 @@ bool Receiver::fill_circle(const BlockWords& block, ProgramEvent& event) {
     return false;
   }
   if (event.kind == EventKind::BoltHole && !require(block, {HL})) return false;
-  if (const Word* angle = block.find(A)) event.angle = angle->number.value(3);
+  if (const Word* angle = block.find(A)) {
+    event.angle = angle->number.value(3);
+    take(A);
+  }
   event.holes = static_cast<std::uint16_t>(holes);
   event.is_counter_clockwise = direction == 2;
   return true;
@@ -246,9 +309,13 @@ bool Receiver::store(ProgramEvent event) {
   if (is_pocket && event.side != ToolSide::Center && event.side != inside) {
     notice(Fault::SideContradicts, "");
   }
+  if (event.kind == EventKind::Mill && distance(event.begin, event.end) == 0) {
+    notice(Fault::Noticed, "the cut ends where it begins");
+  }
   program_.events.push_back(event);
   moved_reference_.reset();
   z_changed_ = false;
+  z_decides_ = false;
   return true;
 }
 

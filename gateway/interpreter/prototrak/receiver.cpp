@@ -178,6 +178,7 @@ double Receiver::rounded(const Word& word, double value) {
 bool Receiver::dimension(const BlockWords& block, Address address, double& mm) {
   const Word* word = block.find(address);
   if (word == nullptr) return true;
+  take(address);
   const double written = rounded(*word, word->number.value(modal_.is_metric ? 2 : 4));
   const double value = modal_.is_metric ? written : written * Length::kMillimetresPerInch;
   if (std::fabs(value) > largest() * (1 + 1e-12)) {
@@ -216,6 +217,7 @@ bool Receiver::integer(const BlockWords& block, Address address, std::int64_t le
                        std::int64_t most, std::int64_t& value) {
   const Word* word = block.find(address);
   if (word == nullptr) return true;
+  take(address);
   const double number = word->number.value(0);
   if (number < static_cast<double>(least) || number > static_cast<double>(most) ||
       number != std::floor(number)) {

@@ -8,6 +8,7 @@
 
 #include "gateway/interpreter/diagnostic.hpp"
 #include "gateway/interpreter/language/line_reader.hpp"
+#include "gateway/interpreter/language/word_ledger.hpp"
 #include "gateway/interpreter/prototrak/diagnostics.hpp"
 #include "gateway/interpreter/prototrak/program_event.hpp"
 #include "gateway/interpreter/prototrak/words.hpp"
@@ -66,6 +67,9 @@ class Receiver {
   bool apply_modal_words(const BlockWords& block);
   bool take_header_words(const BlockWords& block);
   bool make_event(const BlockWords& block);
+  bool move_reference(const BlockWords& block);
+  bool report_left_words(const BlockWords& block, std::optional<int> event_code);
+  void connect_previous(const ProgramEvent& event);
   bool make_converted(const BlockWords& block, int code);
   bool make_native(const BlockWords& block, int code);
   bool fill_cut(const BlockWords& block, ProgramEvent& event);
@@ -76,12 +80,16 @@ class Receiver {
   bool fill_conrad(const BlockWords& block, ProgramEvent& event);
   bool store(ProgramEvent event);
 
-  /// Each false when its word is out of range; the value stays when there is no word.
+  /// Each false when its word is out of range; the value stays when there is no word. The word is
+  /// taken from the account of the block.
   bool dimension(const BlockWords& block, Address address, double& mm);
   bool coordinate(const BlockWords& block, Address address, double reference, double& mm);
   bool size(const BlockWords& block, Address address, double least, double& mm);
   bool integer(const BlockWords& block, Address address, std::int64_t least, std::int64_t most,
                std::int64_t& value);
+  void take(Address address) {
+    ledger_.take(language::WordLedger::Words{1} << static_cast<unsigned>(address));
+  }
   double rounded(const Word& word, double value);
   double largest() const;
   bool require(const BlockWords& block, std::initializer_list<Address> addresses);
@@ -93,7 +101,9 @@ class Receiver {
   StoredProgram program_;
   Modal modal_;
   std::optional<XY> moved_reference_;  ///< by G92
+  language::WordLedger ledger_;        ///< by Address
   bool z_changed_ = false;
+  bool z_decides_ = false;  ///< on whether the event before the next is connected to it
   bool has_units_ = false;
   std::string block_;
   bool in_comment_ = false;
