@@ -13,14 +13,11 @@ compensation::Policy policy() {
   compensation::Policy policy;
   policy.outside = compensation::OutsideCorner::Arc;
   policy.inside = compensation::InsideCorner::Intersect;
-  policy.start_up = compensation::StartUp::NextNormal;
   policy.cancel = compensation::Cancel::OwnNormal;
+  policy.resume = compensation::Resume::OwnNormal;
+  // events without length, as many as there can be, do not end the look-ahead
+  policy.blocks_without_motion = kMaxEvents;
   return policy;
-}
-
-/// Within a resolution step: what events may lie apart and still be one corner (spec 11.2).
-double join_tolerance(const ProgramEvent& event) {
-  return event.is_metric ? 0.01 : 0.0001 * Length::kMillimetresPerInch;
 }
 
 }  // namespace
@@ -83,13 +80,14 @@ std::optional<ProgramEvent> Executor::previous_in_chain() const {
 
 bool Executor::is_connected(const ProgramEvent& event, std::optional<ProgramEvent> next) const {
   return event.is_connected && next && next->is_cut() && next->tool == event.tool &&
-         next->side == event.side && distance(event.end, next->begin) <= join_tolerance(event);
+         next->side == event.side &&
+         distance(event.end, next->begin) <= join_tolerance(event.is_metric);
 }
 
 void Executor::advance() {
   while (!state_.frames.empty()) {
     Frame& frame = state_.frames.back();
-    if (++frame.index <= frame.last) return;
+    if (++frame.index <= frame.last) return true;
     if (frame.pass < frame.passes) {
       ++frame.pass;
       frame.index = frame.first;
@@ -97,6 +95,7 @@ void Executor::advance() {
     }
     state_.frames.pop_back();
   }
+  return true;
 }
 
 bool Executor::step() {
@@ -193,8 +192,8 @@ bool Executor::execute_cut(const ProgramEvent& event) {
     std::optional<Element> corner;
     if (!join(element_of(*previous), element, *previous, corner)) return false;
     if (corner) element.from = corner->to;
-  } else if (!begin_chain(event)) {
-    return false;
+  } else {
+    begin_chain(event);
   }
   const auto next = next_in_range();
   const bool goes_on = is_connected(event, next);
@@ -211,23 +210,46 @@ bool Executor::execute_cut(const ProgramEvent& event) {
   return meets_no_fault();
 }
 
-bool Executor::begin_chain(const ProgramEvent& event) {
+/// Rapid to the offset begin point (spec 11.3, 12), from wherever the tool is: a rapid to the
+/// programmed point as a start-up move has no length where the tool is there already.
+void Executor::begin_chain(const ProgramEvent& event) {
   load_tool(event);
-  if (event.side != ToolSide::Center && event.diameter > 0) {
-    path_.turn_on(
-        {Plane::XY,
-         event.side == ToolSide::Left ? compensation::Side::Left : compensation::Side::Right,
-         Length::mm(event.diameter / 2),
-         {},
-         {}});
+  const bool is_offset = event.side != ToolSide::Center && event.diameter > 0;
+  if (!is_offset) {
+    rapid(event.begin);
+    return wait(StopKind::Operator);
   }
-  rapid(event.begin);
+  const bool is_left = event.side == ToolSide::Left;
+  rapid(beside(event.begin, direction_of_chain(event), (is_left ? 0.5 : -0.5) * event.diameter));
+  state_.at = event.begin;
   wait(StopKind::Operator);
-  return true;
+  const compensation::Cutter cutter{Plane::XY,
+                                    is_left ? compensation::Side::Left : compensation::Side::Right,
+                                    Length::mm(event.diameter / 2),
+                                    {},
+                                    {}};
+  path_.begin_contour(cutter, {event.begin.x, event.begin.y});
 }
 
+/// At its begin: of its first cut that has a length.
+XY Executor::direction_of_chain(ProgramEvent cut) const {
+  const Frame& frame = state_.frames.back();
+  for (std::uint16_t number = frame.index;; ++number) {
+    const Element element = element_of(cut);
+    if (element.is_arc || distance(element.from, element.to) > kNoise)
+      return direction_at_start(element);
+    if (number >= frame.last) return {};
+    const ProgramEvent next = effective(static_cast<std::uint16_t>(number + 1));
+    if (!is_connected(cut, next)) return {};
+    cut = next;
+  }
+}
+
+/// The tool stays beside the edge: a position that follows is one even where the edge ends.
 void Executor::end_chain() {
-  path_.leave();
+  path_.settle();
+  state_.at = {path_.tool().linear(Axis::X).mm(), path_.tool().linear(Axis::Y).mm()};
+  path_.leave({state_.at.x, state_.at.y});
   wait(StopKind::Operator);
 }
 

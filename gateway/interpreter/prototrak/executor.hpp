@@ -69,7 +69,8 @@ class Executor {
   bool clear_rectangle(const ProgramEvent& event);
   bool run_frame(const ProgramEvent& event);
 
-  bool begin_chain(const ProgramEvent& event);
+  void begin_chain(const ProgramEvent& event);
+  XY direction_of_chain(ProgramEvent cut) const;
   void end_chain();
   bool join(const Element& first, const Element& second, const ProgramEvent& event,
             std::optional<Element>& corner);
