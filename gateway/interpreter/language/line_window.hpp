@@ -12,7 +12,8 @@ namespace dripline::interpreter::language {
 /// source, for dialects that read lines ended by a character they may look at (so that nothing
 /// below checks for the end of the text). What ends a line is the caller's: `FindEnd` gives the
 /// first place in [at, limit) that ends one, or `limit`. Memory is one line. Any other use of the
-/// source makes the window stale: call `forget`. `LineReader` is the plainer way to read lines.
+/// source makes the window stale: call `forget`. A byte order mark in front of a program is passed
+/// over. `LineReader` is the plainer way to read lines.
 class LineWindow {
  public:
   enum class State : std::uint8_t { Ready, NotYet, EndOfText, TooLong, Failed };
@@ -47,6 +48,11 @@ class LineWindow {
 
  private:
   void show(const char* at, const char* end, std::uint64_t offset) {
+    if (offset == 0) [[unlikely]] {  // an editor's byte order mark is no part of the program
+      const std::size_t mark = byte_order_mark({at, static_cast<std::size_t>(end - at)});
+      at += mark;
+      offset += mark;
+    }
     begin_ = at;
     end_ = end;
     offset_ = offset;
@@ -72,6 +78,11 @@ class LineWindow {
       if (text.size() < wanted) return fail_early();
       wanted = text.size() + 1;
     }
+  }
+
+  static std::size_t byte_order_mark(std::string_view line) {
+    constexpr std::string_view kUtf8 = "\xEF\xBB\xBF";
+    return line.starts_with(kUtf8) ? kUtf8.size() : 0;
   }
 
   std::size_t first_wish(ProgramIndex program, std::uint64_t offset);

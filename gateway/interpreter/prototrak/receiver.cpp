@@ -8,6 +8,7 @@ namespace dripline::interpreter::prototrak {
 namespace {
 
 constexpr char kDosEnd = 0x1a;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  ///< of an editor
 constexpr std::string_view kFanucHint = "is this a Fanuc program without the three changes?";
 
 bool is_layout(char c) {
@@ -51,6 +52,8 @@ Receiver::State Receiver::fail_line(Fault fault, std::string_view detail) {
 
 bool Receiver::take_character(char c) {
   if (is_layout(c)) return true;
+  const bool is_mark = offset_ < kByteOrderMark.size() && c == kByteOrderMark[offset_];
+  if (is_mark) return true;
   if (c == kDosEnd) {
     notice(Fault::Noticed, "DOS end of file ends the program");
     c = '%';

@@ -18,6 +18,9 @@ namespace {
 /// Lines passed over in one step at most.
 constexpr std::uint64_t kMostPassedOver = 65'536;
 
+/// An editor's, in front of the program.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 bool is_blank_line(const char* at) {
   return is_end_of_line(*skip_blanks(at));
 }
@@ -162,6 +165,10 @@ bool Rs274NgcInterpreter::meet_percent(const char* at, bool& is_end) {
 bool Rs274NgcInterpreter::execute() {
   State& state = run_.state;
   const char* at = skip_blanks(run_.line_begin);
+  if (*at == kByteOrderMark.front() && run_.here.offset == 0) [[unlikely]] {
+    const std::string_view line(at, static_cast<std::size_t>(run_.line_end - at));
+    if (line.starts_with(kByteOrderMark)) at = skip_blanks(at + kByteOrderMark.size());
+  }
   if (*at == '%') [[unlikely]] {
     bool is_end = false;
     if (!meet_percent(at, is_end)) return false;

@@ -117,8 +117,8 @@ ReadState BlockReader::show(Form form) {
 
 void BlockReader::find_place() {
   block_place_ = place_;
+  block_place_.offset = window_.offset() + static_cast<std::uint64_t>(text_ - window_.begin());
   if (text_ == window_.begin()) return;
-  block_place_.offset += static_cast<std::uint64_t>(text_ - window_.begin());
   block_place_.line += line_ends_in(window_.begin(), text_);
 }
 
