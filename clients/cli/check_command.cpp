@@ -185,7 +185,8 @@ void add_check_command(CLI::App& app, Context& context) {
   command->footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
       "folder;\nwarnings, alarms and stops in one name its file. The check itself goes on over "
-      "stops.\nA program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
+      "stops, and ends a program that\nrepeats without end with an alarm.\n"
+      "A program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
       "program, 32 programs)\nis warned of; with memory_limits = true in the setup's [control] it "
       "is an alarm.\n\nExit status: 0 the end was reached, or the block of --to; 1 an alarm, or "
       "that block was not met;\n2 usage, unreadable file, unknown control.\n\nExamples:\n  dnc "

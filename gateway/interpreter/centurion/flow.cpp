@@ -75,6 +75,14 @@ void restore_zero(Run& run, const Point& floating_zero) {
   run.update_origin();
 }
 
+/// Something that could go on for ever has happened once more.
+bool count_pass(Run& run) {
+  if (run.loops.count_pass()) return true;
+  return run.fail(ErrorCode::LoopLimit, 0,
+                  fmt::format("more than {} jumps and repeats without a move or a wait",
+                              language::LoopGuard::kMaxIdlePasses));
+}
+
 bool return_from_gosub(Run& run) {
   ModalState& state = run.state;
   if (state.gosubs.size() <= gosub_base(state)) return run.fail(ErrorCode::ReturnWithoutGosub, 0);
@@ -84,14 +92,14 @@ bool return_from_gosub(Run& run) {
   if (frame.passes_left > 0) {
     --frame.passes_left;
     state.at = frame.entry;
-    return true;
+    return count_pass(run);
   }
   state.at = frame.back;
   state.gosubs.pop_back();
   return true;
 }
 
-void return_from_call(Run& run) {
+bool return_from_call(Run& run) {
   ModalState& state = run.state;
   CallFrame& frame = state.calls.back();
   state.gosubs.resize(frame.gosub_base);
@@ -100,12 +108,13 @@ void return_from_call(Run& run) {
   if (frame.passes_left > 0) {
     --frame.passes_left;
     state.at = frame.entry;
-    return;
+    return count_pass(run);
   }
   const bool changes_tool = frame.changes_tool;
   state.at = frame.back;
   state.calls.pop_back();
   if (changes_tool) finish_tool_change(run);
+  return true;
 }
 
 bool return_to_while(Run& run, std::uint64_t block_offset) {
@@ -115,7 +124,7 @@ bool return_to_while(Run& run, std::uint64_t block_offset) {
   }
   state.at = state.loops.back().head;
   state.loops.pop_back();
-  return true;
+  return count_pass(run);
 }
 
 void end_program(Run& run, std::uint64_t blocks) {
@@ -140,10 +149,11 @@ bool has_m30(const Run& run) {
   return false;
 }
 
-void end_by_code(Run& run) {
+bool end_by_code(Run& run) {
   if (has_m30(run)) all_off(run);
-  if (run.state.calls.empty()) return end_program(run, run.state.blocks + 1);
-  return_from_call(run);
+  if (!run.state.calls.empty()) return return_from_call(run);
+  end_program(run, run.state.blocks + 1);
+  return true;
 }
 
 bool request_jump(Run& run, const TextPosition& head) {
@@ -312,8 +322,7 @@ bool leave_block(Run& run) {
       return true;
     case Ending::EndOfProgram:
       if (state.calls.empty() && is_reading_pattern(state)) return refuse_end_in_pattern(run);
-      end_by_code(run);
-      return true;
+      return end_by_code(run);
     case Ending::None:
       break;
   }
@@ -362,8 +371,9 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
     default:
       return refuse_search(run, outcome);
   }
-  if (result == JumpOutcome::Taken) jump = Jump{};
-  return result;
+  if (result != JumpOutcome::Taken) return result;
+  jump = Jump{};
+  return count_pass(run) ? result : JumpOutcome::Failed;
 }
 
 bool run_off_end(Run& run) {
@@ -371,10 +381,7 @@ bool run_off_end(Run& run) {
   if (is_reading_pattern(state) && state.calls.size() <= state.pattern.calls) {
     return refuse_end_in_pattern(run);
   }
-  if (!state.calls.empty()) {
-    return_from_call(run);
-    return true;
-  }
+  if (!state.calls.empty()) return return_from_call(run);
   if (state.blocks == 0) return run.fail(ErrorCode::EmptyProgram, 0);
   end_program(run, state.blocks);
   return check_path(run);

@@ -308,6 +308,7 @@ bool apply_one_shots(Run& run) {
   if (parts.dwell) {
     run.state.dwell_seconds = *parts.dwell;
     run.events().on_dwell({run.origin, *parts.dwell, {}});
+    if (*parts.dwell > 0) run.loops.note_progress();
   }
   for (std::uint8_t i = 0; i < parts.g_count; ++i) {
     const GRow& row = g_row(run.block.g[i]);

@@ -79,6 +79,7 @@ bool change_tool(Run& run) {
     pulse_output(run, *output_of_pin(*run.options.tool_change_pin), true, kPulseMs);
   take_pending_tool(run);
   show_comment(run);
+  run.loops.note_progress();
   run.events().on_stop({run.origin, StopKind::ToolChange});
   return true;
 }
@@ -154,11 +155,13 @@ bool apply_m(Run& run, const MRow& row) {
       return true;
     case MAction::ProgramStop:
       show_comment(run);
+      run.loops.note_progress();
       run.events().on_stop({run.origin, StopKind::Program});
       return true;
     case MAction::OptionalStop:
       if (!run.options.optional_stop) return true;
       show_comment(run);
+      run.loops.note_progress();
       run.events().on_stop({run.origin, StopKind::Optional});
       return true;
     case MAction::End:

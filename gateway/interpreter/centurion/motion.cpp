@@ -229,6 +229,7 @@ Position marked_position(Run& run, const Point& from, const Point& point, AxesNa
 }
 
 void arrive(Run& run, const Point& at) {
+  run.loops.note_progress();
   run.state.previous = run.state.position;
   run.state.position = at;
 }

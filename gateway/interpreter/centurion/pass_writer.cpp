@@ -40,6 +40,7 @@ Position PassWriter::position_of(const PlanePoint& to) {
 }
 
 void PassWriter::arrive(const PlanePoint& to) {
+  run_.loops.note_progress();
   const double mm = run_.state.mm_per_unit();
   cycle_.tool = to;
   run_.state.position = {to.x / mm, to.z / mm};

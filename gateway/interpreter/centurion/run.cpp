@@ -131,6 +131,7 @@ bool Run::ask(Question asked) {
   const bool meets_tool =
       std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
   if (meets_tool && !settle_path()) return false;
+  loops.note_progress();
   pause = Pause::Question;
   question = std::move(asked);
   if (block.parts.stage == Stage::Items) state.random = random_at_item;

@@ -135,6 +135,7 @@ bool read_handwheel(Run& run, const char*& at) {
   }
   if (run.options.is_verify || run.options.is_mdi) return true;
   if (!text.empty()) run.events().on_message({run.origin, text});
+  run.loops.note_progress();
   run.events().on_stop({run.origin, StopKind::Operator});
   return true;
 }

@@ -116,7 +116,10 @@ bool dwell(Run& run) {
   if (!(seconds >= 0 && seconds <= 99999.999)) {
     return run.fail(seconds < 0 ? ErrorCode::NegativeSign : ErrorCode::TooManyDigits, column);
   }
-  if (seconds > 0) run.events().on_dwell({run.origin, seconds, {}});
+  if (seconds > 0) {
+    run.state.limits = {};
+    run.events().on_dwell({run.origin, seconds, {}});
+  }
   return true;
 }
 

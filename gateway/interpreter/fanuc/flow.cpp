@@ -16,8 +16,9 @@ std::size_t loop_base(const ModalState& state) {
 /// Something that could go on for ever has happened once more.
 bool count_jump_back(Run& run) {
   if (++run.state.limits.jumps_back <= run.options.max_loops) return true;
-  return run.fail(ErrorCode::LoopLimit, 0,
-                  fmt::format("more than {} jumps back", run.options.max_loops));
+  return run.fail(
+      ErrorCode::LoopLimit, 0,
+      fmt::format("more than {} jumps back without a move or a wait", run.options.max_loops));
 }
 
 void end_program(Run& run, std::uint64_t blocks, bool rewind) {

@@ -199,9 +199,9 @@ bool FanucInterpreter::finish_block() {
 /// Only a program that goes back can go on for ever.
 bool FanucInterpreter::count_block() {
   if (++run_.state.limits.blocks_after_jumps <= run_.options.max_blocks) return true;
-  return run_.fail(
-      ErrorCode::LoopLimit, 0,
-      fmt::format("more than {} blocks since the first jump back", run_.options.max_blocks));
+  return run_.fail(ErrorCode::LoopLimit, 0,
+                   fmt::format("more than {} blocks since a jump back without a move or a wait",
+                               run_.options.max_blocks));
 }
 
 Result<void> FanucInterpreter::answer(const Answer& answer) {

@@ -82,10 +82,13 @@ bool acts_after(const Run& run, int code) {
 void perform(Run& run, int code) {
   switch (code) {
     case 0:
+      run.state.limits = {};
       run.events().on_stop({run.origin, StopKind::Program});
       return;
     case 1:
-      if (run.options.optional_stop) run.events().on_stop({run.origin, StopKind::Optional});
+      if (!run.options.optional_stop) return;
+      run.state.limits = {};
+      run.events().on_stop({run.origin, StopKind::Optional});
       return;
     case 3:
       return turn_spindle(run, SpindleState::Clockwise);

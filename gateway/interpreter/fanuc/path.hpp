@@ -17,6 +17,7 @@ bool check_stroke(Run& run, const Position& to);
 /// The tool is here, whatever way it came.
 inline void arrive(Run& run, const Position& to) {
   run.state.position = to;
+  run.state.limits = {};
 }
 
 /// A point of an arc, by the angle travelled from its start.

@@ -43,6 +43,7 @@ bool Run::fail_as(std::string_view id, std::string_view alarm_text, std::uint32_
 }
 
 bool Run::ask(Question asked) {
+  state.limits = {};
   pause = Pause::Question;
   question = std::move(asked);
   return false;

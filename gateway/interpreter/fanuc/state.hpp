@@ -140,6 +140,7 @@ struct Jump {
   Locals arguments{};
 };
 
+/// Since the machine last moved, dwelt or waited for somebody.
 struct Counters {
   std::uint64_t jumps_back = 0;
   std::uint64_t blocks_after_jumps = 0;

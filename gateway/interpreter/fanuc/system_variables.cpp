@@ -220,6 +220,7 @@ void stop_with_message(Run& run) {
         {run.origin, std::string_view(run.text.begin() + parts.message_begin,
                                       parts.message_end - parts.message_begin)});
   }
+  run.state.limits = {};
   run.events().on_stop({run.origin, StopKind::Operator});
 }
 

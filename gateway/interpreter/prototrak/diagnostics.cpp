@@ -23,6 +23,7 @@ constexpr std::array kRows{
     FaultRow{RepeatRange, "PTK0202", "bad repeat range"},
     FaultRow{Join, "PTK0203", "conrad or offset join is impossible"},
     FaultRow{ToolDoesNotFit, "PTK0204", "tool does not fit"},
+    FaultRow{LoopLimit, "PTK0205", "repeats go on without end"},
     FaultRow{NotConnectable, "PTK0301", "next event can not be connected"},
     FaultRow{Ignored, "PTK0302", "ignored"},
     FaultRow{SideContradicts, "PTK0303", "tool side contradicts the pocket"},

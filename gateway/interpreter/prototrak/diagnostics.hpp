@@ -22,6 +22,7 @@ enum class Fault : std::uint8_t {
   RepeatRange,      // 202
   Join,             // 203
   ToolDoesNotFit,   // 204
+  LoopLimit,        // 205
   NotConnectable,   // 301
   Ignored,          // 302
   SideContradicts,  // 303

@@ -84,14 +84,17 @@ bool Executor::is_connected(const ProgramEvent& event, std::optional<ProgramEven
          distance(event.end, next->begin) <= join_tolerance(event.is_metric);
 }
 
-void Executor::advance() {
+/// False: repeats within repeats, and nothing moves.
+bool Executor::advance() {
   while (!state_.frames.empty()) {
     Frame& frame = state_.frames.back();
     if (++frame.index <= frame.last) return true;
     if (frame.pass < frame.passes) {
       ++frame.pass;
       frame.index = frame.first;
-      return;
+      return loops_.count_pass() ||
+             fail(Fault::LoopLimit, fmt::format("more than {} passes without a move or a wait",
+                                                language::LoopGuard::kMaxIdlePasses));
     }
     state_.frames.pop_back();
   }
@@ -107,8 +110,7 @@ bool Executor::step() {
   if (!execute(event)) return false;
   ++state_.blocks;
   path_.on_block_end(origin_);
-  if (state_.frames.size() == depth) advance();  // a repeat has begun its first pass otherwise
-  return true;
+  return state_.frames.size() != depth || advance();  // a repeat has begun its first pass otherwise
 }
 
 bool Executor::execute(const ProgramEvent& event) {
@@ -281,10 +283,13 @@ void Executor::load_tool(const ProgramEvent& event) {
 }
 
 void Executor::wait(StopKind kind) {
-  if (options_.waits) path_.on_stop({origin_, kind});
+  if (!options_.waits) return;
+  loops_.note_progress();
+  path_.on_stop({origin_, kind});
 }
 
 void Executor::rapid(XY to) {
+  if (distance(to, state_.at) >= kNoise) loops_.note_progress();
   state_.at = to;
   position_.set(Axis::X, Length::mm(to.x));
   position_.set(Axis::Y, Length::mm(to.y));
@@ -293,6 +298,7 @@ void Executor::rapid(XY to) {
 
 void Executor::line(XY to, double feed) {
   if (distance(to, state_.at) < kNoise) return;
+  loops_.note_progress();
   state_.at = to;
   position_.set(Axis::X, Length::mm(to.x));
   position_.set(Axis::Y, Length::mm(to.y));
@@ -301,6 +307,7 @@ void Executor::line(XY to, double feed) {
 
 void Executor::cut(const Element& element, double feed) {
   if (!element.is_arc) return line(element.to, feed);
+  loops_.note_progress();
   Arc arc;
   arc.origin = origin_;
   arc.center_first = Length::mm(element.center.x);

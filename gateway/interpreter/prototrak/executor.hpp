@@ -6,6 +6,7 @@
 
 #include "gateway/interpreter/compensation/compensator.hpp"
 #include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/language/loop_guard.hpp"
 #include "gateway/interpreter/prototrak/contour.hpp"
 #include "gateway/interpreter/prototrak/diagnostics.hpp"
 #include "gateway/interpreter/prototrak/options.hpp"
@@ -59,7 +60,7 @@ class Executor {
   bool is_connected(const ProgramEvent& event, std::optional<ProgramEvent> next) const;
   std::optional<ProgramEvent> next_in_range() const;
   std::optional<ProgramEvent> previous_in_chain() const;
-  void advance();
+  bool advance();
 
   bool execute(const ProgramEvent& event);
   bool execute_cut(const ProgramEvent& event);
@@ -92,6 +93,7 @@ class Executor {
   const ControlOptions& options_;
   const StoredProgram& program_;
   compensation::Compensator path_;
+  language::LoopGuard loops_;
   ExecutionState state_;
   Position position_;
   Origin origin_;

@@ -184,6 +184,7 @@ bool arc_move(Run& run, bool is_clockwise) {
   } else if (!center_of_offsets(run, offsets, start, end, center)) {
     return false;
   }
+  run.state.passes = 0;
   if (is_compensated) return compensated_arc(run, target, center, turn, turns, feed);
   if (compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
   const double sweep = sweep_of(center, start, end, turn) + 360 * (turns - 1);

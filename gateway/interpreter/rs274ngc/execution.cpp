@@ -37,6 +37,7 @@ bool execute_one_shots(Run& run) {
 
 bool dwell(Run& run) {
   if (run.block.g(GGroup::OneShot) != 40) return true;
+  if (run.block.words['P'] > 0) run.state.passes = 0;
   run.events().on_dwell({run.origin, run.block.words['P'], {}});
   return true;
 }

@@ -263,6 +263,7 @@ bool reset_at_end(Run& run) {
 bool apply_stops(Run& run) {
   const int code = run.block.m(MGroup::Stop);
   EventSink& events = run.events();
+  if (code == 0 || code == 60 || (code == 1 && run.options.optional_stop)) run.state.passes = 0;
   switch (code) {
     case 0:
       events.on_stop({run.origin, StopKind::Program});

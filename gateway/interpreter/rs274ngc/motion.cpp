@@ -144,6 +144,7 @@ bool straight_move(Run& run, int motion) {
   Feed feed;
   if (motion == 10 && !read_feed(run, false, feed)) return false;
   if (run.state.compensation.side != Side::Off) [[unlikely]] {
+    run.state.passes = 0;
     return compensated_line(run, target, motion == 0, feed);
   }
   if (motion == 0) {
@@ -178,6 +179,7 @@ bool home_move(Run& run, int g_code) {
 
 const Position& arrive(Run& run, const Target& target) {
   State& state = run.state;
+  state.passes = 0;
   state.is_displaced = false;
   state.compensation.was_on = false;
   if (state.rotation == 0) [[likely]] {

@@ -46,6 +46,7 @@ bool Run::fail_word(ErrorCode code, char capital, std::string_view detail) {
 }
 
 bool Run::ask(Question asked) {
+  state.passes = 0;
   events();  // the header comes before anything the question brings about
   pause = Pause::Question;
   question = std::move(asked);

@@ -193,7 +193,7 @@ struct State {
   std::vector<KnownLabel> labels;
   std::vector<std::string> label_names;
   Skip skip;
-  std::uint64_t passes = 0;  ///< of loops, and calls
+  std::uint64_t passes = 0;  ///< of loops and calls since the machine last moved or waited
   SavedModes saved;
 
   double mm_per_unit() const {

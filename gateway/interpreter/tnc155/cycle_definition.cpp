@@ -126,7 +126,10 @@ bool dwell(Run& run, const Block& block) {
     return run.fail(ErrorCode::EntryOutOfRange,
                     fmt::format("DWELL {} s is not 0 to {}", seconds, kLongestDwell));
   }
-  if (seconds > 0) run.events().on_dwell({run.origin, seconds, {}});
+  if (seconds > 0) {
+    run.loops.note_progress();
+    run.events().on_dwell({run.origin, seconds, {}});
+  }
   return true;
 }
 

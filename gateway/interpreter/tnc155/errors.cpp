@@ -48,6 +48,7 @@ constexpr std::array<ErrorRow, static_cast<std::size_t>(Count)> kRows{{
     {NotInBlockwiseTransfer, "TNC-BLOCKWISE", "NOT PERMITTED IN BLOCKWISE TRANSFER"},
     {NotSupported, "TNC-NOT-SUPPORTED", "NOT SUPPORTED"},
     {PocketMissing, "TNC-POCKET", "NO FREE POCKET"},
+    {LoopLimit, "TNC-LOOP-LIMIT", "PROGRAM REPEATS WITHOUT END"},
 }};
 
 constexpr bool is_in_order() {

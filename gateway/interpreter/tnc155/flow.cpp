@@ -257,8 +257,13 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
       outcome = find_label(run, search);
       break;
   }
-  if (outcome == JumpOutcome::Taken) run.state.jump = Jump{};
-  return outcome;
+  if (outcome != JumpOutcome::Taken) return outcome;
+  run.state.jump = Jump{};
+  if (run.loops.count_pass()) return outcome;
+  run.fail(ErrorCode::LoopLimit, fmt::format("more than {} jumps and repeats without a move or a "
+                                             "wait",
+                                             language::LoopGuard::kMaxIdlePasses));
+  return JumpOutcome::Failed;
 }
 
 }  // namespace dripline::interpreter::tnc155

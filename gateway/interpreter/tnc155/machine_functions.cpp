@@ -94,6 +94,7 @@ void switch_off(Run& run) {
 }
 
 void stop(Run& run, StopKind kind) {
+  run.loops.note_progress();
   run.events().on_stop({run.origin, kind});
 }
 

@@ -32,6 +32,7 @@ Feed feed_to(const Run& run, const Target& target, const Position& to, const Pac
 void put_out(Run& run, const Line& move, bool is_rapid) {
   State& state = run.state;
   const bool moves = !move.to.same_point(state.machine);
+  if (moves) run.loops.note_progress();
   if (run.is_measuring) [[unlikely]] {
     run.limits.check_line(move.origin, state.machine, move.to);
   } else if (moves && is_rapid) {
@@ -121,6 +122,7 @@ void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
   if (run.is_measuring) [[unlikely]] {
     run.limits.check_arc(arc, state.machine);
   } else {
+    run.loops.note_progress();
     run.events().on_arc(arc);
   }
   state.machine = arc.to;

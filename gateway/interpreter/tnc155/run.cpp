@@ -100,6 +100,7 @@ bool Run::fail_at_limit() {
 
 bool Run::ask(Question asked) {
   if (limits.reached()) return fail_at_limit();
+  loops.note_progress();
   pause = Pause::Question;
   question = std::move(asked);
   return false;

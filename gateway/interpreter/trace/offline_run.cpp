@@ -1,6 +1,8 @@
 #include "gateway/interpreter/trace/offline_run.hpp"
 
+#include <fmt/core.h>
 #include <algorithm>
+#include <vector>
 
 #include "gateway/interpreter/trace/event_tee.hpp"
 
@@ -13,6 +15,15 @@ constexpr LocalTime kDefaultTime{2000, 1, 1, 0, 0, 0};
 
 class Diagnostics final : public EventSink {
  public:
+  void on_block_end(const Origin& origin) override {
+    if (origin.program >= furthest_.size()) furthest_.resize(origin.program + std::size_t{1});
+    std::uint64_t& furthest = furthest_[origin.program];
+    if (origin.offset >= furthest) [[likely]] {
+      furthest = origin.offset + 1;
+    } else {
+      ++repeated;
+    }
+  }
   void on_warning(const Warning&) override { ++warnings; }
   void on_alarm(const Alarm& event) override {
     alarm = event.diagnostic;
@@ -22,7 +33,24 @@ class Diagnostics final : public EventSink {
   std::uint64_t warnings = 0;
   std::optional<Diagnostic> alarm;
   ProgramIndex program = kMainProgram;
+  std::uint64_t repeated = 0;  ///< blocks that had been executed before
+
+ private:
+  std::vector<std::uint64_t> furthest_;  ///< by program: behind the block that begins last
 };
+
+constexpr std::string_view kEndlessId = "OFF0001";
+
+/// The last event of a program that goes round and round.
+void tell_endless(const Interpreter& interpreter, std::uint64_t repeated, EventSink& sink) {
+  const Origin& origin = interpreter.origin();
+  sink.on_alarm({origin,
+                 {kEndlessId,
+                  fmt::format("the program repeats without end: stopped after {} blocks that had "
+                              "been executed before, the limit of an offline run",
+                              repeated),
+                  origin.line, 0}});
+}
 
 /// Gives the answers of a setup, in order.
 class SetupAnswers {
@@ -66,12 +94,17 @@ Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
 
 /// Steps until the program has ended or raised its alarm, or the gate has stopped it.
 Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, const OfflineLimits& limits,
-                      const StopGate& gate) {
+                      const StopGate& gate, EventSink& sink, const Diagnostics& diagnostics) {
   const std::uint64_t stride = limits.stop ? 1 : kStride;
   while (interpreter.blocks() < limits.max_blocks) {
     const std::uint64_t left = limits.max_blocks - interpreter.blocks();
     const StepState state = interpreter.step(std::min(left, stride));
     if (gate.has_stopped()) return StepState::Ran;
+    const bool has_ended = state == StepState::Ended || state == StepState::Alarmed;
+    if (!has_ended && diagnostics.repeated > limits.max_repeated_blocks) {
+      tell_endless(interpreter, diagnostics.repeated, sink);
+      return StepState::Alarmed;
+    }
     switch (state) {
       case StepState::Ended:
       case StepState::Alarmed:
@@ -105,7 +138,7 @@ Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
   auto interpreter = dialect.make(setup, source, first);
   if (!interpreter) return fail(interpreter.error());
   SetupAnswers answers(setup, *std::move(pins));
-  const auto state = run(**interpreter, answers, limits, gate);
+  const auto state = run(**interpreter, answers, limits, gate, tee, diagnostics);
   if (!state) return fail(state.error());
   return OfflineOutcome{.ended = *state == StepState::Ended,
                         .has_stopped = gate.has_stopped(),

@@ -10,7 +10,10 @@ namespace dripline::interpreter {
 
 struct OfflineLimits {
   std::uint64_t max_blocks = 1'000'000'000;  ///< executed; a program that never ends is told so
-  std::optional<StopPoint> stop = {};        ///< the run ends behind that block
+  /// Executed that had been executed before: a loop without end is legitimate at a machine, and
+  /// ends here with the alarm OFF0001.
+  std::uint64_t max_repeated_blocks = 10'000'000;
+  std::optional<StopPoint> stop = {};  ///< the run ends behind that block
 };
 
 struct OfflineOutcome {
