@@ -58,6 +58,27 @@ Result<void> SqliteStore::check() {
   });
 }
 
+Result<void> SqliteStore::probe() {
+  // Its own value again: the page is written and synchronized all the same, and no table is needed.
+  std::int64_t id = 0;
+  const auto written =
+      repositories_->connections->write([&](sqlite::Database& database) -> Result<void> {
+        const auto now = database.integer("PRAGMA application_id");
+        if (!now) return fail(now.error());
+        id = *now;
+        return database.execute("PRAGMA application_id = " + std::to_string(id));
+      });
+  if (!written) return written;
+  return repositories_->connections->read([&](sqlite::Database& database) -> Result<void> {
+    const auto read = database.integer("PRAGMA application_id");
+    if (!read) return fail(read.error());
+    const auto tables = database.integer("SELECT COUNT(*) FROM sqlite_schema");
+    if (!tables) return fail(tables.error());
+    if (*read == id) return {};
+    return fail(Errc::Corrupt, "database {} gives another value than was written", database.file());
+  });
+}
+
 Result<Upload> SqliteStore::begin_upload(const Upload& upload) {
   return repositories_->uploads.begin(upload);
 }

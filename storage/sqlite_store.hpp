@@ -32,6 +32,8 @@ class SqliteStore final : public Store {
   /// Looks through the whole file for damage of its structure (not of program content, which is
   /// checked whenever it is read). Takes long on big files. Errors: Corrupt.
   Result<void> check();
+  /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
+  Result<void> probe();
 
   Result<Upload> begin_upload(const Upload& upload) override;
   Result<Upload> upload(const std::string& id) override;

@@ -1,9 +1,19 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/json_text.hpp"
+#include "clients/cli/terminal.hpp"
 #include "clients/cli/value_text.hpp"
 
 namespace dripline::cli {
 namespace {
+
+void add_health(Details& details, const client::ServerInfo::Health& health) {
+  if (health.status.empty()) return;  // an older server
+  details.add("health", health.status);
+  for (const auto& reason : health.reasons) {
+    details.add("", fmt::format("{}: {} ({})", reason.subject, printable(reason.message),
+                                printable(reason.detail)));
+  }
+}
 
 int show_status(Context& context) {
   auto client = context.connect();
@@ -17,6 +27,7 @@ int show_status(Context& context) {
   Details details;
   details.add("server", client->address().url);
   details.add("name", server->name);
+  add_health(details, server->health);
   details.add("version", server->version);
   details.add("started", time_text(server->started));
   details.add("up for", duration_text(server->uptime_s));

@@ -16,6 +16,13 @@ struct ServerInfo {
   double uptime_s = 0;
   std::string data_dir;
   std::uint64_t machines = 0, machines_connected = 0, programs = 0, runs_active = 0;
+  struct Health {
+    struct Reason {
+      std::string subject, status, message, detail;
+    };
+    std::string status;  ///< ok, degraded, failed; empty: an older server does not tell
+    std::vector<Reason> reasons;
+  } health;
   struct Dds {
     std::uint64_t domain = 0, rejected = 0;
   } dds;

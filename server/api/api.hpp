@@ -9,6 +9,7 @@
 #include "server/api/token.hpp"
 #include "server/feeds/feed_control.hpp"
 #include "server/library/audit_trail.hpp"
+#include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/setups.hpp"
 #include "server/serial/port_control.hpp"
@@ -35,6 +36,7 @@ struct Services {
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
   ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
+  library::Health* health = nullptr;    ///< null: always well
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;

@@ -24,6 +24,24 @@ Result<std::uint64_t> count_active_runs(storage::Store& store) {
   return count_all([&](storage::Page page) { return store.runs(filter, page); });
 }
 
+library::Health::State health_of(const Services& services) {
+  return services.health == nullptr ? library::Health::State{} : services.health->state();
+}
+
+enum class Audience { Anybody, TokenHolder };
+
+nlohmann::json health_json(const library::Health::State& state, Audience audience) {
+  auto reasons = nlohmann::json::array();
+  for (const auto& finding : state.findings) {
+    nlohmann::json reason{{"subject", finding.subject},
+                          {"status", library::to_string(finding.level)},
+                          {"message", finding.what}};
+    if (audience == Audience::TokenHolder) reason["detail"] = finding.detail;
+    reasons.push_back(std::move(reason));
+  }
+  return {{"status", library::to_string(state.level)}, {"reasons", std::move(reasons)}};
+}
+
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
@@ -46,6 +64,7 @@ Response describe_server(Services& services, const Request& request) {
             {"machines_connected", connected},
             {"programs", *programs},
             {"runs_active", *active},
+            {"health", health_json(health_of(services), Audience::TokenHolder)},
             {"dds", {{"domain", facts.dds_domain}, {"rejected", services.dds_rejected()}}}});
 }
 
@@ -90,8 +109,11 @@ Response too_many_listeners() {
 }
 
 void add_server_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/health", [](const Request&) {
-    return json_response(200, {{"status", "ok"}});
+  router.add("GET", "/api/v1/health", [&](const Request&) {
+    constexpr int kUnavailable = 503;
+    const auto state = health_of(services);
+    const bool is_failed = state.level == library::Health::Level::Failed;
+    return json_response(is_failed ? kUnavailable : 200, health_json(state, Audience::Anybody));
   });
   router.add("GET", "/api/v1/openapi.json", [](const Request&) {
     Response response;

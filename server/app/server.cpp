@@ -10,6 +10,7 @@
 #include "server/feeds/feed_service.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/dialect_catalog.hpp"
+#include "server/library/health_watch.hpp"
 #include "server/library/programs.hpp"
 #include "server/serial/machine_feeds.hpp"
 #include "server/serial/port_service.hpp"
@@ -69,15 +70,16 @@ api::HttpHandlers http_handlers(const api::Api& api) {
 
 /// In the order of their making; each may use those above it.
 struct Server::Parts {
-  Parts(StateFolder state_folder, std::unique_ptr<storage::Store> opened, const Settings& settings,
-        const Clock& system_clock, std::string token)
+  Parts(StateFolder state_folder, std::unique_ptr<storage::SqliteStore> opened,
+        const Settings& settings, const Clock& system_clock, std::string token)
       : clock(system_clock),
         folder(std::move(state_folder)),
         store(std::move(opened)),
+        health(clock),
         audit(*store, clock),
         programs(*store, clock, catalog, audit),
         setups(*store, catalog, audit),
-        feeds(*store, clock, {}, api::publish_to(events)),
+        feeds(*store, clock, feed_options(), api::publish_to(events)),
         ports(*store, programs, clock, {.recordings = folder.recordings()},
               api::publish_to(events)),
         machines(*store, feeds, ports.feed()),
@@ -94,12 +96,26 @@ struct Server::Parts {
                        .started = clock.now(),
                        .dds_domain = settings.dds_domain},
              .dds_rejected = [this] { return feeds.rejected().messages; },
-             .ports = &ports},
+             .ports = &ports,
+             .health = &health},
             {.name = kTokenName, .secret = std::move(token)}) {}
+
+  feeds::FeedService::Options feed_options() {
+    feeds::FeedService::Options options;
+    options.on_trouble = [this](const std::string& machine, const std::string& trouble) {
+      using Level = library::Health::Level;
+      health.report(machine, {.level = trouble.empty() ? Level::Ok : Level::Degraded,
+                              .subject = "records",
+                              .what = "records of a machine can not be stored",
+                              .detail = fmt::format("machine={}: {}", machine, trouble)});
+    };
+    return options;
+  }
 
   const Clock& clock;
   StateFolder folder;
-  std::unique_ptr<storage::Store> store;
+  std::unique_ptr<storage::SqliteStore> store;
+  library::Health health;
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::Programs programs;
@@ -109,6 +125,7 @@ struct Server::Parts {
   ports::PortService ports;
   ports::MachineFeeds machines;
   api::Api api;
+  std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;
   std::string url;
 };
@@ -120,6 +137,7 @@ Server::~Server() {
   parts_->feeds.stop_waiting();
   parts_->events.close();
   parts_->http.reset();
+  parts_->watch.reset();
   parts_->ports.end();
   parts_->feeds.end();
 }
@@ -142,6 +160,10 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   if (!endpoint) return fail(endpoint.error());
   if (auto begun = parts.feeds.begin(*std::move(endpoint)); !begun) return fail(begun.error());
   server->tidy();
+  parts.watch = std::make_unique<library::HealthWatch>(
+      library::HealthWatch::Parts{.health = parts.health,
+                                  .probe = [&store = *parts.store] { return store.probe(); },
+                                  .folder = parts.folder.path()});
   auto http = api::HttpServer::start(*options, http_handlers(parts.api));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);

@@ -22,7 +22,8 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
                .endpoint = endpoint,
                .pool = service.pool_,
                .state_mutex = service.state_mutex_,
-               .on_stored = [&service](const auto& batch) { service.on_stored(batch); }}),
+               .on_stored = [&service](const auto& batch) { service.on_stored(batch); },
+               .on_trouble = service.options_.on_trouble}),
       orders(endpoint, service.clock_, service.order_options(),
              [&service](const dds::Order& order) { service.on_late_start(order); }),
       watch({.store = service.store_,
@@ -45,7 +46,7 @@ FeedService::FeedService(storage::Store& store, const Clock& clock, Options opti
                          FeedListener listener)
     : store_(store),
       clock_(clock),
-      options_(options),
+      options_(std::move(options)),
       listener_(std::move(listener)),
       pool_(options.workers),
       board_({.store = store,

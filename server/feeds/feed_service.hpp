@@ -29,6 +29,8 @@ class FeedService final : public FeedControl {
   struct Options {
     unsigned workers = 4;
     OrderDesk::Options orders;
+    /// A machine's records can not be stored, and why; empty: they are again. Any thread.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_trouble = {};
   };
   FeedService(storage::Store& store, const Clock& clock, Options options, FeedListener listener);
   ~FeedService() override;

@@ -154,6 +154,7 @@ void RecordKeeper::put_back(const std::string& machine, std::vector<dds::Record>
     if (!std::exchange(lane.is_failing, true)) {
       spdlog::error("records can not be stored, the gateway keeps them machine={}: {}", machine,
                     error.what);
+      if (parts_.on_trouble) parts_.on_trouble(machine, error.what);
     }
     lane.waiting.insert(lane.waiting.begin(), std::make_move_iterator(records.begin()),
                         std::make_move_iterator(records.end()));
@@ -169,6 +170,7 @@ void RecordKeeper::succeed(const std::string& machine, std::uint64_t epoch, std:
     Lane& lane = lanes_[machine];
     if (std::exchange(lane.is_failing, false)) {
       spdlog::info("records are stored again machine={}", machine);
+      if (parts_.on_trouble) parts_.on_trouble(machine, "");
     }
     lane.pause = 0ms;
     lane.ack = {.machine = machine, .epoch = epoch, .number = number};

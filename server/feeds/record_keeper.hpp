@@ -31,6 +31,8 @@ class RecordKeeper {
     std::mutex& state_mutex;
     /// After a commit, on a worker; one call at a time per machine.
     std::function<void(const storage::RecordBatch&)> on_stored;
+    /// A machine's records can not be stored, and why; empty: they are again.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_trouble = {};
   };
   /// All parts must outlive the keeper's last task, that is, the pool must be stopped first.
   explicit RecordKeeper(Parts parts) : parts_(std::move(parts)) {}

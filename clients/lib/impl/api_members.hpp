@@ -21,6 +21,20 @@ void members(V& v, Is<ServerInfo::Dds> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<ServerInfo::Health::Reason> auto& x) {
+  v("subject", x.subject);
+  v("status", x.status);
+  v("message", x.message);
+  v("detail", x.detail);
+}
+
+template <class V>
+void members(V& v, Is<ServerInfo::Health> auto& x) {
+  v("status", x.status);
+  v("reasons", x.reasons);
+}
+
+template <class V>
 void members(V& v, Is<ServerInfo> auto& x) {
   v("name", x.name);
   v("version", x.version);
@@ -31,6 +45,7 @@ void members(V& v, Is<ServerInfo> auto& x) {
   v("machines_connected", x.machines_connected);
   v("programs", x.programs);
   v("runs_active", x.runs_active);
+  v.later("health", x.health);
   v("dds", x.dds);
 }
 

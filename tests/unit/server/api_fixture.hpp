@@ -38,7 +38,8 @@ class ApiTest : public ServerTest {
                                                               .started = clock_.now(),
                                                               .dds_domain = 3},
                                                     .dds_rejected = [] { return std::uint64_t{4}; },
-                                                    .ports = ports},
+                                                    .ports = ports,
+                                                    .health = &health_},
                                       api::Token{.name = "admin", .secret = kSecret});
   }
 
@@ -131,6 +132,7 @@ class ApiTest : public ServerTest {
 
   FakeFeeds feeds_;
   FakePorts ports_;
+  library::Health health_{clock_};
   api::EventHub events_;
   std::unique_ptr<api::Api> api_;
 };

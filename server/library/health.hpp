@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+
+namespace dripline::library {
+
+/// How the server is, from what its parts have reported last. Any thread; never waits.
+class Health {
+ public:
+  enum class Level { Ok, Degraded, Failed };
+  struct Finding {
+    Level level = Level::Ok;
+    std::string subject;  ///< store, disk, records ...
+    std::string what;     ///< fit for anybody: no path, no name
+    std::string detail;   ///< for who has the token
+  };
+  struct State {
+    Level level = Level::Ok;  ///< the worst of the findings
+    std::vector<Finding> findings;
+  };
+  /// What watches looks this often; when it has not for kSilence, that is a failure of its own.
+  static constexpr std::chrono::seconds kInterval{10};
+  static constexpr std::chrono::seconds kSilence{45};
+
+  explicit Health(const Clock& clock) : clock_(clock) {}
+  /// Replaces what was reported of this subject and this detail's owner (a machine; may be empty).
+  /// Ok takes it back.
+  void report(const std::string& owner, Finding finding);
+  /// The watch has begun, or looked again.
+  void looked();
+  State state() const;
+
+ private:
+  const Clock& clock_;
+  mutable std::mutex mutex_;
+  std::map<std::pair<std::string, std::string>, Finding> findings_;  ///< by subject and owner
+  std::optional<SteadyTime> looked_;
+};
+
+/// ok, degraded, failed
+std::string_view to_string(Health::Level level);
+
+}  // namespace dripline::library
