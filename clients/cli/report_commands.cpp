@@ -1,3 +1,4 @@
+#include <unistd.h>
 #include <cstdio>
 #include <memory>
 
@@ -6,7 +7,9 @@
 #include "clients/cli/machine_text.hpp"
 #include "clients/cli/run_reference.hpp"
 #include "clients/cli/standard_output.hpp"
+#include "clients/cli/terminal.hpp"
 #include "clients/cli/value_text.hpp"
+#include "clients/cli/visible_text.hpp"
 #include "clients/lib/output_file.hpp"
 
 namespace dripline::cli {
@@ -118,21 +121,34 @@ client::Reply<ReportOf> find_report(client::Client& client, const std::string& r
   return client::failed(run.error());
 }
 
-int print_report(client::Client& client, const ReportOf& report, const std::string& format) {
+enum class Controls { AsTheyAre, Visible };
+
+/// What a machine printed must not steer a terminal.
+int print_report(client::Client& client, const ReportOf& report, const std::string& format,
+                 Controls controls) {
   StandardOutput output;
-  auto printed = report.write(client, format, [&output](std::string_view bytes) {
-    return output.write(bytes).has_value();
+  VisibleText visible;
+  auto printed = report.write(client, format, [&](std::string_view bytes) {
+    const bool is_raw = controls == Controls::AsTheyAre;
+    return output.write(is_raw ? bytes : visible.take(bytes)).has_value();
   });
   if (output.error()) return output.complain();
   return printed ? kExitOk : complain(printed.error());
 }
 
-int show(Context& context, const std::string& reference) {
+struct ShowCommand {
+  std::string run;
+  bool is_raw = false;
+};
+
+int show(Context& context, const ShowCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
-  auto report = find_report(*client, reference);
+  auto report = find_report(*client, command.run);
   if (!report) return complain(report.error());
-  if (context.wants_json) return print_report(*client, *report, "json");
+  const bool is_shown = terminal_of(STDOUT_FILENO).is_terminal && !command.is_raw;
+  const auto controls = is_shown ? Controls::Visible : Controls::AsTheyAre;
+  if (context.wants_json) return print_report(*client, *report, "json", controls);
   if (const auto& run = report->run) {
     context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
                               short_id(run->id), run->program, run->revision, run->machine,
@@ -140,7 +156,7 @@ int show(Context& context, const std::string& reference) {
   } else {
     context.print(fmt::format("What machine {} printed outside any run\n\n", report->machine));
   }
-  return print_report(*client, *report, "text");
+  return print_report(*client, *report, "text", controls);
 }
 
 int export_to_file(client::Client& client, const ReportOf& report, const ExportCommand& command) {
@@ -166,7 +182,7 @@ int export_report(Context& context, const ExportCommand& command) {
   if (!command.output.empty() && command.output != "-") {
     return export_to_file(*client, *report, command);
   }
-  return print_report(*client, *report, command.format);
+  return print_report(*client, *report, command.format, Controls::AsTheyAre);
 }
 
 constexpr const char* kReportHelp =
@@ -202,10 +218,12 @@ void add_report_commands(CLI::App& app, Context& context) {
   add_json_flag(*list_command, context);
   list_command->callback([&context, options] { context.status = list(context, *options); });
 
-  auto shown = std::make_shared<std::string>();
+  auto shown = std::make_shared<ShowCommand>();
   auto* show_command =
       group->add_subcommand("show", "Print the report of a run, or a machine's own");
-  show_command->add_option("RUN|MACHINE", *shown, kReportHelp)->required();
+  show_command->add_option("RUN|MACHINE", shown->run, kReportHelp)->required();
+  show_command->add_flag("--raw", shown->is_raw,
+                         "On a terminal, too, print control characters instead of \\x1b");
   add_json_flag(*show_command, context);
   show_command->callback([&context, shown] { context.status = show(context, *shown); });
 

@@ -9,6 +9,9 @@ namespace dripline::client {
 namespace {
 
 constexpr std::uint64_t kPiece = 8ull * 1024 * 1024;
+/// After a failure: the server checks the first chunk of an answer before it begins, so a damaged
+/// one is then named instead of breaking an answer off.
+constexpr std::uint64_t kCarefulPiece = 64 * 1024;
 
 Reply<Revision> find_revision(Client& client, const PullOptions& options) {
   auto history = client.program(options.program);
@@ -22,7 +25,8 @@ Reply<Revision> find_revision(Client& client, const PullOptions& options) {
                 history->program.revision);
 }
 
-Reply<Content> fetch_piece(Client& client, const ContentRange& range, BackOff& back_off) {
+/// After a failure `range` may have become shorter.
+Reply<Content> fetch_piece(Client& client, ContentRange& range, BackOff& back_off) {
   while (true) {
     auto content = client.content(range);
     if (content) {
@@ -32,6 +36,7 @@ Reply<Content> fetch_piece(Client& client, const ContentRange& range, BackOff& b
     const bool can_help =
         content.error().kind == Failure::Kind::Unreachable || content.error().code == Errc::Busy;
     if (!can_help || !back_off.wait()) return content;
+    range.length = std::min(range.length, kCarefulPiece);
   }
 }
 
@@ -59,11 +64,15 @@ Reply<Revision> pull_program(Client& client, const PullOptions& options,
   BackOff back_off(options.retry);
   Sha256 digest;
   std::uint64_t done = 0;
+  std::uint64_t careful_until = 0;  ///< where the piece that failed would have ended
   while (done < revision->size) {
-    const ContentRange range{options.program, revision->revision, done,
-                             std::min(kPiece, revision->size - done)};
+    const std::uint64_t piece = done < careful_until ? kCarefulPiece : kPiece;
+    ContentRange range{options.program, revision->revision, done,
+                       std::min(piece, revision->size - done)};
+    const std::uint64_t wanted_end = done + range.length;
     auto content = fetch_piece(client, range, back_off);
     if (!content) return failed(content.error());
+    if (done + range.length < wanted_end) careful_until = wanted_end;
     if (auto right = check_piece(*content, range, *revision); !right) return failed(right.error());
     digest.update(content->bytes);
     if (auto taken = sink(content->bytes); !taken) return failed_locally(taken.error());

@@ -8,8 +8,20 @@ namespace {
 
 constexpr std::uint64_t kLinesPerPiece = 1000;
 
-/// RFC 4180: quoted when it has to be, quotes doubled.
-std::string csv_field(const std::string& text) {
+/// A spreadsheet takes such text for a formula, which can send what else is in the sheet away. A
+/// number keeps its sign.
+bool looks_like_formula(const std::string& text) {
+  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) {
+    return false;
+  }
+  return text.size() < 2 || text.front() == '=' || text.front() == '@' ||
+         text.find_first_not_of("0123456789.", 1) != std::string::npos;
+}
+
+/// RFC 4180: quoted when it has to be, quotes doubled. What looks like a formula begins with an
+/// apostrophe.
+std::string csv_field(const std::string& line) {
+  const std::string text = looks_like_formula(line) ? "'" + line : line;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {

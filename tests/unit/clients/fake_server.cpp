@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "protocol/base/digest.hpp"
@@ -79,6 +80,7 @@ class FakeServer::Impl {
   std::deque<PieceFault> piece_faults;
   bool loses_commit = false;
   int content_cuts = 0, pieces = 0;
+  std::optional<std::size_t> damage;
   std::size_t longest_piece = 0;
   std::vector<json> runs;
   std::map<std::string, json> machines;
@@ -156,6 +158,11 @@ class FakeServer::Impl {
     if (content_cuts > 0) {
       --content_cuts;
       return cut(response);
+    }
+    if (damage && *damage >= first && *damage <= last) {
+      if (*damage - first > 64 * 1024) return cut(response);
+      return answer(response, 500,
+                    {{"error", {{"code", "corrupt"}, {"message", "chunk 3 is damaged"}}}});
     }
     // The library cuts the range out by itself.
     response.status = 206;
@@ -348,6 +355,11 @@ void FakeServer::lose_commit_answer() {
 void FakeServer::cut_content(int times) {
   const std::lock_guard lock(impl_->mutex);
   impl_->content_cuts = times;
+}
+
+void FakeServer::damage_content_at(std::size_t offset) {
+  const std::lock_guard lock(impl_->mutex);
+  impl_->damage = offset;
 }
 
 void FakeServer::corrupt_content(const std::string& program) {

@@ -31,6 +31,9 @@ class FakeServer {
   void lose_commit_answer();
   /// Cuts the next `times` answers with content after half of it.
   void cut_content(int times);
+  /// The byte at `offset` of any content can not be read: an answer that begins within 64 KiB
+  /// before it is refused as corrupt, one that comes to it later breaks off.
+  void damage_content_at(std::size_t offset);
   /// Stored content changes behind the server's digest.
   void corrupt_content(const std::string& program);
   void cut_events_once();

@@ -71,6 +71,17 @@ TEST_F(Pull, GoesOnAfterABrokenConnection) {
   EXPECT_EQ(waits, 2);
 }
 
+TEST_F(Pull, SaysAtOnceThatAChunkIsDamaged) {
+  server.add_program("O0200", std::string(1'000'000, 'A'));
+  server.damage_content_at(700'000);
+  const auto revision = pull_program_to_file(client, options, path());
+  ASSERT_FALSE(revision);
+  EXPECT_EQ(revision.error().what, "chunk 3 is damaged");
+  EXPECT_EQ(revision.error().code, Errc::Corrupt);
+  EXPECT_EQ(waits, 1);
+  EXPECT_EQ(files(), 0u);
+}
+
 TEST_F(Pull, RefusesWrongBytesAndLeavesTheOldFile) {
   std::ofstream(path()) << "old";
   server.add_program("O0200", "G1 X1\nM30\n");

@@ -175,6 +175,48 @@ TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
   expect_error(get("/api/v1/runs/none/records"), 404, "not_found", "none");
 }
 
+TEST_F(ApiHandlers, TellHowTheServerIs) {
+  using Level = library::Health::Level;
+  const auto health = [this] {
+    return call("GET", "/api/v1/health", {.body = {}, .headers = {}, .token = ""});
+  };
+  EXPECT_EQ(json(health())["status"], "ok");
+  health_.report("", {Level::Degraded, "disk", "the disk is nearly full", "40 MiB of /secret"});
+  EXPECT_EQ(health().status, 200);
+  EXPECT_EQ(json(health())["status"], "degraded");
+  health_.report("", {Level::Failed, "store", "the store can not be written", "disk full"});
+  const auto failed = health();
+  EXPECT_EQ(failed.status, 503);
+  EXPECT_EQ(json(failed)["status"], "failed");
+  EXPECT_EQ(json(failed)["reasons"][1]["subject"], "store");
+  EXPECT_EQ(failed.body.find("secret"), std::string::npos) << "fit for anybody";
+  EXPECT_EQ(json(get("/api/v1/server"))["health"]["reasons"][0]["detail"], "40 MiB of /secret");
+}
+
+TEST_F(ApiHandlers, DefuseFormulasInCsvButNotNumbers) {
+  const std::string run = stored_run(0);
+  storage::RecordBatch batch;
+  batch.machine = "lathe-1";
+  batch.epoch = 7;
+  for (const char* text : {"=1+1", "+cmd", "-2.5", "@sum", "-X1", "X1"}) {
+    storage::Record record;
+    record.machine = "lathe-1";
+    record.epoch = 7;
+    record.number = batch.records.size() + 1;
+    record.time = clock_.now();
+    record.run = run;
+    record.kind = "output";
+    record.text = text;
+    batch.records.push_back(record);
+  }
+  ASSERT_TRUE(store_->store_records(batch));
+  const std::string csv = body(get("/api/v1/reports/" + run + "?format=csv"));
+  for (const char* end :
+       {",'=1+1\r\n", ",'+cmd\r\n", ",-2.5\r\n", ",'@sum\r\n", ",'-X1\r\n", ",X1\r\n"}) {
+    EXPECT_NE(csv.find(end), std::string::npos) << end << " in " << csv;
+  }
+}
+
 TEST_F(ApiHandlers, WriteReportsAsTextCsvAndJson) {
   const std::string run = stored_run(2);
   const std::string path = "/api/v1/reports/" + run + "?format=";
