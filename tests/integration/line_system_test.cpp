@@ -128,8 +128,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// A control that asks when it is switched on, before anybody has ordered anything.
 TEST(LineSystemOrders, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
-  for (const auto* flow : {"flow=dc_codes", "flow=xmodem"}) {
-    ServedLine line({flow, "control=plain"});
+  const std::vector<std::vector<std::string>> lines{
+      {"flow=dc_codes", "start_char=%", "end_char=%", "control=plain"},
+      {"flow=xmodem", "control=plain"}};
+  for (const auto& settings : lines) {
+    const std::string& flow = settings.front();
+    ServedLine line(settings);
     line.system.push("O0001", "G20 G98\nG1 X9. Z-9. F50.\nM30\n");
     ASSERT_TRUE(eventually([&] { return line.port_view()["request"].is_object(); })) << flow;
     EXPECT_TRUE(line.port_view()["request"]["answer"].is_null()) << line.port_view().dump();
