@@ -128,6 +128,8 @@ void Intake::end_program() {
 
 std::vector<Intake::Item> Intake::end() {
   if (!line_.empty()) end_line();
+  // The line took the end character for its own; a ProtoTRAK's program is none without it.
+  if (is_program_ && takes_programs_only_) add_to_program("%\n");
   if (is_program_) end_program();
   name_.clear();
   is_behind_percent_ = is_printing_ = false;

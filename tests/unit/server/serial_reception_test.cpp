@@ -136,6 +136,7 @@ TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
   line().write("PN7 G20 ;\r\nN1 G100 X1. Y1. ;\r\n%");
   ASSERT_TRUE(wait([&] { return store_->revision("PN7", 1).has_value(); }));
   EXPECT_TRUE(store_->revision("PN7", 1)->is_held);
+  EXPECT_EQ(store_->revision("PN7", 1)->content, sha256("PN7 G20 ;\nN1 G100 X1. Y1. ;\n%\n"));
   line().write("N5 G100 X1. Y1. ;\r\n%");  // one without a header is a program too
   ASSERT_TRUE(wait([&] { return store_->revision("mill-punched", 1).has_value(); }));
   EXPECT_TRUE(store_->machine_reports()->empty());
