@@ -39,6 +39,19 @@ void cut(Response& response) {
                                 [](std::size_t, std::size_t, httplib::DataSink&) { return false; });
 }
 
+/// In chunks: of any other body the library would cut the wanted range out.
+void refuse_damaged(Response& response) {
+  response.status = 500;
+  response.set_chunked_content_provider(
+      "application/json", [](std::size_t, httplib::DataSink& sink) {
+        const std::string text =
+            json{{"error", {{"code", "corrupt"}, {"message", "chunk 3 is damaged"}}}}.dump();
+        sink.write(text.data(), text.size());
+        sink.done();
+        return true;
+      });
+}
+
 }  // namespace
 
 class FakeServer::Impl {
@@ -161,8 +174,7 @@ class FakeServer::Impl {
     }
     if (damage && *damage >= first && *damage <= last) {
       if (*damage - first > 64 * 1024) return cut(response);
-      return answer(response, 500,
-                    {{"error", {{"code", "corrupt"}, {"message", "chunk 3 is damaged"}}}});
+      return refuse_damaged(response);
     }
     // The library cuts the range out by itself.
     response.status = 206;
