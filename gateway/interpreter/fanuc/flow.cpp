@@ -70,9 +70,7 @@ bool go_round(Run& run, std::uint32_t number) {
     return true;
   }
   state.loops.clear();
-  state.at.offset = state.at.segment_offset;
-  state.at.line = state.at.segment_line;
-  state.at.code_seen = false;
+  state.at = state.at.segment_head();
   return true;
 }
 

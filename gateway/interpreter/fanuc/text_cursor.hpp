@@ -23,6 +23,17 @@ struct TextPosition {
   std::uint64_t offset = 0;
   std::uint64_t line = 1;
   friend bool operator==(const TextPosition&, const TextPosition&) = default;
+
+  /// Where this program begins. At the head of a text its leader is read again: the % there ends no
+  /// record.
+  TextPosition segment_head() const {
+    TextPosition head = *this;
+    head.offset = segment_offset;
+    head.line = segment_line;
+    head.head_seen = segment_offset != 0;
+    head.code_seen = false;
+    return head;
+  }
 };
 
 /// Shows the text from a block's beginning to the LF that ends its line.

@@ -49,14 +49,6 @@ bool same_place(const TextPosition& a, const TextPosition& b) {
   return a.program == b.program && a.offset == b.offset;
 }
 
-TextPosition segment_head(const TextPosition& at) {
-  TextPosition head = at;
-  head.offset = at.segment_offset;
-  head.line = at.segment_line;
-  head.code_seen = false;
-  return head;
-}
-
 }  // namespace
 
 BlockHead read_head(const char* begin, const char* end) {
@@ -177,7 +169,7 @@ TextSearch::Outcome TextSearch::go_on_with_label(LabelSearch& search) {
     if (outcome == Outcome::Missing) {
       if (search.from_head) return Outcome::Missing;
       search.from_head = true;
-      search.next = segment_head(search.from);
+      search.next = search.from.segment_head();
       search.open = OpenLoops{};
       continue;
     }
