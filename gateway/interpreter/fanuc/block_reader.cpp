@@ -49,6 +49,8 @@ bool add_g(Run& run, const Word& word) {
   std::uint8_t code = Block::kNoCode;
   if (word.form == WordForm::Point && std::fabs(word.value - 54.1) < 1e-9) {
     code = kMoreWorkSystems;
+  } else if (word.form == WordForm::Point && std::fabs(word.value - 5.1) < 1e-9) {
+    code = kContourControl;
   } else {
     double value = 0;
     if (word.form == WordForm::Point && word.value != std::trunc(word.value)) {
@@ -62,7 +64,7 @@ bool add_g(Run& run, const Word& word) {
     value = run.whole(whole);
     if (calls_macro_by_g(run, value)) [[unlikely]]
       return begin_code_call(run, CodeCall::G, value, word.column);
-    if (!(value >= 0 && value <= kMostG) || kMoreWorkSystems == static_cast<int>(value)) {
+    if (!(value >= 0 && value <= kMostG) || value == kMoreWorkSystems || value == kContourControl) {
       return run.fail(ErrorCode::ImproperG, word.column, fmt::format("G{}", value));
     }
     code = static_cast<std::uint8_t>(value);

@@ -30,6 +30,11 @@ bool plan_subprogram(Run& run, int code) {
   const CallForm form = run.options.call_form;
   if (run.options.is_dnc && code == 198) return run.fail(ErrorCode::ExternalCall, 0);
   if (!words.has(P)) return run.fail(ErrorCode::NoP, 0);
+  if (words.has(Q)) {
+    // Later controls begin the program at block N of this number; from its head is another part.
+    return run.fail(ErrorCode::ImproperCommand, words.column(Q),
+                    fmt::format("M{} calls a program from its head, not from a block", code));
+  }
   const double value = run.whole(words[P]);
   const bool takes_l = form != CallForm::EightDigits && words.has(L);
   const bool splits = form != CallForm::L && !takes_l;

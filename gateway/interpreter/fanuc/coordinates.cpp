@@ -1,6 +1,7 @@
 #include "gateway/interpreter/fanuc/coordinates.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 
 #include "gateway/interpreter/fanuc/cutter_compensation.hpp"
 #include "gateway/interpreter/fanuc/tool_offsets.hpp"
@@ -45,13 +46,50 @@ bool set_work_offset(Run& run, bool more) {
   return true;
 }
 
+/// A code of the block that has a use of its own for P.
+bool has_other_user_of_p(const Block& block) {
+  const Block::Parts& parts = block.parts;
+  if (parts.one_shot == 4 || parts.one_shot == 10 || parts.one_shot == 30) return true;
+  if (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) return true;
+  if (block.names(kSpindleGroup) && block.g[kSpindleGroup] == 96) return true;
+  if (block.names(kCycleGroup) && block.g[kCycleGroup] != 80) return true;
+  return std::any_of(block.m.begin(), block.m.begin() + parts.m_count,
+                     [](int code) { return code == 98 || code == 99 || code == 198; });
+}
+
+/// G54 P is G54.1 P where the control has those systems. A block in which P could be another
+/// code's as well is not guessed at.
+bool read_page(Run& run, std::uint8_t& code) {
+  Block& block = run.block;
+  const Words& words = block.words;
+  const bool has_pages = run.options.model >= Model::M11;
+  if (code == kMoreWorkSystems && !has_pages) {
+    return run.fail(ErrorCode::ImproperG, block.parts.g_column, "G54.1 on this model");
+  }
+  if ((code != kMoreWorkSystems && code != 54) || !words.has(P)) return true;
+  const double number = run.whole(words[P]);
+  if (has_other_user_of_p(block)) {
+    if (code == 54 && (!has_pages || number > kMoreWorkCount)) return true;
+    return run.fail(ErrorCode::ImproperCommand, words.column(P),
+                    fmt::format("P{} is of G54 as well as of another code", number));
+  }
+  if (!has_pages) {
+    if (run.state.is_cycle()) return true;
+    return run.fail(ErrorCode::ImproperCommand, words.column(P), "G54 takes no P on this model");
+  }
+  block.parts.p_is_work_system = true;
+  code = kMoreWorkSystems;
+  return true;
+}
+
 }  // namespace
 
 bool select_work_system(Run& run) {
   ModalState& state = run.state;
   const Words& words = run.block.words;
-  const std::uint8_t code = run.block.g[kWorkGroup];
+  std::uint8_t code = run.block.g[kWorkGroup];
   if (state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  if (!read_page(run, code)) return false;
   if (code == kMoreWorkSystems) {
     const double number = words.has(P) ? run.whole(words[P]) : 1;
     if (!(number >= 1 && number <= kMoreWorkCount)) {

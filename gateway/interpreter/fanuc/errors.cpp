@@ -99,6 +99,8 @@ constexpr std::array kWarnings{
     WarningRow{"unused-word", "nothing in the block takes"},
     WarningRow{"g53-in-g91", "G53 is ignored in G91"},
     WarningRow{"m99-ends-tape", "M99 in a program from the line ends it; a line does not rewind"},
+    WarningRow{"kept-peck", "the tap pecks by the Q of an earlier cycle block"},
+    WarningRow{"look-ahead", "the codes of look-ahead are read and change nothing here"},
 };
 
 constexpr std::size_t kIdLength = 6;

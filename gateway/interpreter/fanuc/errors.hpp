@@ -104,6 +104,8 @@ enum class WarningCode : std::uint8_t {
   UnusedWord,
   IgnoredG53,
   EndOfTapeByReturn,
+  KeptPeck,
+  LookAhead,
 };
 struct WarningRow {
   std::string_view id;

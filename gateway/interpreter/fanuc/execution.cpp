@@ -142,11 +142,39 @@ bool set_imaginary(Run& run) {
   return true;
 }
 
+/// G05 P, G05.1 Q and G08 P prepare the control for many short blocks, and change no path. What
+/// else these codes do with other numbers (cycles from binary data, smoothing) is not known here.
+bool set_look_ahead(Run& run) {
+  const Block& block = run.block;
+  const Words& words = block.words;
+  const std::uint8_t code = block.parts.one_shot;
+  const Address address = code == kContourControl ? Q : P;
+  const std::string_view name = code == kContourControl ? "G05.1" : code == 5 ? "G05" : "G08";
+  const double on = code == 5 ? 10000 : 1;
+  const double value = words.has(address) ? run.whole(words[address]) : -1;
+  run.ledger.take(set_of(address));
+  if (value != 0 && value != on) {
+    return run.fail(
+        ErrorCode::ImproperG, block.parts.g_column,
+        fmt::format("{} with {}0 or {}{} only", name, letter(address), letter(address), on));
+  }
+  if (words.has_any(kAxisWords)) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+                    fmt::format("a move beside {}", name));
+  }
+  run.warn(WarningCode::LookAhead, block.parts.g_column);
+  return true;
+}
+
 bool execute_one_shot(Run& run) {
   Block& block = run.block;
   switch (block.parts.one_shot) {
     case 4:
       return dwell(run);
+    case 5:
+    case 8:
+    case kContourControl:
+      return set_look_ahead(run);
     case 7:
       return set_imaginary(run);
     case 10:
@@ -236,7 +264,7 @@ bool execute_nc(Run& run) {
 bool execute_call(Run& run) {
   run.block.parts.one_shot = Block::kNoCode;
   apply_motion_groups(run);
-  if (!apply_modes(run) || !apply_before_motion(run)) return false;
+  if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
   run.update_special();
   return plan_macro_call(run);
 }

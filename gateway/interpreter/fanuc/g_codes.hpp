@@ -29,8 +29,9 @@ enum Group : std::uint8_t {
 };
 inline constexpr std::size_t kGroupCount = 18;
 inline constexpr std::uint8_t kNoGroup = 0xFF;
-/// G54.1 is kept as this; all others as the number written.
+/// G54.1 and G05.1 are kept as these; all others as the number written.
 inline constexpr std::uint8_t kMoreWorkSystems = 154;
+inline constexpr std::uint8_t kContourControl = 155;
 
 namespace detail {
 constexpr std::array<std::uint8_t, 100> groups_of_codes() {
@@ -39,7 +40,7 @@ constexpr std::array<std::uint8_t, 100> groups_of_codes() {
   const auto put = [&](std::uint8_t group, auto... codes) {
     ((groups[static_cast<std::size_t>(codes)] = group), ...);
   };
-  put(kOneShot, 4, 7, 9, 10, 11, 27, 28, 29, 30, 31, 39, 45, 46, 47, 48, 52, 53, 60, 65, 92);
+  put(kOneShot, 4, 5, 7, 8, 9, 10, 11, 27, 28, 29, 30, 31, 39, 45, 46, 47, 48, 52, 53, 60, 65, 92);
   put(kMotionGroup, 0, 1, 2, 3, 33);
   put(kPlaneGroup, 17, 18, 19);
   put(kDistanceGroup, 90, 91);
@@ -65,6 +66,7 @@ inline constexpr std::array<std::uint8_t, 100> kGroupOfCode = detail::groups_of_
 
 constexpr std::uint8_t group_of(std::uint8_t code) {
   if (code == kMoreWorkSystems) return kWorkGroup;
+  if (code == kContourControl) return kOneShot;
   return code < kGroupOfCode.size() ? kGroupOfCode[code] : kNoGroup;
 }
 

@@ -96,6 +96,17 @@ std::size_t place(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
+bool is_tapping(std::uint8_t code) {
+  return code == 74 || code == 84;
+}
+
+/// A rigid tap goes down in strokes of Q, unless there is none or it is 0.
+bool pecks_in_tap(const Run& run) {
+  const ModalState& state = run.state;
+  return state.is_rigid_tapping && is_tapping(state.g[kCycleGroup]) && state.cycle.has_depth &&
+         state.cycle.depth > 0;
+}
+
 /// One hole while it is made. Levels and places are program coordinates.
 class Hole {
  public:
@@ -106,7 +117,7 @@ class Hole {
 
   bool make() {
     const std::uint8_t code = run_.state.g[kCycleGroup];
-    const bool is_tap = code == 74 || code == 84;
+    const bool is_tap = is_tapping(code);
     for (const Step step : steps_of(code)) {
       if (is_tap && step == RapidToReturn) lock(lock_behind_tap(panel_lock(run_)));
       if (!perform(step)) return false;
@@ -132,14 +143,35 @@ class Hole {
   }
   /// With rigid tapping the spindle leads: G94 gives the pitch as feed over speed.
   bool tap(double level) {
-    const std::uint8_t code = run_.state.g[kCycleGroup];
-    if (code != 74 && code != 84) return feed(level);
+    if (!is_tapping(run_.state.g[kCycleGroup])) return feed(level);
     const ModalState& state = run_.state;
     const double pitch =
         state.is_per_revolution() ? state.feed[1] : state.feed[0] / state.spindle.revolutions;
     if (!(pitch > 0 && pitch <= kMostPitch)) return run_.fail(ErrorCode::NoSpeed, 0);
     at_[place(axes_.normal)] = level;
     return thread_to(run_, machine_point(run_, at_), Length::mm(pitch), {});
+  }
+  /// By Q at a time when there is one: between the strokes the tap turns back by d, or out to R.
+  bool tap_down() {
+    if (!pecks_in_tap(run_)) return tap(data().bottom);
+    const SpindleState in = run_.state.spindle.state;
+    const SpindleState out =
+        in == SpindleState::Clockwise ? SpindleState::CounterClockwise : SpindleState::Clockwise;
+    const double way = data().bottom - data().retract;
+    const double sign = way < 0 ? -1 : 1;
+    const double count = std::ceil(std::fabs(way) / data().depth - 1e-9);
+    for (double n = 1; n < count; ++n) {
+      const double depth = n * data().depth;
+      const double back =
+          run_.options.peck_tap_leaves ? depth : std::fmin(run_.options.peck_tap_return, depth);
+      if (!tap(data().retract + sign * depth)) return false;
+      spindle(SpindleState::Off);
+      spindle(out);
+      if (!tap(data().retract + sign * (depth - back))) return false;
+      spindle(SpindleState::Off);
+      spindle(in);
+    }
+    return tap(data().bottom);
   }
   bool shift(double sign) {
     const double by = sign * data().depth;
@@ -166,7 +198,7 @@ class Hole {
         return rapid_to(run_, to);
       }
       case FeedToBottom:
-        return run_.state.is_rigid_tapping ? tap(data().bottom) : feed(data().bottom);
+        return run_.state.is_rigid_tapping ? tap_down() : feed(data().bottom);
       case PeckWithBreak:
         return peck(false);
       case PeckWithRetract:
@@ -274,11 +306,19 @@ bool keep_data(Run& run, double present) {
     data.depth = std::fabs(run.length(words[Q]));
     data.has_depth = true;
   }
-  if (words.has(P)) data.dwell = run.whole(words[P]) / 1000;
+  if (words.has(P) && !run.block.parts.p_is_work_system) data.dwell = run.whole(words[P]) / 1000;
   const std::uint8_t code = state.g[kCycleGroup];
   const bool pecks = code == 73 || code == 83;
   if (pecks && !(data.has_depth && data.depth > 0)) {
     return run.fail(ErrorCode::NoQ, run.block.parts.g_column);
+  }
+  if (!is_tapping(code)) return true;
+  if (!state.is_rigid_tapping && words.has(Q) && data.depth > 0) {
+    return run.fail(ErrorCode::ImproperCommand, words.column(Q),
+                    "a tap pecks only in rigid tapping (M29)");
+  }
+  if (pecks_in_tap(run) && run.block.names(kCycleGroup) && !words.has(Q)) {
+    run.warn(WarningCode::KeptPeck, run.block.parts.g_column);
   }
   return true;
 }
@@ -286,7 +326,7 @@ bool keep_data(Run& run, double present) {
 bool check_pecks(Run& run, double repeats) {
   const CycleData& data = run.state.cycle;
   const std::uint8_t code = run.state.g[kCycleGroup];
-  if (code != 73 && code != 83) return true;
+  if (code != 73 && code != 83 && !pecks_in_tap(run)) return true;
   const double pecks = std::fabs(data.bottom - data.retract) / data.depth * repeats;
   if (pecks <= kMostPecks) return true;
   return run.fail(ErrorCode::LoopLimit, run.block.words.column(Q),
@@ -321,9 +361,7 @@ bool execute_cycle(Run& run) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
   if (!words.has_any(kAxisWords | set_of(R))) return true;
-  run.ledger.take(kAxisWords | set_of(R));
-  // Q stays, for a cycle that has a use for it; a tap that leaves it out goes down in one stroke
-  if (state.g[kCycleGroup] != 74 && state.g[kCycleGroup] != 84) run.ledger.take(set_of(Q));
+  run.ledger.take(kAxisWords | set_of(R, Q));  // Q stays, for a cycle that has a use for it
   const double present = program_position(run)[place(axes_of(state.plane()).normal)];
   double repeats = 1;
   if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;

@@ -146,11 +146,15 @@ void read_cycles(Reader& read, ControlOptions& control) {
   if (control.start_units == Units::Inch) {
     control.peck_return = Length::inch(0.004).mm();
     control.peck_clearance = Length::inch(0.04).mm();
+    control.peck_tap_return = control.peck_return;
   }
   read.length("g73_return", control.peck_return);
   read.length("g83_clearance", control.peck_clearance);
-  if (!(control.peck_return >= 0) || !(control.peck_clearance >= 0)) {
-    read.complain("[control] g73_return, g83_clearance: must not be below 0");
+  read.length("peck_tapping_return", control.peck_tap_return);
+  control.peck_tap_leaves = read.choice("peck_tapping", {"high-speed", "standard"}, 0) == 1;
+  if (!(control.peck_return >= 0) || !(control.peck_clearance >= 0) ||
+      !(control.peck_tap_return >= 0)) {
+    read.complain("[control] g73_return, g83_clearance, peck_tapping_return: must not be below 0");
   }
   const std::size_t direction = read.choice("shift_direction", {"+X", "-X", "+Y", "-Y"}, 0);
   control.shift_first = direction == 0 ? 1 : direction == 1 ? -1 : 0;
@@ -262,6 +266,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "reference",
                                     "g73_return",
                                     "g83_clearance",
+                                    "peck_tapping",
+                                    "peck_tapping_return",
                                     "shift_direction",
                                     "single_direction",
                                     "arc_error",
