@@ -172,7 +172,7 @@ bool arc_move(Run& run, bool is_clockwise) {
   if (!read_turns(run, turns)) return false;
   PlanePoint start{state[axes.first], state[axes.second]};
   const Compensation& compensation = state.compensation;
-  const bool is_compensated = compensation.side != Side::Off;
+  const bool is_compensated = shifts_moves(run);
   if (is_compensated && !compensation.is_first) start = {compensation.x, compensation.y};
   const PlanePoint end{target.to[index_of(axes.first)], target.to[index_of(axes.second)]};
   const Turn turn = is_clockwise ? Turn::Clockwise : Turn::CounterClockwise;

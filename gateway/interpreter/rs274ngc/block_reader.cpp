@@ -39,6 +39,8 @@ bool check_value(Run& run, char letter, double& value, std::uint32_t column) {
     value = whole;
   }
   for (const LowestValue& each : kNotNegative) {
+    // D of G41.1 is a diameter: below 0 it is that of a tool on the other side.
+    if (each.letter == 'D' && run.is_linuxcnc()) continue;
     if (each.letter == letter && value < 0) {
       return run.fail(each.code, column, fmt::format("{}{}", letter, value));
     }
@@ -96,6 +98,25 @@ bool read_any_g(Run& run, const char* start, const char*& at, std::int16_t& code
   return true;
 }
 
+void put_g(Run& run, const GRow& row) {
+  Block& block = run.block;
+  const auto group = static_cast<unsigned>(row.group);
+  block.g_groups = static_cast<std::uint16_t>(block.g_groups | 1u << group);
+  block.g_codes[group] = row.code;
+  block.words_taken |= words_of(row, run.options.profile);
+  if (row.takes_axes) block.axis_user = &row;
+}
+
+/// The later program lets G80 stand beside a motion code, before or after it: the motion is made.
+bool is_overruled(Run& run, const GRow& row) {
+  constexpr std::int16_t kMotionOff = 800;
+  if (!run.is_linuxcnc() || row.group != GGroup::Motion) return false;
+  if (row.code == kMotionOff) return true;
+  if (run.block.g(GGroup::Motion) != kMotionOff) return false;
+  put_g(run, row);
+  return true;
+}
+
 bool add_g(Run& run, const char* start, const char*& at) {
   std::int16_t code = 0;
   if (!read_short_g(at, code) && !read_any_g(run, start, at, code)) return false;
@@ -105,14 +126,11 @@ bool add_g(Run& run, const char* start, const char*& at) {
   }
   Block& block = run.block;
   if (block.has(row->group)) [[unlikely]] {
+    if (is_overruled(run, *row)) return true;
     return run.fail(ErrorCode::GGroup, run.column(start),
                     fmt::format("G{} and G{}", block.g(row->group) / 10.0, code / 10.0));
   }
-  const auto group = static_cast<unsigned>(row->group);
-  block.g_groups = static_cast<std::uint16_t>(block.g_groups | 1u << group);
-  block.g_codes[group] = code;
-  block.words_taken |= words_of(*row, run.options.profile);
-  if (row->takes_axes) block.axis_user = row;
+  put_g(run, *row);
   return true;
 }
 

@@ -78,6 +78,13 @@ std::optional<double> take_parameter(Run& run, const char*& at, const char* end)
   return parameter_for_text(run, index);
 }
 
+/// Without the sign of a zero.
+std::string number_text(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
 /// Parameters replaced by their values (16.4).
 std::string expanded(Run& run, const char* at, const char* end) {
   std::string text;
@@ -85,7 +92,7 @@ std::string expanded(Run& run, const char* at, const char* end) {
   while (at != end && text.size() < kMaxText) {
     if (*at == '#') {
       const std::optional<double> value = take_parameter(run, at, end);
-      text += value ? fmt::format("{:.{}f}", *value, format.decimals) : "######";
+      text += value ? number_text(*value, format.decimals) : "######";
     } else if (*at != '%' || !take_format(at, end, format)) {
       text += *at++;
     }

@@ -20,6 +20,7 @@ bool read_tool(Run& run, double& diameter, int& orientation) {
   const double written = words.value_or('D', run.state.tool.loaded);
   const double number = std::round(written);
   if (!(std::fabs(written - number) <= 0.0001)) return run.fail_word(ErrorCode::NotInteger, 'D');
+  if (number < 0) return run.fail_word(ErrorCode::NegativeD, 'D', fmt::format("D{}", number));
   if (!run.is_linuxcnc() && number > run.options.slots) {
     return run.fail_word(ErrorCode::RadiusIndexRange, 'D',
                          fmt::format("D{} is above {}", number, run.options.slots));

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -242,7 +243,7 @@ class Hold {
     if (is_rapid) {
       run_.held.on_rapid({run_.origin, to});
     } else {
-      run_.held.on_line({run_.origin, to, feed});
+      run_.held.on_line({run_.origin, to, feed, run_.rests_at_end()});
     }
   }
   /// An arc is made as any other, with the queue as its sink.
@@ -354,12 +355,27 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
   return true;
 }
 
+void go_on_from_tool(Run& run) {
+  State& state = run.state;
+  const Compensation& compensation = state.compensation;
+  if (!compensation.was_on) return;
+  Axes machine;
+  for (const Axis axis : kAllAxes) machine[index_of(axis)] = state.machine.raw(axis);
+  std::copy(compensation.left.begin(), compensation.left.end(), machine.begin());
+  state.position = to_program(run, machine);
+  state.machine = to_machine(run, state.position);
+  state.is_displaced = false;
+}
+
 bool stop_trimming(Run& run) {
   Compensation& compensation = run.state.compensation;
   if (compensation.is_first) return true;
   const Entry end{machine_point(run, programmed_point(run)), machine_point(run, tool_point(run)), 0,
                   std::nullopt};
   if (!finish_held(run, end.tool, travel_of(run, end))) return false;
+  Position tool = run.state.machine;
+  put(run, tool, end.tool);
+  for (std::size_t i = 0; i < 3; ++i) compensation.left[i] = tool.raw(kAllAxes[i]);
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   run.state[plane.first] = compensation.x;
   run.state[plane.second] = compensation.y;

@@ -81,7 +81,8 @@ bool follow_points(Run& run, const std::vector<PlanePoint>& points, const Feed& 
     target.to[index_of(Axis::Y)] = point.second;
     const bool is_timed = feed.per() == Feed::Per::Move && piece > 0;
     line_to(run, target,
-            is_timed ? Feed::inverse_time(feed.moves_per_minute() * total / piece) : feed);
+            is_timed ? Feed::inverse_time(feed.moves_per_minute() * total / piece) : feed,
+            &point == &points.back() && run.rests_at_end());
     from = point;
   }
   return true;

@@ -48,6 +48,7 @@ class CycleRun {
   bool check_words_of_code();
   bool place_heights();
   void raise_to_r();
+  bool place_next_hole();
   bool make_hole(double height);
   bool make_step(Step step);
   bool peck(bool goes_out);
@@ -72,6 +73,7 @@ class CycleRun {
   double level_ = 0;    ///< G98 goes back to it
   double present_ = 0;  ///< height at the start
   double repeats_ = 1;
+  bool has_place_ = false;  ///< by polar words
 };
 
 void CycleRun::move(double first, double second, double height, bool is_rapid) {
@@ -100,6 +102,7 @@ bool CycleRun::check_line() {
   if (state.modes.feed == FeedMode::InverseTime) return run_.fail(ErrorCode::CycleG93, 0);
   if (state.compensation.side != Side::Off) return run_.fail(ErrorCode::CycleComp, 0);
   if (state.feed == 0) return run_.fail(ErrorCode::ZeroFeedCycle, 0);
+  if (!check_polar_words(run_)) return false;
   if (words().has('L')) {
     repeats_ = words()['L'];
     if (repeats_ < 1) return run_.fail_word(ErrorCode::ZeroRepeats, 'L');
@@ -185,12 +188,6 @@ bool CycleRun::place_heights() {
     if (words().has(axes_.first)) first_ = first;
     if (words().has(axes_.second)) second_ = second;
   }
-  if (words().has_any(kPolarWords)) {
-    Target target;
-    if (!read_target(run_, target)) return false;
-    first_ = target.to[index_of(Axis::X)];
-    second_ = target.to[index_of(Axis::Y)];
-  }
   if (r_ >= bottom_) return true;
   return run_.fail(ErrorCode::CycleRBelow, 0,
                    fmt::format("R {} is below {} {}", cycle.r, axes_.bottom, cycle.bottom));
@@ -210,9 +207,7 @@ bool CycleRun::make() {
   // The first hole is reached at the height where the tool is, the others at the clear one.
   double height = present_ > r_ || !run_.is_linuxcnc() ? present_ : clear_;
   for (double left = repeats_; left > 0; --left) {
-    first_ += first_step_;
-    second_ += second_step_;
-    if (!make_hole(height)) return false;
+    if (!place_next_hole() || !make_hole(height)) return false;
     height = clear_;
   }
   // G88 leaves the tool to the operator; it is taken to be clear afterwards.
@@ -221,6 +216,20 @@ bool CycleRun::make() {
     run_.state.is_displaced = true;
     run_.state.machine = to_machine(run_, run_.state.position);
   }
+  return true;
+}
+
+/// Polar words count from the hole before in G91; in G90 all repeats are at one place.
+bool CycleRun::place_next_hole() {
+  first_ += first_step_;
+  second_ += second_step_;
+  const bool is_placed = has_place_ && !run_.state.modes.is_incremental;
+  if (is_placed || !words().has_any(kPolarWords)) return true;
+  has_place_ = true;
+  Target target;
+  if (!read_target(run_, target)) return false;
+  first_ = target.to[index_of(Axis::X)];
+  second_ = target.to[index_of(Axis::Y)];
   return true;
 }
 

@@ -80,7 +80,8 @@ bool execute_motion(Run& run) {
   }
   if (code != 50) state.follows_spline = false;
   if (!execute_motion_code(run, code)) return false;
-  state.modes.motion = static_cast<std::int16_t>(run.block.motion);
+  // After a spline a line without a code continues the motion mode before it.
+  if (code != 50 && code != 51) state.modes.motion = static_cast<std::int16_t>(run.block.motion);
   return true;
 }
 

@@ -259,15 +259,21 @@ bool Terms::exists(double& value) {
   if (*at_ != '[') return run_.fail(ErrorCode::FunctionBracket, run_.column(at_));
   at_ = skip_blanks(at_ + 1);
   const char* start = at_;
-  if (*at_ != '#' || *skip_blanks(at_ + 1) != '<') {
-    return run_.fail(ErrorCode::NotANamedParameter, run_.column(start));
-  }
+  if (*at_ != '#') return run_.fail(ErrorCode::NotAParameter, run_.column(start));
   at_ = skip_blanks(at_ + 1);
-  if (!read_name(run_, at_, run_.scratch)) return false;
+  bool is_there = false;
+  if (*at_ == '<') {
+    if (!read_name(run_, at_, run_.scratch)) return false;
+    is_there = is_defined(run_, run_.scratch);
+  } else {
+    int index = 0;
+    if (!read_integer(run_, at_, index)) return false;
+    is_there = parameter_for_text(run_, index).has_value();
+  }
   at_ = skip_blanks(at_);
   if (*at_ != ']') return run_.fail(ErrorCode::UnclosedExpression, run_.column(at_));
   ++at_;
-  value = is_defined(run_, run_.scratch) ? 1 : 0;
+  value = is_there ? 1 : 0;
   return true;
 }
 

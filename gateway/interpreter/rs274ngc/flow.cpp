@@ -41,6 +41,7 @@ bool is_wanted(SkipFor until, Oword word) {
     case SkipFor::TestOfDo:
       return word == Oword::While;
     case SkipFor::FileSub:
+    case SkipFor::LaterSub:
       return word == Oword::Sub;
     case SkipFor::FanucLabel:
       return word == Oword::Alone;
@@ -53,7 +54,14 @@ bool is_wanted(SkipFor until, Oword word) {
 bool is_passed(SkipFor until, Oword word) {
   if (word == Oword::Break || word == Oword::Continue || word == Oword::Return) return true;
   if (until == SkipFor::EndOfIf) return word == Oword::ElseIf || word == Oword::Else;
-  return until == SkipFor::EndOfSub || until == SkipFor::FileSub || until == SkipFor::FanucLabel;
+  return until == SkipFor::EndOfSub || until == SkipFor::FileSub || until == SkipFor::LaterSub ||
+         until == SkipFor::FanucLabel;
+}
+
+/// M98 has found a subprogram of O call, or the reverse.
+bool is_other_way_to_call(SkipFor until, Oword word) {
+  if (until == SkipFor::FanucLabel) return word == Oword::Sub;
+  return (until == SkipFor::FileSub || until == SkipFor::LaterSub) && word == Oword::Alone;
 }
 
 bool lands_on_line(SkipFor until) {
@@ -116,7 +124,8 @@ bool Flow::count_pass() {
 void Flow::land(const TextPlace& place) {
   const SkipFor until = std::exchange(run_.state.skip.until, SkipFor::Nothing);
   run_.next = place;
-  if (until == SkipFor::FileSub || until == SkipFor::FanucLabel || until == SkipFor::FanucFile) {
+  if (until == SkipFor::FileSub || until == SkipFor::LaterSub || until == SkipFor::FanucLabel ||
+      until == SkipFor::FanucFile) {
     run_.state.calls.back().entry = place;
   }
 }
@@ -131,15 +140,24 @@ bool Flow::skip_to(SkipFor until, Label label) {
 bool Flow::pass_over() {
   State& state = run_.state;
   const OwordHead head = peek_oword(run_);
-  if (head.word == Oword::None) return true;
+  if (head.word == Oword::None) {
+    const bool is_end = *skip_blanks(run_.line_begin) == '%' &&
+                        state.skip.until == SkipFor::LaterSub &&
+                        state.demarcation == Demarcation::Percent;
+    return !is_end || refuse_missing_sub();
+  }
   if (!(head.label == state.skip.label)) {
     const bool is_nested = head.word == Oword::Sub && state.skip.until == SkipFor::EndOfSub;
     return !is_nested || refuse(ErrorCode::OwordSubHere, head, "within another");
   }
   if (!is_wanted(state.skip.until, head.word)) {
+    if (is_other_way_to_call(state.skip.until, head.word)) {
+      return refuse(ErrorCode::OwordMixed, head, "");
+    }
     if (is_passed(state.skip.until, head.word)) return true;
     return refuse(ErrorCode::OwordUnmatched, head, "meets another word of the same label");
   }
+  if (state.skip.until == SkipFor::LaterSub && !know_later_sub(head)) return false;
   const TextPlace place = lands_on_line(state.skip.until) ? run_.here : run_.next;
   if (places_.size() == kMostPlaces) places_.clear();
   places_[cache_key(state.skip)] = place;
@@ -153,6 +171,7 @@ bool Flow::end_of_text() {
     state.skip.until = SkipFor::FanucFile;
     return true;
   }
+  if (state.skip.until == SkipFor::LaterSub) return refuse_missing_sub();
   if (state.skip.until != SkipFor::Nothing) {
     return run_.fail(
         ErrorCode::OwordUnmatched, 0,
@@ -166,6 +185,23 @@ bool Flow::end_of_text() {
       state.demarcation == Demarcation::Percent ? ErrorCode::NoPercent : ErrorCode::NoEnd, 0);
 }
 
+/// Told at the call.
+bool Flow::refuse_missing_sub() {
+  const TextPlace& call = run_.state.skip.from;
+  run_.origin.line = call.line;
+  run_.origin.offset = call.offset;
+  run_.origin.program = call.program;
+  return run_.fail(ErrorCode::CallNotFound, 1,
+                   fmt::format("O{}: no subprogram in the text, and no file",
+                               label_text(run_, run_.state.skip.label)));
+}
+
+/// Further calls go there at once. A label that begins something else in the main program stays
+/// that; its subprogram is looked for again.
+bool Flow::know_later_sub(const OwordHead& head) {
+  return find_label(Label{}, head.label) != nullptr || know(head, true);
+}
+
 bool Flow::look_up_file() {
   State& state = run_.state;
   const std::string name = label_text(run_, state.skip.label);
@@ -175,8 +211,11 @@ bool Flow::look_up_file() {
     return false;
   }
   if (found.state == ProgramLookup::State::NotFound) {
-    return run_.fail(ErrorCode::CallNotFound, 1,
-                     fmt::format("O{}: no subprogram before the call, and no file", name));
+    if (state.skip.until == SkipFor::FanucFile) return refuse_missing_sub();
+    // Not a file: in the same text, after the call.
+    run_.next = state.calls.back().back;
+    state.skip.until = SkipFor::LaterSub;
+    return true;
   }
   const TextPlace start{found.program, 0, 1};
   run_.next = start;
@@ -198,7 +237,7 @@ bool Flow::execute(const char* at) {
   if (!read_oword(run_, at, head)) return false;
   switch (head.word) {
     case Oword::Alone:
-      return true;
+      return end_of_oword(run_, head.behind);
     case Oword::Sub:
       return begin_sub(head);
     case Oword::EndSub:

@@ -52,6 +52,8 @@ class Flow {
   BlockFrame* frame_of(Label label);
   bool count_pass();
   bool know(const OwordHead& head, bool is_subprogram);
+  bool know_later_sub(const OwordHead& head);
+  bool refuse_missing_sub();
   const KnownLabel* find_label(Label scope, Label label);
   Label scope() const;
   void return_from_call();

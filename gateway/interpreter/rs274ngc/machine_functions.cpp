@@ -71,11 +71,13 @@ bool change_tool(Run& run, int code) {
     state.tool.loaded = state.tool.selected;
   }
   run.events().on_tool({run.origin, state.tool.loaded, false, {}});
+  // A move of the same line still begins at the programmed place.
+  if (run.is_linuxcnc() && run.block.motion < 0) go_on_from_tool(run);
   return true;
 }
 
 bool orient(Run& run) {
-  const double angle = run.block.words.value_or('R', -1);
+  const double angle = run.block.words.value_or('R', 0);
   if (!(angle >= 0 && angle <= 360)) return run.fail_word(ErrorCode::OrientWords, 'R');
   turn_spindle(run, SpindleState::Oriented);
   return true;

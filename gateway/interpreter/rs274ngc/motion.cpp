@@ -44,16 +44,17 @@ void read_rare_axes(const Run& run, Target& target, bool is_incremental) {
 
 /// @ and ^: distance and angle of the end point about the origin (16.5).
 bool read_polar(Run& run, Target& target) {
+  if (!check_polar_words(run)) return false;
   const Words& words = run.block.words;
-  if (words.has('X') || words.has('Y')) {
-    return run.fail(ErrorCode::PolarWords, 0, "with X or Y");
-  }
   double& x = target.to[index_of(Axis::X)];
   double& y = target.to[index_of(Axis::Y)];
   double radius = std::hypot(x, y);
-  if (!words.has('@') && radius == 0) return run.fail(ErrorCode::PolarWords, 0, "at the origin");
   double angle = std::atan2(y, x);
   const bool adds = run.state.modes.is_incremental;
+  // There the present angle, from which both words go on, is any.
+  if (radius == 0 && (adds || !words.has('^'))) {
+    return run.fail(ErrorCode::PolarWords, 0, "at the origin");
+  }
   if (words.has('@')) radius = run.mm(words['@']) + (adds ? radius : 0);
   if (words.has('^')) angle = words['^'] * (Angle::kPi / 180) + (adds ? angle : 0);
   x = radius * std::cos(angle);
@@ -65,7 +66,7 @@ bool read_polar(Run& run, Target& target) {
 /// G53: the words are machine coordinates with the tool length on top (7.4).
 bool read_machine_target(Run& run, Target& target) {
   const Words& words = run.block.words;
-  if (run.state.compensation.side != Side::Off) return run.fail(ErrorCode::CompG53, 0);
+  if (shifts_moves(run)) return run.fail(ErrorCode::CompG53, 0);
   Axes machine = machine_with_length(run);
   for (const Axis axis : kAllAxes) {
     const char word = letter(axis);
@@ -98,6 +99,16 @@ bool is_no_move(const Run& run, const Axes& to) {
 }
 
 }  // namespace
+
+bool check_polar_words(Run& run) {
+  const Words& words = run.block.words;
+  if (!words.has_any(kPolarWords)) return true;
+  if (words.has('X') || words.has('Y')) {
+    return run.fail(ErrorCode::PolarWords, 0, "with X or Y");
+  }
+  if (run.state.modes.plane == Plane::XY) return true;
+  return run.fail(ErrorCode::PolarWords, 0, "outside of G17");
+}
 
 bool read_target(Run& run, Target& target) {
   const Words& words = run.block.words;
@@ -143,7 +154,7 @@ bool straight_move(Run& run, int motion) {
   if (!read_target(run, target)) return false;
   Feed feed;
   if (motion == 10 && !read_feed(run, false, feed)) return false;
-  if (run.state.compensation.side != Side::Off) [[unlikely]] {
+  if (shifts_moves(run)) [[unlikely]] {
     run.state.passes = 0;
     return compensated_line(run, target, motion == 0, feed);
   }
@@ -204,9 +215,13 @@ void rapid_to(Run& run, const Target& target) {
 }
 
 void line_to(Run& run, const Target& target, const Feed& feed) {
+  line_to(run, target, feed, run.rests_at_end());
+}
+
+void line_to(Run& run, const Target& target, const Feed& feed, bool rests) {
   if (is_no_move(run, target.to)) return;
   const Position& to = arrive(run, target);
-  run.events().on_line({run.origin, to, feed});
+  run.events().on_line({run.origin, to, feed, rests});
 }
 
 bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& feed) {
@@ -226,7 +241,8 @@ bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& f
           .plane = state.modes.plane,
           .turn = shape.turn,
           .sweep = Angle::degrees(shape.sweep),
-          .feed = feed};
+          .feed = feed,
+          .rests = run.rests_at_end()};
   if (state.rotation == 0) [[likely]] {
     set_named(state, target, arc.to);
     arrive(run, target);

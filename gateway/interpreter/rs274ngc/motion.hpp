@@ -16,6 +16,8 @@ struct Target {
   AxisBits named = 0;
 };
 
+/// @ and ^ stand without X and Y, in G17.
+bool check_polar_words(Run& run);
 /// The end of the line's move out of its words, G53 and distance mode.
 bool read_target(Run& run, Target& target);
 
@@ -30,6 +32,8 @@ bool home_move(Run& run, int g_code);
 /// These move the state along and deliver the event; a move of no length is none.
 void rapid_to(Run& run, const Target& target);
 void line_to(Run& run, const Target& target, const Feed& feed);
+/// One of the pieces that a curve is made of comes to rest only where the curve ends.
+void line_to(Run& run, const Target& target, const Feed& feed, bool rests);
 /// Arrives there and gives the machine point: for events made elsewhere.
 const Position& arrive(Run& run, const Target& target);
 

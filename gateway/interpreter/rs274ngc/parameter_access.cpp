@@ -162,6 +162,9 @@ constexpr std::array kSystemNames{
     SystemName{"_task", [](R) { return 0.0; }},
     SystemName{"_call_level", [](R run) { return static_cast<double>(run.state.calls.size()); }},
     SystemName{"_remap_level", [](R) { return 0.0; }},
+    // Of the last return; before any there is nothing to show.
+    SystemName{"_value", [](R) { return 0.0; }},
+    SystemName{"_value_returned", [](R) { return 0.0; }},
 };
 
 const SystemName* find_system(std::string_view name) {

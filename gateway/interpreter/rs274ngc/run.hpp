@@ -49,6 +49,9 @@ struct Run {
 
   bool is_linuxcnc() const { return options.profile == Profile::LinuxCnc; }
   double mm(double units) const { return units * state.mm_per_unit(); }
+  /// G61.1: every move comes to rest at its end. G61, exact path, needs no more than the corners
+  /// passed through, which all moves here are; G64 allows to cut them.
+  bool rests_at_end() const { return state.modes.path == 611; }
 
   const ControlOptions options;
   const std::vector<Tool> setup_tools;

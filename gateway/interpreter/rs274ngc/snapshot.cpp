@@ -109,7 +109,8 @@ void visit_modal(Archive& archive, State& state) {
             cycle.j, cycle.k, cycle.d, cycle.is_series, cycle.initial);
   Compensation& compensation = state.compensation;
   visit_all(archive, compensation.side, compensation.radius, compensation.is_first,
-            compensation.was_on, compensation.x, compensation.y, compensation.held_sweep,
+            compensation.was_on, compensation.x, compensation.y, compensation.left[0],
+            compensation.left[1], compensation.left[2], compensation.held_sweep,
             compensation.orientation);
   visit_all(archive, state.spline_i, state.spline_j, state.follows_spline);
 }

@@ -5,7 +5,7 @@
 
 namespace dripline::interpreter::rs274ngc {
 
-inline constexpr std::uint32_t kSnapshotVersion = 2;
+inline constexpr std::uint32_t kSnapshotVersion = 3;
 
 Snapshot take_snapshot(const Run& run);
 /// Errors: Unsupported, Corrupt; the run is then unchanged.

@@ -44,17 +44,44 @@ void visit_length(Archive& archive, Length& length) {
   length = Length::mm(mm);
 }
 
+template <class Archive>
+void visit_value(Archive& archive, double& value) {
+  archive(value);
+}
+template <class Archive>
+void visit_value(Archive& archive, int& value) {
+  archive(value);
+}
+template <class Archive>
+void visit_value(Archive& archive, Length& length) {
+  visit_length(archive, length);
+}
+template <class Archive>
+void visit_value(Archive& archive, Angle& angle) {
+  double degrees = angle.degrees();
+  archive(degrees);
+  angle = Angle::degrees(degrees);
+}
+template <class Archive>
+void visit_value(Archive& archive, ToolShape& shape) {
+  visit_length(archive, shape.length);
+  visit_length(archive, shape.radius);
+}
+template <class Archive>
+void visit_value(Archive& archive, ThreadArc& arc) {
+  visit_length(archive, arc.center_first);
+  visit_length(archive, arc.center_second);
+  language::visit_all(archive, arc.plane, arc.turn);
+  visit_value(archive, arc.sweep);
+}
+
 template <class Archive, class Value>
 void visit_optional(Archive& archive, std::optional<Value>& value) {
   bool is_there = value.has_value();
   archive(is_there);
-  if (!is_there) return;
+  if (!is_there) return value.reset();
   if (!value) value.emplace();
-  if constexpr (std::is_same_v<Value, Length>) {
-    visit_length(archive, *value);
-  } else {
-    archive(*value);
-  }
+  visit_value(archive, *value);
 }
 
 template <class Archive>
@@ -67,6 +94,7 @@ void visit_event(Archive& archive, Line& event) {
   visit_origin(archive, event.origin);
   visit_position(archive, event.to);
   visit_feed(archive, event.feed);
+  archive(event.rests);
 }
 template <class Archive>
 void visit_event(Archive& archive, Arc& event) {
@@ -78,12 +106,16 @@ void visit_event(Archive& archive, Arc& event) {
   language::visit_all(archive, event.plane, event.turn, sweep);
   event.sweep = Angle::degrees(sweep);
   visit_feed(archive, event.feed);
+  archive(event.rests);
 }
 template <class Archive>
 void visit_event(Archive& archive, Thread& event) {
   visit_origin(archive, event.origin);
   visit_position(archive, event.to);
   visit_length(archive, event.lead);
+  visit_optional(archive, event.start_angle);
+  visit_optional(archive, event.arc);
+  visit_length(archive, event.lead_change);
 }
 template <class Archive>
 void visit_event(Archive& archive, Dwell& event) {
@@ -108,6 +140,7 @@ void visit_event(Archive& archive, ToolChange& event) {
   visit_origin(archive, event.origin);
   language::visit_all(archive, event.number, event.is_preselection);
   visit_optional(archive, event.offset);
+  visit_optional(archive, event.shape);
 }
 template <class Archive>
 void visit_event(Archive& archive, Miscellaneous& event) {

@@ -74,6 +74,7 @@ struct Compensation {
   bool is_first = false;         ///< no move since it was turned on
   bool was_on = false;           ///< turned off, and no move since
   double x = 0, y = 0;           ///< end of the last move as programmed, along the plane's axes
+  std::array<double, 3> left{};  ///< with `was_on`: machine X Y Z of the tool
   std::uint8_t orientation = 0;  ///< of a lathe tool's tip, 1 to 8; its nose's centre else
   double held_sweep = 0;         ///< degrees of the held arc as programmed, whole turns left out
 };
@@ -148,6 +149,7 @@ enum class SkipFor : std::uint8_t {
   EndOfDo,      ///< the while of a do; on behind it
   TestOfDo,     ///< the same; on with it
   FileSub,      ///< the sub of a called file; on behind it
+  LaterSub,     ///< the sub after its call; on behind it
   FanucLabel,   ///< the label alone, for M98; on behind it
   SubFile,      ///< the source's answer: a file with the sub
   FanucFile,    ///< the same, for M98

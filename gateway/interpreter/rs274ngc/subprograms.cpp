@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/rs274ngc/block_reader.hpp"
 #include "gateway/interpreter/rs274ngc/characters.hpp"
 #include "gateway/interpreter/rs274ngc/expression_reader.hpp"
 #include "gateway/interpreter/rs274ngc/flow.hpp"
@@ -24,9 +25,11 @@ bool Flow::begin_sub(const OwordHead& head) {
   if (!run_.state.calls.empty() && !run_.state.calls.back().is_fanuc) {
     return refuse(ErrorCode::OwordSubHere, head);
   }
+  // It was called before, or a loop comes here again: the control takes it for another.
   const KnownLabel* known = find_label(Label{}, head.label);
-  if (known != nullptr && known->is_subprogram && !(known->place == run_.here)) {
-    return refuse(ErrorCode::OwordRedefined, head);
+  if (known != nullptr && known->is_subprogram) {
+    return known->place == run_.here ? refuse(ErrorCode::OwordSubHere, head)
+                                     : refuse(ErrorCode::OwordRedefined, head);
   }
   return know(head, true) && skip_to(SkipFor::EndOfSub, head.label);
 }
@@ -39,7 +42,8 @@ bool Flow::leave_sub(const OwordHead& head) {
   if (has_value && !read_operand(run_, at, value)) return false;
   if (!end_of_oword(run_, at)) return false;
   const auto& calls = run_.state.calls;
-  if (calls.empty() || calls.back().is_fanuc) return true;  // outside of a subprogram: nothing
+  if (calls.empty()) return true;  // outside of a subprogram: nothing
+  if (calls.back().is_fanuc) return refuse(ErrorCode::OwordMixed, head, "was called by M98");
   set_value(run_, value, has_value);
   return_from_call();
   return true;
@@ -86,7 +90,9 @@ bool Flow::push_call(const TextPlace& entry, Label scope, bool is_fanuc, std::ui
 bool Flow::read_arguments(const char* at) {
   argument_count_ = 0;
   arguments_.fill(0);
-  for (at = skip_blanks(at); *at == '['; at = skip_blanks(at)) {
+  for (;;) {
+    if (!skip_comments(run_, at)) return false;
+    if (*at != '[') break;
     if (argument_count_ == kArguments) {
       return run_.fail(ErrorCode::OwordArguments, run_.column(at),
                        fmt::format("more than {}", kArguments));
@@ -148,10 +154,14 @@ bool Flow::execute_fanuc(int m_code) {
           fmt::format("M99 in the main program, more than {}", run_.options.max_restarts));
     }
     state.frames.clear();
+    state.labels.clear();
     run_.next = TextPlace{};
     return true;
   }
   CallFrame& frame = state.calls.back();
+  if (!frame.is_fanuc) {
+    return run_.fail(ErrorCode::OwordMixed, 0, "M99 in a subprogram that was called by O call");
+  }
   if (frame.passes_left == 0) {
     return_from_call();
     return true;

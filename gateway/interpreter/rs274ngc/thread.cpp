@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/panel_lock.hpp"
+#include "gateway/interpreter/rs274ngc/compensation.hpp"
 #include "gateway/interpreter/rs274ngc/machine_functions.hpp"
 #include "gateway/interpreter/rs274ngc/motion.hpp"
 
@@ -26,7 +27,7 @@ bool check_synchronised(Run& run) {
   if (words.has('F')) return run.fail_word(ErrorCode::ThreadF, 'F');
   if (!(words.value_or('K', 0) > 0)) return run.fail_word(ErrorCode::ThreadK, 'K');
   if (!is_turning(run)) return run.fail(ErrorCode::ThreadSpindle, 0);
-  if (run.state.compensation.side == Side::Off) return true;
+  if (!shifts_moves(run)) return true;
   return run.fail(ErrorCode::CompNotAllowed, 0, "a synchronised move");
 }
 

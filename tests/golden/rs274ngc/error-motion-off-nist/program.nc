@@ -1,0 +1,3 @@
+(expect NGC0153 2:5)
+G80 G0 X1
+M2

@@ -1,0 +1,3 @@
+(expect NGC0153 2:8)
+G80 G0 G1 X1
+M2
