@@ -42,14 +42,16 @@ void EventLog::on_rapid(const Rapid& event) {
   add("rapid", event.origin, text_of(event.to));
 }
 void EventLog::on_line(const Line& event) {
-  add("line", event.origin, text_of(event.to) + text_of(event.feed));
+  add("line", event.origin,
+      text_of(event.to) + text_of(event.feed) + (event.rests ? " rests" : ""));
 }
 void EventLog::on_arc(const Arc& event) {
   add("arc", event.origin,
       text_of(event.to) + text_of(event.feed) +
           fmt::format(" {} {} {} {} {}", event.center_first.mm(), event.center_second.mm(),
                       static_cast<int>(event.plane), static_cast<int>(event.turn),
-                      event.sweep.degrees()));
+                      event.sweep.degrees()) +
+          (event.rests ? " rests" : ""));
 }
 void EventLog::on_thread(const Thread& event) {
   add("thread", event.origin,

@@ -133,12 +133,14 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
           .plane = state.plane(),
           .turn = turn,
           .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
-          .feed = run.active_feed()};
+          .feed = run.active_feed(),
+          .rests = run.rests_at_end()};
   if (!state.is_transformed) return arc_to(run, arc);
   const double radius = distance(middle, start);
   const double reach = distance(middle, stop);
   const double error = std::fabs(radius - reach);
   if (error <= std::fmax(run.options.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
+  arc.rests = false;  // the line to the end does
   arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
   arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
   return arc_to(run, arc) && line_to(run, end, arc.feed);

@@ -211,6 +211,7 @@ bool execute_plain(Run& run) {
   } else {
     if (!check_feed(run)) return false;
     line.feed = run.active_feed();
+    line.rests = run.rests_at_end();
     run.events().on_line(line);
   }
   arrive(run, line.to);

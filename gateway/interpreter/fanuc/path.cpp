@@ -90,7 +90,8 @@ void pieces_of_arc(Run& run, const Arc& arc) {
   for (int piece = 1; piece <= pieces; ++piece) {
     const double degrees = arc.sweep.degrees() * piece / pieces;
     Position to = held(run.state, piece == pieces ? arc.to : point_on_arc(arc, start, degrees));
-    if (!same_place(last, to)) run.events().on_line({run.origin, to, arc.feed});
+    const bool rests = arc.rests && piece == pieces;
+    if (!same_place(last, to)) run.events().on_line({run.origin, to, arc.feed, rests});
     last = to;
   }
   arrive(run, arc.to);
@@ -139,9 +140,11 @@ bool line_to(Run& run, const Position& to, const Feed& feed) {
   if (run.state.imaginary != 0) [[unlikely]] {
     const Position from = held(run.state, run.state.position);
     const Position real = held(run.state, to);
-    if (!same_place(from, real)) run.events().on_line({run.origin, real, feed});
+    if (!same_place(from, real)) {
+      run.events().on_line({run.origin, real, feed, run.rests_at_end()});
+    }
   } else {
-    run.events().on_line({run.origin, to, feed});
+    run.events().on_line({run.origin, to, feed, run.rests_at_end()});
   }
   arrive(run, to);
   return true;

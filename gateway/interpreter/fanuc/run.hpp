@@ -98,6 +98,8 @@ struct Run {
     const Length per = Length::mm(state.feed[state.is_per_revolution()]);
     return state.is_per_revolution() ? Feed::per_revolution(per) : Feed::per_minute(per);
   }
+  /// G09 of the block, G61 in force: a cutting feed comes to rest at its end.
+  bool rests_at_end() const { return block.parts.one_shot == 9 || state.g[kPathGroup] == 61; }
   /// Millimetres to program units, for macro variables.
   double in_units(Axis axis, double raw) const {
     return is_rotary(axis) ? raw : raw / increments.mm_per_unit;
