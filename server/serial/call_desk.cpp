@@ -2,10 +2,9 @@
 
 #include <spdlog/spdlog.h>
 #include <algorithm>
-#include <array>
 
+#include "gateway/interpreter/called_program_names.hpp"
 #include "protocol/base/random.hpp"
-#include "server/feeds/called_programs.hpp"
 #include "server/feeds/start_point.hpp"
 #include "server/library/control_words.hpp"
 #include "server/serial/answer_text.hpp"
@@ -19,22 +18,6 @@ namespace {
 constexpr const char* kAuthor = "call from the control";
 constexpr std::uint64_t kMostPrograms = 10'000;
 
-bool is_number(std::string_view text) {
-  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// The most literal first: `15` may be stored as 15, 15.h, O15, O0015 ...
-std::vector<std::string> candidates(const std::string& name) {
-  std::vector<std::string> names = feeds::library_names(name);
-  names.push_back(name + ".h");
-  names.push_back(name + ".H");
-  if (!is_number(name)) return names;
-  std::array<char, 16> padded{};
-  fmt::format_to_n(padded.data(), padded.size() - 1, "O{:0>4}", name);
-  for (const auto& numbered : feeds::library_names(padded.data())) names.push_back(numbered);
-  return names;
-}
-
 }  // namespace
 
 std::string CallDesk::control() const {
@@ -44,7 +27,7 @@ std::string CallDesk::control() const {
 
 Result<std::string> CallDesk::find_program(const std::string& name) const {
   const std::string control = this->control();
-  for (const auto& candidate : candidates(name)) {
+  for (const auto& candidate : interpreter::called_program_names(name)) {
     const auto revision = parts_.store.revision(candidate, std::nullopt);
     if (!revision) continue;
     if (control.empty() || revision->control.empty() || revision->control == control) {

@@ -8,29 +8,6 @@
 namespace dripline::cli {
 namespace {
 
-using Names = std::vector<std::string>;
-
-TEST(CalledProgramNames, TryTheNumberInItsForms) {
-  const Names start{"O2.nc", "O0002.nc", "2.nc", "2.h", "2.i"};
-  for (const char* name : {"O0002", "O2", "2", "0002"}) {
-    const auto names = called_program_names(name);
-    ASSERT_GE(names.size(), start.size());
-    EXPECT_EQ(Names(names.begin(), names.begin() + 5), start) << name;
-  }
-}
-
-TEST(CalledProgramNames, TakeOtherNamesAsTheyAre) {
-  EXPECT_EQ(called_program_names("SLOT"), (Names{"SLOT", "SLOT.nc"}));
-  EXPECT_EQ(called_program_names("O12B"), (Names{"O12B", "O12B.nc"}));
-}
-
-TEST(CalledProgramNames, NeverLeaveTheFolder) {
-  EXPECT_EQ(called_program_names("../2"), Names{});
-  EXPECT_EQ(called_program_names("/etc/passwd"), Names{});
-  EXPECT_EQ(called_program_names(".hidden"), Names{});
-  EXPECT_EQ(called_program_names(""), Names{});
-}
-
 TEST(LoadCalledProgram, GivesTheFirstThatIsThere) {
   const test_support::TemporaryFolder folder;
   const auto load = [&] { return load_called_program(folder.path().string(), "O2"); };
@@ -41,6 +18,14 @@ TEST(LoadCalledProgram, GivesTheFirstThatIsThere) {
   EXPECT_EQ(load(), "second");
   std::ofstream(folder.path() / "O2.nc") << "first";
   EXPECT_EQ(load(), "first");
+}
+
+TEST(LoadCalledProgram, FindsTheFilesOfLinuxCnc) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.path() / "pocket.ngc") << "by name";
+  std::ofstream(folder.path() / "100.ngc") << "by number";
+  EXPECT_EQ(load_called_program(folder.path().string(), "pocket"), "by name");
+  EXPECT_EQ(load_called_program(folder.path().string(), "100"), "by number");
 }
 
 }  // namespace

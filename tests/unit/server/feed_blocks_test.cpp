@@ -146,14 +146,5 @@ TEST_F(FeedBlocks, AnswersARepeatedRequestOnce) {
   EXPECT_EQ(written_->blocks.size(), 11u);
 }
 
-TEST(CalledPrograms, AreLookedForFromTheMostLiteralNameOn) {
-  const auto names = feeds::library_names("O0002");
-  EXPECT_EQ(names.front(), "O0002");
-  for (const char* name : {"O0002.nc", "O2", "O2.nc", "O00002", "o0002.nc"}) {
-    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
-  }
-  EXPECT_EQ(feeds::library_names("SIDE-A").front(), "SIDE-A");
-}
-
 }  // namespace
 }  // namespace dripline::server_test
