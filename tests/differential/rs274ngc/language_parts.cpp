@@ -76,29 +76,81 @@ void Maker::conditions() {
   known_position();
 }
 
-void Maker::subprogram() {
-  const std::string o = below(3) == 0 ? fmt::format("o<part{}>", ++label_) : label();
-  line(o + " sub");
-  line("#<depth>=[#1+#2/2]");
-  line("G1 X#1 Y#2");
+/// What a subprogram's definition holds, its first and last line too.
+std::string Maker::sub_text(const std::string& o) {
+  std::string text = o + " sub\n#<depth>=[#1+#2/2]\nG1 X#1 Y#2\n";
   if (below(2) == 0) {
     const std::string inner = label();
-    line(inner + " if [#3 gt 1]");
-    line(o + " return [#3*2]");
-    line(inner + " endif");
+    text += inner + " if [#3 gt 1]\n" + o + " return [#3*2]\n" + inner + " endif\n";
   }
-  line("G1 Z[0-#<depth>/8]");
-  line(o + (below(2) == 0 ? " endsub [#1]" : " endsub"));
+  return text + "G1 Z[0-#<depth>/8]\n" + o + (below(2) == 0 ? " endsub [#1]\n" : " endsub\n");
+}
+
+/// Calls with up to three arguments, comments between some of them.
+void Maker::call_some(const std::string& o) {
   const std::uint64_t calls = 1 + below(3);
   for (std::uint64_t i = 0; i < calls; ++i) {
     std::string words = o + " call";
     const std::uint64_t arguments = below(4);
-    for (std::uint64_t k = 0; k < arguments; ++k)
+    for (std::uint64_t k = 0; k < arguments; ++k) {
       words += fmt::format(" [{}]", text_of(between(0, 30'000)));
+      if (below(8) == 0) words += " (next)";
+    }
     line(words);
     if (below(2) == 0) line("G0 X[#<_value>/4] Y#1");
   }
+}
+
+std::string Maker::sub_label() {
+  return below(3) == 0 ? fmt::format("o<part{}>", ++label_) : label();
+}
+
+void Maker::subprogram() {
+  const std::string o = sub_label();
+  text_ += sub_text(o);
+  call_some(o);
   known_position();
+}
+
+/// Subprograms after the end of the main program: one, or several that call one another, or one
+/// that M98 calls.
+void Maker::later_subprogram() {
+  const std::string o = sub_label();
+  switch (below(6)) {
+    case 0:
+      fanuc_subprogram();
+      return known_position();
+    case 1: {
+      const std::string inner = sub_label();
+      later_ += o + " sub\nG0 Z#2\n" + inner + " call [#1] [1.5]\n" + o + " endsub [#<_value>]\n";
+      later_ += sub_text(inner);
+      break;
+    }
+    case 2:  // also before the main program's end, where it may not be met once called
+      if (below(4) == 0) {
+        call_some(o);
+        text_ += sub_text(o);
+        break;
+      }
+      [[fallthrough]];
+    default:
+      later_ += sub_text(o);
+      break;
+  }
+  call_some(o);
+  if (below(3) == 0) call_some(o);
+  known_position();
+}
+
+/// Called by M98, ended by M99; now and then mixed with the other way.
+void Maker::fanuc_subprogram() {
+  const std::uint64_t number = static_cast<std::uint64_t>(++label_);
+  const bool is_mixed = below(6) == 0;
+  later_ += fmt::format("o{}{}\n", number, is_mixed && below(2) == 0 ? " sub" : "");
+  later_ += "G91 G1 X0.25\nG90\n";
+  later_ += is_mixed && below(2) == 0 ? fmt::format("o{} endsub\n", number) : "M99\n";
+  if (is_mixed && below(3) == 0) return line(fmt::format("o{} call", number));
+  line(fmt::format("M98 P{}{}", number, below(2) == 0 ? fmt::format(" L{}", 1 + below(3)) : ""));
 }
 
 std::string Maker::term(int depth) {

@@ -50,6 +50,7 @@ class Maker {
   void nurbs();
   void compensation();
   void cycles();
+  void polar_cycles();
 
   // O words and expressions: language_parts.cpp
   std::string label();
@@ -57,6 +58,11 @@ class Maker {
   void body(std::uint64_t counter, const std::string& loop_label);
   void conditions();
   void subprogram();
+  std::string sub_label();
+  std::string sub_text(const std::string& o);
+  void call_some(const std::string& o);
+  void later_subprogram();
+  void fanuc_subprogram();
   std::string term(int depth);
   void expressions();
 
@@ -66,6 +72,7 @@ class Maker {
 
   std::mt19937_64 random_;
   std::string text_;
+  std::string later_;  ///< after the end of the main program
   std::string settings_;
   Ticks x_ = 0, y_ = 0, z_ = 0;
   int label_ = 100;

@@ -234,9 +234,9 @@ void Maker::nurbs() {
 void Maker::compensation() {
   known_position();
   const bool is_left = below(2) == 0;
-  line(below(3) == 0
-           ? fmt::format("{} D{}", is_left ? "G41.1" : "G42.1", text_of(between(200, 2'500)))
-           : fmt::format("{} D{}", is_left ? "G41" : "G42", 1 + below(4)));
+  const Ticks diameter = below(4) == 0 ? 0 : between(200, 2'500) * (below(4) == 0 ? -1 : 1);
+  line(below(3) == 0 ? fmt::format("{} D{}", is_left ? "G41.1" : "G42.1", text_of(diameter))
+                     : fmt::format("{} D{}", is_left ? "G41" : "G42", 1 + below(5)));
   const std::uint64_t count = 3 + below(5);
   double heading = static_cast<double>(below(628)) / 100;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -255,6 +255,7 @@ void Maker::compensation() {
     }
     if (below(8) == 0) line(fmt::format("G1 Z{}", text_of(z_ = between(-5'000, 9'000))));
     if (below(10) == 0) line(one_of(std::array{"M8", "G4 P.1", "M9", "#1=3"}));
+    if (below(60) == 0) line(one_of(std::array{"G53 G0 X1", "@2 ^45", "G81 X1 Z-1 R1", "G28"}));
   }
   line("G40");
   known_position();
@@ -291,6 +292,29 @@ void Maker::cycles() {
     line("G90");
   }
   line(code == "G74" ? "G80 M3" : "G80");
+  known_position();
+}
+
+/// Bolt circles and spirals: each repeat goes on from the hole before.
+void Maker::polar_cycles() {
+  known_position();
+  line(below(3) == 0 ? "G90" : "G91");
+  std::string words = below(2) == 0 ? "G98 " : "G99 ";
+  words += one_of(std::array{"G81", "G82 P.1", "G83 Q.2", "G73 Q.17", "G85", "G89 P.1"});
+  words += " R-0.2 Z-0.9";
+  const std::uint64_t lines_of_cycle = 1 + below(3);
+  for (std::uint64_t i = 0; i < lines_of_cycle; ++i) {
+    const std::uint64_t polar = below(3);
+    if (polar != 0) words += fmt::format(" ^{}", text_of(between(-900'000, 900'000)));
+    if (polar != 1) words += fmt::format(" @{}", text_of(between(-9'000, 9'000)));
+    if (below(4) != 0) words += fmt::format(" L{}", 1 + below(6));
+    if (below(60) == 0) words += " X1";
+    line(words);
+    words.clear();
+    if (below(50) == 0) line("G18");
+    if (below(4) == 0) line("X0.3 Y0.2 L2");
+  }
+  line("G90 G80 G17");
   known_position();
 }
 

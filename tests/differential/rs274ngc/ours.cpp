@@ -86,6 +86,10 @@ radius = 0.25
 number = 4
 length = 3.0
 radius = 0.03125
+[[tool]]
+number = 5
+length = 1.0
+radius = 0.0
 )";
 
 }  // namespace

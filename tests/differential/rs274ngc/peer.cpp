@@ -122,7 +122,8 @@ bool has_peer() {
 }
 
 std::string tool_table() {
-  return "T1 P1 Z1.5 D0.25 ;\nT2 P2 Z2.25 D0.125 ;\nT3 P3 Z0.5 D0.5 ;\nT4 P4 Z3 D0.0625 ;\n";
+  return "T1 P1 Z1.5 D0.25 ;\nT2 P2 Z2.25 D0.125 ;\nT3 P3 Z0.5 D0.5 ;\nT4 P4 Z3 D0.0625 ;\n"
+         "T5 P5 Z1 D0 ;\n";
 }
 
 /// It keeps its tools in a file in HOME: each folder has its own.

@@ -104,7 +104,7 @@ std::string Maker::make() {
   if (below(12) == 0) mistake();
   if (below(3) == 0) lines(3);
   line(below(4) == 0 ? "M30" : "M2");
-  return text_;
+  return text_ + later_;
 }
 
 void Maker::line(const std::string& words) {
@@ -150,7 +150,7 @@ void Maker::known_position() {
 }
 
 void Maker::part() {
-  switch (below(20)) {
+  switch (below(24)) {
     case 0:
     case 1:
       return lines(2 + below(4));
@@ -184,13 +184,19 @@ void Maker::part() {
       return tool_rows();
     case 18:
       return splines();
+    case 19:
+    case 20:
+      return polar_cycles();
+    case 21:
+    case 22:
+      return later_subprogram();
     default:
       return small_things();
   }
 }
 
 void Maker::small_things() {
-  switch (below(10)) {
+  switch (below(13)) {
     case 0:
       line("G49");
       line(below(2) == 0 ? "G20" : "G21");
@@ -231,6 +237,24 @@ void Maker::small_things() {
       line("/G1 X0.5 Y0.25");
       break;
     case 8:
+      line(one_of(std::array{"G80 G0 X1 Y2", "G1 G80 X1.5", "G80 G53 G0 X1", "G80 G0",
+                             "G80 G2 X1 Y1 R9", "G80 G80"}));
+      break;
+    case 9:
+      line("#21=5 #22=EXISTS[#21]");
+      line("G0 X#22 Y[EXISTS[##21] + EXISTS[#9999] + EXISTS[#<_none>]]");
+      break;
+    case 10:
+      // What M6 does not take over: no lengths, no comments
+      line(fmt::format("G41 D{}", 1 + below(5)));
+      line("G1 X8 Y9");
+      line("G1 X9 Y-3");
+      line("G40");
+      line(fmt::format("T{} M6", 1 + below(5)));
+      line(one_of(std::array{"G0 Z2.5", "G1 X3", "G91 G1 X0.5", "M8"}));
+      line("G90 M3");
+      break;
+    case 11:
       line("G95 F0.05");
       line("G1 X2");
       line("G94 F30");
