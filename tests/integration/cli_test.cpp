@@ -80,6 +80,7 @@ std::string lathe_memory(char digit) {
   std::string text = R"(units = "in"
 [control]
 power_on_feed = 0.#
+tool_changer = true
 [[variable]]
 name = "P0"
 value = #

@@ -69,7 +69,7 @@ const Dialect kCenturionDialect{"centurion",
                                 Units::Inch,
                                 MachineKind::Lathe,
                                 {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
-                                false,
+                                true,  // M6 prompts and waits (manual 4, M06; spec 12.2)
                                 nullptr,
                                 &read_panel_tables};
 

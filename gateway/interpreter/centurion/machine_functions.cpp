@@ -67,8 +67,9 @@ bool check_pocket(Run& run) {
                   fmt::format("T{:02} is in none of {} pockets", tool, pockets));
 }
 
-/// X goes to the tool change position, the machine is told, the operator is asked (spec 12.2).
-/// Until he has done it the spindle is locked; what that means to one that turns is the machine's.
+/// X goes to the tool change position, the machine is signalled, and without a changer the program
+/// waits for the operator (spec 12.2). The spindle is locked until then; what that means to one
+/// that turns is the machine's.
 bool change_tool(Run& run) {
   constexpr double kPulseMs = 150;
   if (!check_pocket(run)) return false;
@@ -80,7 +81,8 @@ bool change_tool(Run& run) {
   take_pending_tool(run);
   show_comment(run);
   run.loops.note_progress();
-  run.events().on_stop({run.origin, StopKind::ToolChange});
+  const bool has_changer = run.options.has_tool_changer || run.parameters[kAtcPockets] > 0;
+  if (!has_changer) run.events().on_stop({run.origin, StopKind::ToolChange});
   return true;
 }
 

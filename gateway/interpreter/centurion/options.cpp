@@ -83,6 +83,9 @@ Result<void> read_tool_change(const Options& options, ControlOptions& control) {
   const auto spindle = options.choice("m6_spindle", {"keep", "stop"}, 0);
   if (!spindle) return fail(spindle.error());
   control.tool_change_stops_spindle = *spindle == 1;
+  const auto has_changer = options.flag("tool_changer", false);
+  if (!has_changer) return fail(has_changer.error());
+  control.has_tool_changer = *has_changer;
   return {};
 }
 
@@ -127,7 +130,13 @@ Result<void> read_mode(const Options& options, ControlOptions& control) {
   return {};
 }
 
-Result<void> read_start(const Options& options, ControlOptions& control) {
+Result<void> read_start(const Setup& setup, ControlOptions& control) {
+  const Options& options = setup.control;
+  constexpr double kUsualFeed = 10;
+  const auto feed = options.number("power_on_feed", kUsualFeed);
+  if (!feed) return fail(feed.error());
+  const bool is_inch = setup.units.value_or(Units::Inch) == Units::Inch;
+  control.power_on_feed_mm = is_inch ? Length::inch(*feed).mm() : *feed;
   const auto text = options.text("start_at", "");
   if (!text) return fail(text.error());
   if (text->empty()) return {};
@@ -225,6 +234,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "cranking_minutes",
                                     "m6_pin",
                                     "m6_spindle",
+                                    "tool_changer",
                                     "machine"});
   if (!known) return fail(known.error());
   if (!setup.switches.mirror.empty()) {
@@ -239,7 +249,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
                     read_digits(options, "trailing", control.trailing_digits),
                     read_dnc(options, control), read_spindle(options, control),
                     read_cycles(options, control), read_machine_codes(options, control),
-                    read_mode(options, control), read_start(options, control),
+                    read_mode(options, control), read_start(setup, control),
                     read_dry_run(options, control), read_geometry(options, control)}) {
     if (!done) return fail(done.error());
   }

@@ -31,17 +31,21 @@ struct ControlOptions {
   bool single_block = false;           ///< the panel's switch; cycles stop at their clearance
   bool is_dry_run = false;             ///< the panel's switch
   double dry_run_feed_mm = 0;          ///< `dry_run_feed`, per minute
+  double power_on_feed_mm = 0;         ///< `power_on_feed`, per minute or revolution
   bool dry_run_turns_spindle = false;  ///< `dry_run_spindle`
   bool is_dnc_fast = false;            ///< `dnc_mode = "fast"`: what that mode refuses
   bool is_mdi = false;                 ///< `mode = "mdi"`: one block, no M98
   bool is_verify = false;              ///< `mode = "verify"`
   bool interlocks_coolant = false;  ///< `coolant_interlock`: coolant runs while the spindle turns
   bool has_custom_codes = false;
-  std::array<int, 10> custom_g{};                   ///< bound to O9010-O9019; 0 none
-  std::array<int, 10> custom_m{};                   ///< bound to O9020-O9029
-  std::uint16_t tool_change_program = 0;            ///< `m6_macro`: in the place of M6; 0 none
-  std::optional<int> tool_change_pin;               ///< `m6_pin`: the output that M6 pulses
-  bool tool_change_stops_spindle = false;           ///< `m6_spindle`: one that turns is stopped
+  std::array<int, 10> custom_g{};          ///< bound to O9010-O9019; 0 none
+  std::array<int, 10> custom_m{};          ///< bound to O9020-O9029
+  std::uint16_t tool_change_program = 0;   ///< `m6_macro`: in the place of M6; 0 none
+  std::optional<int> tool_change_pin;      ///< `m6_pin`: the output that M6 pulses
+  bool tool_change_stops_spindle = false;  ///< `m6_spindle`: one that turns is stopped
+  /// `tool_changer`: M6 is done by a changer, as where the machine has pockets of one; else by
+  /// hand, and CYCLE START goes on.
+  bool has_tool_changer = false;
   Pockets pockets{};                                ///< of a tool changer
   std::vector<int> post_m;                          ///< M codes that come last
   SpindleCheck spindle_check = SpindleCheck::Warn;  ///< `cycle_spindle`

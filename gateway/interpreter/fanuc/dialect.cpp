@@ -71,8 +71,15 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kFanucDialect{"fanuc",           "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining centre)",
-                            &likelihood,       &make,
-                            Units::Millimetre, MachineKind::Mill};
+const Dialect kFanucDialect{"fanuc",
+                            "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining centre)",
+                            &likelihood,
+                            &make,
+                            Units::Millimetre,
+                            MachineKind::Mill,
+                            // T selects and M06 exchanges (spec 7.1): a machining centre's changer
+                            // does it, and there is no tool change stop to wait at.
+                            {},
+                            false};
 
 }  // namespace dripline::interpreter

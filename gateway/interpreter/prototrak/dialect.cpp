@@ -71,6 +71,7 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .make = make,
                                 .units = Units::Inch,
                                 .machine = MachineKind::Mill,
+                                // Every tool is changed by hand at a prompt (spec 12).
                                 .waits_at_tool_change = true,
                                 .list = list};
 

@@ -90,8 +90,15 @@ int likelihood(std::string_view head, std::string_view file_name) {
 
 }  // namespace
 
-const Dialect kRs274NgcDialect{"rs274ngc",        "RS274/NGC (NIST, LinuxCNC)",
-                               &likelihood,       &make,
-                               Units::Millimetre, MachineKind::Mill};
+const Dialect kRs274NgcDialect{"rs274ngc",
+                               "RS274/NGC (NIST, LinuxCNC)",
+                               &likelihood,
+                               &make,
+                               Units::Millimetre,
+                               MachineKind::Mill,
+                               // The language's machine has a changer with slots (spec 1, 6: M6):
+                               // there is no tool change stop to wait at.
+                               {},
+                               false};
 
 }  // namespace dripline::interpreter

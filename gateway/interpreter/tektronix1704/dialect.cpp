@@ -47,6 +47,7 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .units = Units::Inch,
                                     .machine = MachineKind::Mill,
                                     .feed_dial = {0.125, 1.25, Length::inch(200)},
+                                    // Without a changer M06 is an M00 with a lamp (spec 9.1).
                                     .waits_at_tool_change = true,
                                     .list = planning_sheet};
 

@@ -133,6 +133,10 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .title = "HEIDENHAIN TNC 151/155 (plain language and ISO)",
                              .likelihood = &likelihood,
                              .make = &make,
+                             // M06 is a program stop where the machine parameter makes it one
+                             // (`m06_stop`; spec 16.2); TOOL CALL itself never stops, a STOP before
+                             // it is programmed (spec 6).
+                             .waits_at_tool_change = true,
                              .keeping = &kTncKeeping};
 
 }  // namespace dripline::interpreter

@@ -127,5 +127,19 @@ TEST(ToolChange, PulsesTheMachinesOutputAndStopsItsSpindleWhereItIsSetUpSo) {
             "[control] m6_pin: 2005 is no output, 1012 to 1023 (Z) or 2012 to 2023 (X)");
 }
 
+/// CEN-142: a changer signals that the change is complete; without one the program waits.
+TEST(ToolChange, WaitsUnlessThereIsAChanger) {
+  const std::string text = "T0202 M6 (NEXT)\n";
+  ProgramRun by_hand(text);
+  EXPECT_EQ(by_hand.step(), StepState::Ended);
+  EXPECT_EQ(by_hand.events("stop").size(), 1U);
+  for (const char* changer : {"tool_changer = true\n", "[control.machine]\natc_pockets = 8\n"}) {
+    ProgramRun run(text, with_control(changer));
+    EXPECT_EQ(run.step(), StepState::Ended);
+    EXPECT_EQ(run.events("stop"), Lines{}) << changer;
+    EXPECT_EQ(run.events("tool").size(), 1U) << changer;
+  }
+}
+
 }  // namespace
 }  // namespace dripline::interpreter::centurion
