@@ -22,8 +22,11 @@ bool check_on_arc(Run& run, const ArcCenter& arc, const Point& point) {
   if (arc.is_known) return true;
   const double off_by = std::fabs(distance(point, arc.center) - arc.radius);
   if (off_by <= arc_tolerance(run)) return true;
+  const bool misses_radius =
+      !run.state.retained.has_radius && run.block.words.has_any(kAbsoluteCenter);
   return run.fail(ErrorCode::OutOfPosition, motion_column(run),
-                  fmt::format("point is {:.6f} off the radius {:.6f}", off_by, arc.radius));
+                  fmt::format("point is {:.6f} off the radius {:.6f}{}", off_by, arc.radius,
+                              misses_radius ? " of the start point: no R is known" : ""));
 }
 
 bool refuse_negative_radius(Run& run) {
@@ -62,6 +65,7 @@ void read_relative_center(Run& run, ArcCenter& arc) {
   if (words.has_any(set_of(Address::I, Address::K))) {
     retained.center_x = words.has(Address::I) ? words[Address::I] : 0;
     retained.center_z = words.has(Address::K) ? words[Address::K] : 0;
+    retained.arc_has_radius = false;
   }
   arc.center = {run.state.position.x + retained.center_x, run.state.position.z + retained.center_z};
   arc.radius = std::hypot(retained.center_x, retained.center_z);
@@ -99,7 +103,7 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   return true;
 }
 
-/// R alone: the centre follows from start and end (spec 5.4).
+/// R alone, of this block or an arc before: the centre follows from start and end (spec 5.4).
 bool move_on_radius_arc(Run& run) {
   const Words& words = run.block.words;
   if (words.has(Address::AB)) {
@@ -113,11 +117,12 @@ bool move_on_radius_arc(Run& run) {
   if (distance(start, target.to) < 1e-9) {
     return run.fail(ErrorCode::CoincidentPoints, motion_column(run));
   }
-  const double radius = words[Address::R];
+  const double radius = run.state.retained.radius;
   const bool is_clockwise = run.state.modes.motion == MotionMode::Clockwise;
   const auto center = center_of({start, target.to, radius, is_clockwise}, arc_tolerance(run));
   if (!center) {
-    return run.fail(ErrorCode::RadiusTooSmall, words.column(Address::R),
+    const auto column = words.has(Address::R) ? words.column(Address::R) : motion_column(run);
+    return run.fail(ErrorCode::RadiusTooSmall, column,
                     fmt::format("R{} for points {:.6f} apart", radius, distance(start, target.to)));
   }
   return emit_arc(run, {*center, std::fabs(radius), false}, target);
@@ -137,6 +142,18 @@ bool read_arc_end(Run& run, const ArcCenter& arc, Target& target) {
   return check_target(run, target.to);
 }
 
+/// A block with neither R nor a centre has the last one's, whichever of the two that was.
+bool uses_radius_before(const Run& run) {
+  return run.state.retained.arc_has_radius &&
+         !run.block.words.has_any(set_of(Address::I, Address::K));
+}
+
+bool refuse_missing_center(Run& run) {
+  return run.fail(
+      ErrorCode::RadiusTooSmall, motion_column(run),
+      "the arc has neither R nor a center (I K, XC ZC, AA), and no arc before left one");
+}
+
 }  // namespace
 
 bool move_on_arc(Run& run) {
@@ -149,7 +166,7 @@ bool move_on_arc(Run& run) {
   const bool has_radius = words.has(Address::R);
   if (has_radius) {
     retained.radius = words[Address::R];
-    retained.has_radius = true;
+    retained.has_radius = retained.arc_has_radius = true;
   }
   if (words.has(Address::AA)) retained.start_angle = words[Address::AA];
   ArcCenter arc;
@@ -157,10 +174,11 @@ bool move_on_arc(Run& run) {
     if (!read_absolute_center(run, arc)) return false;
   } else if (words.has(Address::AA)) {
     if (!read_start_angle_center(run, arc)) return false;
-  } else if (has_radius) {
+  } else if (has_radius || uses_radius_before(run)) {
     return move_on_radius_arc(run);  // R wins over I and K
   } else {
     read_relative_center(run, arc);
+    if (arc.radius <= 0) return refuse_missing_center(run);
   }
   if (!check_on_arc(run, arc, run.state.position)) return false;
   Target target;

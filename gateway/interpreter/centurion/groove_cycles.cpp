@@ -160,7 +160,7 @@ class GrooveCutter {
                     ? groove_.rough_end()
                     : groove_.rough_start() + groove_.across() * column * groove_.step;
       rapid(groove_.clearance);
-      cut_column();
+      cut_column(has_room_beside(column, columns));
     }
     if (groove_.has_finish_pass()) finish();
     if (!run_.state.modes.returns_to_clearance) rapid(groove_.initial);
@@ -180,7 +180,14 @@ class GrooveCutter {
     return is_out ? groove_.clearance : out;
   }
 
-  void cut_column() {
+  /// Back towards the columns before it the first one has the groove's wall beside it, and on
+  /// towards the end the last one: nothing is cut there to back off into.
+  bool has_room_beside(double column, double columns) const {
+    if (!groove_.has_width) return true;
+    return groove_.relief * groove_.across() < 0 ? column > 0 : column + 1 < columns;
+  }
+
+  void cut_column(bool has_relief) {
     const double pecks = pecks_after_first();
     const double bottom = groove_.rough_bottom();
     double depth = pecks == 0 ? bottom : groove_.first;
@@ -191,8 +198,10 @@ class GrooveCutter {
       depth = peck == pecks ? bottom : groove_.first + groove_.inward() * peck * groove_.increment;
       feed(depth);
     }
-    across_ += groove_.relief;
-    rapid(bottom);
+    if (has_relief) {
+      across_ += groove_.relief;
+      rapid(bottom);
+    }
     rapid(groove_.clearance);
   }
 

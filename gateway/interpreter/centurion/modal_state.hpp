@@ -32,6 +32,7 @@ struct RetainedWords {
   double center_x = 0;  ///< I
   double center_z = 0;  ///< K
   bool has_radius = false;
+  bool arc_has_radius = false;  ///< the arc before had R: one without R and centre has it too
 };
 
 struct Modes {

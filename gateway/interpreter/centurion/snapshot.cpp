@@ -135,7 +135,7 @@ void visit_modes(Archive& archive, ModalState& state) {
   all(archive, state.reference_via.x, state.reference_via.z);
   RetainedWords& retained = state.retained;
   all(archive, retained.radius, retained.start_angle, retained.end_angle, retained.center_x,
-      retained.center_z, retained.has_radius);
+      retained.center_z, retained.has_radius, retained.arc_has_radius);
   SpindleModes& spindle = state.spindle;
   all(archive, spindle.state, spindle.revolutions, spindle.surface, spindle.limit);
   all(archive, state.coolant.flood, state.coolant.mist, state.wants_flood, state.outputs,

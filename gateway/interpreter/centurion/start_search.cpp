@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <charconv>
+#include <cmath>
 
 #include "gateway/interpreter/centurion/cycle_words.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
@@ -35,6 +36,20 @@ Position place(const Point& millimetres) {
   position.set(Axis::X, Length::mm(millimetres.x));
   position.set(Axis::Z, Length::mm(millimetres.z));
   return position;
+}
+
+/// The last feed per minute; without one that of a revolution, where the program has set it and the
+/// spindle turns; else the number of the power-on feed, per minute.
+Feed approach_feed(const Run& run) {
+  const ModalState& state = run.state;
+  if (state.feed[0] > 0) return Feed::per_minute(run.length(state.feed[0]));
+  constexpr double kSame = 1e-9;
+  const Length per_revolution = run.length(state.feed[1]);
+  const Length power_on = Length::mm(run.options.power_on_feed_mm);
+  const bool is_programmed = std::fabs(per_revolution.mm() - power_on.mm()) > kSame;
+  const bool turns = state.spindle.state != SpindleState::Off;
+  if (is_programmed && turns && state.feed[1] > 0) return Feed::per_revolution(per_revolution);
+  return Feed::per_minute(power_on);
 }
 
 }  // namespace
@@ -111,16 +126,14 @@ void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   }
   out().on_stop({run.origin, StopKind::Operator});
   if (at == to) return;
-  const bool has_per_minute = state.feed[0] > 0;
-  const Feed feed =
-      has_per_minute ? Feed::per_minute(run.length(state.feed[0])) : run.active_feed();
-  out().on_line({run.origin, place(to), feed});
+  out().on_line({run.origin, place(to), approach_feed(run)});
 }
 
 void StartSearch::begin_at_first(Run& run) {
   run.state.is_searching = false;
   run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
   out().on_message({run.origin, run.scratch});
+  out().on_stop({run.origin, StopKind::Operator});  // nobody has asked for that
 }
 
 template <class Event>

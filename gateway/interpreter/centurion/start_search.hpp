@@ -29,7 +29,7 @@ Result<StartAt> parse_start_at(std::string_view text);
 /// machine, but all of it counts (modes, zeros, parameters, tool). At the start the tool, spindle
 /// and coolant are shown, and the machine moves from where it stands to where the program is by way
 /// of the clearance plane (spec 24.3). A program that has no such place begins at its first block,
-/// with a message.
+/// with a message, and when the operator has agreed.
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}

@@ -109,16 +109,19 @@ double next_depth(const MultipleThread& thread, int pass, double before) {
 }
 
 /// Where the pass at `depth` runs. On one edge the tool slides down that flank and ends at the
-/// programmed Z; on both it changes flanks with each pass.
+/// programmed Z; on both it changes flanks with each pass. A taper is that of the whole thread,
+/// wherever along it the pass begins.
 ThreadPass pass_at(const MultipleThread& thread, int pass, double depth) {
   const double out = thread.start.x > thread.root.x ? 1 : -1;
   const double direction = thread.root.z >= thread.start.z ? 1 : -1;
   const double left = thread.height - depth;
   const double flank = thread.both_edges && pass % 2 == 0 ? thread.flank : -thread.flank;
   const double x = thread.root.x + out * left;
-  return {thread.start,
-          {x + thread.taper, thread.start.z + direction * left * flank},
-          {x, thread.root.z}};
+  const double start_z = thread.start.z + direction * left * flank;
+  const double length = thread.root.z - thread.start.z;
+  const double taper =
+      length == 0 ? thread.taper : thread.taper * (thread.root.z - start_z) / length;
+  return {thread.start, {x + taper, start_z}, {x, thread.root.z}};
 }
 
 bool count_passes(Run& run, const MultipleThread& thread) {
