@@ -27,13 +27,14 @@ PlaneVector along(int place, double way) {
 struct Ring {
   double along = 0;
   double across = 0;
+  double begin = 1;  ///< at the middle of the side that the long axis points to; -1: of the other
 };
 
-/// Round the pocket's centre, from the middle of the side that the long axis points to.
+/// Round the pocket's centre.
 void run_ring(CycleMotion& motion, int long_place, Ring ring, Turn turn, double feed) {
   const PlaneVector centre = motion.start();
   const auto at = [&](double a, double b) {
-    return centre + along(long_place, a) + along(1 - long_place, b);
+    return centre + along(long_place, ring.begin * a) + along(1 - long_place, ring.begin * b);
   };
   // Counter-clockwise the first corner is on the left of the long axis' direction, which is the
   // positive side of the second axis and the negative of the first.
@@ -84,18 +85,19 @@ void mill_pocket(CycleMotion& motion, const MachiningCycle& cycle, double step) 
   const int long_place = sides[0] > sides[1] ? 0 : 1;
   const double narrow = sides[1 - long_place];
   const double surplus = sides[long_place] - narrow;
+  const double begin = surplus > kSliver ? -1 : 1;  // where the first pass has led
   const int rings = steps_to(narrow, step);
   const Turn turn = motion.turn_for(cycle.turn);
   const auto pecks = static_cast<int>(pecks_of(cycle));
   for (int peck = 1; peck <= pecks; ++peck) {
     motion.feed_to_height(height_of(motion, cycle, peck), cycle.plunge_feed);
     if (surplus > kSliver) {
-      motion.feed_to(motion.start() + along(long_place, -surplus), cycle.feed);
       motion.feed_to(motion.start() + along(long_place, surplus), cycle.feed);
+      motion.feed_to(motion.start() + along(long_place, -surplus), cycle.feed);
     }
     for (int ring = 1; ring <= rings; ++ring) {
       const double out = narrow * ring / rings;
-      run_ring(motion, long_place, {surplus + out, out}, turn, cycle.feed);
+      run_ring(motion, long_place, {surplus + out, out, begin}, turn, cycle.feed);
     }
     motion.feed_to(motion.start(), cycle.feed);
   }
