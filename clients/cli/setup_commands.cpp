@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMaxSetupFile = 64 * 1024;
 
 struct SetupCommand {
-  std::string machine, file, comment, control;
+  std::string machine, file, comment, control, map;
   std::optional<std::uint64_t> revision;
   std::uint64_t limit = 20;
   std::optional<std::uint64_t> base;
@@ -111,31 +111,49 @@ std::string control_of(client::Client& client, const SetupCommand& command) {
   return machine && !machine->control.empty() ? machine->control : "tnc155";
 }
 
+/// The text of a parameter map; none was named: nothing.
+Result<std::string> map_of(const std::string& path) {
+  if (path.empty()) return std::string();
+  auto text = read_small_file(path, kMaxSetupFile);
+  if (text && text->empty()) return fail(Errc::Syntax, "{} is empty", path);
+  return text;
+}
+
 int export_form(Context& context, const SetupCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
   auto setup = client->setup(command.machine, command.revision);
   if (!setup) return complain(setup.error());
-  const auto text = command.wants_parameters
-                        ? machine_parameters_text(setup->text)
-                        : control_form_of(setup->text, control_of(*client, command));
+  const auto map = map_of(command.map);
+  if (!map) return complain(map.error());
+  const std::string control = control_of(*client, command);
+  const auto text = command.wants_parameters ? machine_parameters_text(setup->text)
+                                             : control_form_of(setup->text, control, *map);
   if (!text) return complain(text.error());
-  return put_out(
-      command.file, *text,
-      fmt::format("setup {} of {} as its control takes it", setup->revision, setup->machine));
+  const bool is_ours = !command.wants_parameters && control == "centurion" && map->empty();
+  if (is_ours) {
+    fmt::print(stderr,
+               "dnc: numbers from P500 on are Dripline's own and not the control's: do not send "
+               "this to a Centurion. --map FILE gives it the control's\n");
+  }
+  return put_out(command.file, *text,
+                 fmt::format("setup {} of {} {}", setup->revision, setup->machine,
+                             is_ours ? "in Dripline's numbering" : "as its control takes it"));
 }
 
 struct ImportCommand {
-  std::string file, output, setup;
+  std::string file, output, setup, map;
 };
 
 int import_form(const ImportCommand& command) {
-  const auto& [path, output, control] = command;
+  const auto& [path, output, control, map_path] = command;
   const auto text = read_small_file(path, kMaxSetupFile);
   if (!text) return complain(text.error());
   const auto version = tnc_version_of(control);
   if (!version) return complain(version.error());
-  const auto setup = setup_of_control_form(*text, *version);
+  const auto map = map_of(map_path);
+  if (!map) return complain(map.error());
+  const auto setup = setup_of_control_form(*text, *version, *map);
   if (!setup) return complain(Error{setup.error().code, path + ": " + setup.error().what});
   return put_out(output, *setup, "a setup");
 }
@@ -151,9 +169,14 @@ void add_import(CLI::App& group, Context& context) {
   command->add_option("--setup", options->setup,
                       "TOML file whose [control] says the TNC's model and software: what that one "
                       "has not is refused");
+  command->add_option("--map", options->map,
+                      "Of a Centurion: which of its numbers from P200 on is which of Dripline's "
+                      "(deploy/examples/centurion-parameters.map)");
   command->add_option("-o,--output", options->output,
                       "TOML file to write, - for standard output [-]");
-  command->footer("No server is needed.");
+  command->footer(
+      "No server is needed. A Centurion's numbers of tables and pages are not known: without --map "
+      "only\nwhat dnc setup export has written, or P0 to P199, is taken.");
   command->callback([&context, options] { context.status = import_form(*options); });
 }
 
@@ -233,13 +256,20 @@ void add_setup_commands(CLI::App& app, Context& context) {
                               "File to write, - for standard output [-]");
 
   auto exporting = add_verb(*group, context, "export",
-                            "As the control takes it: a TNC's tools (its program 0), a Centurion's "
-                            "parameters (G10)",
+                            "As the control takes it: a TNC's tools (its program 0); a Centurion's "
+                            "parameters (G10), with --map in its own numbers",
                             export_form);
   exporting.command->add_option("--control", exporting.options->control,
                                 "tnc155 or centurion [the machine's]");
   exporting.command->add_flag("--parameters", exporting.options->wants_parameters,
                               "Of a TNC the machine parameters instead: MP0: ...");
+  exporting.command->add_option("--map", exporting.options->map,
+                                "Of a Centurion: its numbers, filled in by its builder "
+                                "(deploy/examples/centurion-parameters.map)");
+  exporting.command->footer(
+      "A Centurion's numbers from P500 on are not known. Without --map they are Dripline's own: a "
+      "backup\nfor dnc setup import, which overwrites other parameters on a real control. Never "
+      "send it to one.");
   exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");

@@ -81,18 +81,28 @@ Result<std::string> tool_store_of(std::string_view toml) {
       data->tools, data->units.value_or(interpreter::Units::Millimetre), *sign);
 }
 
-Result<std::string> control_form_of(std::string_view toml, std::string_view control) {
+Result<std::string> control_form_of(std::string_view toml, std::string_view control,
+                                    std::string_view map) {
   if (control == "tnc155") {
     if (auto has = check_tool_store(toml); !has) return fail(has.error());
   }
   if (control != "centurion") return tool_store_of(toml);
   const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
-  return data ? interpreter::centurion::write_parameter_text(*data) : fail(data.error());
+  if (!data) return fail(data.error());
+  if (map.empty()) return interpreter::centurion::write_parameter_text(*data);
+  const auto rows = interpreter::centurion::read_parameter_map(map);
+  if (!rows) return fail(rows.error().code, "map: {}", rows.error().what);
+  return interpreter::centurion::write_parameter_text(*data, &*rows);
 }
 
-Result<std::string> setup_of_control_form(std::string_view text, const ControlVersion& tnc) {
-  if (text.find("G10") != std::string_view::npos)
-    return interpreter::centurion::setup_of_parameter_text(text);
+Result<std::string> setup_of_control_form(std::string_view text, const ControlVersion& tnc,
+                                          std::string_view map) {
+  if (text.find("G10") != std::string_view::npos) {
+    if (map.empty()) return interpreter::centurion::setup_of_parameter_text(text);
+    const auto rows = interpreter::centurion::read_parameter_map(map);
+    if (!rows) return fail(rows.error().code, "map: {}", rows.error().what);
+    return interpreter::centurion::setup_of_parameter_text(text, &*rows);
+  }
   return setup_of_memory_file(text, tnc);
 }
 

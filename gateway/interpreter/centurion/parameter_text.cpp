@@ -1,6 +1,7 @@
 #include "gateway/interpreter/centurion/parameter_text.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -96,6 +97,63 @@ bool has_name(int number) {
   return false;
 }
 
+/// `P500`; nothing for anything else.
+std::optional<int> number_of(std::string_view text) {
+  int number = 0;
+  if (text.size() < 2 || text.front() != 'P') return std::nullopt;
+  const auto read = std::from_chars(text.data() + 1, text.data() + text.size(), number);
+  const bool is_whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+  return is_whole && number >= 0 ? std::optional(number) : std::nullopt;
+}
+
+/// A row of the map; nothing of an empty line and of a row that is not filled in.
+Result<std::optional<ParameterMap::Row>> read_row(std::string_view raw, std::size_t number) {
+  const std::string text = without_comment(raw.substr(0, raw.find('#')));
+  if (text.empty()) return std::optional<ParameterMap::Row>();
+  const auto equals = std::min(text.find('='), text.size());
+  const auto ours = number_of(std::string_view(text).substr(0, equals));
+  const auto rest = std::string_view(text).substr(std::min(equals + 1, text.size()));
+  const auto control = number_of(rest);
+  if (!ours || equals == text.size() || (!control && !rest.empty())) {
+    return fail(Errc::Syntax, "line {}: \"{}\": expected a row as P500 = P7012", number,
+                raw.substr(0, 60));
+  }
+  if (*ours < kFirstUnnamed || !has_name(*ours)) {
+    return fail(Errc::LimitExceeded,
+                "line {}: P{} is none of Dripline's numbers of tables and pages (P{} and on)",
+                number, *ours, kWorkOffsets);
+  }
+  if (!control) return std::optional<ParameterMap::Row>();
+  if (*control < kFirstUnnamed) {
+    return fail(Errc::LimitExceeded, "line {}: P{} is a parameter of programs, P0 to P{}", number,
+                *control, kFirstUnnamed - 1);
+  }
+  return std::optional(ParameterMap::Row{*ours, *control});
+}
+
+/// In the control's numbers: only what has one.
+Result<std::string> write_mapped(const Parameters& parameters, Units units,
+                                 const ParameterMap& map) {
+  std::string text = units == Units::Inch ? "G20\n" : "G21\n";
+  for (int number = 0; number < kFirstUnnamed; ++number) {
+    if (parameters[number] != 0) {
+      text += fmt::format("P{}={}\n", number, value_text(parameters[number]));
+    }
+  }
+  text += "G10\n";
+  for (int number = kFirstUnnamed; number < kParameterCount; ++number) {
+    const auto row =
+        std::ranges::find(map.rows, number, [](const auto& each) { return each.ours; });
+    if (row != map.rows.end()) {
+      text += fmt::format("P{}={}\n", row->control, value_text(parameters[number]));
+    } else if (has_name(number) && parameters[number] != 0) {
+      return fail(Errc::NotFound, "P{}, which is {}, has no row in the map", number,
+                  value_text(parameters[number]));
+    }
+  }
+  return text + "G11\nM30\n";
+}
+
 /// The values as the sections of a setup file; those at 0, which is what they are without it, only
 /// where a table would be half empty.
 class SetupText {
@@ -173,12 +231,34 @@ class SetupText {
 
 }  // namespace
 
-Result<std::string> write_parameter_text(const Setup& setup) {
+Result<ParameterMap> read_parameter_map(std::string_view text) {
+  ParameterMap map;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    auto row = read_row(text.substr(0, end), ++number);
+    if (!row) return fail(row.error());
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (!*row) continue;
+    for (const ParameterMap::Row& known : map.rows) {
+      if (known.ours == (*row)->ours || known.control == (*row)->control) {
+        return fail(Errc::Syntax, "line {}: P{} = P{} besides P{} = P{}", number, (*row)->ours,
+                    (*row)->control, known.ours, known.control);
+      }
+    }
+    map.rows.push_back(**row);
+  }
+  if (map.rows.empty()) return fail(Errc::Syntax, "the map has no row as P500 = P7012");
+  return map;
+}
+
+Result<std::string> write_parameter_text(const Setup& setup, const ParameterMap* map) {
   ModalState state;
   Parameters parameters;
   if (auto loaded = load_memory(setup, state, parameters); !loaded) return fail(loaded.error());
+  if (map != nullptr) return write_mapped(parameters, state.units, *map);
   Writer writer(parameters);
-  writer.line("(PARAMETERS)");
+  writer.line(kOwnNumbering);
   writer.line(state.units == Units::Inch ? "G20" : "G21");
   for (int number = 0; number < kFirstUnnamed; ++number) {
     if (parameters[number] != 0) writer.set(number);
@@ -193,7 +273,11 @@ Result<std::string> write_parameter_text(const Setup& setup) {
   return writer.take();
 }
 
-Result<std::string> setup_of_parameter_text(std::string_view text) {
+Result<std::string> setup_of_parameter_text(std::string_view text, const ParameterMap* map) {
+  // A line may put a `%` or blanks in front of it.
+  constexpr std::size_t kHead = 200;
+  const bool is_ours =
+      map == nullptr && text.substr(0, kHead).find(kOwnNumbering) != std::string_view::npos;
   Parameters parameters;
   Units units = Units::Inch;
   std::size_t number = 0;
@@ -204,11 +288,25 @@ Result<std::string> setup_of_parameter_text(std::string_view text) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line->units) units = *line->units;
     if (!line->set) continue;
-    if (!has_name(line->set->first)) {
-      return fail(Errc::Syntax, "line {}: P{} is none of the parameters that a setup keeps", number,
-                  line->set->first);
+    auto [parameter, value] = *line->set;
+    if (parameter >= kFirstUnnamed && map != nullptr) {
+      const auto row =
+          std::ranges::find(map->rows, parameter, [](const auto& each) { return each.control; });
+      if (row == map->rows.end()) {
+        return fail(Errc::Syntax, "line {}: P{} has no row in the map", number, parameter);
+      }
+      parameter = row->ours;
+    } else if (parameter >= kFirstUnnamed && !is_ours) {
+      return fail(Errc::Unsupported,
+                  "line {}: P{}: the control's numbers from P{} on are not known: a map says which "
+                  "is which (--map FILE, deploy/examples/centurion-parameters.map)",
+                  number, parameter, kFirstUnnamed);
     }
-    parameters[line->set->first] = line->set->second;
+    if (!has_name(parameter)) {
+      return fail(Errc::Syntax, "line {}: P{} is none of the parameters that a setup keeps", number,
+                  parameter);
+    }
+    parameters[parameter] = value;
   }
   return SetupText(parameters, units).make();
 }

@@ -32,5 +32,21 @@ TEST(SetupForms, SendAToolStoreToAControlThatHasOne) {
             "a TNC 155 A with software 02 has no central tool store (from software 03)");
 }
 
+/// CEN-220: a Centurion's numbers are not known without a map.
+TEST(SetupForms, GiveACenturionOnlyNumbersThatAreKnown) {
+  const std::string toml = "[[offset]]\nname = \"G54\"\nZ = 1.5\n";
+  const auto ours = control_form_of(toml, "centurion");
+  ASSERT_TRUE(ours);
+  EXPECT_TRUE(ours->starts_with("(DRIPLINE'S OWN NUMBERS OF PARAMETERS: NOT FOR A CONTROL)\n"));
+  EXPECT_TRUE(setup_of_control_form(*ours, {}));
+  const auto mapped = control_form_of(toml, "centurion", "P500 = P7010\n");
+  ASSERT_TRUE(mapped);
+  EXPECT_EQ(*mapped, "G20\nP188=1\nP189=1\nG10\nP7010=1.5\nG11\nM30\n");
+  EXPECT_FALSE(setup_of_control_form(*mapped, {}));
+  EXPECT_TRUE(setup_of_control_form(*mapped, {}, "P500 = P7010\n"));
+  EXPECT_EQ(control_form_of(toml, "centurion", "P500 7010").error().what,
+            "map: line 1: \"P500 7010\": expected a row as P500 = P7012");
+}
+
 }  // namespace
 }  // namespace dripline::cli

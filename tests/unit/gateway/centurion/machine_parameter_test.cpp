@@ -165,15 +165,61 @@ TEST(ParameterText, IsAProgramThatSetsThem) {
 
 TEST(ParameterText, NamesTheLineItCanNotRead) {
   const auto refusal = [](const std::string& text) {
-    const auto read = setup_of_parameter_text(text);
+    const auto read = setup_of_parameter_text(std::string(kOwnNumbering) + "\n" + text);
     return read ? std::string("accepted") : read.error().what;
   };
   EXPECT_EQ(refusal("G21\nG10\nP500=1.5\nX3\n"),
-            "line 4: \"X3\": expected P and a number = a value");
+            "line 5: \"X3\": expected P and a number = a value");
   EXPECT_EQ(refusal("P700=1\n"), "accepted");
-  EXPECT_EQ(refusal("P607=1\n"), "line 1: P607 is none of the parameters that a setup keeps");
-  EXPECT_EQ(refusal("P500=1e5\n"), "line 1: \"P500=1e5\": expected P and a number = a value");
+  EXPECT_EQ(refusal("P607=1\n"), "line 2: P607 is none of the parameters that a setup keeps");
+  EXPECT_EQ(refusal("P500=1e5\n"), "line 2: \"P500=1e5\": expected P and a number = a value");
   EXPECT_EQ(refusal("%\nO77 (NAME)\n( ALL )\n p 500 = -1.5 \r\nM30\n%\n"), "accepted");
+}
+
+/// The control's numbers of tables and pages are not known: a file of a control goes nowhere by
+/// guess, and one of ours says in its first line that it is none.
+TEST(ParameterText, TakesNoNumberingThatIsNotKnown) {
+  const auto refused = setup_of_parameter_text("G20\nP7=1\nG10\nP500=1.5\nG11\n");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what,
+            "line 4: P500: the control's numbers from P200 on are not known: a map says which is "
+            "which (--map FILE, deploy/examples/centurion-parameters.map)");
+  EXPECT_TRUE(setup_of_parameter_text("G20\nP7=1\nP199=2\nG10\nG11\n"));
+  const auto text = write_parameter_text(setup_of(kSetup));
+  ASSERT_TRUE(text);
+  EXPECT_TRUE(text->starts_with("(DRIPLINE'S OWN NUMBERS OF PARAMETERS: NOT FOR A CONTROL)\nG2"));
+}
+
+TEST(ParameterMap, GivesAControlItsOwnNumbers) {
+  const auto map = read_parameter_map("# filled in\nP502 = P7012  # G55 Z\nP503 =\np500=p7010\n");
+  ASSERT_TRUE(map) << map.error().what;
+  const std::string offset =
+      "units = \"mm\"\n[[variable]]\nname = \"P7\"\nvalue = 2.25\n"
+      "[[offset]]\nname = \"G55\"\nZ = -120.5\n";
+  const auto text = write_parameter_text(setup_of(offset), &*map);
+  ASSERT_TRUE(text) << text.error().what;
+  EXPECT_EQ(*text, "G21\nP7=2.25\nP188=1\nP189=1\nG10\nP7010=0\nP7012=-120.5\nG11\nM30\n");
+  const auto back = setup_of_parameter_text(*text, &*map);
+  ASSERT_TRUE(back) << back.error().what;
+  EXPECT_NE(back->find("name = \"G55\"\nX = 0\nZ = -120.5"), std::string::npos) << *back;
+  EXPECT_EQ(setup_of_parameter_text("G10\nP502=1\nG11\n", &*map).error().what,
+            "line 2: P502 has no row in the map");
+  EXPECT_EQ(write_parameter_text(setup_of(offset + "X = 1.5\n"), &*map).error().what,
+            "P503, which is 1.5, has no row in the map");
+}
+
+TEST(ParameterMap, NamesTheRowThatIsWrong) {
+  const auto refusal = [](const std::string& text) {
+    const auto read = read_parameter_map(text);
+    return read ? std::string("accepted") : read.error().what;
+  };
+  EXPECT_EQ(refusal("P500 = 7012\n"), "line 1: \"P500 = 7012\": expected a row as P500 = P7012");
+  EXPECT_EQ(refusal("P500\n"), "line 1: \"P500\": expected a row as P500 = P7012");
+  EXPECT_EQ(refusal("P500 = P300\nP501 = P300\n"), "line 2: P501 = P300 besides P500 = P300");
+  EXPECT_EQ(refusal("P607 = P300\n"),
+            "line 1: P607 is none of Dripline's numbers of tables and pages (P500 and on)");
+  EXPECT_EQ(refusal("P500 = P12\n"), "line 1: P12 is a parameter of programs, P0 to P199");
+  EXPECT_EQ(refusal("P500 =\n"), "the map has no row as P500 = P7012");
 }
 
 }  // namespace
