@@ -10,6 +10,7 @@
 #include "clients/cli/tape_conversion.hpp"
 #include "clients/lib/byte_source.hpp"
 #include "clients/lib/output_file.hpp"
+#include "gateway/interpreter/tnc155/block_reader.hpp"
 #include "protocol/wire/tape_listing.hpp"
 
 namespace dripline::cli {
@@ -24,6 +25,7 @@ struct ConvertCommand {
   bool is_listing = false, has_no_rewind_stop = false, has_parentheses = false;
   bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
   bool has_decimal_point = false;
+  bool has_to = false;
   std::optional<std::int32_t> increment;
   std::string setup;
 };
@@ -225,12 +227,35 @@ int convert_between_forms(Context& context, const ConvertCommand& command,
   return convert_form(context, conversion, file);
 }
 
+/// The name of the output asks for the TNC's other form, and `--to` was not given: a copy would be
+/// taken for the conversion.
+Result<void> check_output_name(const ConvertCommand& command, client::FileSource& file) {
+  if (command.has_to || command.is_listing || command.from != "auto") return {};
+  const bool is_iso_name = command.output.ends_with(".i") || command.output.ends_with(".I");
+  const bool is_plain_name = command.output.ends_with(".h") || command.output.ends_with(".H");
+  if (!is_iso_name && !is_plain_name) return {};
+  std::string head(std::min<std::uint64_t>(file.size(), kPiece), '\0');
+  if (auto read = file.read(0, head); !read) return fail(read.error());
+  using interpreter::tnc155::Form;
+  const Form form = interpreter::tnc155::detect_form(head);
+  const bool is_other = form == (is_iso_name ? Form::Plain : Form::Iso);
+  if (!is_other) return {};
+  return fail(Errc::Syntax,
+              "{} is a TNC program in {} and {} is named as one in {}: --to {} converts it, --to "
+              "ascii copies its text",
+              command.input, is_iso_name ? "plain language" : "ISO", command.output,
+              is_iso_name ? "ISO" : "plain language", is_iso_name ? "iso" : "plain");
+}
+
 int convert(Context& context, const ConvertCommand& command) {
   auto file = client::FileSource::open(command.input);
   if (!file) return refuse(file.error());
   if (is_between_forms(command, *file)) return convert_between_forms(context, command, *file);
   if (command.to == "plain") {
     return refuse(Error{Errc::Syntax, "--to plain goes with neither --from nor --list"});
+  }
+  if (auto named_right = check_output_name(command, *file); !named_right) {
+    return refuse(named_right.error());
   }
   const auto from = source_code(command, *file);
   if (!from) return say_no(named(command, from.error()));
@@ -307,7 +332,10 @@ void add_convert_command(CLI::App& app, Context& context) {
       "the program can not be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
       "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
       "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso");
-  command->callback([&context, options] { context.status = convert(context, *options); });
+  command->callback([&context, command, options] {
+    options->has_to = command->count("--to") != 0;
+    context.status = convert(context, *options);
+  });
 }
 
 }  // namespace dripline::cli

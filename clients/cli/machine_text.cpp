@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "clients/cli/coordinate_text.hpp"
 #include "clients/cli/progress.hpp"
@@ -242,6 +243,26 @@ std::vector<std::string> run_lines(const client::Run& run, const client::Machine
 
 std::string run_line(const client::Run& run, const client::MachineStatus* status) {
   return fmt::format("{}", fmt::join(run_lines(run, status), "  "));
+}
+
+std::string waiting_line(const client::Run& run, const client::MachineStatus& status) {
+  const std::string step = next_step(run, status);
+  if (step.empty()) return {};
+  const std::string what = status.message.empty() ? status.execution : status.message;
+  return fmt::format("run {} waits: {}; {}", short_id(run.id), what, step);
+}
+
+std::string record_line(const client::Record& record) {
+  std::string text = record.text;
+  if (record.kind == "alarm" || record.kind == "warning") {
+    const auto json = nlohmann::json::parse(record.text, nullptr, false);
+    const auto field = [&](const char* name) {
+      const bool has = json.is_object() && json.contains(name) && json[name].is_string();
+      return has ? json[name].get<std::string>() : std::string();
+    };
+    if (!field("code").empty()) text = field("code") + " " + field("text");
+  }
+  return fmt::format("{}  line {}  {}", record.kind, record.line.value_or(0), text);
 }
 
 std::string outcome_line(const client::Run& run) {

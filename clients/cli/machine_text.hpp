@@ -34,6 +34,10 @@ Details machine_details(const client::Machine& machine);
 std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
 /// The same as one line.
 std::string run_line(const client::Run& run, const client::MachineStatus* status);
+/// What it waits for and what an operator types next; empty while it waits for nobody.
+std::string waiting_line(const client::Run& run, const client::MachineStatus& status);
+/// A record of the run for people: "alarm  line 3  MCH0004 a feed per revolution ...".
+std::string record_line(const client::Record& record);
 /// How the run ended, in one line.
 std::string outcome_line(const client::Run& run);
 

@@ -96,14 +96,22 @@ class RunWatch {
   }
 
   void show() {
-    if (style_ == WatchStyle::Silent) return;
-    if (context_.wants_json) return show_json();
     const auto* status = status_of_run();
+    if (style_ == WatchStyle::Silent) return tell_what_it_waits_for(status);
+    if (context_.wants_json) return show_json();
     if (area_.is_live()) return area_.show(run_lines(run_, status));
     const std::string line = run_line(run_, status);
     const std::string key = run_.state + (status ? status->execution + status->message : "");
     if (!log_.is_worth_a_line(key, line, clock_.steady_now())) return;
     print(printable(line));
+  }
+
+  /// Whoever waits for the end without watching is told, once each time, that somebody has to act.
+  void tell_what_it_waits_for(const client::MachineStatus* status) {
+    std::string line = status != nullptr ? waiting_line(run_, *status) : std::string();
+    if (line == told_) return;
+    told_ = std::move(line);
+    if (!told_.empty()) note(printable(told_));
   }
 
   void show_json() {
@@ -126,8 +134,7 @@ class RunWatch {
 
   void tell(const client::Record& record) {
     if (style_ == WatchStyle::Silent || context_.wants_json) return;
-    print(printable(
-        fmt::format("{}  line {}  {}", record.kind, record.line.value_or(0), record.text)));
+    print(printable(record_line(record)));
     show();
   }
 
@@ -169,6 +176,7 @@ class RunWatch {
   std::optional<client::Failure> failure_;
   SteadyTime last_heard_{}, last_asked_{};
   bool is_lost_ = false;
+  std::string told_;  ///< of what it waits for
 };
 
 }  // namespace

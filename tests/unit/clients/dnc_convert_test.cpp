@@ -63,6 +63,21 @@ TEST_F(DncConvert, ChangesTheFormOfTncPrograms) {
   EXPECT_EQ(dnc.read("b.i"), "");
 }
 
+// HD-238: a copy under the name of the other form would be taken for the conversion.
+TEST_F(DncConvert, RefusesACopyUnderTheOtherFormsName) {
+  dnc.write("a.h", "0 BEGIN PGM 5 MM\r\n1 L X+1 R0 F80 M\r\n2 END PGM 5 MM\r\n");
+  const auto refused = dnc({"convert", "a.h", "-o", "a.i"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err,
+            "dnc: a.h is a TNC program in plain language and a.i is named as one in ISO: --to iso "
+            "converts it, --to ascii copies its text\n");
+  EXPECT_EQ(dnc.read("a.i"), "");
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "a.i", "--to", "ascii"}).status, 0);
+  EXPECT_EQ(dnc({"convert", "a.h", "-o", "b.h"}).status, 0);
+  ASSERT_EQ(dnc({"convert", "a.h", "-o", "a.i", "--to", "iso"}).status, 0);
+  EXPECT_EQ(dnc({"convert", "a.i", "-o", "c.h"}).status, 2);
+}
+
 // HD-238, HD-239: the setup says which control it is.
 TEST_F(DncConvert, ConvertsAndChecksForTheControlOfTheSetup) {
   dnc.write("a.h", "0 BEGIN PGM 5 MM\n1 TOOL CALL 0 Z S 400\n2 STOP\n3 END PGM 5 MM\n");

@@ -195,6 +195,30 @@ TEST(RunLine, ManagesWithoutAStatus) {
             "O0200 on lathe-1  ordered  0 B of 2.0 MB sent  0 blocks executed");
 }
 
+TEST(RecordLine, IsForPeople) {
+  client::Record record;
+  record.kind = "alarm";
+  record.line = 3;
+  record.text = R"({"code":"MCH0004","text":"a feed per revolution"})";
+  EXPECT_EQ(record_line(record), "alarm  line 3  MCH0004 a feed per revolution");
+  record.kind = "warning";
+  EXPECT_EQ(record_line(record), "warning  line 3  MCH0004 a feed per revolution");
+  record.text = "not JSON";
+  EXPECT_EQ(record_line(record), "warning  line 3  not JSON");
+  record.kind = "message";
+  record.text = "{DRILL}";
+  EXPECT_EQ(record_line(record), "message  line 3  {DRILL}");
+}
+
+TEST(WaitingLine, NamesWhatARunWaitsForAndWhatGoesOn) {
+  client::MachineStatus stopped = status();
+  EXPECT_EQ(waiting_line(run(), stopped), "");
+  stopped.execution = "PROGRAM_STOPPED";
+  stopped.message = "operator stop: start at block 5";
+  EXPECT_EQ(waiting_line(run(), stopped),
+            "run 0192aabb waits: operator stop: start at block 5; dnc run resume 0192aabb goes on");
+}
+
 TEST(OutcomeLine, SaysHowTheRunWent) {
   EXPECT_EQ(outcome_line(run()),
             "Run 0192aabb of O0200 on lathe-1 completed: 200000 blocks executed in 1:06, 12 report "
