@@ -206,7 +206,7 @@ constexpr std::array kTexts{
     ErrorText{1012, "the program repeats without end"},
     ErrorText{1020, "compensation begins and ends on straight moves"},
     ErrorText{1021, "too much between two compensated moves"},
-    ErrorText{1022, "contour too narrow for the tool nose"},
+    ErrorText{1022, "contour too narrow for the tool nose, where the control would back it up"},
     ErrorText{1030, "the corner does not fit"},
 };
 

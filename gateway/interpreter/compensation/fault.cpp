@@ -6,9 +6,21 @@
 
 namespace dripline::interpreter::compensation {
 
+namespace {
+
+/// To a tenth of a micrometre, below what any control resolves.
+std::string rounded(Length length) {
+  std::string text = fmt::format("{:.4f}", length.mm());
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
 std::string describe(const Fault& fault) {
-  const double value = fault.value.mm();
-  const double limit = fault.limit.mm();
+  const std::string value = rounded(fault.value);
+  const std::string limit = rounded(fault.limit);
   switch (fault.kind) {
     case FaultKind::NoIntersection:
       return fmt::format("the compensated path of line {} does not meet that of line {}",
