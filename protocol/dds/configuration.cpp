@@ -109,6 +109,16 @@ Result<std::string> place_elements(const NetworkOptions& options, Role role, std
 
 }  // namespace
 
+Result<void> check_exposure(const NetworkOptions& options) {
+  if (is_loopback(options.interface) || options.security || options.is_open_network_allowed)
+    return {};
+  return fail(Errc::Denied,
+              "DDS on interface '{}' has no authentication: whoever reaches it can read programs "
+              "and command the machines. Stay on lo, or take a network that only server and "
+              "gateways are on and confirm it with dds-open-network = yes",
+              options.interface);
+}
+
 std::uint32_t cell_of(const std::string& machine) {
   return crc32(std::as_bytes(std::span(machine))) % kCells;
 }

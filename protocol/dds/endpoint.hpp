@@ -29,7 +29,12 @@ struct NetworkOptions {
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;  ///< a silent peer is given up after this
   std::optional<SecurityFiles> security;
+  bool is_open_network_allowed = false;  ///< beyond loopback without `security`
 };
+
+/// Whether it is safe to open an endpoint like this. Errors: Denied (an interface that other
+/// machines reach, and no security: whoever reaches it can command every machine).
+Result<void> check_exposure(const NetworkOptions& options);
 
 /// Bytes and messages dropped because they failed a check; they are never delivered.
 struct Rejected {
@@ -57,7 +62,8 @@ struct GatewayHandlers {
   std::function<void(RecordAck)> on_ack;
   std::function<void(BlockData)> on_block;
   /// true: a server hears this gateway and is heard by it; repeated when another server takes over
-  /// or the same one is back. false: none is left.
+  /// or the same one is back. Another one takes over only when the present one is lost; until then
+  /// nothing is taken from it. false: none is left.
   std::function<void(bool is_connected)> on_server;
 };
 
@@ -85,9 +91,12 @@ class GatewayEndpoint {
 struct ServerHandlers {
   /// The machine can be written to from now on. Again whenever it is back or announces something
   /// else; a restarted gateway can come (with another session) without on_lost before. Its status
-  /// and records may arrive a little earlier.
+  /// and records may arrive a little earlier; those of any other participant never do.
   std::function<void(Announce)> on_announce;
   std::function<void(std::string machine)> on_lost;  ///< its lease ended, or it left
+  /// Another participant announces the same machine while the present one lives: it is not heard
+  /// until that one is lost. false: no longer.
+  std::function<void(std::string machine, bool is_there)> on_rival;
   std::function<void(Status)> on_status;
   std::function<void(Record)> on_record;
   std::function<void(OrderResult)> on_order_result;

@@ -9,7 +9,7 @@
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/dds/impl/domain.hpp"
 #include "protocol/dds/impl/matched.hpp"
-#include "protocol/dds/impl/reader.hpp"
+#include "protocol/dds/impl/peer_reader.hpp"
 #include "protocol/dds/impl/writer.hpp"
 
 namespace dripline::dds {
@@ -56,8 +56,9 @@ class Gateway final : public GatewayEndpoint {
   template <class Message>
   Result<void> open_writer(const Entity& publisher, std::unique_ptr<Writer<Message>>& writer);
   template <class Message>
-  Result<void> open_reader(const Entity& subscriber, std::unique_ptr<Reader<Message>>& reader,
+  Result<void> open_reader(const Entity& subscriber, std::unique_ptr<PeerReader<Message>>& reader,
                            std::function<void(Message)>& handler);
+  void believe(const std::string& server);
 
   void wake_watcher();
   void watch(const std::stop_token& stop);
@@ -78,9 +79,8 @@ class Gateway final : public GatewayEndpoint {
 
   std::mutex announce_mutex_;
   std::optional<Announce> announce_;
-  std::string heard_;               // written by the watcher under announce_mutex_
-  std::set<std::string> complete_;  // this and the next are the watcher's
-  bool announce_due_ = false;
+  std::string heard_;          // written by the watcher under announce_mutex_
+  bool announce_due_ = false;  // the watcher's
 
   Entity publisher_, subscriber_;
   std::vector<Entity> topics_;
@@ -89,9 +89,9 @@ class Gateway final : public GatewayEndpoint {
   std::unique_ptr<Writer<Record>> record_;
   std::unique_ptr<Writer<OrderResult>> result_;
   std::unique_ptr<Writer<BlockRequest>> request_;
-  std::unique_ptr<Reader<Order>> order_;
-  std::unique_ptr<Reader<RecordAck>> ack_;
-  std::unique_ptr<Reader<BlockData>> block_;
+  std::unique_ptr<PeerReader<Order>> order_;
+  std::unique_ptr<PeerReader<RecordAck>> ack_;
+  std::unique_ptr<PeerReader<BlockData>> block_;
   std::jthread watcher_;
 };
 
@@ -109,18 +109,17 @@ Result<void> Gateway::open_writer(const Entity& publisher,
 
 template <class Message>
 Result<void> Gateway::open_reader(const Entity& subscriber,
-                                  std::unique_ptr<Reader<Message>>& reader,
+                                  std::unique_ptr<PeerReader<Message>>& reader,
                                   std::function<void(Message)>& handler) {
   auto topic = create_topic<Message>(domain_);
   if (!topic) return fail(topic.error());
-  auto created =
-      Reader<Message>::create(subscriber, *topic, machine_, rejections_,
-                              {.on_message =
-                                   [&handler](Message message, const auto&, dds_instance_handle_t) {
-                                     if (handler) handler(std::move(message));
-                                   },
-                               .on_gone = {},
-                               .on_matched = [this] { wake_watcher(); }});
+  auto created = PeerReader<Message>::create(subscriber, *topic, rejections_,
+                                             {.machine = machine_,
+                                              .on_message =
+                                                  [&handler](Message message) {
+                                                    if (handler) handler(std::move(message));
+                                                  },
+                                              .wake = [this] { wake_watcher(); }});
   if (!created) return fail(created.error());
   topics_.push_back(std::move(*topic));
   reader = std::move(*created);
@@ -166,7 +165,17 @@ void Gateway::watch(const std::stop_token& stop) {
       matches_changed_ = false;
     }
     look_at_servers();
+    order_->settle();
+    ack_->settle();
+    block_->settle();
   }
+}
+
+/// Orders, acknowledgements and text of anybody else are refused.
+void Gateway::believe(const std::string& server) {
+  order_->set_peer(server);
+  ack_->set_peer(server);
+  block_->set_peer(server);
 }
 
 /// A server counts when all of its writers and readers for this machine are matched here: only
@@ -186,17 +195,15 @@ std::set<std::string> Gateway::complete_servers() const {
   return result;
 }
 
-/// The newest server is the one that counts: a killed one stays matched until its lease ends.
+/// A server is kept until it is lost: another one never takes over by being newer. A killed one
+/// stays matched until its lease ends, and its successor waits so long.
 void Gateway::look_at_servers() {
-  std::set<std::string> now = complete_servers();
+  const std::set<std::string> now = complete_servers();
   std::string heard = heard_;
   if (!now.contains(heard)) heard = now.empty() ? std::string{} : *now.begin();
-  for (const std::string& key : now) {
-    if (!complete_.contains(key)) heard = key;
-  }
-  complete_ = std::move(now);
   const bool is_news = heard != heard_;
   if (!is_news && !announce_due_) return;
+  believe(heard);
   {
     std::lock_guard lock(announce_mutex_);
     heard_ = heard;

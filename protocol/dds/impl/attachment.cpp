@@ -7,18 +7,17 @@ namespace {
 
 /// One reader whose messages go straight to a handler of the server.
 template <class Message>
-Result<void> open_reader(std::unique_ptr<Reader<Message>>& reader, const Entity& subscriber,
+Result<void> open_reader(std::unique_ptr<PeerReader<Message>>& reader, const Entity& subscriber,
                          const Entity& topic, const std::string& machine,
                          const std::function<void(Message)>& handler, Rejections& rejections,
                          const std::function<void()>& on_matched) {
-  auto created =
-      Reader<Message>::create(subscriber, topic, machine, rejections,
-                              {.on_message =
-                                   [&handler](Message message, const auto&, dds_instance_handle_t) {
-                                     if (handler) handler(std::move(message));
-                                   },
-                               .on_gone = {},
-                               .on_matched = on_matched});
+  auto created = PeerReader<Message>::create(subscriber, topic, rejections,
+                                             {.machine = machine,
+                                              .on_message =
+                                                  [&handler](Message message) {
+                                                    if (handler) handler(std::move(message));
+                                                  },
+                                              .wake = on_matched});
   if (!created) return fail(created.error());
   reader = std::move(*created);
   return {};
@@ -90,6 +89,21 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
     return fail(r.error());
   }
   return a;
+}
+
+void Attachment::believe(const std::string& participant) {
+  gateway = participant;
+  status->set_peer(participant);
+  record->set_peer(participant);
+  order_result->set_peer(participant);
+  request->set_peer(participant);
+}
+
+void Attachment::settle() {
+  status->settle();
+  record->settle();
+  order_result->settle();
+  request->settle();
 }
 
 bool Attachment::is_matched_with(const std::string& participant) const {

@@ -3,15 +3,17 @@
 #include <optional>
 
 #include "protocol/dds/impl/domain.hpp"
-#include "protocol/dds/impl/reader.hpp"
+#include "protocol/dds/impl/peer_reader.hpp"
 #include "protocol/dds/impl/writer.hpp"
 
 namespace dripline::dds {
 
-/// An Announce whose gateway hears us, and the participant it came from.
-struct Announced {
+/// An Announce as it arrived.
+struct Arrived {
   Announce announce;
-  std::string participant;
+  std::string heard;                 ///< the server its gateway is matched with
+  dds_instance_handle_t writer = 0;  ///< where it came from
+  std::string participant;           ///< likewise, once the watcher has asked
 };
 
 /// The topics of the server, created once for all machines.
@@ -20,22 +22,26 @@ struct ServerTopics {
   static Result<ServerTopics> create(const Domain& domain);
 };
 
-/// The server's entities for one machine, in the machine's partition. They stay for the server's
-/// life: a machine that comes back finds them, and their number is bounded by kMaxMachines.
-/// The state is the watcher's.
+/// The server's entities for one machine, in the machine's partition. They stay when the machine is
+/// lost, so that one that comes back finds them; their number is bounded by kMaxMachines, and then a
+/// lost machine gives way. The state is the watcher's.
 struct Attachment {
   Entity publisher, subscriber;
   std::unique_ptr<Writer<RecordAck>> ack;
   std::unique_ptr<Writer<Order>> order;
   std::unique_ptr<Writer<BlockData>> block;
-  std::unique_ptr<Reader<Status>> status;
-  std::unique_ptr<Reader<Record>> record;
-  std::unique_ptr<Reader<OrderResult>> order_result;
-  std::unique_ptr<Reader<BlockRequest>> request;
+  std::unique_ptr<PeerReader<Status>> status;
+  std::unique_ptr<PeerReader<Record>> record;
+  std::unique_ptr<PeerReader<OrderResult>> order_result;
+  std::unique_ptr<PeerReader<BlockRequest>> request;
 
-  bool is_ready = false;              ///< on_announce was called, on_lost not since
-  std::optional<Announced> waiting;   ///< heard us, but we are not yet matched with all of it
-  std::string gateway;                ///< participant of the one that is ready
+  bool is_ready = false;           ///< on_announce was called, on_lost not since
+  std::optional<Arrived> waiting;  ///< heard us, but we are not yet matched with all of it
+  /// The participant that speaks for the machine, and its Announce's writer. It stays until it is
+  /// lost, whoever else announces the machine; empty: none.
+  std::string gateway;
+  dds_instance_handle_t announcer = 0;
+  std::optional<Arrived> rival;       ///< the last other one that announced the machine
   std::optional<Announce> delivered;  ///< what on_announce was told last
 
   /// `handlers` and `rejections` must outlive the attachment.
@@ -47,6 +53,10 @@ struct Attachment {
                                                     const std::function<void()>& on_matched);
   /// All ways between us and this participant are open on our side.
   bool is_matched_with(const std::string& participant) const;
+  /// What others say for this machine is refused. Empty: what all say.
+  void believe(const std::string& participant);
+  /// Judges writers that nothing is known of yet.
+  void settle();
 };
 
 }  // namespace dripline::dds

@@ -1,5 +1,6 @@
 #include "protocol/dds/impl/cell.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "protocol/dds/impl/matched.hpp"
@@ -32,24 +33,42 @@ Result<void> Cell::start() {
       subscriber_, topics_.announce, "", shared_.rejections,
       {.on_message =
            [this](Announce message, const auto& sample, dds_instance_handle_t writer) {
-             const std::string machine = message.machine;
-             post(machine, Arrived{std::move(message), sample.heard, writer});
+             post_announced({std::move(message), sample.heard, writer, {}});
            },
-       .on_gone = [this](std::string machine) { post(machine, std::nullopt); },
-       .on_matched = {}});
+       .on_gone = [this](const std::string& machine) { post_gone(machine); },
+       .on_matched = [this] { wake_watcher(); }});
   if (!announces) return fail(announces.error());
   announces_ = std::move(*announces);
   watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
   return {};
 }
 
-void Cell::post(const std::string& machine, std::optional<Arrived> news) {
+/// Null: there is no room for another machine. `news_mutex_` is held.
+Cell::MachineNews* Cell::news_of(const std::string& machine) {
+  if (news_.size() >= kMaxMachines && !news_.contains(machine)) return nullptr;
+  return &news_[machine];
+}
+
+void Cell::post_announced(Arrived arrived) {
+  constexpr std::size_t kMaxWriters = 8;  // of one machine, between two looks of the watcher
+  bool is_taken = false;
   {
     std::lock_guard lock(news_mutex_);
-    if (news_.size() >= kMaxMachines && !news_.contains(machine)) {
-      return shared_.rejections.add(Topic<Announce>::kName, "too many machines announced at once");
-    }
-    news_.insert_or_assign(machine, std::move(news));
+    MachineNews* news = news_of(arrived.announce.machine);
+    is_taken = news != nullptr && (news->announced.size() < kMaxWriters ||
+                                   news->announced.contains(arrived.writer));
+    if (is_taken) news->announced.insert_or_assign(arrived.writer, std::move(arrived));
+  }
+  if (!is_taken) {
+    return shared_.rejections.add(Topic<Announce>::kName, "too many machines announced at once");
+  }
+  news_came_.notify_one();
+}
+
+void Cell::post_gone(const std::string& machine) {
+  {
+    std::lock_guard lock(news_mutex_);
+    if (MachineNews* news = news_of(machine)) *news = {.is_gone = true, .announced = {}};
   }
   news_came_.notify_one();
 }
@@ -73,25 +92,45 @@ void Cell::watch(const std::stop_token& stop) {
       news.swap(news_);
       matches_changed_ = false;
     }
-    for (auto& [machine, announced] : news) {
-      if (announced) {
-        handle_announced(machine, std::move(*announced));
-      } else {
-        handle_lost(machine);
-      }
+    for (auto& [machine, what] : news) {
+      if (what.is_gone) handle_lost(machine);
+      for (auto& [writer, arrived] : what.announced) handle_announced(machine, std::move(arrived));
     }
-    for (Attachment* machine : waiting_machines()) try_ready(*machine);
+    for (const auto& [name, machine] : machines_) {  // the watcher reads its own writes
+      look_at_rival(name, *machine);
+      if (machine->waiting) try_ready(*machine);
+      machine->settle();
+    }
   }
 }
 
+/// Nobody announces it any more. One that was never ready may be anybody's invention: what was made
+/// for it is given back.
 void Cell::handle_lost(const std::string& machine) {
-  Attachment* attached = find(machine);
+  const auto attached = find(machine);
   if (attached == nullptr) return;
-  attached->waiting.reset();
-  attached->delivered.reset();
-  attached->gateway.clear();
-  if (std::exchange(attached->is_ready, false) && shared_.handlers.on_lost)
+  set_rival(machine, *attached, std::nullopt);
+  attached->believe({});
+  const bool was_ever_ready = attached->delivered.has_value();
+  lose(*attached, machine);
+  if (!was_ever_ready) drop(machine);
+}
+
+void Cell::lose(Attachment& attached, const std::string& machine) {
+  attached.waiting.reset();
+  if (std::exchange(attached.is_ready, false) && shared_.handlers.on_lost)
     shared_.handlers.on_lost(machine);
+}
+
+void Cell::drop(const std::string& machine) {
+  std::shared_ptr<Attachment> dropped;  // goes without the lock
+  std::unique_lock lock(machines_mutex_);
+  const auto found = machines_.find(machine);
+  if (found == machines_.end()) return;
+  dropped = std::move(found->second);
+  machines_.erase(found);
+  --shared_.machines;
+  lock.unlock();
 }
 
 /// The first Announce of a machine makes us attach it; when the gateway hears what was made, it
@@ -103,24 +142,76 @@ void Cell::handle_announced(const std::string& machine, Arrived arrived) {
     return shared_.rejections.add(Topic<Announce>::kName,
                                   "announced in another machine's partition");
   }
-  Attachment* attached = attach(machine);
-  if (attached == nullptr) return;
-  if (arrived.heard != domain_.key) {
-    // Ours does not hear us any more; or a successor of ours does not yet, and then nothing is said
-    // of the predecessor before the successor is there.
-    if (attached->gateway == source->participant) handle_lost(machine);
-    return;
+  arrived.participant = source->participant;
+  if (speaks_for_another(arrived.participant, machine)) {
+    return shared_.rejections.add(Topic<Announce>::kName, "one participant, several machines");
   }
-  attached->waiting = Announced{std::move(arrived.announce), source->participant};
+  const auto attached = attach(machine);
+  if (attached == nullptr) return;
+  look_at_rival(machine, *attached);
+  if (attached->gateway.empty()) attached->believe(arrived.participant);
+  if (attached->gateway != arrived.participant) {
+    return set_rival(machine, *attached, std::move(arrived));
+  }
+  handle_news_of_gateway(*attached, std::move(arrived));
 }
 
-Attachment* Cell::attach(const std::string& machine) {
-  if (Attachment* attached = find(machine)) return attached;
+void Cell::handle_news_of_gateway(Attachment& attached, Arrived arrived) {
+  attached.announcer = arrived.writer;
+  if (arrived.heard == domain_.key) {
+    attached.waiting = std::move(arrived);
+  } else {  // it does not hear us, or not any more
+    lose(attached, arrived.announce.machine);
+  }
+}
+
+/// The gateway that speaks for a machine stays the one until it is lost. Then the one that waited
+/// takes over, without the machine being lost in between.
+void Cell::look_at_rival(const std::string& machine, Attachment& attached) {
+  if (!attached.rival) return;
+  const bool is_there = publication(announces_->get(), attached.rival->writer).has_value();
+  if (!is_there) return set_rival(machine, attached, std::nullopt);
+  if (publication(announces_->get(), attached.announcer)) return;
+  Arrived successor = std::move(*attached.rival);
+  set_rival(machine, attached, std::nullopt);
+  attached.believe(successor.participant);
+  handle_news_of_gateway(attached, std::move(successor));
+}
+
+void Cell::set_rival(const std::string& machine, Attachment& attached,
+                     std::optional<Arrived> rival) {
+  const bool was_there = attached.rival.has_value();
+  attached.rival = std::move(rival);
+  const bool is_there = attached.rival.has_value();
+  if (was_there != is_there && shared_.handlers.on_rival)
+    shared_.handlers.on_rival(machine, is_there);
+}
+
+/// A gateway is a participant of its own. So whoever announces thousands of machines needs as many
+/// participants.
+bool Cell::speaks_for_another(const std::string& participant, const std::string& machine) const {
+  return std::any_of(machines_.begin(), machines_.end(), [&](const auto& entry) {
+    return entry.first != machine && entry.second->gateway == participant;
+  });
+}
+
+/// A machine that is lost gives way to one that is there.
+bool Cell::has_room() {
+  if (shared_.machines < kMaxMachines) return true;
+  const auto lost = std::find_if(machines_.begin(), machines_.end(),
+                                 [](const auto& entry) { return entry.second->gateway.empty(); });
+  if (lost == machines_.end()) return false;
+  drop(std::string(lost->first));
+  return true;
+}
+
+std::shared_ptr<Attachment> Cell::attach(const std::string& machine) {
+  if (auto attached = find(machine)) return attached;
   if (cell_of(machine) != number_) {
     shared_.rejections.add(Topic<Announce>::kName, "announced to another cell than the machine's");
     return nullptr;
   }
-  if (shared_.machines >= kMaxMachines) {
+  if (!has_room()) {
     shared_.rejections.add(Topic<Announce>::kName, "too many machines");
     return nullptr;
   }
@@ -132,21 +223,12 @@ Attachment* Cell::attach(const std::string& machine) {
   }
   ++shared_.machines;
   std::unique_lock lock(machines_mutex_);
-  return machines_.emplace(machine, std::move(*created)).first->second.get();
-}
-
-std::vector<Attachment*> Cell::waiting_machines() const {
-  std::vector<Attachment*> result;
-  for (const auto& [name, machine] : machines_) {  // the watcher reads its own writes
-    if (machine->waiting) result.push_back(machine.get());
-  }
-  return result;
+  return machines_.emplace(machine, std::move(*created)).first->second;
 }
 
 void Cell::try_ready(Attachment& machine) {
   if (!machine.is_matched_with(machine.waiting->participant)) return;  // the rest is to come
   Announce announce = std::move(machine.waiting->announce);
-  machine.gateway = std::move(machine.waiting->participant);
   machine.waiting.reset();
   const bool was_ready = std::exchange(machine.is_ready, true);
   if (was_ready && machine.delivered == announce) return;

@@ -39,14 +39,13 @@ class Cell {
   Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
 
  private:
-  /// An Announce as it arrived.
-  struct Arrived {
-    Announce announce;
-    std::string heard;                 ///< the server its gateway is matched with
-    dds_instance_handle_t writer = 0;  ///< where it came from
+  /// What happened to one machine since the watcher looked: nobody announced it any more, then these
+  /// did, the latest of each writer.
+  struct MachineNews {
+    bool is_gone = false;
+    std::map<dds_instance_handle_t, Arrived> announced;
   };
-  /// News of machines, the latest each: an Announce, or none when the machine is gone.
-  using News = std::map<std::string, std::optional<Arrived>>;
+  using News = std::map<std::string, MachineNews>;
 
   Cell(Domain domain, ServerTopics topics, std::uint32_t number, ServerShared& shared)
       : domain_(std::move(domain)), topics_(std::move(topics)), number_(number), shared_(shared) {}
@@ -54,27 +53,35 @@ class Cell {
   template <class Message>
   Result<void> write_to(const Message& message, std::unique_ptr<Writer<Message>> Attachment::*way) {
     // Not only after on_announce: a record that overtook it may be acknowledged.
-    Attachment* machine = find(message.machine);
-    if (machine == nullptr || !(machine->*way)->has_readers()) {
+    const auto machine = find(message.machine);
+    if (machine == nullptr || !((*machine).*way)->has_readers()) {
       return fail(Errc::NotFound, "machine {} is not connected", message.machine);
     }
-    return (machine->*way)->write(message);
+    return ((*machine).*way)->write(message);
   }
-  Attachment* find(const std::string& machine) const {
+  std::shared_ptr<Attachment> find(const std::string& machine) const {
     std::shared_lock lock(machines_mutex_);
     const auto found = machines_.find(machine);
-    return found != machines_.end() ? found->second.get() : nullptr;
+    return found != machines_.end() ? found->second : nullptr;
   }
 
   Result<void> start();
-  void post(const std::string& machine, std::optional<Arrived> news);
+  void post_announced(Arrived arrived);
+  void post_gone(const std::string& machine);
+  MachineNews* news_of(const std::string& machine);
   void wake_watcher();
   void watch(const std::stop_token& stop);
   void handle_lost(const std::string& machine);
   void handle_announced(const std::string& machine, Arrived arrived);
-  Attachment* attach(const std::string& machine);
+  void handle_news_of_gateway(Attachment& attached, Arrived arrived);
+  void lose(Attachment& attached, const std::string& machine);
+  void drop(const std::string& machine);
+  void set_rival(const std::string& machine, Attachment& attached, std::optional<Arrived> rival);
+  void look_at_rival(const std::string& machine, Attachment& attached);
+  bool speaks_for_another(const std::string& participant, const std::string& machine) const;
+  bool has_room();
+  std::shared_ptr<Attachment> attach(const std::string& machine);
   void try_ready(Attachment& machine);
-  std::vector<Attachment*> waiting_machines() const;
 
   // Order matters: the listeners of readers and writers use what is above them.
   Domain domain_;
@@ -89,7 +96,7 @@ class Cell {
 
   Entity subscriber_;
   mutable std::shared_mutex machines_mutex_;
-  std::map<std::string, std::unique_ptr<Attachment>> machines_;  // only the watcher adds
+  std::map<std::string, std::shared_ptr<Attachment>> machines_;  // only the watcher changes
   std::unique_ptr<Reader<Announce>> announces_;
   std::jthread watcher_;
 };

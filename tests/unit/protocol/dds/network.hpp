@@ -57,6 +57,7 @@ class Inbox {
 struct TestServer {
   Inbox<Announce> announces;
   Inbox<std::string> lost;
+  Inbox<bool> rivals;
   Inbox<Status> statuses;
   Inbox<Record> records;
   Inbox<OrderResult> results;
@@ -66,6 +67,7 @@ struct TestServer {
   ServerHandlers handlers() {
     return {.on_announce = [this](Announce m) { announces.put(std::move(m)); },
             .on_lost = [this](std::string m) { lost.put(std::move(m)); },
+            .on_rival = [this](std::string, bool is_there) { rivals.put(is_there); },
             .on_status = [this](Status m) { statuses.put(std::move(m)); },
             .on_record = [this](Record m) { records.put(std::move(m)); },
             .on_order_result = [this](OrderResult m) { results.put(std::move(m)); },
