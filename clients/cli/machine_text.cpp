@@ -193,6 +193,7 @@ Details machine_details(const client::Machine& machine) {
   details.add("gateway", machine.gateway_version);
   details.add("connected", machine.connected ? Cell("yes", Style::Good) : Cell("no", Style::Bad));
   details.add("last seen", time_text(machine.last_seen));
+  for (const std::string& notice : machine.notices) details.add("notice", Cell(notice, Style::Bad));
   if (!machine.status) return details;
   const auto& status = *machine.status;
   details.add("execution", execution_cell(machine));

@@ -35,6 +35,7 @@ Gateway::Gateway(Parts parts)
           [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
       publisher_(
           [this](const dds::Status& status) { return parts_.endpoint.write(status).has_value(); }),
+      validity_(parts_.session),
       consent_(parts_.options.is_unattended) {
   machine::OperatorPanel panel;
   panel.single_block = parts_.setup.switches.single_block;
@@ -105,6 +106,7 @@ void Gateway::receive(Incoming incoming, SteadyTime now) {
     spdlog::info("server {} machine={}", seen->is_connected ? "connected" : "gone",
                  parts_.options.machine);
     is_connected_ = seen->is_connected;
+    refused_by_server_.clear();
     sender_.on_server(is_connected_);
     if (!is_connected_) return;
     announcement_is_due_ = true;
@@ -143,6 +145,7 @@ SteadyTime Gateway::turn(SteadyTime now) {
   if (publisher_.is_due(now)) {
     if (session_) session_->size_feed(parts_.options.speed.factor);
     publisher_.offer(status(), now);
+    log_rejected(now);
   }
   return next_turn(now);
 }
@@ -174,6 +177,17 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   if (listen_at_) next = std::min(next, *listen_at_);
   if (line_ == Line::Draining) next = std::min(next, now + report::StatusPublisher::kShortest);
   return std::max(next, now + std::chrono::milliseconds(1));
+}
+
+/// What was dropped is told at most once a minute: whoever sends it must not fill the log.
+void Gateway::log_rejected(SteadyTime now) {
+  constexpr std::chrono::minutes kInterval{1};
+  const dds::Rejected dropped = parts_.endpoint.rejected();
+  if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
+  spdlog::warn("dropped {} DDS messages, the last: {} {}", dropped.messages - rejected_logged_,
+               dropped.last_reason, label());
+  rejected_logged_ = dropped.messages;
+  next_rejected_log_ = now + kInterval;
 }
 
 void Gateway::announce() {

@@ -11,6 +11,7 @@
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/options.hpp"
+#include "gateway/app/order_validity.hpp"
 #include "gateway/app/run_session.hpp"
 #include "gateway/feed/control_line.hpp"
 #include "gateway/feed/line_feed.hpp"
@@ -69,7 +70,9 @@ class Gateway {
 
   // gateway_orders.cpp
   void on_order(const dds::Order& order);
-  Reply carry_out(const dds::Order& order);
+  void on_refusal(const dds::Order& order);
+  bool stops(const dds::Order& order) const;
+  Reply carry_out(const dds::Order& order, bool is_stop);
   Reply start(const dds::Order& order);
   struct StartedBy {
     std::string order;  ///< what is answered; empty: nobody
@@ -139,6 +142,7 @@ class Gateway {
   dds::Execution execution_of_run(std::string& message) const;
 
   void announce();
+  void log_rejected(SteadyTime now);
   SteadyTime next_turn(SteadyTime now) const;
   bool is_running() const;
   std::string label() const;
@@ -151,6 +155,7 @@ class Gateway {
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
   std::unique_ptr<RunSession> session_;
+  OrderValidity validity_;
   interpreter::PanelTables panel_tables_;
   Consent consent_;
   bool is_stopped_at_panel_ = false;  ///< the emergency stop was pressed there
@@ -160,9 +165,11 @@ class Gateway {
   bool is_ending_ = false;              ///< the run's last records are staged, not yet on disk
   bool is_held_by_trouble_ = false;     ///< not by the operator
   bool was_emergency_stopped_ = false;  ///< the run; it ends when the switch is released
-  SteadyTime last_step_{}, next_commit_{}, next_sync_{};
+  SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_rejected_log_{};
+  std::uint64_t rejected_logged_ = 0;
   dds::Execution last_execution_ = dds::Execution::Ready;
   std::string last_message_;
+  std::string refused_by_server_;  ///< why it does not command this gateway
 
   /// What is done with text from the line.
   enum class Line : std::uint8_t {

@@ -1,4 +1,5 @@
 #include <spdlog/spdlog.h>
+#include <utility>
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/feed/pull_feed.hpp"
@@ -26,23 +27,50 @@ std::string start_key(const std::string& run) {
 }  // namespace
 
 void Gateway::on_order(const dds::Order& order) {
-  if (order.session != 0 && order.session != parts_.session) {
+  if (order.action == OrderAction::Refuse) return on_refusal(order);
+  const bool is_stop = stops(order);
+  if (!is_stop && order.session != 0 && order.session != parts_.session) {
     spdlog::warn("order {} is for another gateway of this name {}", order.id, label());
     return;
   }
   const auto known = outbox_.order_result(order.id);
   if (!known) {
-    spdlog::error("order {} can not be looked up: {} {}", order.id, known.error().what, label());
-    return;  // its sender tries again
+    spdlog::error("order {} cannot be looked up: {} {}", order.id, known.error().what, label());
+    if (!is_stop) return;  // its sender tries again
   }
-  if (*known) return answer(order, {(*known)->is_accepted, (*known)->reason});
-  const Reply reply = carry_out(order);
+  if (known && *known) return answer(order, {(*known)->is_accepted, (*known)->reason});
+  const Reply reply = carry_out(order, is_stop);
   spdlog::info("order {} {} {}{}{} {}", order.id, dds::to_string(order.action),
                reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
                reply.reason, label());
   const bool is_kept = order.action == OrderAction::Start && reply.is_accepted;
   if (!is_kept) keep_result(order, reply);
   answer(order, reply);
+}
+
+void Gateway::on_refusal(const dds::Order& order) {
+  if (std::exchange(refused_by_server_, order.argument) == order.argument) return;
+  spdlog::error("the server does not command this gateway: {} {}", order.argument, label());
+}
+
+/// What stops is done whenever it comes and whoever is meant: stopping once too often does no harm.
+bool Gateway::stops(const dds::Order& order) const {
+  const machine::OperatorPanel panel = machine_.panel();
+  switch (order.action) {
+    case OrderAction::Hold:
+    case OrderAction::Abort:
+      return true;
+    case OrderAction::Switch:
+      return order.argument == "emergency_stop" && order.value == 1;
+    case OrderAction::FeedOverride:
+      return order.value < panel.feed_override;
+    case OrderAction::RapidOverride:
+      return order.value < panel.rapid_override;
+    case OrderAction::SpindleOverride:
+      return order.value < panel.spindle_override;
+    default:
+      return false;
+  }
 }
 
 /// After a kill an order may be carried out twice; that does no harm, because the run it was meant
@@ -64,9 +92,12 @@ void Gateway::send_results() {
   while (!results_.empty() && parts_.endpoint.write(results_.front())) results_.pop_front();
 }
 
-Gateway::Reply Gateway::carry_out(const dds::Order& order) {
-  if (order.expires < parts_.clock.now())
-    return refuse(fmt::format("the order expired at {}", to_iso8601(order.expires)));
+Gateway::Reply Gateway::carry_out(const dds::Order& order, bool is_stop) {
+  if (is_stop) {
+    validity_.note_stop(order);
+  } else if (auto refusal = validity_.refusal(order, parts_.clock.steady_now())) {
+    return refuse(*std::move(refusal));
+  }
   if (order.action == OrderAction::Start) return start(order);
   if (auto refusal = refusal_without_consent(order)) return *refusal;
   if (order.action == OrderAction::Switch) return set_switch(order);

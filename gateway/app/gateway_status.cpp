@@ -148,6 +148,8 @@ dds::Status Gateway::status() const {
   status.machine = parts_.options.machine;
   status.session = parts_.session;
   status.time = parts_.clock.now();
+  status.steady = std::chrono::duration_cast<std::chrono::microseconds>(
+      parts_.clock.steady_now().time_since_epoch());
   const machine::MachineStatus now = machine_.status();
   for (std::size_t i = 0; i < status.position.size(); ++i) {
     const auto axis = static_cast<interpreter::Axis>(i);
@@ -193,7 +195,9 @@ void Gateway::fill_execution(dds::Status& status) const {
     status.execution = Execution::Waiting;
     message = fmt::format("reports can not be kept: {}", recorder_.trouble());
   } else if (message.empty()) {
-    message = line_trouble_;
+    message = refused_by_server_.empty()
+                  ? line_trouble_
+                  : fmt::format("the server does not command this gateway: {}", refused_by_server_);
   }
   status.message = valid_text(message, kMaxReason);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ struct MachineView {
   std::uint64_t session = 0;  ///< of the gateway that spoke last; orders are meant for this one
   bool is_contested = false;  ///< two gateways say that they are this machine
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
+  std::optional<std::uint32_t> protocol;  ///< of its gateway; absent: not announced, or on a line
+  /// How far the gateway's time of day is ahead of ours; absent: not known yet.
+  std::optional<std::chrono::microseconds> clock_ahead = {};
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.

@@ -5,6 +5,7 @@
 
 #include "server/feeds/control_memory.hpp"
 #include "server/feeds/identifiers.hpp"
+#include "server/feeds/machine_notices.hpp"
 #include "server/feeds/start_point.hpp"
 
 namespace dripline::feeds {
@@ -35,10 +36,7 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
 
 OrderDesk::Options FeedService::order_options() const {
   OrderDesk::Options options = options_.orders;
-  options.session_of = [this](const std::string& machine) {
-    const auto view = board_.view(machine);
-    return view ? view->session : 0;
-  };
+  options.gateway_of = [this](const std::string& machine) { return board_.gateway(machine); };
   return options;
 }
 
@@ -68,14 +66,18 @@ dds::ServerHandlers FeedService::handlers() {
     Parts* parts = this->parts();
     board_.on_announce(announce);
     if (parts == nullptr) return;
-    pool_.post([parts, machine = announce.machine, epoch = announce.epoch] {
-      parts->records.greet(machine, epoch);
+    pool_.post([this, parts, announce] {
+      parts->records.greet(announce.machine, announce.epoch);
+      refuse_stranger(announce);
     });
   };
   handlers.on_lost = [this](const std::string& machine) { board_.on_lost(machine); };
+  handlers.on_rival = [this](const std::string& machine, bool is_there) {
+    board_.on_rival(machine, is_there);
+  };
   handlers.on_status = [this](dds::Status status) {
     if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
-      parts->orders.on_run_seen(status.run);
+      parts->orders.on_run_seen(status.machine, status.run);
     }
     board_.on_status(std::move(status));
   };
@@ -121,7 +123,20 @@ void FeedService::tick() {
   if (is_ending_) return;
   board_.save();
   owned_parts_->watch.compare(board_.views());
+  log_rejected();
   pool_.post_after(MachineBoard::kSaveInterval, [this] { tick(); });
+}
+
+/// What was dropped is told at most once a minute: whoever sends it must not fill the log.
+void FeedService::log_rejected() {
+  constexpr std::chrono::minutes kInterval{1};
+  const SteadyTime now = clock_.steady_now();
+  const dds::Rejected dropped = rejected();
+  if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
+  spdlog::warn("dropped {} DDS messages, the last: {}", dropped.messages - rejected_logged_,
+               dropped.last_reason);
+  rejected_logged_ = dropped.messages;
+  next_rejected_log_ = now + kInterval;
 }
 
 std::vector<MachineView> FeedService::machines() const {
@@ -182,6 +197,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
     return fail(Errc::Busy, "two gateways say that they are machine '{}'; stop one of them",
                 request.machine);
   }
+  if (auto told = check_protocol(*view); !told) return fail(told.error());
   auto run = make_run(request, *view);
   if (!run) return run;
   if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
@@ -201,7 +217,6 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   order.revision = run->content.hex();
   order.size = run->size;
   order.control = run->control;
-  order.session = view->session;
   order.argument = start_text(request.from);
   if (*setup) order.setup = (*setup)->text;
   return conclude_start(*run, parts->orders.carry_out(std::move(order)));
@@ -226,6 +241,43 @@ Result<storage::Run> FeedService::conclude_start(const storage::Run& run,
   return fail(outcome.error());
 }
 
+/// A gateway of another version keeps what it runs and reports, and can be stopped. That is all.
+void FeedService::refuse_stranger(const dds::Announce& announce) {
+  const std::string notice = protocol_notice(announce.protocol);
+  if (notice.empty()) return;
+  dds::Order order;
+  order.machine = announce.machine;
+  order.action = dds::OrderAction::Refuse;
+  order.argument = notice;
+  if (auto sent = owned_parts_->orders.send(std::move(order)); !sent)
+    spdlog::warn("gateway not told machine={}: {}", announce.machine, sent.error().what);
+}
+
+Result<void> FeedService::check_protocol(const MachineView& view) {
+  const std::string notice = view.protocol ? protocol_notice(*view.protocol) : "";
+  if (notice.empty()) return {};
+  return fail(Errc::Unsupported, "machine '{}': {}", view.machine.name, notice);
+}
+
+Result<void> FeedService::check_order(const OrderRequest& request, const MachineView& view) {
+  using dds::OrderAction;
+  const bool presses_stop = request.action == OrderAction::Switch &&
+                            request.argument == "emergency_stop" && request.value == 1;
+  if (request.action == OrderAction::Hold || request.action == OrderAction::Abort || presses_stop)
+    return {};
+  if (view.status) {
+    const bool lowers =
+        (request.action == OrderAction::FeedOverride &&
+         request.value < view.status->feed_override) ||
+        (request.action == OrderAction::RapidOverride &&
+         request.value < view.status->rapid_override) ||
+        (request.action == OrderAction::SpindleOverride &&
+         request.value < view.status->spindle_override);
+    if (lowers) return {};
+  }
+  return check_protocol(view);
+}
+
 Result<void> FeedService::order(const OrderRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
@@ -236,7 +288,9 @@ Result<void> FeedService::order(const OrderRequest& request) {
     return fail(Errc::ModalConflict, "run {} has ended: {}", run->id,
                 storage::to_string(run->state));
   }
-  if (const auto view = connected_machine(run->machine); !view) return fail(view.error());
+  const auto view = connected_machine(run->machine);
+  if (!view) return fail(view.error());
+  if (auto fits = check_order(request, *view); !fits) return fits;
   dds::Order order;
   order.machine = run->machine;
   order.action = request.action;
@@ -252,12 +306,12 @@ Result<void> FeedService::order(const OrderRequest& request) {
 Result<void> FeedService::order_machine(const OrderRequest& request) {
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
+  if (auto fits = check_order(request, *view); !fits) return fits;
   dds::Order order;
   order.machine = request.machine;
   order.action = request.action;
   order.argument = request.argument;
   order.value = request.value;
-  order.session = view->session;
   spdlog::info("order {} machine={}", dds::to_string(request.action), request.machine);
   return owned_parts_->orders.carry_out(std::move(order));
 }

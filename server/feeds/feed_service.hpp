@@ -66,7 +66,11 @@ class FeedService final : public FeedControl {
   void on_late_start(const dds::Order& order);
   OrderDesk::Options order_options() const;
   void abort_unwanted(const storage::Run& run);
+  void refuse_stranger(const dds::Announce& announce);
+  static Result<void> check_protocol(const MachineView& view);
+  static Result<void> check_order(const OrderRequest& request, const MachineView& view);
   void tick();
+  void log_rejected();
   void announce_run(const std::string& run);
   Result<MachineView> connected_machine(const std::string& name) const;
   Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
@@ -84,6 +88,8 @@ class FeedService final : public FeedControl {
   std::unique_ptr<Parts> owned_parts_;
   std::atomic<Parts*> parts_{nullptr};
   std::atomic<bool> is_ending_{false};
+  std::uint64_t rejected_logged_ = 0;  ///< this and the next are the tick's
+  SteadyTime next_rejected_log_{};
 };
 
 }  // namespace dripline::feeds

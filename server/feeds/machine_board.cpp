@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "server/feeds/machine_notices.hpp"
+
 namespace dripline::feeds {
 namespace {
 
@@ -47,10 +49,13 @@ void MachineBoard::on_announce(const dds::Announce& announce) {
   machine.epoch = announce.epoch;
   machine.last_seen = now;
   entry.view.is_connected = true;
+  entry.view.protocol = announce.protocol;
   hear(entry, announce.session);
   entry.machine_is_dirty = true;
   spdlog::info("machine connected machine={} control={} gateway_version={}", announce.machine,
                announce.control, announce.version);
+  if (const auto notice = protocol_notice(announce.protocol); !notice.empty())
+    spdlog::error("machine refused machine={}: {}", announce.machine, notice);
   schedule(entry);
 }
 
@@ -59,6 +64,8 @@ void MachineBoard::on_status(dds::Status status) {
   Entry& entry = entries_[status.machine];
   entry.view.machine.last_seen = parts_.clock.now();
   hear(entry, status.session);
+  if (entry.has_rival) contest(entry);
+  compare_clocks(entry, status);
   entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
   entry.view.status = std::move(status);
   if (is_known(entry.view)) schedule(entry);
@@ -70,17 +77,59 @@ void MachineBoard::hear(Entry& entry, std::uint64_t session) {
   if (session == 0 || session == entry.view.session) return;
   auto& earlier = entry.earlier_sessions;
   if (std::ranges::find(earlier, session) != earlier.end()) {
-    const SteadyTime now = parts_.clock.steady_now();
-    if (now >= entry.contested_until) {
-      spdlog::error("two gateways say that they are machine={}: stop one of them",
-                    entry.view.machine.name);
-    }
-    entry.contested_until = now + kContested;
+    contest(entry);
     std::erase(earlier, session);
   }
   if (entry.view.session != 0) earlier.push_back(entry.view.session);
   if (earlier.size() > kMaxSessions) earlier.pop_front();
   entry.view.session = session;
+  entry.clocks.reset();
+}
+
+void MachineBoard::contest(Entry& entry) {
+  const SteadyTime now = parts_.clock.steady_now();
+  if (now >= entry.contested_until) {
+    spdlog::error("two gateways say that they are machine={}: stop one of them",
+                  entry.view.machine.name);
+  }
+  entry.contested_until = now + kContested;
+}
+
+/// A killed gateway and its successor: the first is never heard again. When it is, there are two.
+void MachineBoard::on_rival(const std::string& machine, bool is_there) {
+  const std::lock_guard lock(mutex_);
+  entries_[machine].has_rival = is_there;
+}
+
+void MachineBoard::compare_clocks(Entry& entry, const dds::Status& status) {
+  entry.clocks.compare(status, parts_.clock.now(), parts_.clock.steady_now());
+  entry.view.clock_ahead = entry.clocks.time_ahead();
+  if (!entry.view.clock_ahead) return;
+  const auto notice = clock_notice(*entry.view.clock_ahead);
+  // Clocks that differ by just the tolerance do not fill the log.
+  const bool is_near = std::chrono::abs(*entry.view.clock_ahead) > GatewayClocks::kTolerance / 2;
+  const bool is_off = !notice.empty() || (entry.clock_is_off && is_near);
+  if (std::exchange(entry.clock_is_off, is_off) == is_off) return;
+  if (is_off) {
+    spdlog::warn("{} machine={}", notice, status.machine);
+  } else {
+    spdlog::info("the clocks of gateway and server agree again machine={}", status.machine);
+  }
+}
+
+std::chrono::microseconds MachineBoard::clock_error(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return {};
+  const auto ahead = found->second.clocks.time_ahead().value_or(std::chrono::microseconds{0});
+  return std::chrono::abs(ahead) > GatewayClocks::kTolerance ? ahead : std::chrono::microseconds{0};
+}
+
+OrderDesk::Options::Gateway MachineBoard::gateway(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return {};
+  return {found->second.view.session, found->second.clocks.steady_ahead()};
 }
 
 MachineView MachineBoard::shown(const Entry& entry) const {
@@ -134,7 +183,7 @@ void MachineBoard::tell(const std::string& name) {
     if (!std::exchange(entry.is_scheduled, false)) return;
     entry.is_telling = true;
     is_dirty = entry.machine_is_dirty;
-    view = entry.view;
+    view = shown(entry);
   }
   if (is_dirty) save_machine(name);
   parts_.on_change(view);

@@ -10,6 +10,8 @@
 
 #include "protocol/base/clock.hpp"
 #include "server/feeds/feed_control.hpp"
+#include "server/feeds/gateway_clocks.hpp"
+#include "server/feeds/order_desk.hpp"
 #include "server/feeds/worker_pool.hpp"
 
 namespace dripline::feeds {
@@ -38,9 +40,15 @@ class MachineBoard {
   void on_announce(const dds::Announce& announce);
   void on_status(dds::Status status);
   void on_lost(const std::string& machine);
+  /// Another gateway of the same name waits for the present one to go, or has stopped to.
+  void on_rival(const std::string& machine, bool is_there);
 
   std::vector<MachineView> views() const;
   Result<MachineView> view(const std::string& name) const;
+  /// The gateway that speaks for the machine now, and its steady clock.
+  OrderDesk::Options::Gateway gateway(const std::string& name) const;
+  /// How far the gateway's time of day is ahead of ours; zero while that is within the tolerance.
+  std::chrono::microseconds clock_error(const std::string& name) const;
   /// Saves what changed: counters of runs, and when a machine was seen last. From a worker.
   void save();
 
@@ -49,12 +57,17 @@ class MachineBoard {
     MachineView view;
     std::deque<std::uint64_t> earlier_sessions;  ///< that spoke before, the newest kMaxSessions
     SteadyTime contested_until{};
+    bool has_rival = false;
+    GatewayClocks clocks;
+    bool clock_is_off = false;  ///< and the log has it
     bool is_scheduled = false;  ///< a change is about to be told
     bool is_telling = false;
     bool machine_is_dirty = false;  ///< the stored part changed
     bool counters_are_dirty = false;
   };
   void hear(Entry& entry, std::uint64_t session);
+  void contest(Entry& entry);
+  void compare_clocks(Entry& entry, const dds::Status& status);
   MachineView shown(const Entry& entry) const;
   void tell(const std::string& name);
   void schedule(Entry& entry);

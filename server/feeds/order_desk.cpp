@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "protocol/base/random.hpp"
 #include "server/feeds/identifiers.hpp"
 
 namespace dripline::feeds {
@@ -13,33 +14,72 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMaxGivenUp = 64;
 constexpr auto kRetry = 10ms;  ///< before an order is offered again to a full queue
 
+/// These are sent at once, whatever is known of the gateway.
+bool may_stop(const dds::Order& order) {
+  using dds::OrderAction;
+  switch (order.action) {
+    case OrderAction::Hold:
+    case OrderAction::Abort:
+    case OrderAction::FeedOverride:
+    case OrderAction::RapidOverride:
+    case OrderAction::SpindleOverride:
+    case OrderAction::Refuse:
+      return true;
+    case OrderAction::Switch:
+      return order.argument == "emergency_stop" && order.value == 1;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 OrderDesk::OrderDesk(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
                      std::function<void(const dds::Order&)> on_late_start)
-    : endpoint_(endpoint),
+    : session_(random_number() | 1),
+      endpoint_(endpoint),
       clock_(clock),
       options_(options),
       on_late_start_(std::move(on_late_start)) {}
 
-void OrderDesk::stamp(dds::Order& order) const {
+SteadyTime OrderDesk::stamp(dds::Order& order) {
   order.id = make_order_id();
-  order.expires = clock_.now() + options_.expiry;
+  order.expires = may_stop(order) ? UtcTime::max() : clock_.now() + options_.expiry;
+  order.server = session_;
+  const std::lock_guard lock(mutex_);
+  order.number = ++last_number_;
+  return clock_.steady_now() + options_.expiry;
 }
 
 Result<void> OrderDesk::send(dds::Order order) {
-  stamp(order);
-  return write_in_time(order);
+  const SteadyTime deadline = stamp(order);
+  return write_in_time(order, deadline);
+}
+
+/// To the gateway that speaks for the machine at this moment, in terms of its clock.
+Result<void> OrderDesk::send_to_present(dds::Order order, SteadyTime deadline) {
+  if (options_.gateway_of) {
+    const auto gateway = options_.gateway_of(order.machine);
+    order.session = gateway.session;
+    if (gateway.steady_ahead) {
+      order.deadline = std::chrono::duration_cast<std::chrono::microseconds>(
+                           deadline.time_since_epoch()) +
+                       *gateway.steady_ahead;
+    } else if (!may_stop(order)) {
+      return fail(Errc::Timeout, "machine {} has not reported its status yet", order.machine);
+    }
+  }
+  return endpoint_.write(order);
 }
 
 Result<void> OrderDesk::carry_out(dds::Order order) {
-  stamp(order);
+  const SteadyTime deadline = stamp(order);
   const std::string id = order.id;
   {
     const std::lock_guard lock(mutex_);
-    waiting_[id] = {.order = order, .result = {}};
+    waiting_[id] = {.order = order, .result = {}, .deadline = deadline};
   }
-  const auto written = write_in_time(order);
+  const auto written = write_in_time(order, deadline);
   const auto outcome = written ? await(id) : written;
   const std::lock_guard lock(mutex_);
   const bool is_unknown = !outcome && outcome.error().code == Errc::Timeout;
@@ -51,11 +91,10 @@ Result<void> OrderDesk::carry_out(dds::Order order) {
   return outcome;
 }
 
-Result<void> OrderDesk::write_in_time(const dds::Order& order) {
-  // Not by the order's expiry: that is the time of day, which can be set back.
+Result<void> OrderDesk::write_in_time(const dds::Order& order, SteadyTime deadline) {
   const auto limit = std::chrono::steady_clock::now() + options_.expiry;
   for (;;) {
-    auto written = endpoint_.write(order);
+    auto written = send_to_present(order, deadline);
     if (written || written.error().code != Errc::Timeout) return written;
     if (std::chrono::steady_clock::now() >= limit) return written;
     std::this_thread::sleep_for(kRetry);
@@ -73,7 +112,8 @@ Result<void> OrderDesk::await(const std::string& id) {
     if (changed_.wait_until(lock, next, is_settled)) break;
     dds::Order again = waiting.order;
     lock.unlock();
-    repeat(std::move(again));
+    // A full queue or a machine that went away: the next round tries again, until the limit.
+    [[maybe_unused]] const auto written = send_to_present(std::move(again), waiting.deadline);
     lock.lock();
   }
   const bool is_decided = changed_.wait_until(lock, limit, is_settled);
@@ -86,12 +126,6 @@ Result<void> OrderDesk::await(const std::string& id) {
   return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.order.machine,
               dds::to_string(waiting.order.action),
               std::chrono::duration<double>(options_.expiry).count());
-}
-
-void OrderDesk::repeat(dds::Order order) {
-  if (order.session != 0 && options_.session_of) order.session = options_.session_of(order.machine);
-  // A full queue or a machine that went away: the next round tries again, until the limit.
-  [[maybe_unused]] const auto written = endpoint_.write(order);
 }
 
 void OrderDesk::on_result(const dds::OrderResult& result) {
@@ -112,12 +146,12 @@ void OrderDesk::on_result(const dds::OrderResult& result) {
   if (late) on_late_start_(*late);
 }
 
-void OrderDesk::on_run_seen(const std::string& run) {
+void OrderDesk::on_run_seen(const std::string& machine, const std::string& run) {
   {
     const std::lock_guard lock(mutex_);
     for (auto& [id, waiting] : waiting_) {
-      const bool is_start =
-          waiting.order.action == dds::OrderAction::Start && waiting.order.run == run;
+      const bool is_start = waiting.order.action == dds::OrderAction::Start &&
+                            waiting.order.run == run && waiting.order.machine == machine;
       if (!is_start || waiting.result) continue;
       waiting.result = dds::OrderResult{
           .machine = waiting.order.machine, .id = id, .accepted = true, .reason = {}};

@@ -15,8 +15,9 @@
 
 namespace dripline::feeds {
 
-/// Sends orders and waits for their results. Every order has an id and an expiry, so that one that
-/// was delayed on its way is never carried out late.
+/// Sends orders and waits for their results. Every order has an id, a number and a deadline by the
+/// gateway's own steady clock, so that one that was delayed on its way moves nothing late. What
+/// stops is carried out whenever it comes (dripline.idl).
 class OrderDesk {
  public:
   struct Options {
@@ -26,8 +27,12 @@ class OrderDesk {
     /// the first may have been lost with a connection, or been meant for a gateway that has just
     /// been replaced.
     std::chrono::milliseconds repeat{250};
-    /// The session that speaks for a machine now; absent: orders keep theirs.
-    std::function<std::uint64_t(const std::string& machine)> session_of{};
+    struct Gateway {
+      std::uint64_t session = 0;
+      std::optional<std::chrono::microseconds> steady_ahead;  ///< of ours; not more than it is
+    };
+    /// The gateway that speaks for a machine now; absent: orders keep their session.
+    std::function<Gateway(const std::string& machine)> gateway_of{};
   };
   /// `on_late_start`: a start was accepted after its sender gave up; called on a DDS thread.
   OrderDesk(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
@@ -43,7 +48,7 @@ class OrderDesk {
   /// On a DDS thread; returns at once.
   void on_result(const dds::OrderResult& result);
   /// The machine shows this run: its start was accepted, even if the result was lost.
-  void on_run_seen(const std::string& run);
+  void on_run_seen(const std::string& machine, const std::string& run);
   /// Is somebody waiting for the start of this run?
   bool is_waiting_for(const std::string& run) const;
   void stop();
@@ -52,12 +57,14 @@ class OrderDesk {
   struct Waiting {
     dds::Order order;
     std::optional<dds::OrderResult> result;
+    SteadyTime deadline;  ///< by our clock
   };
-  void stamp(dds::Order& order) const;
-  Result<void> write_in_time(const dds::Order& order);
+  SteadyTime stamp(dds::Order& order);
+  Result<void> send_to_present(dds::Order order, SteadyTime deadline);
+  Result<void> write_in_time(const dds::Order& order, SteadyTime deadline);
   Result<void> await(const std::string& id);
-  void repeat(dds::Order order);
 
+  const std::uint64_t session_;  ///< of this server
   dds::ServerEndpoint& endpoint_;
   const Clock& clock_;
   const Options options_;
@@ -66,6 +73,7 @@ class OrderDesk {
   std::condition_variable changed_;
   std::map<std::string, Waiting> waiting_;
   std::deque<dds::Order> given_up_;  ///< starts without an answer, the newest kMaxGivenUp
+  std::uint64_t last_number_ = 0;
   bool is_stopping_ = false;
 };
 

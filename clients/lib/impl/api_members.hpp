@@ -174,6 +174,8 @@ void members(V& v, Is<Machine> auto& x) {
   v("description", x.description);
   v("gateway_version", x.gateway_version);
   v("connected", x.connected);
+  v("clock_ahead_seconds", x.clock_ahead_seconds);
+  v.later("notices", x.notices);
   v("first_seen", x.first_seen);
   v("last_seen", x.last_seen);
   v("status", x.status);

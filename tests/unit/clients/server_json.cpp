@@ -27,6 +27,8 @@ json machine_json(const std::string& name) {
           {"description", "a lathe"},
           {"gateway_version", "0.1.0"},
           {"connected", true},
+          {"clock_ahead_seconds", nullptr},
+          {"notices", json::array()},
           {"first_seen", "2026-11-21T07:00:00Z"},
           {"last_seen", "2026-11-21T07:40:06.123456Z"},
           {"status", nullptr}};

@@ -19,6 +19,7 @@ class FeedTest : public ServerTest {
  protected:
   static constexpr std::uint64_t kEpoch = 7;
   static constexpr std::uint64_t kSession = 70;
+  static constexpr std::chrono::microseconds kSteadyAhead{-1'000'000'000};
 
   void start_service(storage::Store& store) {
     feeds::FeedService::Options options;
@@ -43,7 +44,22 @@ class FeedTest : public ServerTest {
     announce.version = "1";
     announce.epoch = kEpoch;
     announce.session = kSession;
+    announce.protocol = protocol_;
     network_.on_announce(announce);
+    heartbeat(machine);
+  }
+  /// What a gateway without a run writes once a second.
+  void heartbeat(const std::string& machine = "lathe-1") {
+    dds::Status status;
+    status.machine = machine;
+    status.session = kSession;
+    status.time = clock_.now() + gateway_ahead_;
+    status.steady = gateway_steady();
+    network_.on_status(status);
+  }
+  std::chrono::microseconds gateway_steady() const {
+    return kSteadyAhead + std::chrono::duration_cast<std::chrono::microseconds>(
+                              clock_.steady_now().time_since_epoch());
   }
   /// The gateway answers every order as soon as it comes.
   void answer_orders(bool accepted, const std::string& reason = "") {
@@ -71,7 +87,7 @@ class FeedTest : public ServerTest {
     record.machine = "lathe-1";
     record.epoch = kEpoch;
     record.number = number;
-    record.time = clock_.now();
+    record.time = clock_.now() + gateway_ahead_;
     record.run = run;
     record.kind = kind;
     record.text = text;
@@ -119,6 +135,8 @@ class FeedTest : public ServerTest {
   std::shared_ptr<test_support::WrittenMessages> written_ =
       std::make_shared<test_support::WrittenMessages>();
   dds::ServerHandlers network_;
+  std::chrono::microseconds gateway_ahead_{0};  ///< its time of day
+  std::uint32_t protocol_ = dds::kProtocolVersion;
   std::vector<feeds::MachineView> machines_;
   std::vector<storage::Run> runs_;
   std::vector<storage::Record> records_;

@@ -1,9 +1,12 @@
 // Starting runs, ordering, and bringing stored states and machines together.
+#include "server/feeds/machine_notices.hpp"
 #include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/feed_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
+
+using namespace std::chrono_literals;
 
 class FeedRuns : public FeedTest {
  protected:
@@ -51,7 +54,9 @@ TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
   EXPECT_EQ(order.run, run->id);
   EXPECT_EQ(order.revision, revision.content.hex());
   EXPECT_EQ(order.size, 4u);
-  EXPECT_GT(order.expires, clock_.now());
+  EXPECT_EQ(order.session, kSession);
+  EXPECT_NE(order.server, 0u);
+  EXPECT_EQ(order.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
 }
 
 TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
@@ -261,7 +266,9 @@ TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   auto endpoint = test_support::FakeServerEndpoint(written_);
   feeds::OrderDesk::Options options;
   options.repeat = std::chrono::milliseconds(5);
-  options.session_of = [](const std::string&) { return std::uint64_t{2}; };
+  options.gateway_of = [](const std::string&) {
+    return feeds::OrderDesk::Options::Gateway{2, std::chrono::microseconds{0}};
+  };
   feeds::OrderDesk desk(endpoint, clock_, options, [](const dds::Order&) {});
   written_->on_order = [&](const dds::Order& heard) {
     if (heard.session != 2) return;  // the first is gone
@@ -273,6 +280,109 @@ TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   order.session = 1;
   EXPECT_TRUE(desk.carry_out(order));
   EXPECT_EQ(written_->orders.at(0).id, written_->orders.back().id) << "the same order, said again";
+}
+
+TEST_F(FeedRuns, AreOrderedInSequence) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_orders(true);
+  const std::string run = start("O0100")->id;
+  for (const auto action : {dds::OrderAction::Hold, dds::OrderAction::Resume}) {
+    ASSERT_TRUE(service_->order({.run = run, .action = action, .argument = {}, .value = 0}));
+  }
+  const auto& orders = written_->orders;
+  ASSERT_EQ(orders.size(), 3u);
+  EXPECT_LT(orders[0].number, orders[1].number);
+  EXPECT_LT(orders[1].number, orders[2].number);
+  EXPECT_EQ(orders[2].session, kSession);
+  EXPECT_EQ(orders[2].server, orders[0].server);
+}
+
+/// A deadline by the gateway's clock needs to know that clock; a stop has none.
+TEST_F(FeedRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  std::atomic<bool> is_told = false;
+  feeds::OrderDesk::Options options;
+  options.expiry = 300ms;
+  options.grace = 0ms;
+  options.repeat = 5ms;
+  options.gateway_of = [&](const std::string&) {
+    feeds::OrderDesk::Options::Gateway gateway{.session = 2, .steady_ahead = {}};
+    if (is_told) gateway.steady_ahead = kSteadyAhead;
+    return gateway;
+  };
+  feeds::OrderDesk desk(endpoint, clock_, options, [](const dds::Order&) {});
+  written_->on_order = [&](const dds::Order& heard) {
+    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Order order;
+  order.machine = "lathe-1";
+  order.action = dds::OrderAction::Abort;
+  EXPECT_TRUE(desk.carry_out(order));
+  order.action = dds::OrderAction::Resume;
+  EXPECT_EQ(desk.carry_out(order).error().code, Errc::Timeout);
+  EXPECT_EQ(written_->orders.size(), 1u);
+  is_told = true;
+  EXPECT_TRUE(desk.carry_out(order));
+  EXPECT_EQ(written_->orders.back().deadline, gateway_steady() + 300ms);
+}
+
+TEST_F(FeedRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsTold) {
+  push("O0100", "M30\n");
+  start_service();
+  protocol_ = 4711;
+  announce();
+  ASSERT_TRUE(written_->wait([&] { return !written_->orders.empty(); }));
+  EXPECT_EQ(written_->orders[0].action, dds::OrderAction::Refuse);
+  EXPECT_NE(written_->orders[0].argument.find("protocol 4711"), std::string::npos);
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+  answer_orders(true);
+  feeds::OrderRequest stop;
+  stop.machine = "lathe-1";
+  stop.action = dds::OrderAction::Switch;
+  stop.argument = "emergency_stop";
+  stop.value = 1;
+  EXPECT_TRUE(service_->order(stop)) << "stopping always works";
+  stop.value = 0;
+  EXPECT_EQ(service_->order(stop).error().code, Errc::Unsupported);
+}
+
+TEST_F(FeedRuns, ShowHowFarTheGatewaysClockIsOff) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  EXPECT_EQ(service_->machine("lathe-1")->clock_ahead, std::nullopt);
+  for (const auto ahead : {std::chrono::hours(1), std::chrono::hours(-1)}) {
+    gateway_ahead_ = ahead;
+    for (int i = 0; i < 4; ++i) heartbeat();
+    const auto view = service_->machine("lathe-1");
+    EXPECT_EQ(view->clock_ahead, ahead);
+    EXPECT_EQ(feeds::notices_of(*view).at(0),
+              fmt::format("the gateway's clock is 3600.0 s {} the server's",
+                          ahead.count() > 0 ? "ahead of" : "behind"));
+  }
+  gateway_ahead_ = 300ms;
+  for (int i = 0; i < 4; ++i) heartbeat();
+  EXPECT_TRUE(feeds::notices_of(*service_->machine("lathe-1")).empty());
+}
+
+TEST_F(FeedRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  network_.on_rival("lathe-1", true);
+  answer_orders(true);
+  ASSERT_TRUE(start("O0100")) << "the successor of a killed gateway waits, and the killed is silent";
+  heartbeat();
+  EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
+  network_.on_rival("lathe-1", false);
+  clock_.advance(feeds::MachineBoard::kContested);
+  EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
 }
 
 TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {

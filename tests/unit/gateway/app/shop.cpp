@@ -75,11 +75,18 @@ bool Shop::run_until(const std::function<bool()>& done, milliseconds step) {
   return false;
 }
 
+std::chrono::microseconds Shop::steady_time() const {
+  return std::chrono::duration_cast<std::chrono::microseconds>(clock.steady.time_since_epoch());
+}
+
 dds::Order Shop::order(dds::OrderAction action) {
   dds::Order order;
   order.machine = "lathe-1";
   order.id = "order-" + std::to_string(++orders_);
-  order.expires = clock.now() + std::chrono::seconds(5);
+  order.session = static_cast<std::uint64_t>(sessions_);
+  order.server = 1;
+  order.number = static_cast<std::uint64_t>(orders_);
+  order.deadline = steady_time() + std::chrono::seconds(5);
   order.action = action;
   return order;
 }

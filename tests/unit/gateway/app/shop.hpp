@@ -14,9 +14,10 @@ namespace dripline::gateway {
 
 class TestClock final : public Clock {
  public:
-  UtcTime now() const override { return UtcTime(std::chrono::hours(400'000)) + elapsed(); }
+  UtcTime now() const override { return UtcTime(std::chrono::hours(400'000)) + elapsed() + step; }
   SteadyTime steady_now() const override { return steady; }
   SteadyTime steady{std::chrono::hours(1)};
+  std::chrono::microseconds step{0};  ///< of the time of day
 
  private:
   std::chrono::microseconds elapsed() const {
@@ -46,6 +47,7 @@ class Shop : public dds::GatewayEndpoint {
 
   void push(const std::string& program, const std::string& text) { programs[program] = text; }
   dds::Order order(dds::OrderAction action);
+  std::chrono::microseconds steady_time() const;
   dds::Order start_order(const std::string& program);
   /// Sends it and returns its result.
   dds::OrderResult send(const dds::Order& order);
