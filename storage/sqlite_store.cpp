@@ -8,6 +8,7 @@
 #include "storage/impl/run_repository.hpp"
 #include "storage/impl/setup_repository.hpp"
 #include "storage/impl/upload_repository.hpp"
+#include "storage/sqlite/deadline.hpp"
 
 namespace dripline::storage {
 
@@ -49,11 +50,13 @@ SqliteStore::SqliteStore(std::unique_ptr<Repositories> repositories)
     : repositories_(std::move(repositories)) {}
 SqliteStore::~SqliteStore() = default;
 
-Result<void> SqliteStore::check() {
-  return repositories_->connections->read([](sqlite::Database& database) -> Result<void> {
+Result<bool> SqliteStore::check(std::chrono::milliseconds limit, const std::stop_token& stop) {
+  return repositories_->connections->read([&](sqlite::Database& database) -> Result<bool> {
+    const sqlite::Deadline deadline(database, limit, stop);
     const auto verdict = database.text("PRAGMA quick_check(1)");
+    if (deadline.has_passed()) return false;
     if (!verdict) return fail(verdict.error());
-    if (*verdict == "ok") return {};
+    if (*verdict == "ok") return true;
     return fail(Errc::Corrupt, "database {}: {}", database.file(), *verdict);
   });
 }
@@ -77,6 +80,11 @@ Result<void> SqliteStore::probe() {
     if (*read == id) return {};
     return fail(Errc::Corrupt, "database {} gives another value than was written", database.file());
   });
+}
+
+Result<std::string> SqliteStore::identity() {
+  return repositories_->connections->read(
+      [](sqlite::Database& database) { return database.text("SELECT id FROM identity"); });
 }
 
 Result<Upload> SqliteStore::begin_upload(const Upload& upload) {
@@ -103,8 +111,9 @@ Result<Revision> SqliteStore::commit_upload(const std::string& id,
 Result<void> SqliteStore::abandon_upload(const std::string& id) {
   return repositories_->uploads.abandon(id);
 }
-Result<std::uint64_t> SqliteStore::drop_uploads_before(UtcTime time) {
-  return repositories_->uploads.drop_before(time);
+Result<std::uint64_t> SqliteStore::drop_idle_uploads(std::chrono::seconds passed,
+                                                     std::chrono::seconds life) {
+  return repositories_->uploads.drop_idle(passed, life);
 }
 
 Result<std::vector<ProgramSummary>> SqliteStore::programs(Page page) {
@@ -140,6 +149,9 @@ Result<std::vector<std::byte>> SqliteStore::read_content(const Digest& content,
                                                          std::uint64_t length) {
   return repositories_->programs.read_content(content, offset, length);
 }
+Result<void> SqliteStore::verify_content(const Digest& content) {
+  return repositories_->programs.verify_content(content);
+}
 
 Result<void> SqliteStore::save_machine(const Machine& machine) {
   return repositories_->machines.save(machine);
@@ -164,9 +176,10 @@ Result<void> SqliteStore::set_run_state(const std::string& id, RunState state,
                                         const std::string& reason) {
   return repositories_->runs.set_state(id, state, reason);
 }
-Result<void> SqliteStore::update_counters(const std::string& id, const Counters& counters,
-                                          std::uint64_t line, std::int64_t sequence) {
-  return repositories_->runs.update_counters(id, counters, line, sequence);
+Result<void> SqliteStore::update_counters(const std::string& machine, const std::string& id,
+                                          const Counters& counters, std::uint64_t line,
+                                          std::int64_t sequence) {
+  return repositories_->runs.update_counters(machine, {id, counters, line, sequence});
 }
 
 Result<std::uint64_t> SqliteStore::store_records(const RecordBatch& batch) {

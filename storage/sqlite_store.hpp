@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 
 #include "protocol/base/clock.hpp"
 #include "storage/store.hpp"
@@ -30,10 +31,14 @@ class SqliteStore final : public Store {
   ~SqliteStore() override;
 
   /// Looks through the whole file for damage of its structure (not of program content, which is
-  /// checked whenever it is read). Takes long on big files. Errors: Corrupt.
-  Result<void> check();
+  /// checked whenever it is read), for at most `limit` or until `stop`. False: that was not
+  /// enough; so far all is well. Reads and writes go on beside it. Errors: Corrupt.
+  Result<bool> check(std::chrono::milliseconds limit = std::chrono::hours(24),
+                     const std::stop_token& stop = {});
   /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
   Result<void> probe();
+  /// Made when the database was, the same for ever: 32 hexadecimal digits.
+  Result<std::string> identity();
 
   Result<Upload> begin_upload(const Upload& upload) override;
   Result<Upload> upload(const std::string& id) override;
@@ -45,7 +50,8 @@ class SqliteStore final : public Store {
   Result<Revision> commit_upload(const std::string& id,
                                  const std::optional<Digest>& expected) override;
   Result<void> abandon_upload(const std::string& id) override;
-  Result<std::uint64_t> drop_uploads_before(UtcTime time) override;
+  Result<std::uint64_t> drop_idle_uploads(std::chrono::seconds passed,
+                                          std::chrono::seconds life) override;
 
   Result<std::vector<ProgramSummary>> programs(Page page) override;
   Result<std::vector<Revision>> revisions(const std::string& program) override;
@@ -61,6 +67,7 @@ class SqliteStore final : public Store {
   Result<void> remove_program(const std::string& program) override;
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length) override;
+  Result<void> verify_content(const Digest& content) override;
 
   Result<void> save_machine(const Machine& machine) override;
   Result<Machine> machine(const std::string& name) override;
@@ -71,7 +78,8 @@ class SqliteStore final : public Store {
   Result<std::vector<Run>> runs(const RunFilter& filter, Page page) override;
   Result<void> set_run_state(const std::string& id, RunState state,
                              const std::string& reason) override;
-  Result<void> update_counters(const std::string& id, const Counters& counters, std::uint64_t line,
+  Result<void> update_counters(const std::string& machine, const std::string& id,
+                               const Counters& counters, std::uint64_t line,
                                std::int64_t sequence) override;
 
   Result<std::uint64_t> store_records(const RecordBatch& batch) override;

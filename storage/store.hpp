@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -121,6 +122,7 @@ struct Record {
   std::uint64_t block = 0, line = 0;
   std::int64_t sequence = -1;
   std::string device, text;
+  std::optional<UtcTime> received = {};  ///< by the server; absent: now, or stored by an older version
 };
 
 /// How much a machine printed outside any run, and when.
@@ -221,8 +223,10 @@ class Store {
   virtual Result<Revision> commit_upload(const std::string& id,
                                          const std::optional<Digest>& expected) = 0;
   virtual Result<void> abandon_upload(const std::string& id) = 0;
-  /// Drops those whose last piece came before `time`; returns how many.
-  virtual Result<std::uint64_t> drop_uploads_before(UtcTime time) = 0;
+  /// `passed` more time has gone by (by a steady clock; the time of day may jump). Drops those that
+  /// got no piece for longer than `life` of such time; returns how many.
+  virtual Result<std::uint64_t> drop_idle_uploads(std::chrono::seconds passed,
+                                                  std::chrono::seconds life) = 0;
 
   /// In order of their names.
   virtual Result<std::vector<ProgramSummary>> programs(Page page) = 0;
@@ -254,10 +258,14 @@ class Store {
   /// unfinished run uses it).
   virtual Result<void> remove_program(const std::string& program) = 0;
   /// Bytes of stored content from `offset`, at most `length`, never crossing more than needed of
-  /// its chunks; every chunk is checked against its own SHA-256 before a byte is returned. Errors:
-  /// NotFound, Corrupt.
+  /// its chunks; every chunk is checked against its own SHA-256, and that it is this content's at
+  /// this place, before a byte is returned. Errors: NotFound, Corrupt (the chunk is named).
   virtual Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                                       std::uint64_t length) = 0;
+  /// Whether the stored list of chunks is the one whose bytes were compared with `content`. Reads
+  /// no bytes, but of a content that an older version stored: all, once. Errors: NotFound, Corrupt
+  /// (the chunk is named).
+  virtual Result<void> verify_content(const Digest& content) = 0;
 
   // Machines
   /// Adds or updates. `last_record` is the store's own and ignored, `first_seen` is kept. Errors:
@@ -278,17 +286,21 @@ class Store {
   /// state is never left. Errors: NotFound, ModalConflict.
   virtual Result<void> set_run_state(const std::string& id, RunState state,
                                      const std::string& reason) = 0;
-  /// Progress only: never goes backwards, never changes the state; ignored for runs that have
-  /// ended. Survives a kill of the process; a power cut may take the last ones. Errors: NotFound.
-  virtual Result<void> update_counters(const std::string& id, const Counters& counters,
-                                       std::uint64_t line, std::int64_t sequence) = 0;
+  /// Progress of `machine`'s run, as that machine reports it: never goes backwards, never changes
+  /// the state; ignored for runs that have ended. Survives a kill of the process; a power cut may
+  /// take the last ones. Errors: NotFound, ModalConflict (the run is another machine's).
+  virtual Result<void> update_counters(const std::string& machine, const std::string& id,
+                                       const Counters& counters, std::uint64_t line,
+                                       std::int64_t sequence) = 0;
 
   // Records
   /// Stores what is new and contiguous, in one transaction; returns the highest number stored
   /// without a gap in this epoch. Records already stored are skipped; those behind a gap are left
   /// out (the gateway sends them again), and so is a beginning or ending whose record (run_started,
-  /// run_ended) is left out. An ending never changes a run that has ended. A machine not known yet
-  /// is added; a run not known is no error. Errors: Syntax, LimitExceeded (epoch over 2^63).
+  /// run_ended) is left out. An ending never changes a run that has ended, and no run ends before it
+  /// began. A machine not known yet is added; a run not known is no error. A record that names
+  /// another machine's run is kept, changes nothing of that run and is not among its records.
+  /// Errors: Syntax, LimitExceeded (epoch over 2^63).
   virtual Result<std::uint64_t> store_records(const RecordBatch& batch) = 0;
   /// In order of (epoch, number). `kind` empty: all.
   virtual Result<std::vector<Record>> records(const std::string& run, const std::string& kind,

@@ -221,6 +221,7 @@ json record_json(const storage::Record& record) {
           {"epoch", record.epoch},
           {"number", record.number},
           {"time", to_iso8601(record.time)},
+          {"received", optional_time(record.received)},
           {"run", optional_text(record.run)},
           {"kind", record.kind},
           {"block", record.block},

@@ -22,6 +22,11 @@ FeedService::Parts::Parts(FeedService& service, dds::ServerEndpoint& endpoint)
       records({.store = service.store_,
                .endpoint = endpoint,
                .pool = service.pool_,
+               .clock = service.clock_,
+               .clock_ahead =
+                   [&service](const std::string& machine) {
+                     return service.board_.clock_error(machine);
+                   },
                .state_mutex = service.state_mutex_,
                .on_stored = [&service](const auto& batch) { service.on_stored(batch); },
                .on_trouble = service.options_.on_trouble}),
@@ -201,6 +206,11 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   auto run = make_run(request, *view);
   if (!run) return run;
   if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
+  // Nothing is begun that could not go on: the list of its chunks is looked through before.
+  if (auto sound = store_.verify_content(run->content); !sound) {
+    return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
+                sound.error().what);
+  }
   const auto setup = setup_of(*run);
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;

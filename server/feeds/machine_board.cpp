@@ -222,7 +222,8 @@ void MachineBoard::save() {
   for (const auto& status : progressed) {
     const storage::Counters counters{
         .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
-    auto saved = parts_.store.update_counters(status.run, counters, status.line, status.sequence);
+    auto saved = parts_.store.update_counters(status.machine, status.run, counters, status.line,
+                                               status.sequence);
     if (!saved && saved.error().code != Errc::NotFound) {
       spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
                     saved.error().what);

@@ -84,13 +84,15 @@ void RecordKeeper::commit(const std::string& machine) {
     }
     records = take_batch(lane);
   }
-  storage::RecordBatch batch = to_batch(records);
+  const auto foreign = foreign_runs(records);
+  storage::RecordBatch batch = to_batch(records, foreign);
   const auto stored = store(batch);
   if (!stored && !is_hopeless(stored.error())) {
     return put_back(machine, std::move(records), stored.error());
   }
   if (stored) {
     leave_out_behind(*stored, batch);
+    std::erase_if(batch.records, [&](const auto& r) { return foreign.contains(r.run); });
     parts_.on_stored(batch);
     succeed(machine, batch.epoch, *stored);
   } else {  // not acknowledged; and those that wait behind them are not held up
@@ -118,18 +120,48 @@ std::vector<dds::Record> RecordKeeper::take_batch(Lane& lane) {
   return records;
 }
 
-storage::RecordBatch RecordKeeper::to_batch(const std::vector<dds::Record>& records) {
+std::set<std::string> RecordKeeper::foreign_runs(const std::vector<dds::Record>& records) {
+  std::set<std::string> asked, foreign;
+  const std::string& machine = records.front().machine;
+  for (const auto& record : records) {
+    if (record.run.empty()) continue;
+    if (asked.insert(record.run).second) {
+      const auto run = parts_.store.run(record.run);
+      if (run && run->machine != machine) foreign.insert(record.run);
+    }
+    if (!foreign.contains(record.run)) continue;
+    ++foreign_;
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(lanes_[machine].foreign_run, record.run) == record.run) continue;
+    spdlog::error(
+        "machine={} reports on run={}, which is another machine's: kept, without any effect on it",
+        machine, record.run);
+  }
+  return foreign;
+}
+
+/// When it happened, by our clock, as well as we know: not later than now.
+UtcTime RecordKeeper::our_time(const dds::Record& record) const {
+  return std::min(record.time - parts_.clock_ahead(record.machine), parts_.clock.now());
+}
+
+storage::RecordBatch RecordKeeper::to_batch(const std::vector<dds::Record>& records,
+                                            const std::set<std::string>& foreign) {
   storage::RecordBatch batch;
   batch.machine = records.front().machine;
   batch.epoch = records.front().epoch;
+  const UtcTime received = parts_.clock.now();
   for (const auto& record : records) {
     batch.records.push_back(to_stored(record));
+    batch.records.back().received = received;
+    if (foreign.contains(record.run)) continue;
     if (record.kind == dds::RecordKind::RunStarted) {
-      batch.beginnings.push_back({.run = record.run, .started = record.time});
+      batch.beginnings.push_back({.run = record.run, .started = our_time(record)});
     }
     if (record.kind != dds::RecordKind::RunEnded) continue;
     auto ending = read_run_ending(parts_.store, record);
     if (ending) {
+      ending->ended = our_time(record);
       batch.endings.push_back(*std::move(ending));
     } else {
       spdlog::error("end of run not understood machine={} run={} record={}: {}", record.machine,

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "protocol/base/clock.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "server/feeds/worker_pool.hpp"
 #include "storage/store.hpp"
@@ -27,9 +30,13 @@ class RecordKeeper {
     storage::Store& store;
     dds::ServerEndpoint& endpoint;
     WorkerPool& pool;
+    const Clock& clock;
+    /// How far the machine's time of day is ahead of ours, where that is known and worth it.
+    std::function<std::chrono::microseconds(const std::string& machine)> clock_ahead;
     /// Held while run states are changed.
     std::mutex& state_mutex;
-    /// After a commit, on a worker; one call at a time per machine.
+    /// After a commit, on a worker; one call at a time per machine. Without the records that name
+    /// another machine's run: those are kept and nothing else.
     std::function<void(const storage::RecordBatch&)> on_stored;
     /// A machine's records can not be stored, and why; empty: they are again.
     std::function<void(const std::string& machine, const std::string& trouble)> on_trouble = {};
@@ -41,12 +48,15 @@ class RecordKeeper {
   void take(dds::Record record);
   /// Tells a machine that has just come what is on disk of this epoch.
   void greet(const std::string& machine, std::uint64_t epoch);
+  /// Records so far that named another machine's run.
+  std::uint64_t foreign() const { return foreign_; }
 
  private:
   struct Lane {
     std::deque<dds::Record> waiting;
     bool is_scheduled = false;
     bool is_failing = false;
+    std::string foreign_run;  ///< of another machine, named last
     std::chrono::milliseconds pause{0};
     dds::RecordAck ack;  ///< the last one to be sent
     bool ack_is_owed = false;
@@ -56,12 +66,17 @@ class RecordKeeper {
   void put_back(const std::string& machine, std::vector<dds::Record> records, const Error& error);
   void succeed(const std::string& machine, std::uint64_t epoch, std::uint64_t number);
   void acknowledge(const std::string& machine);
-  storage::RecordBatch to_batch(const std::vector<dds::Record>& records);
+  /// The runs among these that are another machine's.
+  std::set<std::string> foreign_runs(const std::vector<dds::Record>& records);
+  storage::RecordBatch to_batch(const std::vector<dds::Record>& records,
+                                const std::set<std::string>& foreign);
+  UtcTime our_time(const dds::Record& record) const;
   Result<std::uint64_t> store(const storage::RecordBatch& batch);
 
   Parts parts_;
   std::mutex mutex_;
   std::map<std::string, Lane> lanes_;
+  std::atomic<std::uint64_t> foreign_ = 0;
 };
 
 }  // namespace dripline::feeds

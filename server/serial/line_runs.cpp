@@ -78,6 +78,7 @@ Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
   run.control = machine.control.empty() ? revision->control : machine.control;
   run.author = request.author;
   if (auto fits = feeds::check_control_memory(store_, run); !fits) return fail(fits.error());
+  if (auto sound = store_.verify_content(run.content); !sound) return fail(sound.error());
   if (auto created = store_.create_run(run); !created) return fail(created.error());
   return run;
 }
@@ -117,9 +118,10 @@ void LineRuns::refused(const storage::Run& run, const Error& error) {
   if (!set) spdlog::error("run={} not marked as refused: {}", run.id, set.error().what);
 }
 
-void LineRuns::progressed(const SendProgress& progress) {
+void LineRuns::progressed(const std::string& machine, const SendProgress& progress) {
   // Repeated soon by the next one.
-  if (auto saved = store_.update_counters(progress.id, to_counters(progress), 0, -1); !saved) {
+  auto saved = store_.update_counters(machine, progress.id, to_counters(progress), 0, -1);
+  if (!saved) {
     spdlog::debug("progress not saved run={}: {}", progress.id, saved.error().what);
   }
 }

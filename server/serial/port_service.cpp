@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 #include <algorithm>
+#include <cstdint>
 #include <future>
 
 #include "protocol/base/names.hpp"
@@ -23,6 +24,19 @@ LineOpener default_opener() {
       [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
 }
 
+/// Later than every epoch these lines have used, also when the time of day was set back meanwhile:
+/// records are listed in the order of their epochs.
+std::uint64_t next_epoch(storage::Store& store, const Clock& clock) {
+  auto epoch = static_cast<std::uint64_t>(clock.now().time_since_epoch().count());
+  const auto ports = store.ports();
+  if (!ports) return epoch;
+  for (const auto& port : *ports) {
+    const auto machine = store.machine(port.machine);
+    if (machine && machine->epoch < INT64_MAX) epoch = std::max(epoch, machine->epoch + 1);
+  }
+  return epoch;
+}
+
 }  // namespace
 
 PortService::PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
@@ -32,7 +46,7 @@ PortService::PortService(storage::Store& store, library::Programs& programs, con
       clock_(clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
-      epoch_(static_cast<std::uint64_t>(clock.now().time_since_epoch().count())),
+      epoch_(next_epoch(store, clock)),
       feed_(store, clock, *this, listener_),
       pool_(options_.workers) {}
 

@@ -197,7 +197,7 @@ void SerialFeed::on_change(const std::string& machine) {
 void SerialFeed::save_progress(const PortLine& line) {
   const auto progress = line.progress();
   if (!progress || !is_run(progress->id)) return;
-  runs_.progressed(*progress);
+  runs_.progressed(line.port().machine, *progress);
   on_change(line.port().machine);
 }
 

@@ -71,9 +71,11 @@ Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::u
     if (!id) return fail(id.error());
     const auto placed =
         sqlite::run(database,
-                    "INSERT INTO content_chunk (content, position, chunk) VALUES (?1, ?2, ?3) "
-                    "ON CONFLICT (content, position) DO UPDATE SET chunk = excluded.chunk",
-                    content, bytes_before / kChunkBytes, *id);
+                    "INSERT INTO content_chunk (content, position, chunk, sha256) "
+                    "VALUES (?1, ?2, ?3, ?4) ON CONFLICT (content, position) DO UPDATE "
+                    "SET chunk = excluded.chunk, sha256 = excluded.sha256",
+                    content, bytes_before / kChunkBytes, *id,
+                    std::span<const std::byte>(chunk.digest.bytes));
     if (!placed) return placed;
     bytes_before += chunk.size;
   }
@@ -97,18 +99,46 @@ Result<void> drop_content(sqlite::Database& database, std::int64_t content) {
   return sqlite::run(database, "DELETE FROM content WHERE id = ?1", content);
 }
 
+Result<void> replace_content(sqlite::Database& database, std::int64_t content,
+                             std::int64_t replacement) {
+  const auto chunks = sqlite::all_rows(
+      database, "SELECT DISTINCT chunk FROM content_chunk WHERE content = ?1",
+      [](const sqlite::Statement& row) { return row.integer(0); }, content);
+  if (!chunks) return fail(chunks.error());
+  auto done = sqlite::run(database, "DELETE FROM content_chunk WHERE content = ?1", content);
+  if (!done) return done;
+  done = sqlite::run(database, "UPDATE content_chunk SET content = ?1 WHERE content = ?2", content,
+                     replacement);
+  if (!done) return done;
+  done = sqlite::run(database,
+                     "UPDATE content SET seal = NULL, size = (SELECT size FROM content WHERE id = "
+                     "?2) WHERE id = ?1",
+                     content, replacement);
+  if (!done) return done;
+  for (const std::int64_t chunk : *chunks) {
+    if (done = drop_chunk_if_unused(database, chunk); !done) return done;
+  }
+  return sqlite::run(database, "DELETE FROM content WHERE id = ?1", replacement);
+}
+
 Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64_t content,
-                                          std::uint64_t position, std::string_view label) {
+                                          std::uint64_t position, std::string_view label,
+                                          const Digest* expected) {
   const auto place = [&] {
     return fmt::format("{}: chunk {} (bytes from {})", label, position, position * kChunkBytes);
   };
   auto plain = sqlite::first_row(
       database,
-      "SELECT chunk.sha256, chunk.size, chunk.data FROM content_chunk "
+      "SELECT chunk.sha256, chunk.size, chunk.data, content_chunk.sha256 FROM content_chunk "
       "JOIN chunk ON chunk.id = content_chunk.chunk "
       "WHERE content_chunk.content = ?1 AND content_chunk.position = ?2",
-      [](const sqlite::Statement& row) {
-        return decode_chunk(read_digest(row, 0), row.number(1), row.blob(2));
+      [expected](const sqlite::Statement& row) -> Result<std::vector<std::byte>> {
+        const Digest digest = read_digest(row, 0);
+        const bool is_listed = row.is_null(3) || read_digest(row, 3) == digest;
+        if (!is_listed || (expected != nullptr && *expected != digest)) {
+          return fail(Errc::Corrupt, "it is not the one that was stored there");
+        }
+        return decode_chunk(digest, row.number(1), row.blob(2));
       },
       content, position);
   if (!plain) return fail(plain.error().code, "{}: {}", place(), plain.error().what);

@@ -30,9 +30,15 @@ Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::u
 /// Deletes the content and those of its chunks nobody else holds.
 Result<void> drop_content(sqlite::Database& database, std::int64_t content);
 
-/// One chunk, checked. `label` names the content in errors. Errors: Corrupt (also: missing).
+/// `content` gets the chunks of `replacement`, which is gone then.
+Result<void> replace_content(sqlite::Database& database, std::int64_t content,
+                             std::int64_t replacement);
+
+/// One chunk, checked: it is whole, and the one that was stored at this place (`expected`, if
+/// given). `label` names the content in errors. Errors: Corrupt (also: missing).
 Result<std::vector<std::byte>> load_chunk(sqlite::Database& database, std::int64_t content,
-                                          std::uint64_t position, std::string_view label);
+                                          std::uint64_t position, std::string_view label,
+                                          const Digest* expected = nullptr);
 
 /// A range of bytes, checked chunk by chunk; ends at the content's end.
 Result<std::vector<std::byte>> load_range(sqlite::Database& database, const ContentRow& content,

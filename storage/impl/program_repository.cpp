@@ -84,19 +84,64 @@ Result<void> ProgramRepository::rename(const ProgramMove& move, UtcTime now) {
       [&](sqlite::Database& database) { return rename_program(database, move, now); });
 }
 
+/// Looks at the stored list each time. Errors: NotFound, Corrupt.
+Result<ProgramRepository::Sealed> ProgramRepository::sealed(const Digest& content) {
+  auto found = connections_.read([&](sqlite::Database& database) -> Result<Sealed> {
+    const auto row = find_content(database, content);
+    if (!row) return fail(row.error());
+    if (!*row) return fail(Errc::NotFound, "content {} is not in the library", content.hex());
+    auto chunks = check_seal(database, **row, content);
+    if (!chunks) return fail(chunks.error());
+    return Sealed{**row, std::move(*chunks)};
+  });
+  if (found && !found->chunks) found = seal(content, found->row);
+  if (found) sealed_.insert(content, found->chunks);
+  return found;
+}
+
+/// A content from before seals were known: all its bytes are read once.
+Result<ProgramRepository::Sealed> ProgramRepository::seal(const Digest& content,
+                                                          const ContentRow& row) {
+  const auto compared = connections_.read([&](sqlite::Database& database) {
+    return compare_whole(database, row, content);
+  });
+  if (!compared) return fail(compared.error());
+  return connections_.write([&](sqlite::Database& database) -> Result<Sealed> {
+    if (auto done = seal_content(database, row, content); !done) return fail(done.error());
+    auto chunks = check_seal(database, row, content);
+    if (!chunks) return fail(chunks.error());
+    return Sealed{row, std::move(*chunks)};
+  });
+}
+
+Result<void> ProgramRepository::verify_content(const Digest& content) {
+  const auto found = sealed(content);
+  if (!found) return fail(found.error());
+  return {};
+}
+
 Result<std::shared_ptr<const CachedChunk>> ProgramRepository::chunk(const Digest& content,
                                                                     std::uint64_t position) {
   using Loaded = Result<std::shared_ptr<const CachedChunk>>;
   if (auto cached = cache_.find({content, position})) return cached;
+  auto digests = sealed_.find(content);
+  if (!digests) {
+    const auto found = sealed(content);
+    if (!found) return fail(found.error());
+    digests = found->chunks;
+  }
   auto loaded = connections_.read([&](sqlite::Database& database) -> Loaded {
     const auto row = find_content(database, content);
     if (!row) return fail(row.error());
     if (!*row) return fail(Errc::NotFound, "content {} is not in the library", content.hex());
     auto chunk = std::make_shared<CachedChunk>();
     chunk->content_size = (*row)->size;
-    if (position * kChunkBytes >= chunk->content_size) return chunk;  // behind the end
-    auto bytes =
-        load_chunk(database, (*row)->id, position, fmt::format("content {}", content.hex()));
+    if (position * kChunkBytes >= chunk->content_size) return chunk;  // past the end
+    const auto label = fmt::format("content {}", content.hex());
+    if (position >= digests->size()) {
+      return fail(Errc::Corrupt, "{}: chunk {} is more than it was stored with", label, position);
+    }
+    auto bytes = load_chunk(database, (*row)->id, position, label, &(*digests)[position]);
     if (!bytes) return fail(bytes.error());
     const auto due = std::min(kChunkBytes, chunk->content_size - position * kChunkBytes);
     if (bytes->size() != due) {

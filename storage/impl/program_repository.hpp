@@ -2,6 +2,7 @@
 
 #include "storage/impl/chunk_cache.hpp"
 #include "storage/impl/connections.hpp"
+#include "storage/impl/content_seal.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -22,12 +23,20 @@ class ProgramRepository {
   Result<void> rename(const ProgramMove& move, UtcTime now);
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
                                               std::uint64_t length);
+  Result<void> verify_content(const Digest& content);
 
  private:
+  struct Sealed {
+    ContentRow row;
+    std::shared_ptr<const ChunkDigests> chunks;  ///< null: not sealed yet
+  };
+  Result<Sealed> sealed(const Digest& content);
+  Result<Sealed> seal(const Digest& content, const ContentRow& row);
   Result<std::shared_ptr<const CachedChunk>> chunk(const Digest& content, std::uint64_t position);
 
   Connections& connections_;
   ChunkCache cache_;
+  SealedContents sealed_;
 };
 
 }  // namespace dripline::storage

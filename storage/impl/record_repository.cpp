@@ -23,6 +23,7 @@ Record read_record(const sqlite::Statement& row) {
   record.sequence = row.integer(8);
   record.device = row.text(9);
   record.text = row.text(10);
+  record.received = row.optional_time(11);
   return record;
 }
 
@@ -51,32 +52,38 @@ Result<std::uint64_t> last_number(sqlite::Database& database, std::int64_t machi
   return last->value_or(0);
 }
 
-Result<void> insert_record(sqlite::Statement& insert, std::int64_t machine, const Record& record) {
+Result<void> insert_record(sqlite::Statement& insert, std::int64_t machine, const Record& record,
+                           UtcTime received) {
   std::optional<std::string> run;
   if (!record.run.empty()) run = record.run;
   return insert
       .bind(machine, record.epoch, record.number, record.time, run, record.kind, record.block,
-            record.line, record.sequence, record.device, record.text)
+            record.line, record.sequence, record.device, record.text,
+            record.received.value_or(received))
       .run();
 }
 
 /// Inserts what follows `last` without a gap; returns the new last number.
+struct Received {
+  std::int64_t machine = 0;
+  UtcTime time;
+};
 Result<std::uint64_t> insert_contiguous(sqlite::Database& database, const RecordBatch& batch,
-                                        std::int64_t machine, std::uint64_t last) {
+                                        const Received& received, std::uint64_t last) {
   auto insert = database.prepare(
       "INSERT INTO record (machine, epoch, number, time_us, run, kind, block, line, sequence, "
-      "device, text) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)");
+      "device, text, received_us) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)");
   if (!insert) return fail(insert.error());
   std::map<std::string, std::uint64_t> outputs;
   for (const Record& record : batch.records) {
     if (record.number <= last) continue;
     if (record.number != last + 1) break;
-    if (auto done = insert_record(*insert, machine, record); !done) return fail(done.error());
+    if (auto done = insert_record(*insert, received.machine, record, received.time); !done) return fail(done.error());
     if (record.kind == "output" && !record.run.empty()) ++outputs[record.run];
     last = record.number;
   }
   for (const auto& [run, count] : outputs) {
-    if (auto done = add_outputs(database, run, count); !done) return fail(done.error());
+    if (auto done = add_outputs(database, received.machine, {run, count}); !done) return fail(done.error());
   }
   return last;
 }
@@ -94,14 +101,14 @@ bool is_stored(const RecordBatch& batch, const std::string& run, std::string_vie
 }
 
 Result<void> apply_to_runs(sqlite::Database& database, const RecordBatch& batch,
-                           std::uint64_t last) {
+                           std::int64_t machine, std::uint64_t last) {
   for (const RunBeginning& beginning : batch.beginnings) {
     if (!is_stored(batch, beginning.run, "run_started", last)) continue;
-    if (auto done = apply_beginning(database, beginning); !done) return done;
+    if (auto done = apply_beginning(database, machine, beginning); !done) return done;
   }
   for (const RunEnding& ending : batch.endings) {
     if (!is_stored(batch, ending.run, "run_ended", last)) continue;
-    if (auto done = apply_ending(database, ending); !done) return done;
+    if (auto done = apply_ending(database, machine, ending); !done) return done;
   }
   return {};
 }
@@ -115,7 +122,7 @@ Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
     if (!machine) return fail(machine.error());
     const auto before = last_number(database, *machine, batch.epoch);
     if (!before) return before;
-    const auto last = insert_contiguous(database, batch, *machine, *before);
+    const auto last = insert_contiguous(database, batch, {*machine, clock_.now()}, *before);
     if (!last) return last;
     if (*last > *before) {
       const auto noted =
@@ -125,7 +132,7 @@ Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
                       *machine, batch.epoch, *last);
       if (!noted) return fail(noted.error());
     }
-    if (auto done = apply_to_runs(database, batch, *last); !done) return fail(done.error());
+    if (auto done = apply_to_runs(database, batch, *machine, *last); !done) return fail(done.error());
     return last;
   });
 }
@@ -134,7 +141,9 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
                                                      const std::string& kind, Page page) {
   static const std::string kSelect =
       "SELECT machine.name, record.epoch, number, time_us, run, kind, block, line, sequence, "
-      "device, text FROM record JOIN machine ON machine.id = record.machine WHERE run = ?1 ";
+      "device, text, received_us FROM record JOIN machine ON machine.id = record.machine "
+      "WHERE run = ?1 AND NOT EXISTS "  // what another machine says of a run is not the run's
+      "(SELECT 1 FROM run AS owned WHERE owned.id = ?1 AND owned.machine <> record.machine) ";
   static const std::string kOrder = "ORDER BY record.epoch, number LIMIT ?2 OFFSET ?3";
   static const std::string kOfKind = kSelect + "AND kind = ?4 " + kOrder;
   static const std::string kOfAny = kSelect + kOrder;
@@ -165,7 +174,7 @@ Result<std::vector<MachineReport>> RecordRepository::reports() {
 
 Result<std::vector<Record>> RecordRepository::without_run(const std::string& machine, Page page) {
   static const std::string kSelect =
-      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text "
+      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, received_us "
       "FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND run IS NULL AND kind IN ('output', 'probe') "
       "ORDER BY epoch, number LIMIT ?2 OFFSET ?3";

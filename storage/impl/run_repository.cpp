@@ -169,28 +169,35 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
                   to_string(run->state), to_string(state));
     }
     if (state == RunState::Active) {
-      return apply_beginning(database, {id, clock_.now()});
+      return sqlite::run(database,
+                         "UPDATE run SET state = 'active', started_us = max(?2, created_us) "
+                         "WHERE id = ?1 AND state = 'ordered'",
+                         id, clock_.now());
     }
     return sqlite::run(database,
-                       "UPDATE run SET state = ?2, reason = ?3, ended_us = ?4 WHERE id = ?1", id,
-                       to_string(state), reason, clock_.now());
+                       "UPDATE run SET state = ?2, reason = ?3, "
+                       "ended_us = max(?4, coalesce(started_us, created_us)) WHERE id = ?1",
+                       id, to_string(state), reason, clock_.now());
   });
 }
 
-Result<void> RunRepository::update_counters(const std::string& id, const Counters& counters,
-                                            std::uint64_t line, std::int64_t sequence) {
+Result<void> RunRepository::update_counters(const std::string& machine, const Progress& progress) {
   const auto update = [&](sqlite::Database& database) -> Result<void> {
     const auto updated =
         sqlite::run(database,
                     "UPDATE run SET line = iif(?4 >= executed, ?5, line), "
                     "sequence = iif(?4 >= executed, ?6, sequence), sent = max(sent, ?2), "
                     "accepted = max(accepted, ?3), executed = max(executed, ?4) "
-                    "WHERE id = ?1 AND state IN ('ordered', 'active')",
-                    id, counters.sent, counters.accepted, counters.executed, line, sequence);
+                    "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
+                    "AND state IN ('ordered', 'active')",
+                    progress.run, progress.counters.sent, progress.counters.accepted,
+                    progress.counters.executed, progress.line, progress.sequence, machine);
     if (!updated || database.changes() > 0) return updated;
-    const auto run = find_run(database, id);  // ended: ignored
+    const auto run = find_run(database, progress.run);  // ended: ignored
     if (!run) return fail(run.error());
-    return {};
+    if (run->machine == machine) return {};
+    return fail(Errc::ModalConflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
+                machine);
   };
   // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.
   return connections_.write(update, sqlite::Synchronous::Normal);

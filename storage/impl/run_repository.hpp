@@ -14,8 +14,13 @@ class RunRepository {
   Result<Run> find(const std::string& id);
   Result<std::vector<Run>> all(const RunFilter& filter, Page page);
   Result<void> set_state(const std::string& id, RunState state, const std::string& reason);
-  Result<void> update_counters(const std::string& id, const Counters& counters, std::uint64_t line,
-                               std::int64_t sequence);
+  struct Progress {
+    const std::string& run;
+    const Counters& counters;
+    std::uint64_t line = 0;
+    std::int64_t sequence = -1;
+  };
+  Result<void> update_counters(const std::string& machine, const Progress& progress);
 
  private:
   Connections& connections_;

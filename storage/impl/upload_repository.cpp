@@ -4,7 +4,7 @@
 
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
-#include "storage/impl/content.hpp"
+#include "storage/impl/content_seal.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
@@ -53,18 +53,27 @@ Result<void> drop_upload(sqlite::Database& database, const std::string& id, std:
 }
 
 /// The upload's content gets its name, or gives way to the same one that is here already.
-Result<std::int64_t> settle_content(sqlite::Database& database, std::int64_t content,
+Result<std::int64_t> settle_content(sqlite::Database& database, const ContentRow& content,
                                     const Digest& digest) {
   const auto known = find_content(database, digest);
   if (!known) return fail(known.error());
   if (*known) {
-    if (auto done = drop_content(database, content); !done) return fail(done.error());
-    return (*known)->id;
+    const auto sealed = check_seal(database, **known, digest);
+    if (!sealed && sealed.error().code != Errc::Corrupt) return fail(sealed.error());
+    const bool is_sound = sealed && *sealed != nullptr;
+    // What was uploaded has just been compared with the digest: it heals what is not sound.
+    const auto done = is_sound ? drop_content(database, content.id)
+                               : replace_content(database, (*known)->id, content.id);
+    if (!done) return fail(done.error());
+    if (is_sound) return (*known)->id;
+  } else {
+    const auto named = sqlite::run(database, "UPDATE content SET sha256 = ?2 WHERE id = ?1",
+                                   content.id, std::span<const std::byte>(digest.bytes));
+    if (!named) return fail(named.error());
   }
-  const auto named = sqlite::run(database, "UPDATE content SET sha256 = ?2 WHERE id = ?1", content,
-                                 std::span<const std::byte>(digest.bytes));
-  if (!named) return fail(named.error());
-  return content;
+  const ContentRow kept{*known ? (*known)->id : content.id, content.size};
+  if (auto done = seal_content(database, kept, digest); !done) return fail(done.error());
+  return kept.id;
 }
 
 Result<void> check_unchanged(const UploadRow& row, const UploadProgress& progress) {
@@ -160,7 +169,8 @@ Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgre
         put_chunks(database, progress.content, progress.received / kChunkBytes, chunks);
     if (!put) return fail(put.error());
     const auto touched =
-        sqlite::run(database, "UPDATE upload SET touched_us = ?2 WHERE id = ?1", id, clock_.now());
+        sqlite::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1",
+                    id, clock_.now());
     if (!touched) return fail(touched.error());
     row->upload.received += bytes.size();
     return std::move(row->upload);
@@ -238,7 +248,7 @@ Result<Revision> UploadRepository::commit(const std::string& id,
     if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) {
       return fail(done.error());
     }
-    const auto content = settle_content(database, row->content.id, *digest);
+    const auto content = settle_content(database, row->content, *digest);
     if (!content) return fail(content.error());
     return publish_revision(database, row->upload, *content, clock_.now());
   });
@@ -256,12 +266,17 @@ Result<void> UploadRepository::abandon(const std::string& id) {
   return abandoned;
 }
 
-Result<std::uint64_t> UploadRepository::drop_before(UtcTime time) {
+Result<std::uint64_t> UploadRepository::drop_idle(std::chrono::seconds passed,
+                                                  std::chrono::seconds life) {
   auto dropped = connections_.write([&](sqlite::Database& database) -> Result<std::uint64_t> {
     using Old = std::pair<std::string, std::int64_t>;
+    const auto aged =
+        sqlite::run(database, "UPDATE upload SET idle_seconds = idle_seconds + ?1", passed.count());
+    if (!aged) return fail(aged.error());
     const auto old = sqlite::all_rows(
-        database, "SELECT id, content FROM upload WHERE touched_us < ?1",
-        [](const sqlite::Statement& row) { return Old(row.text(0), row.integer(1)); }, time);
+        database, "SELECT id, content FROM upload WHERE idle_seconds > ?1",
+        [](const sqlite::Statement& row) { return Old(row.text(0), row.integer(1)); },
+        life.count());
     if (!old) return fail(old.error());
     for (const auto& [id, content] : *old) {
       if (auto done = drop_upload(database, id, content); !done) return fail(done.error());

@@ -21,7 +21,7 @@ class UploadRepository {
   Result<void> set_control(const std::string& id, const std::string& control);
   Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected);
   Result<void> abandon(const std::string& id);
-  Result<std::uint64_t> drop_before(UtcTime time);
+  Result<std::uint64_t> drop_idle(std::chrono::seconds passed, std::chrono::seconds life);
 
  private:
   Result<std::shared_ptr<UploadProgress>> progress_of(const std::string& id);

@@ -144,6 +144,10 @@ Result<void> Database::set_synchronous(Synchronous synchronous) {
   return done;
 }
 
+void Database::interrupt() {
+  sqlite3_interrupt(connection_->sqlite.getHandle());
+}
+
 const std::string& Database::file() const {
   return connection_->file;
 }

@@ -58,6 +58,9 @@ class Database {
   /// Outside a transaction only: what the next commits promise.
   Result<void> set_synchronous(Synchronous synchronous);
 
+  /// From any thread: what runs on the connection now ends with an error soon.
+  void interrupt();
+
   const std::string& file() const;
 
  private:

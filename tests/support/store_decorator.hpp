@@ -29,8 +29,9 @@ class StoreDecorator : public storage::Store {
     return inner_.commit_upload(id, expected);
   }
   Result<void> abandon_upload(const std::string& id) override { return inner_.abandon_upload(id); }
-  Result<std::uint64_t> drop_uploads_before(UtcTime time) override {
-    return inner_.drop_uploads_before(time);
+  Result<std::uint64_t> drop_idle_uploads(std::chrono::seconds passed,
+                                          std::chrono::seconds life) override {
+    return inner_.drop_idle_uploads(passed, life);
   }
   Result<std::vector<storage::ProgramSummary>> programs(storage::Page page) override {
     return inner_.programs(page);
@@ -64,6 +65,9 @@ class StoreDecorator : public storage::Store {
                                               std::uint64_t length) override {
     return inner_.read_content(content, offset, length);
   }
+  Result<void> verify_content(const Digest& content) override {
+    return inner_.verify_content(content);
+  }
   Result<void> save_machine(const storage::Machine& m) override { return inner_.save_machine(m); }
   Result<storage::Machine> machine(const std::string& name) override {
     return inner_.machine(name);
@@ -79,9 +83,10 @@ class StoreDecorator : public storage::Store {
                              const std::string& reason) override {
     return inner_.set_run_state(id, state, reason);
   }
-  Result<void> update_counters(const std::string& id, const storage::Counters& counters,
-                               std::uint64_t line, std::int64_t sequence) override {
-    return inner_.update_counters(id, counters, line, sequence);
+  Result<void> update_counters(const std::string& machine, const std::string& id,
+                               const storage::Counters& counters, std::uint64_t line,
+                               std::int64_t sequence) override {
+    return inner_.update_counters(machine, id, counters, line, sequence);
   }
   Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
     return inner_.store_records(batch);

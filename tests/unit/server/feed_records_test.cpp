@@ -148,6 +148,84 @@ TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
   EXPECT_EQ(ended->content_verified, true);
 }
 
+/// The gateway's clock is an hour off; what the run shows is in our time.
+TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
+  const std::string run = running("M30\n");
+  const UtcTime created = store_->run(run)->created;
+  gateway_ahead_ = std::chrono::hours(-1);
+  for (int i = 0; i < 4; ++i) heartbeat();
+  clock_.advance(std::chrono::seconds(10));
+  record(1, run, dds::RecordKind::RunStarted, dds::encode(dds::RunStartText{}));
+  clock_.advance(std::chrono::seconds(10));
+  record(2, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  ASSERT_TRUE(wait_ack(2));
+  const auto ended = store_->run(run);
+  ASSERT_TRUE(ended->started && ended->ended);
+  EXPECT_GE(*ended->started, created);
+  EXPECT_EQ(*ended->ended, created + std::chrono::seconds(20));
+  EXPECT_EQ(store_->records(run, "", {})->at(1).time, *ended->ended - std::chrono::hours(1))
+      << "the record keeps the gateway's own";
+}
+
+TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
+  const std::string run = running("M30\n");
+  announce("mill-9");
+  dds::Record forged;
+  forged.machine = "mill-9";
+  forged.epoch = kEpoch;
+  forged.number = 1;
+  forged.time = clock_.now();
+  forged.run = run;
+  forged.kind = dds::RecordKind::Output;
+  forged.text = "FORGED";
+  network_.on_record(forged);
+  forged.number = 2;
+  forged.kind = dds::RecordKind::RunEnded;
+  forged.text = completed("M30\n", 1);
+  network_.on_record(forged);
+  ASSERT_TRUE(wait_ack(2)) << "kept";
+  dds::Status status;
+  status.machine = "mill-9";
+  status.session = kSession;
+  status.run = run;
+  status.sent = 1000;
+  status.executed = 77;
+  network_.on_status(status);
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
+  EXPECT_TRUE(store_->records(run, "", {})->empty());
+  record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  EXPECT_TRUE(wait_told(runs_, [&](const Run& r) {
+    return r.id == run && r.state == storage::RunState::Completed;
+  }));
+  service_->end();
+  EXPECT_EQ(store_->run(run)->counters.executed, 1u);
+  for (const auto& told : records_) EXPECT_NE(told.text, "FORGED");
+}
+
+/// A list of chunks that is not the revision's: nothing is begun.
+TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
+  const auto revision = push("O0100", "O1\nM30\n");
+  ASSERT_TRUE(revision.size > 0);
+  struct DamagedStore final : test_support::StoreDecorator {
+    using StoreDecorator::StoreDecorator;
+    Result<void> verify_content(const Digest& content) override {
+      return fail(Errc::Corrupt, "content {}: chunk 3 is not the one that was stored there",
+                  content.hex());
+    }
+  };
+  DamagedStore damaged(*store_);
+  start_service(damaged);
+  announce();
+  answer_orders(true);
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Corrupt);
+  EXPECT_NE(run.error().what.find("chunk 3"), std::string::npos);
+  EXPECT_TRUE(written_->orders.empty());
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+  service_.reset();
+}
+
 TEST_F(FeedRecords, SayWhenTheMachineExecutedOtherBytes) {
   const std::string run = running("O1\nM30\n");
   record(1, run, dds::RecordKind::RunEnded, completed("O1\nM31\n", 2));

@@ -183,7 +183,7 @@ TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
   });
   threads.emplace_back([&] {
     for (std::uint64_t n = 1; n <= 200; ++n) {
-      EXPECT_TRUE(store_->update_counters("r1", {n, n, n}, n, 0));
+      EXPECT_TRUE(store_->update_counters("m1", "r1", {n, n, n}, n, 0));
     }
   });
   for (unsigned upload = 0; upload < 2; ++upload) {

@@ -141,6 +141,93 @@ INSTANTIATE_TEST_SUITE_P(
                    "content_chunk WHERE position = 1)"}),
     [](const auto& i) { return std::string{i.param.name}; });
 
+/// Rows that are well-formed and name sound chunks, but not the ones that were stored there. Each
+/// chunk passes the check of its own bytes.
+class WrongList : public StoreTest, public testing::WithParamInterface<DamageCase> {};
+
+TEST_P(WrongList, IsRefusedBeforeAByteIsReadAndHealedByPushingAgain) {
+  const std::string text = nc_text(800'000);
+  const Digest content = push("p.nc", text)->content;
+  ASSERT_TRUE(push("other.nc", nc_text(800'000, 7)));
+  EXPECT_TRUE(store_->verify_content(content));
+  damage(GetParam().sql);
+  const auto refused = store_->verify_content(content);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Corrupt);
+  EXPECT_NE(refused.error().what.find(content.hex()), std::string::npos) << refused.error().what;
+  const bool is_named = std::string_view(GetParam().name) != "both_rows_swapped";
+  if (is_named) {
+    EXPECT_NE(refused.error().what.find("chunk 2 (bytes from 524288)"), std::string::npos)
+        << refused.error().what;
+  }
+  EXPECT_FALSE(store_->read_content(content, 0, 10)) << "not even what comes before the damage";
+  ASSERT_TRUE(push("p.nc", text));
+  EXPECT_TRUE(store_->verify_content(content));
+  EXPECT_EQ(pull(content), text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , WrongList,
+    testing::Values(
+        DamageCase{"another_programs_chunk",
+                   "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
+                   "content = (SELECT max(id) FROM content) AND position = 2) "
+                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+        DamageCase{"a_chunk_of_another_place",
+                   "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE "
+                   "content = (SELECT min(id) FROM content) AND position = 0) "
+                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+        DamageCase{"its_own_digest_too",
+                   "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM content_chunk WHERE "
+                   "content = (SELECT max(id) FROM content) AND position = 2) "
+                   "WHERE content = (SELECT min(id) FROM content) AND position = 2"},
+        DamageCase{"both_rows_swapped",
+                   "UPDATE content_chunk SET position = 100 + 2 - position "
+                   "WHERE content = (SELECT min(id) FROM content) AND position < 3;"
+                   "UPDATE content_chunk SET position = position - 100 "
+                   "WHERE content = (SELECT min(id) FROM content) AND position >= 100"},
+        DamageCase{"a_row_is_gone",
+                   "DELETE FROM content_chunk WHERE position = 2 AND "
+                   "content = (SELECT min(id) FROM content)"}),
+    [](const auto& i) { return std::string{i.param.name}; });
+
+TEST_F(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
+  const std::string text = nc_text(800'000);
+  const Digest content = push("p.nc", text)->content;
+  ASSERT_TRUE(store_->read_content(content, 0, 10));
+  auto other = sqlite::Database::open(options_.file);
+  ASSERT_TRUE(other->execute(
+      "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE position = 0), "
+      "sha256 = (SELECT sha256 FROM content_chunk WHERE position = 0) WHERE position = 1"));
+  const auto refused = store_->read_content(content, 300'000, 10);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
+}
+
+/// As a version before 4 left it.
+TEST_F(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
+  const std::string text = nc_text(800'000);
+  const Digest content = push("p.nc", text)->content;
+  damage("UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL");
+  EXPECT_EQ(text_of(store_->read_content(content, 300'000, 10).value()), text.substr(300'000, 10));
+  EXPECT_EQ(query("SELECT count(*) FROM content WHERE seal IS NULL"), 0);
+  EXPECT_EQ(query("SELECT count(*) FROM content_chunk WHERE sha256 IS NULL"), 0);
+  EXPECT_TRUE(store_->verify_content(content));
+}
+
+TEST_F(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
+  const Digest content = push("p.nc", nc_text(800'000))->content;
+  damage(
+      "UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL;"
+      "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE position = 0) "
+      "WHERE position = 1");
+  const auto refused = store_->verify_content(content);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Corrupt);
+  EXPECT_FALSE(store_->read_content(content, 0, 10));
+  EXPECT_EQ(query("SELECT count(*) FROM content WHERE seal IS NOT NULL"), 0);
+}
+
 TEST_F(ProgramTest, SequentialReadingDecompressesEveryChunkOnce) {
   const std::string text = nc_text(600'000);
   const Digest content = push("p.nc", text)->content;

@@ -142,14 +142,16 @@ TEST_F(RecordTest, BeginAndEndTheRunTheySpeakOf) {
   ASSERT_TRUE(store_->create_run(make_run("r1")));
   RecordBatch batch = make_batch(1, 1);
   batch.records[0].kind = "run_started";
-  batch.beginnings.push_back({"r1", UtcTime{std::chrono::microseconds{3}}});
+  const UtcTime started = clock_.now() + std::chrono::seconds(3);
+  batch.beginnings.push_back({"r1", started});
   ASSERT_TRUE(store_->store_records(batch));
   EXPECT_EQ(store_->run("r1")->state, RunState::Active);
-  EXPECT_EQ(store_->run("r1")->started, UtcTime{std::chrono::microseconds{3}});
+  EXPECT_EQ(store_->run("r1")->started, started);
 
   RecordBatch end = make_batch(2, 3);
   end.records[1].kind = "run_ended";
   end.endings.push_back(ending(RunState::Completed));
+  end.endings[0].ended = started + std::chrono::seconds(2);
   ASSERT_TRUE(store_->store_records(end));
   const auto run = store_->run("r1");
   EXPECT_EQ(run->state, RunState::Completed);
@@ -160,10 +162,46 @@ TEST_F(RecordTest, BeginAndEndTheRunTheySpeakOf) {
   EXPECT_EQ(run->reason, "M30");
   EXPECT_EQ(run->executed_content, std::string(64, 'a'));
   EXPECT_EQ(run->content_verified, true);
-  EXPECT_EQ(run->ended, UtcTime{std::chrono::microseconds{5}});
+  EXPECT_EQ(run->ended, started + std::chrono::seconds(2));
 
   ASSERT_TRUE(store_->store_records(batch)) << "an old beginning comes again";
   EXPECT_EQ(store_->run("r1")->state, RunState::Completed);
+}
+
+/// A gateway's clock may be anywhere.
+TEST_F(RecordTest, NeverEndARunBeforeItBegan) {
+  const Run made = make_run("r1");
+  ASSERT_TRUE(store_->create_run(made));
+  RecordBatch batch = make_batch(1, 2);
+  batch.records[0].kind = "run_started";
+  batch.records[1].kind = "run_ended";
+  batch.beginnings.push_back({"r1", UtcTime{std::chrono::microseconds{3}}});
+  batch.endings.push_back(ending(RunState::Completed));
+  clock_.advance(std::chrono::seconds(10));
+  ASSERT_TRUE(store_->store_records(batch));
+  EXPECT_EQ(store_->run("r1")->started, made.created);
+  EXPECT_EQ(store_->run("r1")->ended, made.created);
+  EXPECT_EQ(store_->records("r1", "", {})->at(0).received, clock_.now()) << "our own time of it";
+}
+
+/// A mixed-up or stolen gateway: what it says of another machine's run is kept, and that is all.
+TEST_F(RecordTest, OfAnotherMachinesRunChangeNothingOfIt) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  RecordBatch stray = make_batch(1, 3);
+  stray.machine = "m2";
+  for (Record& record : stray.records) record.machine = "m2";
+  stray.records[0].kind = "run_started";
+  stray.records[2].kind = "run_ended";
+  stray.beginnings.push_back({"r1", clock_.now()});
+  stray.endings.push_back(ending(RunState::Completed));
+  EXPECT_EQ(store_->store_records(stray), 3u) << "acknowledged, so not lost";
+  EXPECT_EQ(store_->run("r1")->state, RunState::Ordered);
+  EXPECT_EQ(store_->run("r1")->outputs, 0u);
+  EXPECT_EQ(numbers(), "");
+  EXPECT_EQ(query("SELECT count(*) FROM record"), 3);
+  ASSERT_TRUE(store_->store_records(make_batch(1, 2)));
+  EXPECT_EQ(numbers(), "1 2 ");
+  EXPECT_EQ(store_->run("r1")->outputs, 2u);
 }
 
 TEST_F(RecordTest, EndARunThatWasNeverSeenActive) {

@@ -101,12 +101,12 @@ TEST_F(RunTest, NeverLeavesAFinalState) {
 TEST_F(RunTest, UnknownOnesAreNotFound) {
   EXPECT_EQ(store_->run("x").error().code, Errc::NotFound);
   EXPECT_EQ(store_->set_run_state("x", RunState::Active, "").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->update_counters("x", {}, 0, 0).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->update_counters("m1", "x", {}, 0, 0).error().code, Errc::NotFound);
 }
 
 TEST_F(RunTest, CountersOnlyGoForward) {
-  ASSERT_TRUE(store_->update_counters("r1", {1000, 50, 40}, 41, 400));
-  ASSERT_TRUE(store_->update_counters("r1", {900, 60, 30}, 31, 300));
+  ASSERT_TRUE(store_->update_counters("m1", "r1", {1000, 50, 40}, 41, 400));
+  ASSERT_TRUE(store_->update_counters("m1", "r1", {900, 60, 30}, 31, 300));
   const auto run = store_->run("r1");
   EXPECT_EQ(run->counters.sent, 1000u);
   EXPECT_EQ(run->counters.accepted, 60u);
@@ -118,7 +118,15 @@ TEST_F(RunTest, CountersOnlyGoForward) {
 
 TEST_F(RunTest, CountersOfAnEndedRunStay) {
   ASSERT_TRUE(store_->set_run_state("r1", RunState::Aborted, ""));
-  ASSERT_TRUE(store_->update_counters("r1", {1000, 50, 40}, 41, 400));
+  ASSERT_TRUE(store_->update_counters("m1", "r1", {1000, 50, 40}, 41, 400));
+  EXPECT_EQ(store_->run("r1")->counters.sent, 0u);
+}
+
+TEST_F(RunTest, CountersOfAnotherMachineAreRefused) {
+  const auto refused = store_->update_counters("m2", "r1", {1000, 50, 40}, 41, 400);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_EQ(refused.error().what, "run r1 is machine m1's, not m2's");
   EXPECT_EQ(store_->run("r1")->counters.sent, 0u);
 }
 
