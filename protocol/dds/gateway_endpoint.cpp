@@ -79,8 +79,9 @@ class Gateway final : public GatewayEndpoint {
 
   std::mutex announce_mutex_;
   std::optional<Announce> announce_;
-  std::string heard_;          // written by the watcher under announce_mutex_
-  bool announce_due_ = false;  // the watcher's
+  std::string heard_;                  // written by the watcher under announce_mutex_
+  std::vector<std::string> complete_;  // this and the next are the watcher's; newest last
+  bool announce_due_ = false;
 
   Entity publisher_, subscriber_;
   std::vector<Entity> topics_;
@@ -196,11 +197,17 @@ std::set<std::string> Gateway::complete_servers() const {
 }
 
 /// A server is kept until it is lost: another one never takes over by being newer. A killed one
-/// stays matched until its lease ends, and its successor waits so long.
+/// stays matched until its lease ends, and its successor waits so long. Of several that wait the
+/// newest is taken: the others may be killed ones too.
 void Gateway::look_at_servers() {
   const std::set<std::string> now = complete_servers();
+  std::erase_if(complete_, [&](const std::string& key) { return !now.contains(key); });
+  for (const std::string& key : now) {
+    if (std::find(complete_.begin(), complete_.end(), key) == complete_.end())
+      complete_.push_back(key);
+  }
   std::string heard = heard_;
-  if (!now.contains(heard)) heard = now.empty() ? std::string{} : *now.begin();
+  if (!now.contains(heard)) heard = complete_.empty() ? std::string{} : complete_.back();
   const bool is_news = heard != heard_;
   if (!is_news && !announce_due_) return;
   believe(heard);
