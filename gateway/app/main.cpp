@@ -16,6 +16,7 @@
 #include "protocol/base/random.hpp"
 #include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
+#include "protocol/process/open_files.hpp"
 #include "protocol/process/stop_signals.hpp"
 
 namespace dripline::gateway {
@@ -113,6 +114,7 @@ Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& optio
 }
 
 Result<void> run(const GatewayOptions& options) {
+  if (auto files = process::require_open_files(process::kGatewayFiles); !files) return files;
   const auto dialect = interpreter::find_dialect(options.control);
   if (!dialect) return fail(dialect.error());
   auto setup = read_setup(options, **dialect);

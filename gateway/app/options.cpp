@@ -77,6 +77,14 @@ constexpr std::array kRows{
                 o.network.interface = v;
                 return {};
               }},
+    OptionRow{"dds-open-network", "yes|no", "", "no",
+              "yes: DDS beyond this machine although it has no authentication; only on a network of "
+              "its own",
+              [](Options& o, std::string_view v) -> Result<void> {
+                if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is not yes or no", v);
+                o.network.is_open_network_allowed = v == "yes";
+                return {};
+              }},
     OptionRow{"discovery-interval-ms", "number", "ms", "250", "between two looks for the server",
               [](Options& o, std::string_view v) {
                 return set_number(o.network.discovery_interval_ms, v, 10, 60'000);
@@ -301,6 +309,9 @@ Result<void> complete(GatewayOptions& options) {
                 "--server none needs --line ADDRESS: programs must come from somewhere");
   }
   options.is_unattended = options.unattended.value_or(!options.line.has_value());
+  if (options.has_server) {
+    if (auto safe = dds::check_exposure(options.network); !safe) return safe;
+  }
   if (!options.state.empty()) return {};
   const auto state = default_state_folder(process_environment, ::geteuid() == 0);
   if (!state) return fail(state.error());

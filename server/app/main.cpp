@@ -6,6 +6,7 @@
 
 #include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
+#include "protocol/process/open_files.hpp"
 #include "protocol/process/stop_signals.hpp"
 #include "server/app/server.hpp"
 #include "server/app/settings.hpp"
@@ -53,7 +54,8 @@ int run(const Settings& settings) {
   if (auto opened = process::start_log("dncd", log); !opened) return complain(opened.error());
   dds::send_log_to(process::log_foreign);
   const SystemClock clock;
-  auto server = Server::start(settings, clock);
+  const auto files = process::require_open_files(process::kServerFiles);
+  auto server = files ? Server::start(settings, clock) : fail(files.error());
   if (!server) {
     spdlog::error("not started: {}", server.error().what);
     // Without a log file the line above is on standard error already.

@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <array>
+#include <thread>
 
 #include "protocol/dds/endpoint.hpp"
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
 #include "server/feeds/feed_service.hpp"
+#include "server/feeds/machine_notices.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/dialect_catalog.hpp"
 #include "server/library/health_watch.hpp"
@@ -20,6 +22,8 @@ namespace dripline::app {
 namespace {
 
 constexpr auto kUploadLife = std::chrono::hours(24);
+/// Of the database, for damage; what a bigger one needs longer for is looked at beside the work.
+constexpr std::chrono::seconds kCheckBeforeStart{10};
 constexpr const char* kTokenName = "admin";  ///< who, in the audit trail
 
 std::string host_name() {
@@ -35,7 +39,21 @@ dds::NetworkOptions network_options(const Settings& settings) {
   network.tag = settings.dds_tag;
   network.discovery_interval_ms = settings.discovery_interval_ms;
   network.lease_ms = settings.lease_ms;
+  network.is_open_network_allowed = settings.dds_open_network == "yes";
   return network;
+}
+
+Result<void> check_network(const Settings& settings) {
+  if (settings.dds_open_network != "yes" && settings.dds_open_network != "no") {
+    return fail(Errc::Denied, "dds-open-network = {}: must be yes or no",
+                settings.dds_open_network);
+  }
+  const auto network = network_options(settings);
+  if (auto safe = dds::check_exposure(network); !safe) return safe;
+  if (network.is_open_network_allowed)
+    spdlog::warn("DDS on {} has no authentication: keep its network to server and gateways",
+                 network.interface);
+  return {};
 }
 
 Result<api::HttpOptions> http_options(const Settings& settings) {
@@ -79,7 +97,7 @@ struct Server::Parts {
         audit(*store, clock),
         programs(*store, clock, catalog, audit),
         setups(*store, catalog, audit),
-        feeds(*store, clock, feed_options(), api::publish_to(events)),
+        feeds(*store, clock, feed_options(), feed_listener()),
         ports(*store, programs, clock, {.recordings = folder.recordings()},
               api::publish_to(events)),
         machines(*store, feeds, ports.feed()),
@@ -98,7 +116,8 @@ struct Server::Parts {
              .dds_rejected = [this] { return feeds.rejected().messages; },
              .ports = &ports,
              .health = &health},
-            {.name = kTokenName, .secret = std::move(token)}) {}
+            {.name = kTokenName, .secret = std::move(token)}),
+        tidied(clock.steady_now()) {}
 
   feeds::FeedService::Options feed_options() {
     feeds::FeedService::Options options;
@@ -110,6 +129,22 @@ struct Server::Parts {
                               .detail = fmt::format("machine={}: {}", machine, trouble)});
     };
     return options;
+  }
+
+  feeds::FeedListener feed_listener() {
+    feeds::FeedListener listener = api::publish_to(events);
+    listener.on_machine = [this, publish = listener.on_machine](const feeds::MachineView& view) {
+      using Level = library::Health::Level;
+      const auto notices = feeds::notices_of(view);
+      health.report(view.machine.name,
+                    {.level = notices.empty() ? Level::Ok : Level::Degraded,
+                     .subject = "gateway",
+                     .what = "server and a gateway do not agree",
+                     .detail = fmt::format("machine={}: {}", view.machine.name,
+                                           fmt::join(notices, "; "))});
+      publish(view);
+    };
+    return listener;
   }
 
   const Clock& clock;
@@ -128,11 +163,30 @@ struct Server::Parts {
   std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;
   std::string url;
+  SteadyTime tidied;
+  std::jthread check;  ///< of a database too big to be looked through before the start
+
+  void check_on() {
+    spdlog::info("the database is big: the look for damage goes on beside the work");
+    check = std::jthread([this](const std::stop_token& stop) {
+      const auto done = store->check(std::chrono::hours(24), stop);
+      if (!done) {
+        spdlog::critical("the database is damaged, restore a backup: {}", done.error().what);
+        health.report("", {.level = library::Health::Level::Failed,
+                           .subject = "damage",
+                           .what = "the database is damaged",
+                           .detail = done.error().what});
+      } else if (*done) {
+        spdlog::info("the database is sound");
+      }
+    });
+  }
 };
 
 Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
 Server::~Server() {
+  parts_->check.request_stop();
   parts_->folder.withdraw();
   parts_->feeds.stop_waiting();
   parts_->events.close();
@@ -145,10 +199,18 @@ Server::~Server() {
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock) {
   const auto options = http_options(settings);
   if (!options) return fail(options.error());
+  if (auto safe = check_network(settings); !safe) return fail(safe.error());
   auto folder = StateFolder::open(settings.state);
   if (!folder) return fail(folder.error());
+  if (auto is_there = folder->expect_database(settings.begin_empty); !is_there)
+    return fail(is_there.error());
   auto store = storage::SqliteStore::open({.file = folder->database()}, clock);
   if (!store) return fail(store.error());
+  const auto identity = (*store)->identity();
+  if (!identity) return fail(identity.error());
+  if (auto known = folder->remember_database(*identity); !known) return fail(known.error());
+  const auto is_checked = (*store)->check(kCheckBeforeStart);
+  if (!is_checked) return fail(is_checked.error());
   auto token = folder->token();
   if (!token) return fail(token.error());
   std::unique_ptr<Server> server(new Server(
@@ -164,6 +226,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
       library::HealthWatch::Parts{.health = parts.health,
                                   .probe = [&store = *parts.store] { return store.probe(); },
                                   .folder = parts.folder.path()});
+  if (!*is_checked) parts.check_on();
   auto http = api::HttpServer::start(*options, http_handlers(parts.api));
   if (!http) return fail(http.error());
   parts.http = *std::move(http);
@@ -181,7 +244,11 @@ const std::string& Server::url() const {
 }
 
 void Server::tidy() {
-  const auto dropped = parts_->store->drop_uploads_before(parts_->clock.now() - kUploadLife);
+  // By the steady clock: the time of day may jump by years. While the server is away no time counts.
+  const SteadyTime now = parts_->clock.steady_now();
+  const auto passed = std::chrono::duration_cast<std::chrono::seconds>(now - parts_->tidied);
+  const auto dropped = parts_->store->drop_idle_uploads(passed, kUploadLife);
+  if (dropped) parts_->tidied = now;
   if (!dropped) {
     spdlog::warn("abandoned uploads not dropped: {}", dropped.error().what);
   } else if (*dropped > 0) {

@@ -37,6 +37,9 @@ constexpr std::array kRows{
                "systems with different tags do not see each other"},
     SettingRow{"dds-interface", &Settings::dds_interface, "NAME", 0, 0,
                "network interface or address where the gateways are"},
+    SettingRow{"dds-open-network", &Settings::dds_open_network, "yes|no", 0, 0,
+               "yes: DDS beyond this machine although it has no authentication; only on a network "
+               "of its own"},
     SettingRow{"discovery-interval-ms", &Settings::discovery_interval_ms, "MS", 10, kLongestMs,
                "how often DDS announces itself"},
     SettingRow{"lease-ms", &Settings::lease_ms, "MS", 100, kLongestMs,
@@ -174,6 +177,8 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   std::string config;
   program.add_option("--config", config, "TOML file with these settings; the command line wins")
       ->type_name("FILE");
+  program.add_flag("--begin-empty", line.settings.begin_empty,
+                   "begin with an empty database where the one of this folder was lost");
   Given given;
   add_options(program, given, line.settings);
   try {

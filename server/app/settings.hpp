@@ -23,12 +23,14 @@ struct Settings {
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
   std::string dds_interface = "lo";
+  std::string dds_open_network = "no";
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;
   std::string log;
   std::string log_level = "info";
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;
+  bool begin_empty = false;  ///< on the command line alone: once, by somebody who looks
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 

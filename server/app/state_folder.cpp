@@ -77,6 +77,41 @@ Result<std::string> StateFolder::token() const {
   return token;
 }
 
+Result<void> StateFolder::expect_database(bool begin_empty) const {
+  std::error_code ec;
+  const auto size = std::filesystem::file_size(database(), ec);
+  const bool is_there = !ec && size > 0;
+  if (begin_empty) {
+    if (is_there) {
+      return fail(Errc::Busy, "--begin-empty: {} is there; start without it", database().string());
+    }
+    // What is left of the lost one must not be taken for the new one's.
+    for (const char* suffix : {"", "-wal", "-shm"})
+      std::filesystem::remove(database().string() + suffix, ec);
+    std::filesystem::remove(identity_file(), ec);
+    return {};
+  }
+  if (is_there || !std::filesystem::exists(identity_file(), ec)) return {};
+  return fail(Errc::Corrupt,
+              "the database of this folder, {}, is {}: restore it from a backup, or start once with "
+              "--begin-empty to begin without programs, runs and reports",
+              database().string(), size == 0 ? "empty" : "missing");
+}
+
+Result<void> StateFolder::remember_database(const std::string& identity) const {
+  std::error_code ec;
+  if (!std::filesystem::exists(identity_file(), ec))
+    return replace_private_file(identity_file(), identity + "\n");
+  std::ifstream file(identity_file());
+  std::string known;
+  std::getline(file, known);
+  if (known == identity) return {};
+  return fail(Errc::Corrupt,
+              "{} is not the database this folder has had ({}, expected {}): put the right one "
+              "back, or remove {} to go on with this one",
+              database().string(), identity, known, identity_file().string());
+}
+
 Result<void> StateFolder::make_token() const {
   return replace_private_file(token_file(), random_hex(kTokenBytes) + "\n");
 }

@@ -113,6 +113,10 @@ std::vector<std::string> System::gateway_command(const std::string& machine,
   append_network(command);
   command.insert(command.end(), options_.gateway_arguments.begin(),
                  options_.gateway_arguments.end());
+  if (options_.gateway_environment.empty()) return command;
+  command.insert(command.begin(), options_.gateway_environment.begin(),
+                 options_.gateway_environment.end());
+  command.insert(command.begin(), "/usr/bin/env");
   return command;
 }
 

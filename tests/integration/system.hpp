@@ -22,6 +22,7 @@ class System {
     std::vector<std::string> server_arguments;
     std::vector<std::string> gateway_arguments;
     std::string control = "centurion";  ///< of gateways and pushed programs
+    std::vector<std::string> gateway_environment = {};  ///< NAME=value
   };
   System() : System(Options{}) {}
   explicit System(Options options);
@@ -32,6 +33,11 @@ class System {
   test_support::ChildProcess second_gateway(const std::string& machine = "lathe-1") const;
   void wait_connected(const std::string& machine = "lathe-1");
 
+  /// From its next start on.
+  void add_server_argument(std::string argument) {
+    options_.server_arguments.push_back(std::move(argument));
+  }
+  int domain() const { return domain_; }
   test_support::ChildProcess& server() { return *server_; }
   test_support::ChildProcess& gateway() { return *gateway_; }
   test_support::RestClient rest() const;

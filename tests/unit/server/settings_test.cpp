@@ -150,5 +150,39 @@ TEST(Server, IsNotStartedWithUnsafeSettings) {
   EXPECT_FALSE(std::filesystem::exists(settings.state));
 }
 
+TEST(Settings, OfAnOpenNetworkMustBeConfirmed) {
+  EXPECT_EQ(read({"--dds-open-network", "yes"}).settings.dds_open_network, "yes");
+  const test_support::TemporaryFolder folder;
+  const SystemClock clock;
+  Settings settings;
+  settings.state = folder.path() / "state";
+  settings.http = "127.0.0.1:0";
+  settings.dds_interface = "eth0";
+  const auto refused = Server::start(settings, clock);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Denied);
+  settings.dds_open_network = "perhaps";
+  EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied);
+  EXPECT_FALSE(std::filesystem::exists(settings.state)) << "nothing was made";
+}
+
+TEST(StateFolder, KnowsItsDatabase) {
+  const test_support::TemporaryFolder place;
+  const auto folder = StateFolder::open(place.path() / "state").value();
+  EXPECT_TRUE(folder.expect_database(false)) << "a new folder";
+  std::ofstream(folder.database()) << "database";
+  EXPECT_TRUE(folder.remember_database("1234"));
+  EXPECT_TRUE(folder.expect_database(false));
+  EXPECT_TRUE(folder.remember_database("1234"));
+  EXPECT_EQ(folder.remember_database("5678").error().code, Errc::Corrupt);
+  EXPECT_EQ(folder.expect_database(true).error().code, Errc::Busy);
+  std::filesystem::remove(folder.database());
+  std::ofstream(folder.database().string() + "-wal") << "left over";
+  EXPECT_EQ(folder.expect_database(false).error().code, Errc::Corrupt);
+  EXPECT_TRUE(folder.expect_database(true));
+  EXPECT_FALSE(std::filesystem::exists(folder.database().string() + "-wal"));
+  EXPECT_TRUE(folder.remember_database("5678"));
+}
+
 }  // namespace
 }  // namespace dripline::app

@@ -1,0 +1,21 @@
+#include "protocol/process/open_files.hpp"
+
+#include <sys/resource.h>
+#include <algorithm>
+
+namespace dripline::process {
+
+Result<void> require_open_files(std::uint64_t least) {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= least) return {};
+  if (limit.rlim_max >= least) {
+    limit.rlim_cur = least;
+    if (::setrlimit(RLIMIT_NOFILE, &limit) == 0) return {};
+  }
+  return fail(Errc::LimitExceeded,
+              "this process may open {} files, it needs at least {}: raise the limit (ulimit -n, "
+              "LimitNOFILE)",
+              std::min(limit.rlim_cur, limit.rlim_max), least);
+}
+
+}  // namespace dripline::process
