@@ -413,6 +413,7 @@ TEST_F(FeedRuns, AreRefusedWhereTheControlCanNotKeepWhatTheProgramCalls) {
   mill.epoch = kEpoch;
   mill.session = kSession;
   network_.on_announce(mill);
+  heartbeat("mill-1");
   answer_orders(true);
   const auto set = [&](const std::string& text) {
     EXPECT_TRUE(setups_->save({"mill-1", "tnc155", text, ""}, "cam"));
