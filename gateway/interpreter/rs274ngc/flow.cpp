@@ -64,6 +64,19 @@ bool is_other_way_to_call(SkipFor until, Oword word) {
   return (until == SkipFor::FileSub || until == SkipFor::LaterSub) && word == Oword::Alone;
 }
 
+/// The control reads a line up to its end before it passes over it.
+bool check_comments(Run& run) {
+  const char* open = nullptr;
+  for (const char* at = run.line_begin; at != run.line_end; ++at) {
+    if (*at == ';' && open == nullptr) return true;
+    if (*at == ')') open = nullptr;
+    if (*at != '(') continue;
+    if (open != nullptr) return run.fail(ErrorCode::NestedComment, run.column(at));
+    open = at;
+  }
+  return open == nullptr || run.fail(ErrorCode::UnclosedComment, run.column(open));
+}
+
 bool lands_on_line(SkipFor until) {
   return until == SkipFor::Branch || until == SkipFor::EndOfIf || until == SkipFor::TestOfDo;
 }
@@ -139,6 +152,7 @@ bool Flow::skip_to(SkipFor until, Label label) {
 
 bool Flow::pass_over() {
   State& state = run_.state;
+  if (!check_comments(run_)) return false;
   const OwordHead head = peek_oword(run_);
   if (head.word == Oword::None) {
     const bool is_end = *skip_blanks(run_.line_begin) == '%' &&
