@@ -174,7 +174,7 @@ TEST(OpenFiles, TooFewAreRefusedWithAMessage) {
     return run_to_end({"/bin/sh", "-c", "ulimit -n 24; exec " + command}, folder.path() / "out",
                       std::chrono::seconds(20));
   };
-  for (const std::string command :
+  for (const std::string& command :
        {program_path("dncd") + " --http 127.0.0.1:0 --state " + (folder.path() / "s").string(),
         program_path("dncgw") + " --machine m --control centurion --state " +
             (folder.path() / "g").string()}) {
