@@ -1,10 +1,10 @@
 // Orders, clocks and databases that are not as they should be.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <csignal>
 #include <fstream>
 
 #include "tests/integration/system.hpp"
-#include "tests/support/program_generator.hpp"
 
 namespace dripline::integration {
 namespace {
@@ -147,9 +147,13 @@ TEST_F(Database, WithZeroedPagesIsNoticedAtTheStart) {
 /// Every chunk is sound, and one is another program's.
 TEST_F(Database, WithAnotherProgramsChunkStartsNothing) {
   system.start_server();
-  std::string big, other;
-  test_support::write_report_program(30000, 3, [&](std::string_view piece) { big += piece; });
-  test_support::write_report_program(30000, 4, [&](std::string_view piece) { other += piece; });
+  std::string big = "O0300\n", other = "O0400\n";
+  for (int i = 0; i < 70'000; ++i) {
+    big += fmt::format("G1 X{}. F100\n", i % 97);
+    other += fmt::format("G1 X{}. F100\n", i % 89);
+  }
+  big += "M30\n";
+  other += "M30\n";
   ASSERT_GT(big.size(), 3u * 262'144u);
   system.push("O0300", big);
   system.push("O0400", other);
