@@ -87,6 +87,7 @@ TEST_F(Reconnect, ANewServerIsNotHandedOldRecordsOrOrders) {
   gateway.reset();
   gateway = open_gateway("lathe-1", 2);
   ASSERT_EQ(gateway->server.take(), true);
+  ASSERT_EQ(server->announces.take(), announce("lathe-1", 2));  // the first one is gone by now
   expect_working(*server, *gateway, 2);
   EXPECT_EQ(gateway->orders.size(), 0U);
   EXPECT_EQ(server->records.size(), 0U);
