@@ -115,9 +115,10 @@ void PlainLine::drop_stray(LineTime now) {
 }
 
 void PlainLine::punch_on(LineTime now) {
-  if (reception_.is_open && !reception_.is_punch) end_reception(now);  // stray text before it
-  if (!reception_.is_open) {
-    open_reception("", now);
+  const bool follows_stray = reception_.is_open && !reception_.is_punch && reader_.has_begun();
+  if (follows_stray) end_reception(now);
+  if (!reception_.is_open) open_reception("", now);
+  if (!reception_.is_punch) {  // begun just now, or a host that was told to receive waited for it
     reader_.expect_print();
     reception_.is_punch = true;
     return;

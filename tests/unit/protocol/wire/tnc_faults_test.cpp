@@ -51,6 +51,7 @@ FaultCase case_of(std::string_view name, bool host_sends) {
   fault_case.settings = find_template(name).value()->settings;
   fault_case.settings.answer_limit = seconds(3);
   fault_case.settings.hold_limit = seconds(20);
+  fault_case.settings.start_limit = seconds(20);
   fault_case.settings.leader = fault_case.settings.trailer = 5;
   fault_case.host_sends = host_sends;
   fault_case.hold_rate = 0.01;
