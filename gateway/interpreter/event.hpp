@@ -90,6 +90,7 @@ struct UnitsChange {
 struct Rapid {
   Origin origin;
   Position to;
+  bool rests = true;  ///< in position before the next move; false: the control blends it into it
 };
 struct Line {
   Origin origin;

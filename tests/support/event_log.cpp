@@ -39,7 +39,7 @@ void EventLog::on_units(const UnitsChange& event) {
   add("units", event.origin, fmt::format(" {}", static_cast<int>(event.units)));
 }
 void EventLog::on_rapid(const Rapid& event) {
-  add("rapid", event.origin, text_of(event.to));
+  add("rapid", event.origin, text_of(event.to) + (event.rests ? "" : " flows"));
 }
 void EventLog::on_line(const Line& event) {
   add("line", event.origin,

@@ -41,7 +41,7 @@ Position TransformStage::moved(const Position& to) const {
 }
 
 void TransformStage::on_rapid(const Rapid& event) {
-  out().on_rapid({event.origin, moved(event.to)});
+  out().on_rapid({event.origin, moved(event.to), event.rests});
 }
 
 void TransformStage::on_line(const Line& event) {

@@ -230,7 +230,7 @@ void Compensator::take_aside(const Move& move) {
 }
 
 void Compensator::on_rapid(const Rapid& event) {
-  take_straight(event, Feed{}, false);
+  take_straight(event, Feed{}, event.rests);
 }
 
 void Compensator::on_line(const Line& event) {

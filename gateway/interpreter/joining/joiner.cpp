@@ -170,7 +170,7 @@ void Joiner::take_aside(const Move& move) {
 }
 
 void Joiner::on_rapid(const Rapid& event) {
-  if (policy_.joins_rapids) return take_straight(event, Feed{}, false);
+  if (policy_.joins_rapids) return take_straight(event, Feed{}, event.rests);
   settle();
   if (fault_) return;
   forget(state_.next);

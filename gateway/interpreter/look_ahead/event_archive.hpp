@@ -105,6 +105,7 @@ template <class Archive>
 void visit(Archive& archive, Rapid& event) {
   visit(archive, event.origin);
   visit(archive, event.to);
+  archive(event.rests);
 }
 template <class Archive>
 void visit(Archive& archive, Line& event) {

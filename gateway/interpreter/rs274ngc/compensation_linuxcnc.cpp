@@ -241,7 +241,7 @@ class Hold {
     const Position& to = arrive(run_, target);
     run_.held.begin(start_);
     if (is_rapid) {
-      run_.held.on_rapid({run_.origin, to});
+      run_.held.on_rapid({run_.origin, to, run_.rests_at_end()});
     } else {
       run_.held.on_line({run_.origin, to, feed, run_.rests_at_end()});
     }

@@ -211,7 +211,7 @@ const Position& arrive(Run& run, const Target& target) {
 void rapid_to(Run& run, const Target& target) {
   if (is_no_move(run, target.to)) return;
   const Position& to = arrive(run, target);
-  run.events().on_rapid({run.origin, to});
+  run.events().on_rapid({run.origin, to, run.rests_at_end()});
 }
 
 void line_to(Run& run, const Target& target, const Feed& feed) {

@@ -88,6 +88,7 @@ template <class Archive>
 void visit_event(Archive& archive, Rapid& event) {
   visit_origin(archive, event.origin);
   visit_position(archive, event.to);
+  archive(event.rests);
 }
 template <class Archive>
 void visit_event(Archive& archive, Line& event) {

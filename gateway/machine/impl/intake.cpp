@@ -75,6 +75,7 @@ void Intake::add_move(const Origin& origin, const MoveTask& task) {
 
 void Intake::on_rapid(const interpreter::Rapid& event) {
   add_straight(event.origin, event.to, {.path = {}, .pace = Pace::Rapid, .feed = {}, .lead = {}});
+  if (event.rests) builder_.forget_direction();
 }
 
 void Intake::on_line(const interpreter::Line& event) {

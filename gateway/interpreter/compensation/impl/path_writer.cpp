@@ -68,7 +68,7 @@ void PathWriter::straight(const Element& element, PlaneVector tip, const Company
   if (move.to.same_point(state_.tool)) return;
   move_tool(tip, with.others);
   if (element.is_rapid) {
-    sink_.on_rapid({element.origin, move.to});
+    sink_.on_rapid({element.origin, move.to, move.rests});
   } else {
     sink_.on_line(move);
   }

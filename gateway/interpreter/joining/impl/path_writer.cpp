@@ -31,7 +31,7 @@ void PathWriter::straight(const Element& element, const Origin& origin, const Po
                           Feed feed) {
   state_.given = to;
   if (element.is_rapid) {
-    sink_.on_rapid({origin, to});
+    sink_.on_rapid({origin, to, element.line.rests});
   } else {
     sink_.on_line({origin, to, feed, element.line.rests});
   }
@@ -41,7 +41,7 @@ void PathWriter::put_out(const Element& element) {
   if (!element.is_arc && !element.is_moved) {
     state_.given = element.line.to;
     if (!element.is_rapid) return sink_.on_line(element.line);
-    return sink_.on_rapid({element.line.origin, element.line.to});
+    return sink_.on_rapid({element.line.origin, element.line.to, element.line.rests});
   }
   Position to = element.line.to;
   if (element.is_moved) place(to, axes_of(state_.plane), element.end);

@@ -30,6 +30,13 @@ double moves(std::initializer_list<int> each) {
   return seconds;
 }
 
+/// The same in rapid traverse at 100 mm/s.
+double rapids(std::initializer_list<int> each) {
+  double seconds = 0;
+  for (const int tens : each) seconds += trapezoid(10 * tens, 100, 1000);
+  return seconds;
+}
+
 struct ProgramCase {
   const char* name;
   const char* control;
@@ -65,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         ProgramCase{"arc_of_g09", "fanuc",
                     "G18 G01 Z10. F1200\nG09 G03 Z20. X10. I10.\nG01 X20.\nM30\n",
                     moves({1}) + trapezoid(10 + 5 * Angle::kPi, 20, 1000)},
+        ProgramCase{"rapid_traverse", "fanuc", "G00 X10.\nX20.\nX30.\nM30\n", rapids({1, 1, 1})},
         ProgramCase{"within_compensation", "fanuc",
                     "G18 G42 D1 G01 X10. F1200\nX20.\nG09 X30.\nX40.\nX50.\nM30\n", moves({3, 2})}),
     [](const auto& row) { return std::string{row.param.name}; });
@@ -86,6 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
                     "G21 G61.1 G1 X10 F1200\nG61 X20\nX30\nM2\n", moves({1, 2})},
         ProgramCase{"arc", "rs274ngc", "G21 G18 G61.1 G1 Z10 F1200\nG3 Z20 X10 I10\nG1 X20\nM2\n",
                     moves({1, 1}) + trapezoid(5 * Angle::kPi, 20, 1000)},
+        ProgramCase{"rapid_traverse", "rs274ngc", "G21 G61.1 G0 X10\nX20\nX30\nM2\n",
+                    rapids({1, 1, 1})},
+        ProgramCase{"rapid_traverse_blended", "rs274ngc", "G21 G0 X10\nX20\nX30\nM2\n",
+                    rapids({3})},
+        ProgramCase{"rapid_held_by_compensation", "rs274ngc",
+                    "G21 G18 G61.1\nG41.1 D0 G0 X10\nX20\nX30\nG40\nM2\n", rapids({1, 1, 1}),
+                    kLinuxCnc},
         ProgramCase{"later_profile", "rs274ngc", "G21 G61.1 G1 X10 F1200\nX20\nG64 X30\nM2\n",
                     moves({1, 1, 1}), kLinuxCnc},
         ProgramCase{"held_by_compensation", "rs274ngc",
@@ -93,6 +108,20 @@ INSTANTIATE_TEST_SUITE_P(
                     std::hypot(10, 0.25) / 20 + 0.2 / std::hypot(10, 0.25) + moves({1, 1}),
                     kLinuxCnc}),
     [](const auto& row) { return std::string{row.param.name}; });
+
+// CEN-057
+INSTANTIATE_TEST_SUITE_P(Centurion, ExactStop,
+                         testing::Values(ProgramCase{"rapid_traverse", "centurion",
+                                                     "G0 Z1\nZ2\nZ3\nM2\n",
+                                                     3 * trapezoid(25.4, 100, 1000)}),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+// TK-19
+INSTANTIATE_TEST_SUITE_P(Tektronix1704, ExactStop,
+                         testing::Values(ProgramCase{"rapid_traverse", "tektronix-1704",
+                                                     "%\nG50X10000\nX20000\nX30000\nM02\n",
+                                                     3 * trapezoid(25.4, 100, 1000)}),
+                         [](const auto& row) { return std::string{row.param.name}; });
 
 }  // namespace
 }  // namespace dripline::machine::test

@@ -97,7 +97,7 @@ TEST(PanelLock, IsNotBegunWhileHeld) {
 /// No machine stops in the turn from rapid to tap when it is too fast for that.
 TEST(PanelLock, IsGoneThroughWhenThereIsNoRoomToStopBefore) {
   TestMachine test;
-  test.program.rapid(0, 20);
+  test.program.rapid(0, 20, false);
   test.program.lock(tapping());
   test.program.line(0, 40, 1200);
   test.program.line(0, 20, 1200);

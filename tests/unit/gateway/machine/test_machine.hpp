@@ -91,9 +91,9 @@ class Program {
     sink_.on_line({origin_, at(x, z), Feed::per_minute(Length::mm(feed)), true});
     end_block();
   }
-  void rapid(double x, double z) {
+  void rapid(double x, double z, bool rests = true) {
     begin_block();
-    sink_.on_rapid({origin_, at(x, z)});
+    sink_.on_rapid({origin_, at(x, z), rests});
     end_block();
   }
   void arc(double x, double z, double center_z, double center_x, double sweep, double feed,
