@@ -29,6 +29,12 @@ void DisciplineBase::lines(InputLines lines, LineTime) {
   input_ = lines;
 }
 
+bool DisciplineBase::has_lost_dsr(InputLines lines) {
+  const bool is_lost = has_seen_dsr_ && input_.dsr && !lines.dsr;
+  has_seen_dsr_ = lines.dsr;
+  return is_lost;
+}
+
 std::size_t DisciplineBase::room() const {
   if (!is_sending() || is_last_offered_) return 0;
   return kTextQueueSize - (text_.size() - taken_);

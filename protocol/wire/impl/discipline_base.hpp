@@ -43,6 +43,13 @@ class DisciplineBase : public Discipline {
   void emit_text(std::string_view text);  ///< joined to the text before it
   void emit_trouble(Error error) { emit(LineTrouble{std::move(error)}); }
 
+  /// Whether DSR goes off that was seen on (a cable without DSR never shows it on): the other end
+  /// was switched off, or its cable was pulled. Asked before input_ is replaced.
+  bool has_lost_dsr(InputLines lines);
+  static Error cut_off() {
+    return {Errc::Timeout, "DSR went off: the control was switched off, or its cable was pulled"};
+  }
+
   // Control characters of ours that go before everything else
   void queue_control(char character);
   bool has_controls() const { return !controls_.empty(); }
@@ -73,6 +80,7 @@ class DisciplineBase : public Discipline {
   std::size_t lines_offered_ = 0;
   std::uint64_t text_sent_ = 0;  ///< of this transfer or the last one sent
   bool is_last_offered_ = false;
+  bool has_seen_dsr_ = false;
 };
 
 }  // namespace dripline::wire

@@ -39,8 +39,14 @@ bool PlainLine::take_dc(char dc, LineTime now) {
     dc == kDc2 ? punch_on(now) : punch_off(now);
     return true;
   }
+  if (dc == kDc1 && !has_started_ && std::exchange(is_release_due_, false)) {
+    emit_trouble({Errc::ModalConflict,
+                  "DC1 came for the program that was broken off, and starts nothing: reset the "
+                  "control and start again"});
+    return true;
+  }
   set_stopped(dc == kDc3, now);
-  if (dc == kDc3) is_asked_ = false;  // it stops the reader that it had started
+  if (dc == kDc3) is_asked_ = is_release_due_ = false;  // it stops the reader it had started
   if (dc == kDc1 && waits_for_dc1() && !is_sending() && !std::exchange(is_asked_, true)) {
     emit(TransferRequest{TransferRequest::Kind::SendProgram, ""});
   }
@@ -59,8 +65,14 @@ void PlainLine::fault(LineFault fault, LineTime now) {
 void PlainLine::lines(InputLines lines, LineTime now) {
   const bool had_cts = input_.cts;
   const bool is_gone = input_.dsr && !lines.dsr;
+  const bool is_cut = has_lost_dsr(lines);
   DisciplineBase::lines(lines, now);
+  if (is_cut) is_release_due_ = false;  // it was switched off, or another one is connected next
   if (is_gone && !is_sending()) drop_request();
+  if (is_cut && role_ == Role::Host && is_sending() && has_started_) {
+    fail_transfer(cut_off(), now);  // nobody can tell how much of the text was lost
+    return;
+  }
   if (settings_.flow == Flow::RtsCts && had_cts != lines.cts) {
     emit(FlowChanged{!lines.cts});
     note_hold(now);
@@ -120,8 +132,10 @@ void PlainLine::abort(LineTime now) {
   is_stopped_ = waits_for_dc1();
 }
 
-/// Whatever direction failed or was dropped: the object is idle.
+/// Whatever direction failed or was dropped: the object is idle. A control that held us in the
+/// middle says DC1 when it has room for the rest. That is no request for another program.
 void PlainLine::transfer_over(LineTime /*now*/) {
+  if (waits_for_dc1() && has_started_ && is_stopped_) is_release_due_ = true;
   text_under_way_ = 0;
   has_started_ = false;
   held_since_.reset();

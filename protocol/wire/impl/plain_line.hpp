@@ -60,6 +60,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   void drop_stray(LineTime now);
   void punch_on(LineTime now);
   void punch_off(LineTime now);
+  void hold_off();
   void open_reception(std::string name, LineTime now);
   void end_reception(LineTime now);
   void close_reception();
@@ -84,6 +85,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
 
   bool is_stopped_;                 ///< by DC3, or since no DC1 came yet
   bool has_started_ = false;        ///< something of this transfer has left
+  bool is_release_due_ = false;     ///< held when a program was broken off: its DC1 is to come
   std::size_t text_under_way_ = 0;  ///< characters of text that the writer has not given yet
   std::optional<LineTime> held_since_, pause_until_;
 
@@ -95,6 +97,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   Reception reception_;
   bool is_ready_ = true;
   bool is_stop_said_ = false;  ///< our DC3 has left, or RTS is off: what comes now is counted
+  bool owes_dc1_ = false;      ///< a host that said DC3 lets go, whether or not more is coming
   std::size_t after_stop_ = 0;
   std::optional<LineTime> release_again_;  ///< our DC1 may have been lost: said once more then
   bool is_asked_ = false;                  ///< the other end's request waits for an answer

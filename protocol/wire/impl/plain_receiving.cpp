@@ -44,6 +44,8 @@ void PlainLine::open_reception(std::string name, LineTime now) {
   if (role_ == Role::Host) reception_.heard = now;
   reader_.begin();
   after_stop_ = 0;
+  // Between two texts nothing was held.
+  if (role_ == Role::Host && is_dc_codes() && !is_ready_) hold_off();
   emit(TransferBegan{true, std::move(name)});
 }
 
@@ -162,13 +164,20 @@ void PlainLine::silent_too_long(LineTime now) {
   end_reception(now);
 }
 
+void PlainLine::hold_off() {
+  say(kDc3);
+  owes_dc1_ = role_ == Role::Host;
+}
+
 void PlainLine::set_ready(bool is_ready, LineTime now) {
   if (std::exchange(is_ready_, is_ready) == is_ready) return;
   is_stop_said_ = false;
   after_stop_ = 0;
   if (is_ready && reception_.heard) reception_.heard = now;      // the silence was our doing
   const bool is_reading = !is_dc_codes() || reception_.is_open;  // DC1 starts an idle reader
-  if (is_softly_held() && is_reading) say(is_ready ? kDc1 : kDc3);
+  if (is_softly_held() && !is_ready && is_reading) hold_off();
+  const bool owes_dc1 = is_ready && std::exchange(owes_dc1_, false);
+  if (is_softly_held() && is_ready && (is_reading || owes_dc1)) say(kDc1);
   // Elsewhere DC1 asks for a program.
   const bool may_repeat = settings_.flow == Flow::XonXoff && !settings_.wait_for_xon;
   release_again_.reset();

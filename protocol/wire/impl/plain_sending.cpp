@@ -89,6 +89,7 @@ void PlainLine::pause_behind(std::size_t characters, bool ends_block, LineTime n
 
 void PlainLine::finish_sending(LineTime now) {
   if (is_dc_codes() && role_ == Role::Control) say(kDc4);
+  has_started_ = false;  // it is not broken off
   // The other direction goes on.
   const Reception reception = reception_;
   end_transfer(now);

@@ -119,7 +119,9 @@ void TncStandard::transfer_over(LineTime) {
 
 void TncStandard::lines(InputLines lines, LineTime now) {
   if (input_.dsr && !lines.dsr) is_asked_ = false;
+  const bool is_cut = has_lost_dsr(lines);
   DisciplineBase::lines(lines, now);
+  if (is_cut && is_host() && is_sending() && stage_ != Stage::Start) return give_up(cut_off(), now);
   note_hold(now);
 }
 

@@ -42,7 +42,7 @@ void XmodemLine::take(std::byte character, LineTime now) {
 bool XmodemLine::is_cancelled(char character, LineTime now) {
   const bool was_can = std::exchange(was_can_, character == kCan);
   if (!was_can || !was_can_ || step_ == Step::Idle) return false;
-  fail_transfer({Errc::Io, "the other end cancelled the transfer (CAN)"}, now);
+  fail_transfer({Errc::Denied, "the other end cancelled the transfer (CAN)"}, now);
   return true;
 }
 

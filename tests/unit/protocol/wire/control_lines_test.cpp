@@ -53,6 +53,60 @@ TEST(DcCodes, HostSendsWhenTheReaderIsStarted) {
   EXPECT_EQ(host.events(), "sending\nsent\n");
 }
 
+/// The control is in the middle of a program, and lets us go on with it.
+TEST(DcCodes, HostTakesNoReleaseOfABrokenProgramForTheStartOfAnother) {
+  for (const bool is_begun_before : {false, true}) {
+    TestedLine host(template_with("fanuc"), Role::Host);
+    host.hear("\x11");
+    ASSERT_TRUE(host.line->begin_send("", host.now));
+    ASSERT_TRUE(host.offer("O1\nG1 X1\nM30\n"));
+    EXPECT_EQ(host.say(4), "%\nO1");
+    host.hear("\x13");
+    host.line->abort(host.now);
+    host.events();
+    if (is_begun_before) {
+      ASSERT_TRUE(host.line->begin_send("", host.now));
+    }
+    host.hear("\x11");
+    EXPECT_THAT(host.events(), HasSubstr("DC1 came for the program that was broken off"));
+    EXPECT_FALSE(host.line->state().is_asked);
+    if (!is_begun_before) {
+      ASSERT_TRUE(host.line->begin_send("", host.now));
+    }
+    ASSERT_TRUE(host.offer("O2\nM30\n"));
+    EXPECT_EQ(host.say(), "");
+    EXPECT_TRUE(host.line->state().awaits_start);
+    host.hear("\x11");
+    EXPECT_EQ(host.say(), "%\nO2\nM30\n%");
+  }
+}
+
+TEST(DcCodes, HostIsStartedByAControlThatWasResetAfterABrokenProgram) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.hear("\x11");
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O1\nM30\n"));
+  host.say(4);
+  host.hear("\x13");
+  host.line->abort(host.now);
+  host.hear("\x13\x11");  // reset, start
+  EXPECT_TRUE(host.line->state().is_asked);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O2\n"));
+  EXPECT_EQ(host.say(), "%\nO2\n%");
+}
+
+TEST(DcCodes, HostStopsAControlThatBeginsToPrintWhileNothingCanBeKept) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.line->set_ready(false, host.now);
+  EXPECT_EQ(host.say(), "") << "nothing is printed";
+  host.hear("\x12");
+  EXPECT_EQ(host.say(), "\x13");
+  host.hear("A\n\x14");
+  host.line->set_ready(true, host.now);
+  EXPECT_EQ(host.say(), "\x11") << "what was held is let go, though its text has ended";
+}
+
 TEST(DcCodes, HostNeedsAnotherDc1ForTheNextProgram) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x11");

@@ -137,6 +137,28 @@ TEST(PlainSending, StopsWhileCtsIsOff) {
   EXPECT_EQ(host.say(), "AB\r\n");
 }
 
+/// What was on the way is lost, in the middle of a block perhaps: the rest must not follow it.
+TEST(PlainSending, EndsWhenDsrGoesOffInTheMiddle) {
+  TestedLine host(LineSettings{}, Role::Host);
+  host.line->lines({.cts = true, .dsr = true, .dcd = true}, host.now);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("G0 X1\nM30\n", false));
+  host.say();
+  host.line->lines({.cts = true, .dsr = false, .dcd = true}, host.now);
+  EXPECT_THAT(host.events(), HasSubstr("failed timeout: DSR went off"));
+  EXPECT_EQ(host.line->state().phase, Phase::Idle);
+}
+
+TEST(PlainSending, GoesOnWhereTheCableHasNoDsr) {
+  TestedLine host(LineSettings{}, Role::Host);
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("G0 X1\n", false));
+  host.say();
+  host.line->lines({.cts = true, .dsr = false, .dcd = false}, host.now);
+  ASSERT_TRUE(host.offer("M30\n"));
+  EXPECT_EQ(host.say(), "M30\r\n");
+}
+
 TEST(PlainSending, GivesUpWhenHeldLongerThanTheLimit) {
   TestedLine host(settings_with({{"hold_limit_ms", "5000"}}), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));

@@ -160,7 +160,7 @@ TEST(XmodemSender, StopsWhenTheReceiverCancels) {
   line.hear(kCan);
   EXPECT_EQ(line.events(), "");
   line.hear(kCan);
-  EXPECT_THAT(line.events(), HasSubstr("failed io: the other end cancelled"));
+  EXPECT_THAT(line.events(), HasSubstr("failed denied: the other end cancelled"));
   EXPECT_EQ(line.say_now(), "");
 }
 
