@@ -36,6 +36,7 @@ std::vector<Intake::Item> Intake::take(std::string_view text) {
     }
     line_ += c;
     if (line_.size() < kMaxLine) continue;
+    if (!is_program_ && is_program_line(line_)) begin_program_with(line_);
     if (is_program_) {
       add_to_program(std::exchange(line_, {}));
     } else {
@@ -92,9 +93,19 @@ void Intake::end_line() {
     items_.push_back({.what = Item::What::Line, .text = line});
     return;
   }
+  begin_program_with(line);
+  add_to_program(line + "\n");
+}
+
+bool Intake::may_be_program() const {
+  return is_program_ || takes_programs_only_ || is_behind_percent_ ||
+         (!line_.empty() && is_program_line(line_));
+}
+
+/// `line` is its first.
+void Intake::begin_program_with(const std::string& line) {
   begin_program();
   begins_next(line);
-  add_to_program(line + "\n");
   blocks_ = 1;
 }
 
@@ -137,6 +148,8 @@ std::vector<Intake::Item> Intake::end() {
 }
 
 std::vector<Intake::Item> Intake::fail() {
+  // Some controls write a whole program in one line.
+  if (!is_program_ && !line_.empty() && is_program_line(line_)) begin_program();
   if (is_program_) {
     is_program_ = false;
     piece_.clear();

@@ -44,12 +44,15 @@ class Intake {
   std::vector<Item> end();
   /// It was cut off: what was printed stays, a program does not.
   std::vector<Item> fail();
+  /// What is coming in is a program, or may turn out to be one; false: it is printed.
+  bool may_be_program() const;
 
  private:
   void end_line();
   bool is_program_line(const std::string& line) const;
   bool begins_next(const std::string& line);
   void begin_program();
+  void begin_program_with(const std::string& line);
   void add_to_program(std::string_view text);
   void flush_program();
   void end_program();

@@ -209,6 +209,34 @@ TEST(Intake, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
   EXPECT_EQ(cut_off(intake, "X1"), "L<X1>");
 }
 
+TEST(Intake, DropsAProgramThatIsCutOffInItsFirstLine) {
+  const RuleSet none;
+  Intake intake(none);
+  EXPECT_EQ(cut_off(intake, "O1 G0 X1"), "P<:!");
+  intake.take_programs_only(true);
+  EXPECT_EQ(cut_off(intake, "PN8 G20 ;G01 X1 Y1 F5 ;"), "P<:!");
+}
+
+TEST(Intake, TakesAProgramInOneLongLineForAProgram) {
+  const RuleSet none;
+  Intake intake(none);
+  intake.take_programs_only(true);
+  std::string text = "PN8 G20 ;";
+  while (text.size() < 3 * Intake::kMaxLine) text += "G01 X1 Y1 F5 ;";
+  EXPECT_EQ(whole(intake, text), "P<:" + text + "\n%\n>");
+}
+
+TEST(Intake, KnowsPrintedLinesFromWhatMayBeAProgram) {
+  const RuleSet none;
+  Intake intake(none);
+  (void)intake.take("V 1\nV 2");
+  EXPECT_FALSE(intake.may_be_program());
+  (void)intake.take("\nO12");
+  EXPECT_TRUE(intake.may_be_program());
+  (void)intake.take("\nG0\n");
+  EXPECT_TRUE(intake.may_be_program());
+}
+
 TEST(Intake, BoundsALine) {
   const RuleSet none;
   Intake intake(none);
