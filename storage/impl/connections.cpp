@@ -1,6 +1,7 @@
 #include "storage/impl/connections.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "storage/impl/schema.hpp"
@@ -49,16 +50,36 @@ void ConnectionPool::give_back(sqlite::Database connection) {
   freed_.notify_one();
 }
 
+void Connections::note_file() {
+  struct stat facts {};
+  if (::stat(file_.c_str(), &facts) != 0) return;
+  device_ = facts.st_dev;
+  inode_ = facts.st_ino;
+}
+
+/// A file that was removed or replaced goes on to take what is written until it is closed, and then
+/// all of it is gone: nothing may be acknowledged there. Errors: Io.
+Result<void> Connections::check_file() const {
+  struct stat facts {};
+  if (::stat(file_.c_str(), &facts) == 0 && facts.st_dev == device_ && facts.st_ino == inode_)
+    return {};
+  return fail(Errc::Io,
+              "database {} was moved, removed or replaced while it is in use: nothing is stored "
+              "until it is back in its place, or the server is started again on a restored one",
+              file_.string());
+}
+
 Result<std::unique_ptr<Connections>> Connections::open(const SqliteStoreOptions& options) {
   auto lock = FileLock::acquire(options.file.string() + ".lock", options.file.string());
   if (!lock) return fail(lock.error());
-  std::unique_ptr<Connections> connections(new Connections(std::move(*lock), options.wait));
+  std::unique_ptr<Connections> connections(new Connections(std::move(*lock), options));
 
   auto writer =
       sqlite::Database::open(options.file, connection_options(options, sqlite::Access::ReadWrite));
   if (!writer) return fail(writer.error());
   if (auto migrated = sqlite::migrate(*writer, schema()); !migrated) return fail(migrated.error());
   connections->writer_.add(std::move(*writer));
+  connections->note_file();
 
   for (std::size_t i = 0; i < std::max<std::size_t>(1, options.readers); ++i) {
     auto reader =

@@ -55,6 +55,7 @@ class Connections {
       -> std::invoke_result_t<Action, sqlite::Database&> {
     using Outcome = std::invoke_result_t<Action, sqlite::Database&>;
     return writer_.with([&](sqlite::Database& database) -> Outcome {
+      if (auto there = check_file(); !there) return fail(there.error());
       if (auto set = database.set_synchronous(synchronous); !set) return fail(set.error());
       auto transaction = sqlite::Transaction::begin(database);
       if (!transaction) return fail(transaction.error());
@@ -77,10 +78,17 @@ class Connections {
   }
 
  private:
-  Connections(FileLock lock, std::chrono::milliseconds wait)
-      : lock_(std::move(lock)), writer_(wait), readers_(wait) {}
+  Connections(FileLock lock, const SqliteStoreOptions& options)
+      : lock_(std::move(lock)),
+        file_(options.file),
+        writer_(options.wait),
+        readers_(options.wait) {}
+  void note_file();
+  Result<void> check_file() const;
 
   FileLock lock_;  // let go after the connections
+  const std::filesystem::path file_;
+  std::uint64_t device_ = 0, inode_ = 0;  ///< of the file that is open
   ConnectionPool writer_;
   ConnectionPool readers_;
 };

@@ -169,6 +169,27 @@ TEST_F(Killed, AtAnyMomentNothingAcknowledgedIsLost) {
   }
 }
 
+using LostFileTest = StoreTest;
+
+/// What is written into a file without a name is gone when it is closed.
+TEST_F(LostFileTest, StoresNothingInAFileThatWasMovedOrReplaced) {
+  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  ASSERT_TRUE(store_->probe());
+  const auto aside = directory_ / "aside.sqlite";
+  std::filesystem::rename(options_.file, aside);
+  const auto stored = store_->store_records(make_batch(1, 5));
+  ASSERT_FALSE(stored);
+  EXPECT_EQ(stored.error().code, Errc::Io);
+  EXPECT_NE(stored.error().what.find(options_.file.string()), std::string::npos);
+  EXPECT_FALSE(store_->probe());
+  EXPECT_TRUE(store_->run("r1")) << "what is known can be read";
+  std::filesystem::copy_file(aside, options_.file);
+  EXPECT_FALSE(store_->store_records(make_batch(1, 5))) << "a copy is another file";
+  std::filesystem::rename(aside, options_.file);
+  EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
+  EXPECT_TRUE(store_->probe());
+}
+
 using ThreadsTest = StoreTest;
 
 TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
