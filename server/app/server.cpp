@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <array>
+#include <atomic>
 #include <thread>
 
 #include "protocol/dds/endpoint.hpp"
@@ -98,7 +99,8 @@ struct Server::Parts {
         programs(*store, clock, catalog, audit),
         setups(*store, catalog, audit),
         feeds(*store, clock, feed_options(), feed_listener()),
-        ports(*store, programs, clock, {.recordings = folder.recordings()},
+        ports(*store, programs, clock,
+              {.recordings = folder.recordings(), .open = {}, .on_trouble = records_watch()},
               api::publish_to(events)),
         machines(*store, feeds, ports.feed()),
         api({.programs = programs,
@@ -121,14 +123,19 @@ struct Server::Parts {
 
   feeds::FeedService::Options feed_options() {
     feeds::FeedService::Options options;
-    options.on_trouble = [this](const std::string& machine, const std::string& trouble) {
+    options.on_trouble = records_watch();
+    return options;
+  }
+
+  /// Of machines with gateways and of those at the ends of lines.
+  std::function<void(const std::string& machine, const std::string& trouble)> records_watch() {
+    return [this](const std::string& machine, const std::string& trouble) {
       using Level = library::Health::Level;
       health.report(machine, {.level = trouble.empty() ? Level::Ok : Level::Degraded,
                               .subject = "records",
                               .what = "records of a machine can not be stored",
                               .detail = fmt::format("machine={}: {}", machine, trouble)});
     };
-    return options;
   }
 
   feeds::FeedListener feed_listener() {
@@ -136,12 +143,11 @@ struct Server::Parts {
     listener.on_machine = [this, publish = listener.on_machine](const feeds::MachineView& view) {
       using Level = library::Health::Level;
       const auto notices = feeds::notices_of(view);
-      health.report(view.machine.name,
-                    {.level = notices.empty() ? Level::Ok : Level::Degraded,
-                     .subject = "gateway",
-                     .what = "server and a gateway do not agree",
-                     .detail = fmt::format("machine={}: {}", view.machine.name,
-                                           fmt::join(notices, "; "))});
+      health.report(view.machine.name, {.level = notices.empty() ? Level::Ok : Level::Degraded,
+                                        .subject = "gateway",
+                                        .what = "server and a gateway do not agree",
+                                        .detail = fmt::format("machine={}: {}", view.machine.name,
+                                                              fmt::join(notices, "; "))});
       publish(view);
     };
     return listener;
@@ -163,8 +169,28 @@ struct Server::Parts {
   std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;
   std::string url;
+  StateFolder::Announcement announcement;
+  std::atomic<bool> is_announced = true;  ///< or not yet tried
   SteadyTime tidied;
   std::jthread check;  ///< of a database too big to be looked through before the start
+
+  /// A full disk keeps the server from nothing but storing: clients can still be told where it is.
+  void announce() {
+    const auto announced = folder.announce(announcement);
+    const bool was_announced = is_announced.exchange(announced.has_value());
+    if (announced || !was_announced) return;
+    spdlog::error("dnc on this machine must be told --server {}: {}", url, announced.error().what);
+  }
+
+  /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
+  /// again.
+  Result<void> look() {
+    auto sound = store->probe();
+    if (!sound) return sound;
+    if (!is_announced) announce();
+    ports.open_due();
+    return sound;
+  }
 
   void check_on() {
     spdlog::info("the database is big: the look for damage goes on beside the work");
@@ -187,11 +213,11 @@ Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
 Server::~Server() {
   parts_->check.request_stop();
+  parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
   parts_->feeds.stop_waiting();
   parts_->events.close();
   parts_->http.reset();
-  parts_->watch.reset();
   parts_->ports.end();
   parts_->feeds.end();
 }
@@ -224,7 +250,7 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   server->tidy();
   parts.watch = std::make_unique<library::HealthWatch>(
       library::HealthWatch::Parts{.health = parts.health,
-                                  .probe = [&store = *parts.store] { return store.probe(); },
+                                  .probe = [&parts] { return parts.look(); },
                                   .folder = parts.folder.path()});
   if (!*is_checked) parts.check_on();
   auto http = api::HttpServer::start(*options, http_handlers(parts.api));
@@ -233,9 +259,9 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   api::HttpAddress bound = options->address;
   bound.port = parts.http->port();
   parts.url = fmt::format("{}://{}", options->tls ? "https" : "http", bound.text());
-  const auto announced = parts.folder.announce(
-      {.url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag});
-  if (!announced) return fail(announced.error());
+  parts.announcement = {
+      .url = parts.url, .dds_domain = settings.dds_domain, .dds_tag = settings.dds_tag};
+  parts.announce();
   return server;
 }
 
@@ -244,7 +270,8 @@ const std::string& Server::url() const {
 }
 
 void Server::tidy() {
-  // By the steady clock: the time of day may jump by years. While the server is away no time counts.
+  // By the steady clock: the time of day may jump by years. While the server is away no time
+  // counts.
   const SteadyTime now = parts_->clock.steady_now();
   const auto passed = std::chrono::duration_cast<std::chrono::seconds>(now - parts_->tidied);
   const auto dropped = parts_->store->drop_idle_uploads(passed, kUploadLife);

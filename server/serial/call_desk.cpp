@@ -145,6 +145,7 @@ void CallDesk::send_listing(bool is_request) {
 void CallDesk::send_next() {
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
+  if (auto sound = check_last_run(); !sound) return say_no(sound.error().what, true);
   if (auto listed = list_offers(); !listed) return say_no(listed.error().what, true);
   if (next_offer_ >= offers_->size()) {
     if (!std::exchange(is_end_told_, true)) {
@@ -161,6 +162,28 @@ void CallDesk::send_next() {
   job.stream = std::make_shared<ProgramStream>(ProgramStream::of(revision.content, revision.size));
   job.size = revision.size;
   put_on_line(std::move(job));
+}
+
+/// A control in the middle of a program that was broken off asks for the rest of it with the same
+/// words. Another program's text would be executed there.
+Result<void> CallDesk::check_last_run() const {
+  using storage::RunState;
+  if (is_sent_since_) return {};
+  constexpr std::uint64_t kLook = 50;
+  const auto runs =
+      parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = kLook});
+  if (!runs) return fail(runs.error());
+  for (const auto& run : *runs) {
+    if (run.state == RunState::Refused) continue;
+    const bool is_over =
+        run.state == RunState::Completed || (run.state == RunState::Aborted && parts_.tells_aborts);
+    if (is_over) return {};
+    return fail(Errc::ModalConflict,
+                "run {} of program {} was broken off, and the control may be asking for its rest: "
+                "nothing is offered until a run or dnc port send has gone through",
+                run.id, run.program);
+  }
+  return {};
 }
 
 /// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).

@@ -34,6 +34,7 @@ class CallDesk {
     std::shared_ptr<const RuleSet> rules;
     wire::Offer offer = wire::Offer::None;
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
+    bool tells_aborts = false;  ///< the protocol tells the control that a program is broken off
   };
   explicit CallDesk(Parts parts) : parts_(std::move(parts)) {}
 
@@ -43,6 +44,10 @@ class CallDesk {
   void answer(const wire::TransferRequest& request);
   /// What `answer` put on the line has been sent, or not.
   void on_answer_over() { asked_at_ = parts_.clock.steady_now(); }
+  /// Programs that somebody had sent to the control have all arrived.
+  void on_transfer_completed() { is_sent_since_ = true; }
+  /// A run is on the line, or was.
+  void on_run() { is_sent_since_ = false; }
   /// Short messages to the control, as a program; nothing when the rules name no program for it.
   void report(const std::vector<std::string>& words) const;
 
@@ -52,6 +57,7 @@ class CallDesk {
   void restart(const std::string& block);
   void send_listing(bool is_request);
   void send_next();
+  Result<void> check_last_run() const;
   Result<void> list_offers();
   /// `refusal`: what the control has a message of its own for.
   void say_no(const std::string& why, bool is_request,
@@ -71,6 +77,7 @@ class CallDesk {
   std::optional<std::vector<storage::Revision>> offers_;
   std::size_t next_offer_ = 0;
   bool is_end_told_ = false;
+  bool is_sent_since_ = false;  ///< a transfer went through after the last run
   SteadyTime asked_at_{};
 };
 

@@ -43,7 +43,10 @@ void LineRecords::commit() {
   }
   const auto stored = parts_.store.store_records(batch);
   if (!stored) return retry(stored.error());
-  if (pause_.count() > 0) spdlog::info("records are stored again machine={}", parts_.machine);
+  if (pause_.count() > 0) {
+    spdlog::info("records are stored again machine={}", parts_.machine);
+    if (parts_.on_trouble) parts_.on_trouble("");
+  }
   pause_ = {};
   std::deque<Entry> done = std::move(waiting_);
   waiting_.clear();
@@ -59,6 +62,7 @@ void LineRecords::retry(const Error& error) {
     spdlog::error("records can not be stored, the line is held machine={}: {}", parts_.machine,
                   error.what);
   }
+  if (parts_.on_trouble) parts_.on_trouble(error.what);
   pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
   parts_.strand.post_after(pause_, [self = shared_from_this()] { self->commit(); });
 }

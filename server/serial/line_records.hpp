@@ -28,6 +28,8 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
     std::string machine;
     std::uint64_t epoch = 0;
     std::function<void(const storage::RecordBatch&)> on_stored;  ///< on the strand
+    /// On the strand, at every try: why nothing can be stored; empty: it can again.
+    std::function<void(const std::string& trouble)> on_trouble = {};
   };
   struct Entry {
     storage::Record record;  ///< machine, epoch, number and time are filled in here

@@ -144,7 +144,7 @@ PortView PortLine::view() const {
   view.sent = recorder_.sent();
   view.received = recorder_.received();
   const std::lock_guard lock(mutex_);
-  view.trouble = trouble_;
+  view.trouble = store_trouble_.empty() ? trouble_ : store_trouble_;
   view.waiting_since = waiting_since_;
   if (progress_ && is_run(progress_->id)) view.run = progress_->id;
   view.transfer = transfer_;
@@ -167,7 +167,17 @@ std::optional<SendProgress> PortLine::progress() const {
 bool PortLine::is_busy() const {
   const std::lock_guard lock(mutex_);
   if (progress_ && !is_answer(*progress_)) return true;
-  return is_receiving_ && !(driver_ && driver_->state().is_stray);
+  return is_receiving_ && may_be_program_ && !(driver_ && driver_->state().is_stray);
+}
+
+void PortLine::note_kind(bool may_be_program) {
+  const std::lock_guard lock(mutex_);
+  may_be_program_ = may_be_program;
+}
+
+void PortLine::note_store_trouble(const std::string& words) {
+  const std::lock_guard lock(mutex_);
+  store_trouble_ = words;
 }
 
 void PortLine::drop_answer() {

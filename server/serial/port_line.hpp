@@ -55,8 +55,13 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
 
   PortView view() const;
   std::optional<SendProgress> progress() const;
-  /// A run is on the line, or the control is sending; stray characters do not count.
+  /// A run is on the line, or the control is sending a program; stray characters and what is
+  /// printed do not count.
   bool is_busy() const;
+  /// Whether what comes in may be a program.
+  void note_kind(bool may_be_program);
+  /// Why what comes in can not be stored now; empty: it can. Shown before all other trouble.
+  void note_store_trouble(const std::string& words);
   FlightRecorder& recorder() { return recorder_; }
   const storage::Port& port() const { return parts_.port; }
   const Strand& strand() const { return parts_.strand; }
@@ -108,6 +113,8 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   std::optional<SendProgress> progress_;
   std::optional<PortTransfer> transfer_;  ///< the last one
   bool is_receiving_ = false;
+  bool may_be_program_ = true;  ///< what is being received
+  std::string store_trouble_;
   std::optional<UtcTime> waiting_since_;
   std::optional<PortRequest> request_;
 };

@@ -194,12 +194,14 @@ PortService::Machine PortService::machine_of(const std::string& name, std::uint6
   const std::lock_guard lock(mutex_);
   if (const auto found = machines_.find(name); found != machines_.end()) return found->second;
   const Strand strand(pool_);
-  LineRecords::Parts parts{.store = store_,
-                           .clock = clock_,
-                           .strand = strand,
-                           .machine = name,
-                           .epoch = epoch,
-                           .on_stored = [this](const auto& batch) { on_stored(batch); }};
+  LineRecords::Parts parts{
+      .store = store_,
+      .clock = clock_,
+      .strand = strand,
+      .machine = name,
+      .epoch = epoch,
+      .on_stored = [this](const auto& batch) { on_stored(batch); },
+      .on_trouble = [this, name](const std::string& trouble) { on_store_trouble(name, trouble); }};
   const Machine machine{.strand = strand,
                         .records = std::make_shared<LineRecords>(std::move(parts))};
   strand.post([this, name, records = machine.records] {
@@ -216,9 +218,27 @@ void PortService::put(Entry entry) {
   entries_.insert_or_assign(name, std::move(entry));
 }
 
+void PortService::open_due() {
+  const std::lock_guard changing(change_mutex_);
+  std::vector<Entry> due;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_ended_) return;
+    for (const auto& [name, entry] : entries_) {
+      if (entry.is_open_due) due.push_back(entry);
+    }
+  }
+  for (auto& entry : due) {
+    entry.trouble.clear();
+    open(entry);
+    put(std::move(entry));
+  }
+}
+
 void PortService::open(Entry& entry) {
   if (!entry.port.is_enabled || !entry.trouble.empty()) return;
   const auto epoch = enter_machine(entry.port);
+  entry.is_open_due = !epoch;
   if (!epoch) {
     entry.trouble = epoch.error().what;
     return;
@@ -238,7 +258,10 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                         .machine = name,
                         .rules = entry.rules,
                         .offer = entry.settings.offer,
-                        .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc};
+                        .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
+                        .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
+                                        entry.settings.flow == wire::Flow::HeidenhainBcc ||
+                                        entry.settings.flow == wire::Flow::Xmodem};
   const auto reception = std::make_shared<Reception>(Reception::Parts{
       .store = store_,
       .programs = programs_,
@@ -255,7 +278,10 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
               },
           .on_sent =
               [this, reception, name](const SendEnd& end) {
-                if (end.progress.id.starts_with(kTransferPrefix)) note_transfer(name, end);
+                if (end.progress.id.starts_with(kTransferPrefix)) {
+                  note_transfer(name, end);
+                  if (end.outcome == SendOutcome::Completed) reception->on_transfer_completed();
+                }
                 if (end.progress.id.starts_with(kAnswerPrefix)) reception->on_answer_over();
                 if (!is_run(end.progress.id)) return;
                 reception->on_run(end.progress.id);
@@ -291,6 +317,13 @@ void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {
 void PortService::tell_traffic(const PortTraffic& traffic) const {
   const std::lock_guard lock(traffic_mutex_);
   if (on_traffic_) on_traffic_(traffic);
+}
+
+void PortService::on_store_trouble(const std::string& machine, const std::string& trouble) {
+  if (const auto line = line_of(machine)) {
+    line->note_store_trouble(trouble.empty() ? "" : "what comes in can not be stored: " + trouble);
+  }
+  if (options_.on_trouble) options_.on_trouble(machine, trouble);
 }
 
 void PortService::on_stored(const storage::RecordBatch& batch) {

@@ -31,6 +31,8 @@ class PortService final : public PortControl, private LineDirectory {
     unsigned workers = 2;
     std::filesystem::path recordings;  ///< folder; empty: in memory only
     LineOpener open = {};              ///< empty: serial::LineDriver::start
+    /// Why records of a machine can not be stored, at every try; empty: they can again.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_trouble = {};
   };
   PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
               Options options, feeds::FeedListener listener);
@@ -39,6 +41,8 @@ class PortService final : public PortControl, private LineDirectory {
   /// Runs of a former life of the server end Interrupted. A stored port that can not be used is
   /// shown with its trouble. Errors: those of save() for the configured ones, Io.
   Result<void> begin(const std::vector<storage::Port>& configured);
+  /// Opens the ports that could not be opened because nothing could be stored.
+  void open_due();
   /// Lines are closed, their runs end Interrupted, what has arrived is stored.
   void end();
   SerialFeed& feed() { return feed_; }
@@ -64,6 +68,7 @@ class PortService final : public PortControl, private LineDirectory {
     std::shared_ptr<const RuleSet> rules = std::make_shared<RuleSet>();
     std::shared_ptr<PortLine> line;  ///< null: disabled, or `trouble`
     std::string trouble;
+    bool is_open_due = false;  ///< the store refused what has to be written first
   };
   /// What stays with a machine when its port is changed.
   struct Machine {
@@ -92,6 +97,7 @@ class PortService final : public PortControl, private LineDirectory {
   void tell_traffic(const PortTraffic& traffic) const;
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);
+  void on_store_trouble(const std::string& machine, const std::string& trouble);
   static PortView view_of(const Entry& entry);
 
   storage::Store& store_;

@@ -55,6 +55,9 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
       items = intake_.fail();
       break;
   }
+  if (const auto line = parts_.calls.directory.line_of(parts_.machine)) {
+    line->note_kind(incoming.what != Incoming::What::Text || intake_.may_be_program());
+  }
   std::vector<LineRecords::Entry> entries;
   for (auto& item : items) handle(item, entries);
   if (entries.empty()) {

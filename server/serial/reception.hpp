@@ -34,10 +34,13 @@ class Reception {
   void take(Incoming incoming, std::function<void()> kept);
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
   void on_answer_over() { calls_.on_answer_over(); }
+  void on_transfer_completed() { calls_.on_transfer_completed(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
   /// prints while it executes, and that goes on when everything has been sent.
   void on_run(const std::string& run) {
-    if (!run.empty()) run_ = run;
+    if (run.empty()) return;
+    run_ = run;
+    calls_.on_run();
   }
 
  private:

@@ -65,6 +65,22 @@ TEST(FullDisk, TheGatewayKeepsItsRecordsAndDeliversThemLater) {
   EXPECT_EQ(lines.back(), "LINE 02000");
 }
 
+/// A full disk may keep dncd.json from being written, and nothing else has to fail for it.
+TEST(FullDisk, TheServerWorksWithoutItsAnnouncementAndMakesItLater) {
+  System system;
+  const auto in_the_way = system.server_state() / "dncd.json.new";
+  std::filesystem::create_directories(in_the_way / "full");
+  system.launch_server();
+  EXPECT_TRUE(test_support::eventually(
+      [&] { return system.server().output().find("dncd listening at") != std::string::npos; }));
+  EXPECT_FALSE(std::filesystem::exists(system.server_state() / "dncd.json"));
+  std::filesystem::remove_all(in_the_way);
+  EXPECT_TRUE(test_support::eventually([&] {
+    return std::filesystem::exists(system.server_state() / "dncd.json") &&
+           system.rest().get("/api/v1/server").status == 200;
+  }));
+}
+
 /// Flips one byte in the middle of the first stored chunk, through SQLite, so that the database
 /// itself stays well-formed.
 void damage_first_chunk(const std::filesystem::path& database, const std::filesystem::path& log) {

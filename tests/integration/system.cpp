@@ -80,7 +80,7 @@ void System::append_network(std::vector<std::string>& command) const {
   }
 }
 
-void System::start_server() {
+void System::launch_server() {
   server_.reset();
   std::filesystem::remove(server_state() / "dncd.json");
   std::vector<std::string> command{program_path("dncd"), "--state", server_state(),       "--http",
@@ -88,6 +88,10 @@ void System::start_server() {
   append_network(command);
   command.insert(command.end(), options_.server_arguments.begin(), options_.server_arguments.end());
   server_.emplace(std::move(command), folder() / "dncd.out");
+}
+
+void System::start_server() {
+  launch_server();
   const bool listens = eventually([this] {
     return std::filesystem::exists(server_state() / "dncd.json") &&
            rest().get("/api/v1/server").status == 200;

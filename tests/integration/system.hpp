@@ -21,13 +21,14 @@ class System {
     std::string speed = "max";
     std::vector<std::string> server_arguments;
     std::vector<std::string> gateway_arguments;
-    std::string control = "centurion";  ///< of gateways and pushed programs
+    std::string control = "centurion";                  ///< of gateways and pushed programs
     std::vector<std::string> gateway_environment = {};  ///< NAME=value
   };
   System() : System(Options{}) {}
   explicit System(Options options);
 
   void start_server();
+  void launch_server();  ///< without waiting until it listens
   void start_gateway(const std::string& machine = "lathe-1");
   /// Another gateway that claims the same machine, with a state of its own, beside the first.
   test_support::ChildProcess second_gateway(const std::string& machine = "lathe-1") const;

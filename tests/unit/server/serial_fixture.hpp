@@ -31,6 +31,10 @@ class SerialTest : public ServerTest {
       parts.open = [this, address = parts.address] { return line(address).open(); };
       return serial::LineDriver::start(std::move(parts));
     };
+    options.on_trouble = [this](const std::string& machine, const std::string& trouble) {
+      const std::lock_guard lock(told_mutex_);
+      troubles_.push_back(machine + ": " + trouble);
+    };
     feeds::FeedListener listener{.on_machine = [](const feeds::MachineView&) {},
                                  .on_run = [](const storage::Run&) {},
                                  .on_record =
@@ -99,6 +103,7 @@ class SerialTest : public ServerTest {
   std::mutex lines_mutex_, told_mutex_;
   std::map<std::string, std::unique_ptr<test_support::TestLine>> lines_;
   std::vector<storage::Record> records_;
+  std::vector<std::string> troubles_;
   std::unique_ptr<ports::PortService> ports_;  // last: it ends before what its threads use
 };
 

@@ -1,3 +1,4 @@
+#include "tests/support/store_decorator.hpp"
 #include "tests/unit/server/serial_fixture.hpp"
 
 namespace dripline::server_test {
@@ -65,6 +66,32 @@ TEST_F(SerialTest, TakesPortsFromTheConfiguration) {
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
   EXPECT_EQ(store_->ports()->size(), 1u);
   EXPECT_EQ(store_->machine("mill")->control, "centurion");
+}
+
+/// A store in which no machine can be entered: its disk is full.
+class ClosedStore final : public test_support::StoreDecorator {
+ public:
+  using StoreDecorator::StoreDecorator;
+  Result<void> save_machine(const storage::Machine& machine) override {
+    if (is_full_) return fail(Errc::Io, "the disk is full");
+    return StoreDecorator::save_machine(machine);
+  }
+  std::atomic<bool> is_full_{false};
+};
+
+TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
+  ASSERT_TRUE(store_->save_port(mill()));
+  ClosedStore store(*store_);
+  store.is_full_ = true;
+  start_ports(store);
+  EXPECT_EQ(ports_->port("com1")->trouble, "the disk is full");
+  ports_->open_due();
+  EXPECT_FALSE(ports_->port("com1")->is_open);
+  store.is_full_ = false;
+  ports_->open_due();
+  EXPECT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(ports_->port("com1")->trouble, "");
+  ports_.reset();  // before the store
 }
 
 TEST_F(SerialTest, ChangesAnOpenPort) {

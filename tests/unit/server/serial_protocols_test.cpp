@@ -110,6 +110,57 @@ TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
   EXPECT_TRUE(runs().empty());
 }
 
+/// A control that was fed asks for the rest of its program with the words that ask for any program.
+TEST_F(SerialProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
+  start_ports();
+  add_machine("mill", "tnc155");
+  auto port = mill();
+  port.line_template = "tnc155";
+  port.settings = {{"baud", "9600"}, {"leader", "0"}};
+  add_port(port);
+  push("21.h", tnc_program(21, 2), "tnc155");
+  push("22.h", tnc_program(22, 2000), "tnc155");
+  line().write("\x11");
+  EXPECT_NE(line().read_until("\x03").find("BEGIN PGM 21 "), std::string::npos) << "read-in";
+  line().write("\x04");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->line.phase == wire::Phase::Idle; }));
+  const auto run = start("22.h");
+  ASSERT_TRUE(run) << run.error().what;
+  line().write("\x11");
+  line().read_until("\n5 ");
+  line().pull();
+  ASSERT_TRUE(wait_state(run->id, RunState::Interrupted));
+  line().put_back();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  line().read_for(std::chrono::milliseconds(50));
+  line().write("\x11");
+  ASSERT_TRUE(wait([&] {
+    const auto request = ports_->port("com1")->request;
+    return request && request->answer.find("was broken off") != std::string::npos;
+  }));
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "\x04");
+  const auto sent = ports_->send("com1", {{"21.h", std::nullopt}});
+  ASSERT_TRUE(sent) << sent.error().what;
+  line().write("\x11");
+  line().read_until("\x03");
+  line().write("\x04");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == "completed"; }));
+  line().write("\x11");
+  const std::string again = line().read_until("BEGIN PGM ");
+  EXPECT_NE(again.find("BEGIN PGM "), std::string::npos) << "offered again";
+}
+
+TEST_F(SerialProtocolTest, EndsTheRunThatAnXmodemReceiverCancels) {
+  add_control("xmodem");
+  push("O1", blocks(100), "tnc155");
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  line().write("C");
+  line().read_until("G1 ");
+  line().write("\x18\x18");
+  ASSERT_TRUE(wait_state(run->id, RunState::Interrupted)) << "not kept for a line that is there";
+}
+
 TEST_F(SerialProtocolTest, OffersOnlyWhatIsKnownToBeForTheControl) {
   add_control("heidenhain_bcc", "all");
   push("O3", "%C\nG0\n", "centurion");

@@ -306,12 +306,39 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
   for (int i = 0; i < 200; ++i) text += fmt::format("POINT {}\n", i);
   line().write(text);
   EXPECT_NE(line().read_until("\x13").find('\x13'), std::string::npos);
+  EXPECT_TRUE(wait([&] {
+    return ports_->port("com1")->trouble == "what comes in can not be stored: the disk is full";
+  }));
   store.is_full_ = false;
   EXPECT_NE(line().read_until("\x11").find('\x11'), std::string::npos);
   ASSERT_TRUE(wait([&] {
     const std::lock_guard lock(told_mutex_);
     return records_.size() == 200;
   }));
+  EXPECT_TRUE(wait([&] { return ports_->port("com1")->trouble.empty(); }));
+  ports_.reset();  // before the store
+  EXPECT_EQ(troubles_.front(), "mill: the disk is full");
+  EXPECT_EQ(troubles_.back(), "mill: ") << "taken back";
+}
+
+/// A control that prints without end must not keep programs from its line.
+TEST_F(SerialTest, BeginsARunWhileTheControlPrints) {
+  start_ports();
+  auto port = mill();
+  port.settings = {{"baud", "115200"}, {"idle_end_ms", "60000"}, {"eob", "lf"}};
+  add_port(port);
+  push("O1", blocks(1));
+  line().write("LINE 1\nLINE 2\nLI");
+  ASSERT_TRUE(wait([&] {
+    const std::lock_guard lock(told_mutex_);
+    return records_.size() == 2;
+  }));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  line().write("NE 3\nO7\n");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 1; }));
+  ASSERT_TRUE(wait([&] { return !start("O1").has_value(); })) << "a program is coming in";
 }
 
 }  // namespace
