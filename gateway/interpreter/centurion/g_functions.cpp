@@ -238,7 +238,7 @@ bool apply_speed(Run& run) {
   return true;
 }
 
-bool refuse_words(Run& run, AddressSet left) {
+[[gnu::cold, gnu::noinline]] bool refuse_words(Run& run, AddressSet left) {
   const Block& block = run.block;
   for (std::size_t i = 0; i < kAddressCount; ++i) {
     const auto address = static_cast<Address>(i);

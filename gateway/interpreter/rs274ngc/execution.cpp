@@ -69,6 +69,11 @@ bool execute_motion_code(Run& run, int code) {
   }
 }
 
+/// G0 to G3 use every axis word: their lines need no account.
+bool is_line_or_arc(int motion) {
+  return motion >= 0 && motion <= 30;
+}
+
 bool execute_motion(Run& run) {
   const int code = run.block.motion;
   if (code < 0) return true;
@@ -76,7 +81,7 @@ bool execute_motion(Run& run) {
   const bool keeps_series = is_cycle(code);
   if (!keeps_series) {
     state.cycle.is_series = false;
-    run.ledger.take_all();  // one that can not use a word refuses it
+    if (!is_line_or_arc(code)) run.ledger.take_all();  // one that can not use a word refuses it
   }
   if (code != 50) state.follows_spline = false;
   if (!execute_motion_code(run, code)) return false;
@@ -85,7 +90,7 @@ bool execute_motion(Run& run) {
   return true;
 }
 
-bool refuse_left_words(Run& run) {
+[[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run) {
   const auto left = static_cast<AddressSet>(run.ledger.left());
   const std::string words = language::listed(left, [&](std::size_t i) {
     const char word = letter_of(static_cast<Address>(i));
@@ -111,7 +116,8 @@ void apply_settings(Run& run) {
 bool execute_line(Run& run) {
   Block& block = run.block;
   if (block.stage == Stage::Before) {
-    run.ledger.open(block.words.present() & (kAxisWords | kPolarWords));
+    if (!is_line_or_arc(block.motion))
+      run.ledger.open(block.words.present() & (kAxisWords | kPolarWords));
     if (!before_machine(run)) return false;
     block.stage = Stage::Input;
   }

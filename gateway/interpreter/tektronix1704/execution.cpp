@@ -127,7 +127,7 @@ bool execute_motion(Run& run, OneShot one_shot) {
 }
 
 /// What has led to nothing: an axis word stops the tape.
-bool report_left_words(Run& run) {
+[[gnu::cold, gnu::noinline]] bool report_left_words(Run& run) {
   const Words& words = run.state.block.words;
   const std::string text = language::listed(run.ledger.left(), [&](std::size_t i) {
     return fmt::format("{}{}", kLetters[i], words[static_cast<Address>(i)]);

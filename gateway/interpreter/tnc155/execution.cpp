@@ -163,7 +163,7 @@ bool dispatch(Run& run, const Block& block) {
   return true;
 }
 
-bool refuse_left_words(Run& run, const Block& block) {
+[[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
   const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
     const Coordinate& word = block.coordinates[i];
     return fmt::format("{}{}", letter(word.axis), run.number(word.value));
