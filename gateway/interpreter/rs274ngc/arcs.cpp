@@ -131,13 +131,35 @@ bool check_words(Run& run, const OffsetWords& offsets, bool names_plane) {
   return run.fail(ErrorCode::ArcNoAxis, 0);
 }
 
+/// A code of the block, not the arc's, that takes P as well.
+bool has_other_user_of_p(const Run& run) {
+  const Profile profile = run.options.profile;
+  const Block& block = run.block;
+  for (const GGroup group : {GGroup::OneShot, GGroup::Path}) {
+    const GRow* row = g_row(block.g(group), profile);
+    if (row != nullptr && (words_of(*row, profile) & set_of("P")) != 0) return true;
+  }
+  for (std::size_t group = 0; group < kMGroups; ++group) {
+    const MRow* row = m_row(block.m(static_cast<MGroup>(group)), profile);
+    if (row != nullptr && (row->words & set_of("P")) != 0) return true;
+  }
+  return false;
+}
+
+/// P of an arc. One that is a dwell, a tolerance or an input's number at the same time would turn
+/// the arc that often, without a word of it.
 bool read_turns(Run& run, double& turns) {
   turns = 1;
   const Words& words = run.block.words;
   if (!words.has('P')) return true;
+  if (has_other_user_of_p(run)) {
+    if (!run.is_linuxcnc()) return true;
+    return run.fail_word(ErrorCode::ArcTurns, 'P',
+                         fmt::format("P{} is of another code of the block as well", words['P']));
+  }
   turns = std::round(words['P']);
-  constexpr double kMost = 1e6;
-  if (std::fabs(words['P'] - turns) <= 0.0001 && turns >= 1 && turns <= kMost) return true;
+  constexpr double kMaxTurns = 1e6;
+  if (std::fabs(words['P'] - turns) <= 0.0001 && turns >= 1 && turns <= kMaxTurns) return true;
   return run.fail_word(ErrorCode::ArcTurns, 'P', fmt::format("P{}", words['P']));
 }
 

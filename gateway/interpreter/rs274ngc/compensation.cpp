@@ -93,7 +93,8 @@ bool switch_compensation(Run& run, int g_code) {
   compensation.radius = std::fabs(diameter) / 2;
   compensation.orientation = static_cast<std::uint8_t>(orientation);
   compensation.is_first = true;
-  compensation.was_on = false;
+  // the one before is left by a straight move, whichever is on by then
+  if (!run.is_linuxcnc()) compensation.was_on = false;
   return true;
 }
 

@@ -117,6 +117,15 @@ bool is_reversed(const Run& run, PlanePoint end, double travel) {
          0;
 }
 
+/// A corner may only shorten the move before it. Where the way turns straight back into an arc,
+/// the curves may meet far past the end instead.
+bool is_past(PlanePoint end, PlanePoint corner, double travel) {
+  constexpr double kSlack = 0.0254;  // mm
+  return (corner.first - end.first) * std::cos(travel) +
+             (corner.second - end.second) * std::sin(travel) >
+         kSlack;
+}
+
 /// Ends the held move at `end` (machine) and lets it go with all that came after it.
 bool finish_held(Run& run, PlanePoint end, double travel) {
   if (run.held.empty()) return true;
@@ -218,6 +227,7 @@ bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const 
       distance(meeting.points[1], entry.corner) < distance(best, entry.corner)) {
     best = meeting.points[1];
   }
+  if (is_past(entry.tool, best, travel)) return run.fail(ErrorCode::CompCorner, 0);
   if (!finish_held(run, best, travel)) return false;
   // The next move begins where the held one ended now.
   Axes machine;
@@ -285,6 +295,9 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
   const double radius = run.state.compensation.radius;
   const PlanePoint tool = tool_point(run);
   const PlanePoint end = point_of(run, target.to);
+  if (run.state.compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
+  // A full circle is shorter still: it would shrink to the little arc that leads to its offset.
+  if (distance(tool, end) <= radius) return run.fail(ErrorCode::CompEntry, 0);
   if (distance(center, end) <= radius) return run.fail(ErrorCode::CompArcRadius, 0);
   const double inward = direction(end, center);
   const PlanePoint stop = along(end, is_inside(run, turn) ? inward : inward + Angle::kPi, radius);

@@ -14,7 +14,8 @@ bool select_plane(Run& run, int code) {
   Modes& modes = run.state.modes;
   const bool is_tilted = code % 10 != 0;
   const Plane plane = code < 180 ? Plane::XY : code < 190 ? Plane::ZX : Plane::YZ;
-  if (is_compensating(run) && (run.is_linuxcnc() || plane != Plane::XY)) {
+  const bool is_same = plane == modes.plane && is_tilted == modes.has_tilted_plane;
+  if (is_compensating(run) && (run.is_linuxcnc() ? !is_same : plane != Plane::XY)) {
     return run.fail(ErrorCode::CompPlane, 0);
   }
   modes.plane = plane;
@@ -97,6 +98,9 @@ bool apply_modes(Run& run) {
     modes.is_arc_absolute = code == 901;
   }
   if (const int code = block.g(GGroup::Retract); code >= 0) {
+    if (is_compensating(run) && run.is_linuxcnc()) {
+      return run.fail(ErrorCode::CompNotAllowed, 0, "a change of the retract mode");
+    }
     modes.retracts_to_start = code == 980;
   }
   return true;

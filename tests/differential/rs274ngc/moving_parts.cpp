@@ -255,7 +255,9 @@ void Maker::compensation() {
     }
     if (below(8) == 0) line(fmt::format("G1 Z{}", text_of(z_ = between(-5'000, 9'000))));
     if (below(10) == 0) line(one_of(std::array{"M8", "G4 P.1", "M9", "#1=3"}));
-    if (below(60) == 0) line(one_of(std::array{"G53 G0 X1", "@2 ^45", "G81 X1 Z-1 R1", "G28"}));
+    if (below(60) == 0) {
+      line(one_of(std::array{"G53 G0 X1", "@2 ^45", "G81 X1 Z-1 R1", "G28", "G17", "G98", "G18"}));
+    }
   }
   line("G40");
   known_position();

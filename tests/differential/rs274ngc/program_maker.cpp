@@ -86,7 +86,10 @@ constexpr std::array kMistakes{"G1 X1 X2",
                                "G5.3",
                                "G5.2 X1 P1",
                                "G5.2 X1 Y1 P1 I1",
-                               "G17.1 G2 X1 I1"};
+                               "G17.1 G2 X1 I1",
+                               "G4 P2 G2 X1 I1",
+                               "G41 D1\nG2 I1 J1",
+                               "G41.1 D0.1\nG1 X20 Y20\nG40\nG42 D2\nG3 X1 Y1 R50"};
 
 }  // namespace
 
