@@ -20,6 +20,13 @@ bool is_known(char c) {
          std::string_view(" +-.():/").find(c) != std::string_view::npos;
 }
 
+bool names_event(const std::vector<Word>& words) {
+  return std::any_of(words.begin(), words.end(), [](const Word& word) {
+    const double code = word.number.digits;
+    return word.address == Address::G && (code <= 3 || (code >= 100 && code <= 109));
+  });
+}
+
 char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -108,6 +115,8 @@ bool Receiver::take_character(char c) {
 bool Receiver::end_block() {
   int skipped = 0;
   ReadWords read = read_words(block_, program_.events.empty(), skipped);
+  // A title may be passed over. In the block of the first event it would be a coordinate.
+  if (skipped > 0 && names_event(read.words)) read = read_words(block_, false, skipped = 0);
   if (skipped > 0) notice(Fault::Ignored, fmt::format("{} words before the first event", skipped));
   switch (read.fault) {
     case WordFault::None:
