@@ -193,6 +193,7 @@ bool move_on_arc(Run& run) {
   arc.end = state.is_transformed ? transform_back(state, work_end) : work_end;
   if (words.has(R) && run.length(words[R]) != 0) {
     if (is_same_point(flat(arc, arc.start), flat(arc, arc.end))) {
+      run.warn(WarningCode::ArcWithoutMove, words.column(R));
       return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
     }
     if (!centre_by_radius(run, run.length(words[R]), arc)) return false;
@@ -202,6 +203,7 @@ bool move_on_arc(Run& run) {
     if (run.options.arc_needs_centre) {
       return run.fail(ErrorCode::NoRadius, words.first_column(kAxisWords));
     }
+    run.warn(WarningCode::ArcAsLine, words.first_column(kAxisWords));
     return line_to(run, end, run.active_feed());
   }
   const std::uint8_t one_shot = run.block.parts.one_shot;

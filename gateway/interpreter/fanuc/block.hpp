@@ -59,6 +59,7 @@ struct Block {
     std::uint8_t one_shot = kNoCode;
     std::uint8_t last_motion_group = 0;  ///< 1 or 9: which of the two came later
     bool p_is_work_system = false;       ///< P is that of G54.1
+    bool begins_cycle = false;           ///< the mode of hole cycles
     std::uint8_t m_count = 0;
     std::uint8_t argument_count = 0;
     std::uint8_t warning_count = 0;

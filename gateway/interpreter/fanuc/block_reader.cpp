@@ -20,6 +20,13 @@ bool is_end(const Run& run, const char* at) {
   return *at == '\n' ? at == run.text.end() : *at == ';' && run.options.semicolon_eob;
 }
 
+/// Whether the CR at `at` belongs to the line's end. One in the middle is a line end of a file
+/// without LF: read as a blank it would make one block of all of them.
+bool ends_line(const Run& run, const char* at) {
+  while (at != run.text.end() && kind_of(*at) == CharKind::Blank) ++at;
+  return is_end(run, at);
+}
+
 bool refuse_number(Run& run, const char* at, const NumberText& number) {
   switch (number.fault) {
     case NumberFault::TooManyDigits:
@@ -41,6 +48,13 @@ bool read_whole(Run& run, const Word& word, double most, double& value) {
   if (value >= 0 && value <= most) return true;
   return run.fail(ErrorCode::TooManyDigits, word.column,
                   fmt::format("{} is above {}", value, most));
+}
+
+/// Of two codes of one group the last one is in force. With a call in the block, what follows are
+/// its arguments.
+void warn_of_two(Block& block, std::uint32_t column, std::uint8_t first, std::uint8_t last) {
+  const bool is_call = first == 65 || last == 65 || first == 66 || last == 66;
+  if (!is_call) block.warn(WarningCode::SameGroup, column);
 }
 
 bool add_g(Run& run, const Word& word) {
@@ -75,9 +89,13 @@ bool add_g(Run& run, const Word& word) {
   }
   block.parts.g_column = word.column;
   if (group == kOneShot) {
+    if (block.parts.one_shot != Block::kNoCode && block.parts.one_shot != code) [[unlikely]]
+      warn_of_two(block, word.column, block.parts.one_shot, code);
     block.parts.one_shot = code;
     return code != 65 || begin_call(run, false, word.column);
   }
+  if (block.names(static_cast<Group>(group)) && block.g[group] != code) [[unlikely]]
+    warn_of_two(block, word.column, block.g[group], code);
   block.parts.groups |= 1u << group;
   block.g[group] = code;
   if (group == kMotionGroup || group == kCycleGroup) block.parts.last_motion_group = group;
@@ -305,6 +323,8 @@ bool read_block(Run& run) {
     const char c = *at;
     const CharKind kind = kind_of(c);
     if (kind == CharKind::Blank) {
+      if (c == '\r' && block.parts.has_code && !ends_line(run, at)) [[unlikely]]
+        return run.fail(ErrorCode::IllegalAddress, run.column(at), "a CR without LF ends no block");
       ++at;
       continue;
     }

@@ -30,7 +30,8 @@ bool refuse_transformed(Run& run, ErrorCode code) {
 /// G10 L2 and L20: zero offsets.
 bool set_work_offset(Run& run, bool more) {
   const Words& words = run.block.words;
-  const double number = words.has(P) ? run.whole(words[P]) : 0;
+  if (!words.has(P)) return run.fail(ErrorCode::IllegalPInG10, run.block.parts.g_column, "no P");
+  const double number = run.whole(words[P]);
   const double most = more ? kMoreWorkCount : 6;
   if (!(number >= (more ? 1 : 0) && number <= most)) {
     return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("P{}", number));

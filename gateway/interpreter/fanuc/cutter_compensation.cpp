@@ -119,6 +119,12 @@ bool apply_compensation(Run& run) {
     return true;
   }
   const std::uint8_t code = block.g[kCompensationGroup];
+  if (block.words.has_any(kCentreWords) && state.g[kMotionGroup] < 2 && !state.is_cycle() &&
+      block.parts.one_shot == Block::kNoCode) {
+    // A vector that the control would aim at: without it the tool goes elsewhere.
+    return run.fail(ErrorCode::ImproperCommand, block.words.first_column(kCentreWords),
+                    fmt::format("I, J, K beside G{}: a vector is not supported", code));
+  }
   const bool changes = code != state.g[kCompensationGroup] || block.words.has(D);
   state.g[kCompensationGroup] = code;
   if (code != 40) {

@@ -24,6 +24,7 @@ constexpr std::array kRows{
     ErrorRow{NoRadius, "PS022", "NO CIRCLE RADIUS"},
     ErrorRow{IllegalRadius, "PS023", "ILLEGAL RADIUS COMMAND"},
     ErrorRow{NoLengthAxis, "PS027", "NO AXES COMMANDED IN G43/G44"},
+    ErrorRow{IllegalPlane, "PS028", "ILLEGAL PLANE SELECT"},
     ErrorRow{IllegalOffsetNumber, "PS030", "ILLEGAL OFFSET NUMBER"},
     ErrorRow{IllegalPInG10, "PS031", "ILLEGAL P COMMAND IN G10"},
     ErrorRow{IllegalValueInG10, "PS032", "ILLEGAL OFFSET VALUE IN G10"},
@@ -101,6 +102,12 @@ constexpr std::array kWarnings{
     WarningRow{"m99-ends-tape", "M99 in a program from the line ends it; a line does not rewind"},
     WarningRow{"kept-peck", "the tap pecks by the Q of an earlier cycle block"},
     WarningRow{"look-ahead", "the codes of look-ahead are read and change nothing here"},
+    WarningRow{"same-group", "two G codes of one group in a block; the last one is in force"},
+    WarningRow{"arc-as-line", "G02 or G03 without I, J, K and R is a straight line"},
+    WarningRow{"arc-without-move", "an arc by R that ends where it begins does not move"},
+    WarningRow{"cycle-levels", "R is not between the initial level and the bottom"},
+    WarningRow{"cycle-without-shift", "G76 without Q retracts along the wall of the bore"},
+    WarningRow{"tap-without-speed", "a tapping cycle while no spindle speed is commanded"},
 };
 
 constexpr std::size_t kIdLength = 6;

@@ -20,6 +20,7 @@ enum class ErrorCode : std::uint16_t {
   NoRadius = 22,
   IllegalRadius = 23,
   NoLengthAxis = 27,
+  IllegalPlane = 28,
   IllegalOffsetNumber = 30,
   IllegalPInG10 = 31,
   IllegalValueInG10 = 32,
@@ -106,6 +107,12 @@ enum class WarningCode : std::uint8_t {
   EndOfTapeByReturn,
   KeptPeck,
   LookAhead,
+  SameGroup,
+  ArcAsLine,
+  ArcWithoutMove,
+  CycleLevels,
+  CycleWithoutShift,
+  TapWithoutSpeed,
 };
 struct WarningRow {
   std::string_view id;

@@ -28,7 +28,7 @@ void change_units(Run& run) {
 
 /// A group 01 and a group 09 code end or begin the mode of hole cycles; of both the later counts.
 void apply_motion_groups(Run& run) {
-  const Block& block = run.block;
+  Block& block = run.block;
   ModalState& state = run.state;
   const bool names_cycle = block.names(kCycleGroup);
   const bool names_motion = block.names(kMotionGroup);
@@ -44,7 +44,7 @@ void apply_motion_groups(Run& run) {
   const bool was_on = state.is_cycle();
   state.g[kCycleGroup] = block.g[kCycleGroup];
   if (ends_cycle) state.is_rigid_tapping = false;
-  if (!was_on && state.is_cycle()) begin_cycle_mode(run);
+  block.parts.begins_cycle = !was_on && state.is_cycle();
 }
 
 /// Codes that only set what later words mean.
@@ -69,6 +69,12 @@ bool apply_modes(Run& run) {
         !(block.names(kRotationGroup) && block.g[kRotationGroup] == 69)) {
       return run.fail(ErrorCode::RotationPlane, block.parts.g_column);
     }
+    // Z of the holes before would become the depth along another axis.
+    if (state.is_cycle() && !block.parts.begins_cycle &&
+        state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
+      return run.fail(ErrorCode::IllegalPlane, block.parts.g_column,
+                      "a hole cycle is cancelled before its axis changes");
+    }
     state.g[kPlaneGroup] = block.g[kPlaneGroup];
   }
   const bool is_thread =
@@ -89,7 +95,10 @@ bool apply_frames(Run& run) {
   if (block.names(kScalingGroup) && !apply_scaling(run)) return false;
   if (block.names(kRotationGroup) && !apply_rotation(run)) return false;
   if (!apply_length_offset(run)) return false;
-  return apply_compensation(run);
+  if (!apply_compensation(run)) return false;
+  // Its level is one of the plane and the coordinates that the block itself selects.
+  if (block.parts.begins_cycle) begin_cycle_mode(run);
+  return true;
 }
 
 /// Whether the axis words of the block are data, not a move.

@@ -280,13 +280,18 @@ bool read_repeats(Run& run, double& repeats) {
                   fmt::format("{} repeats are not 0 to 9999", repeats));
 }
 
+/// The word of the hole's own axis.
+Address level_word(const Run& run) {
+  constexpr std::array<Address, 3> kLevels{X, Y, Z};
+  return kLevels[place(axes_of(run.state.plane()).normal)];
+}
+
 /// Z, R, Q and P of the block; R counts from the initial level in G91, Z from R.
 bool keep_data(Run& run, double present) {
   ModalState& state = run.state;
   CycleData& data = state.cycle;
   const Words& words = run.block.words;
-  constexpr std::array<Address, 3> kLevels{X, Y, Z};
-  const Address level = kLevels[place(axes_of(state.plane()).normal)];
+  const Address level = level_word(run);
   const bool is_incremental = state.is_incremental();
   if (words.has(R)) {
     const double value = run.length(words[R]);
@@ -312,7 +317,16 @@ bool keep_data(Run& run, double present) {
   if (pecks && !(data.has_depth && data.depth > 0)) {
     return run.fail(ErrorCode::NoQ, run.block.parts.g_column);
   }
+  const bool shifts = data.has_depth && data.depth > 0;
+  if (code == 87 && !shifts) {
+    return run.fail(ErrorCode::NoQ, run.block.parts.g_column,
+                    "G87 would go down to R without its shift");
+  }
+  if (code == 76 && !shifts) run.warn(WarningCode::CycleWithoutShift, run.block.parts.g_column);
   if (!is_tapping(code)) return true;
+  if (!state.is_rigid_tapping && state.spindle.revolutions == 0) {
+    run.warn(WarningCode::TapWithoutSpeed, run.block.parts.g_column);
+  }
   if (!state.is_rigid_tapping && words.has(Q) && data.depth > 0) {
     return run.fail(ErrorCode::ImproperCommand, words.column(Q),
                     "a tap pecks only in rigid tapping (M29)");
@@ -321,6 +335,24 @@ bool keep_data(Run& run, double present) {
     run.warn(WarningCode::KeptPeck, run.block.parts.g_column);
   }
   return true;
+}
+
+/// Rapids end at R, and go on to the initial level: R lies between it and the bottom. What else is
+/// written runs, as on the control, but not without a word.
+void check_levels(Run& run) {
+  const CycleData& data = run.state.cycle;
+  const double down = data.bottom - data.retract;
+  const double approach = data.retract - data.initial;
+  if (!data.has_bottom || !data.has_retract) {
+    run.warn(WarningCode::CycleLevels, run.block.parts.g_column,
+             data.has_retract ? "no bottom is written, R is taken"
+                              : "no R is written, the level reached is taken");
+  } else if (run.state.g[kCycleGroup] != 87 && down * approach < 0) {
+    run.warn(WarningCode::CycleLevels, run.block.parts.g_column,
+             fmt::format("initial {:.6g}, R {:.6g}, bottom {:.6g}",
+                         run.in_units(Axis::Z, data.initial), run.in_units(Axis::Z, data.retract),
+                         run.in_units(Axis::Z, data.bottom)));
+  }
 }
 
 bool check_pecks(Run& run, double repeats) {
@@ -364,9 +396,11 @@ bool execute_cycle(Run& run) {
   run.ledger.take(kAxisWords | set_of(R, Q));  // Q stays, for a cycle that has a use for it
   const double present = program_position(run)[place(axes_of(state.plane()).normal)];
   double repeats = 1;
+  const bool is_new = words.has_any(set_of(R, level_word(run))) || run.block.parts.begins_cycle;
   if (!keep_data(run, present) || !read_repeats(run, repeats)) return false;
   if (!check_pecks(run, repeats)) return false;
   if (repeats > 0 && !check_feed(run)) return false;
+  if (repeats > 0 && is_new) check_levels(run);
   if (state.is_compensating()) {
     run.warn(WarningCode::CycleInCompensation, run.block.parts.g_column);
     interrupt_compensation(run);  // holes are where they are programmed
