@@ -192,6 +192,11 @@ Result<std::vector<Record>> SqliteStore::records(const std::string& run, const s
 Result<std::vector<MachineReport>> SqliteStore::machine_reports() {
   return repositories_->records.reports();
 }
+Result<std::vector<MemoryReport>> SqliteStore::memory_reports(const std::string& machine,
+                                                              const std::optional<std::string>& run,
+                                                              Page page) {
+  return repositories_->records.memory(machine, run, page);
+}
 Result<std::vector<Record>> SqliteStore::machine_report(const std::string& machine, Page page) {
   return repositories_->records.without_run(machine, page);
 }

@@ -85,6 +85,9 @@ class SqliteStore final : public Store {
   Result<std::uint64_t> store_records(const RecordBatch& batch) override;
   Result<std::vector<MachineReport>> machine_reports() override;
   Result<std::vector<Record>> machine_report(const std::string& machine, Page page) override;
+  Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
+                                                   const std::optional<std::string>& run,
+                                                   Page page) override;
   Result<std::vector<Record>> records(const std::string& run, const std::string& kind,
                                       Page page) override;
 

@@ -132,6 +132,14 @@ struct MachineReport {
   UtcTime first, last;
 };
 
+/// What a machine's control kept when a run was over, as its gateway reported it: records of kind
+/// message from the device "memory".
+struct MemoryReport {
+  std::string run;  ///< ours, or one that was begun at the machine
+  UtcTime time;     ///< at the gateway
+  std::vector<std::string> texts;
+};
+
 /// What a record that ends a run says of it; stored in the same transaction as the record.
 struct RunEnding {
   std::string run;
@@ -233,7 +241,8 @@ class Store {
   /// Newest first, held ones among them. Errors: NotFound.
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
   /// The latest that is not held, or the one with that number, held or not. Errors: NotFound (also
-  /// when the program was removed), ModalConflict (nothing but held ones).
+  /// when the program was removed), ModalConflict (nothing but held ones), Corrupt (its row names
+  /// another content than it was stored with).
   virtual Result<Revision> revision(const std::string& program,
                                     std::optional<std::uint64_t> number) = 0;
   /// Puts a held revision in force; the latest is still the one with the highest number. One in
@@ -311,6 +320,10 @@ class Store {
   virtual Result<std::vector<MachineReport>> machine_reports() = 0;
   /// Its lines, in order of (epoch, number). A machine not known has none.
   virtual Result<std::vector<Record>> machine_report(const std::string& machine, Page page) = 0;
+  /// What its control kept after its runs, newest first; with `run` after this one alone.
+  virtual Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
+                                                           const std::optional<std::string>& run,
+                                                           Page page) = 0;
 
   // Serial ports
   /// Adds or changes one. Errors: Syntax and LimitExceeded (names, settings, rules), Busy (the

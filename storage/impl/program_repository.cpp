@@ -18,13 +18,14 @@ Result<std::vector<ProgramSummary>> ProgramRepository::programs(Page page) {
       "      GROUP BY program) AS visible "
       "JOIN revision ON revision.program = visible.program AND revision.number = visible.latest "
       "JOIN program ON program.id = visible.program "
-      "JOIN content ON content.id = revision.content "
+      "LEFT JOIN content ON content.sha256 = revision.sha256 "
+      "LEFT JOIN content AS named ON named.id = revision.content "
       "ORDER BY program.name LIMIT ?1 OFFSET ?2";
   return connections_.read([&](sqlite::Database& database) {
     return Result<std::vector<ProgramSummary>>(sqlite::all_rows(
         database, kSql,
         [](const sqlite::Statement& row) {
-          return ProgramSummary{read_revision(row), row.number(10), false, row.number(11)};
+          return ProgramSummary{read_revision(row), row.number(11), false, row.number(12)};
         },
         page.limit, page.offset));
   });

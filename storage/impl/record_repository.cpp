@@ -172,6 +172,59 @@ Result<std::vector<MachineReport>> RecordRepository::reports() {
   });
 }
 
+namespace {
+
+/// The records of one report: those of one run in one epoch.
+struct MemoryPlace {
+  std::string run;
+  std::uint64_t epoch = 0;
+  UtcTime time;
+};
+
+/// Without being told SQLite goes through all records of the machine. Epochs of a gateway that
+/// lost its journal have no order, so our own time decides.
+Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
+                                               const std::string& machine,
+                                               const std::optional<std::string>& run, Page page) {
+  static const std::string kSelect =
+      "SELECT run, epoch, max(time_us) FROM record INDEXED BY record_of_memory "
+      "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND kind = 'message' AND device = 'memory' AND run IS NOT NULL AND run = coalesce(?2, run) "
+      "GROUP BY run, epoch "
+      "ORDER BY max(coalesce(received_us, time_us)) DESC, epoch DESC, max(number) DESC "
+      "LIMIT ?3 OFFSET ?4";
+  return sqlite::all_rows(
+      database, kSelect,
+      [](const sqlite::Statement& row) {
+        return MemoryPlace{row.text(0), row.number(1), row.time(2)};
+      },
+      machine, run, page.limit, page.offset);
+}
+
+}  // namespace
+
+Result<std::vector<MemoryReport>> RecordRepository::memory(const std::string& machine,
+                                                           const std::optional<std::string>& run,
+                                                           Page page) {
+  static const std::string kTexts =
+      "SELECT text FROM record INDEXED BY record_of_memory "
+      "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
+      "AND kind = 'message' AND device = 'memory' AND epoch = ?2 AND run = ?3 ORDER BY number";
+  return connections_.read([&](sqlite::Database& database) -> Result<std::vector<MemoryReport>> {
+    const auto places = memory_places(database, machine, run, page);
+    if (!places) return fail(places.error());
+    std::vector<MemoryReport> reports;
+    for (const MemoryPlace& place : *places) {
+      auto texts = sqlite::all_rows(
+          database, kTexts, [](const sqlite::Statement& row) { return row.text(0); }, machine,
+          place.epoch, place.run);
+      if (!texts) return fail(texts.error());
+      reports.push_back({place.run, place.time, *std::move(texts)});
+    }
+    return reports;
+  });
+}
+
 Result<std::vector<Record>> RecordRepository::without_run(const std::string& machine, Page page) {
   static const std::string kSelect =
       "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, received_us "

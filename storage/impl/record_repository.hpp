@@ -13,6 +13,8 @@ class RecordRepository {
   Result<std::uint64_t> store(const RecordBatch& batch);
   Result<std::vector<MachineReport>> reports();
   Result<std::vector<Record>> without_run(const std::string& machine, Page page);
+  Result<std::vector<MemoryReport>> memory(const std::string& machine,
+                                           const std::optional<std::string>& run, Page page);
   Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind, Page page);
 
  private:

@@ -6,12 +6,13 @@
 namespace dripline::storage {
 
 const std::string kRevisionColumns =
-    "program.name, revision.number, content.sha256, content.size, revision.control, "
+    "program.name, revision.number, revision.sha256, coalesce(content.size, 0), revision.control, "
     "revision.comment, revision.author, revision.created_us, revision.standing = 'held', "
-    "revision.accepted_us ";
+    "revision.accepted_us, named.sha256 ";
 const std::string kRevisionTables =
     "FROM revision JOIN program ON program.id = revision.program "
-    "JOIN content ON content.id = revision.content ";
+    "LEFT JOIN content ON content.sha256 = revision.sha256 "
+    "LEFT JOIN content AS named ON named.id = revision.content ";
 const std::string kRevisionVisible =
     "revision.number > program.removed_through AND revision.standing <> 'rejected' ";
 
@@ -30,6 +31,14 @@ Revision read_revision(const sqlite::Statement& row) {
   return revision;
 }
 
+Result<void> check_content(const Revision& revision, const Digest& named) {
+  if (named == revision.content) return {};
+  return fail(Errc::Corrupt,
+              "program {} revision {}: its row names content {}, but the revision was stored with "
+              "{}: the database is damaged; push the program again",
+              revision.program, revision.number, named.hex(), revision.content.hex());
+}
+
 namespace {
 
 std::string select_visible(std::string_view condition) {
@@ -37,11 +46,28 @@ std::string select_visible(std::string_view condition) {
                      kRevisionTables, kRevisionVisible, condition);
 }
 
-Result<std::optional<Revision>> newest(sqlite::Database& database, const std::string& program,
-                                       std::string_view standing) {
+struct BoundRevision {
+  Revision revision;
+  Digest named;  ///< the content that the row names
+};
+BoundRevision read_bound(const sqlite::Statement& row) {
+  return {read_revision(row), read_digest(row, 10)};
+}
+
+Result<std::optional<Revision>> checked(Result<std::optional<BoundRevision>> found) {
+  if (!found) return fail(found.error());
+  if (!*found) return std::optional<Revision>();
+  if (auto good = check_content((*found)->revision, (*found)->named); !good) {
+    return fail(good.error());
+  }
+  return std::optional(std::move((*found)->revision));
+}
+
+Result<std::optional<BoundRevision>> newest(sqlite::Database& database, const std::string& program,
+                                            std::string_view standing) {
   static const std::string kSql =
       select_visible("AND revision.standing = ?2 ORDER BY revision.number DESC LIMIT 1");
-  return sqlite::first_row(database, kSql, read_revision, program, standing);
+  return sqlite::first_row(database, kSql, read_bound, program, standing);
 }
 
 /// Why there is no latest revision.
@@ -52,7 +78,7 @@ Result<Revision> no_latest(sqlite::Database& database, const std::string& progra
     return fail(Errc::ModalConflict,
                 "program {} came from a machine and waits for acceptance: accept its revision {} "
                 "first",
-                program, (*held)->number);
+                program, (*held)->revision.number);
   }
   return fail(Errc::NotFound, "program {} is not in the library", program);
 }
@@ -85,11 +111,12 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
   for (const std::string_view standing : {"accepted", "held"}) {
     if (standing == "held" && !upload.is_held) break;
     auto known = newest(database, upload.program, standing);
-    if (!known) return known;
-    if (!*known) continue;
-    const auto row = find_content(database, (*known)->content);
+    if (!known) return fail(known.error());
+    // One whose row is damaged is not repeated: the upload becomes a new one.
+    if (!*known || (*known)->named != (*known)->revision.content) continue;
+    const auto row = find_content(database, (*known)->revision.content);
     if (!row) return fail(row.error());
-    if (*row && (*row)->id == content) return known;
+    if (*row && (*row)->id == content) return std::optional(std::move((*known)->revision));
   }
   return std::nullopt;
 }
@@ -114,8 +141,8 @@ Result<void> write_down(sqlite::Database& database, const Judgement& judgement,
 Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
                                std::optional<std::uint64_t> number) {
   static const std::string kNumbered = select_visible("AND revision.number = ?2");
-  auto found = number ? sqlite::first_row(database, kNumbered, read_revision, program, *number)
-                      : newest(database, program, "accepted");
+  auto found = checked(number ? sqlite::first_row(database, kNumbered, read_bound, program, *number)
+                              : newest(database, program, "accepted"));
   if (!found) return fail(found.error());
   if (*found) return std::move(**found);
   if (!number) return no_latest(database, program);
@@ -132,7 +159,8 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
   const auto inserted = sqlite::run(
       database,
       "INSERT INTO revision (program, number, content, control, comment, author, created_us, "
-      "standing) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+      "standing, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
+      "(SELECT sha256 FROM content WHERE content.id = ?3))",
       program->id, program->highest + 1, content, upload.control, upload.comment, upload.author,
       now, upload.is_held ? "held" : "accepted");
   if (!inserted) return fail(inserted.error());

@@ -10,15 +10,19 @@
 /// transaction.
 namespace dripline::storage {
 
-/// Columns of read_revision, then FROM with program and content joined; a WHERE follows.
+/// Columns of read_revision, the digest of the content that the row names, then FROM with program and
+/// content joined; a WHERE follows.
 extern const std::string kRevisionColumns;
 extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.
 extern const std::string kRevisionVisible;
 Revision read_revision(const sqlite::Statement& row);
+/// What a revision was stored with is its own digest. `named`: that of the content its row names.
+/// Errors: Corrupt.
+Result<void> check_content(const Revision& revision, const Digest& named);
 
 /// `number` absent: the latest that is not held. Errors: NotFound, ModalConflict (nothing but held
-/// ones).
+/// ones), Corrupt (its row names another content than it was stored with).
 Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
                                std::optional<std::uint64_t> number);
 

@@ -1,19 +1,20 @@
 #include "storage/impl/run_repository.hpp"
 
 #include "storage/impl/content.hpp"
+#include "storage/impl/revision_rows.hpp"
 #include "storage/impl/run_endings.hpp"
 
 namespace dripline::storage {
 namespace {
 
 const std::string kSelect =
-    "SELECT run.id, machine.name, program.name, run.revision, content.sha256, content.size, "
+    "SELECT run.id, machine.name, program.name, run.revision, run.sha256, coalesce(content.size, 0), "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
-    "run.started_us, run.ended_us, run.outputs, run.setup FROM run "
+    "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256 FROM run "
     "JOIN machine ON machine.id = run.machine JOIN program ON program.id = run.program "
     "JOIN revision ON revision.program = run.program AND revision.number = run.revision "
-    "JOIN content ON content.id = revision.content ";
+    "LEFT JOIN content ON content.sha256 = run.sha256 ";
 
 Run read_run(const sqlite::Statement& row) {
   Run run;
@@ -31,7 +32,11 @@ Run read_run(const sqlite::Statement& row) {
   run.sequence = row.integer(12);
   run.reason = row.text(13);
   run.executed_content = row.optional_text(14);
-  if (const auto verified = row.optional_integer(15)) run.content_verified = *verified != 0;
+  // A row that names another revision than the run was created with is damaged: nothing was verified.
+  const bool is_bound = row.integer(22) != 0;
+  if (const auto verified = row.optional_integer(15)) {
+    run.content_verified = *verified != 0 && is_bound;
+  }
   run.author = row.text(16);
   run.created = row.time(17);
   run.started = row.optional_time(18);
@@ -72,16 +77,17 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
     std::int64_t program;
     Digest content;
     bool is_held;
+    Digest named;
   };
   const auto found = sqlite::first_row(
       database,
-      "SELECT program.id, content.sha256, revision.standing = 'held' FROM revision "
+      "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256 FROM revision "
       "JOIN program ON program.id = revision.program "
-      "JOIN content ON content.id = revision.content "
+      "LEFT JOIN content ON content.id = revision.content "
       "WHERE program.name = ?1 AND revision.number = ?2 "
       "AND revision.number > program.removed_through AND revision.standing <> 'rejected'",
       [](const sqlite::Statement& row) {
-        return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0};
+        return Found{row.integer(0), read_digest(row, 1), row.integer(2) != 0, read_digest(row, 3)};
       },
       run.program, run.revision);
   if (!found) return fail(found.error());
@@ -99,6 +105,11 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
     return fail(Errc::ModalConflict, "run {}: content {} is not that of {} revision {}", run.id,
                 run.content.hex(), run.program, run.revision);
   }
+  Revision revision;
+  revision.program = run.program;
+  revision.number = run.revision;
+  revision.content = run.content;
+  if (auto good = check_content(revision, (*found)->named); !good) return fail(good.error());
   return (*found)->program;
 }
 
@@ -116,12 +127,12 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, "
-      "?16, ?17, ?18, ?19)",
+      "ended_us, setup, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, "
+      "?15, ?16, ?17, ?18, ?19, ?20)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,
       run.reason, run.executed_content, run.content_verified, run.author, run.created, run.started,
-      run.ended, run.setup);
+      run.ended, run.setup, std::span<const std::byte>(run.content.bytes));
 }
 
 }  // namespace

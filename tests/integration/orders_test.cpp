@@ -172,6 +172,34 @@ TEST_F(Database, WithAnotherProgramsChunkStartsNothing) {
   EXPECT_TRUE(system.rest().get("/api/v1/runs").json()["runs"].empty());
 }
 
+/// Every content is sound, and a revision's row names another one's.
+TEST_F(Database, WhoseRevisionNamesAnotherProgramsContentRunsNothingOfIt) {
+  system.start_server();
+  system.push("O0300", "O0300\nG0 X1\nM30\n");
+  system.push("O0400", "O0400\nG0 X999\nM30\n");
+  system.push("O0500", "O0500\nM98 P300\nM30\n");
+  stop_server();
+  change(
+      "UPDATE revision SET content = (SELECT max(id) - 1 FROM content) WHERE content = (SELECT "
+      "max(id) - 2 FROM content)");
+  system.start_server();
+  system.start_gateway();
+  system.wait_connected();
+  const auto reply =
+      system.rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0300"}});
+  EXPECT_NE(reply.status, 201) << reply.body;
+  EXPECT_NE(reply.body.find("O0300 revision 1: its row names content"), std::string::npos)
+      << reply.body;
+  EXPECT_TRUE(system.rest().get("/api/v1/runs").json()["runs"].empty());
+  // One that calls it gets what was stored as that revision.
+  const auto run = system.wait_ended(system.start_run("O0500"));
+  EXPECT_EQ(run.value("state", ""), "completed") << run;
+  EXPECT_EQ(run.value("executed", 0u), 6u) << run;
+  EXPECT_TRUE(run.value("content_verified", false)) << run;
+  system.push("O0300", "O0300\nG0 X1\nM30\n");
+  EXPECT_EQ(system.wait_ended(system.start_run("O0300")).value("state", ""), "completed");
+}
+
 TEST(OpenFiles, TooFewAreRefusedWithAMessage) {
   const test_support::TemporaryFolder folder;
   const auto limited = [&](const std::string& command) {

@@ -94,6 +94,11 @@ class StoreDecorator : public storage::Store {
   Result<std::vector<storage::MachineReport>> machine_reports() override {
     return inner_.machine_reports();
   }
+  Result<std::vector<storage::MemoryReport>> memory_reports(const std::string& machine,
+                                                            const std::optional<std::string>& run,
+                                                            storage::Page page) override {
+    return inner_.memory_reports(machine, run, page);
+  }
   Result<std::vector<storage::Record>> machine_report(const std::string& machine,
                                                       storage::Page page) override {
     return inner_.machine_report(machine, page);

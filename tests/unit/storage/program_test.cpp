@@ -191,6 +191,60 @@ INSTANTIATE_TEST_SUITE_P(
                    "content = (SELECT min(id) FROM content)"}),
     [](const auto& i) { return std::string{i.param.name}; });
 
+/// A revision's row names another content, and both contents are sound.
+TEST_F(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
+  const auto first = push("p.nc", "G1 X1.\n");
+  const auto other = push("other.nc", "G1 X999.\n");
+  Run run = make_run("r2");  // p.nc of its own text
+  run.revision = store_->revision("p.nc", std::nullopt)->number;
+  damage("UPDATE revision SET content = (SELECT id FROM content WHERE size = 9) "
+         "WHERE program = (SELECT id FROM program WHERE name = 'p.nc')");
+  const auto refused = store_->revision("p.nc", first->number);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Corrupt);
+  EXPECT_NE(refused.error().what.find("p.nc revision 1"), std::string::npos);
+  EXPECT_NE(refused.error().what.find(first->content.hex()), std::string::npos);
+  EXPECT_NE(refused.error().what.find(other->content.hex()), std::string::npos);
+  EXPECT_FALSE(store_->revision("p.nc", std::nullopt));
+  EXPECT_EQ(store_->create_run(run).error().code, Errc::Corrupt);
+  // A list shows what was stored, not what the row names.
+  EXPECT_EQ(store_->revisions("p.nc")->back().content, first->content);
+  const auto healed = push("p.nc", "G1 X1.\n");
+  ASSERT_TRUE(healed) << healed.error().what;
+  EXPECT_GT(healed->number, first->number);
+  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->content, first->content);
+}
+
+TEST_F(ProgramTest, ARevisionWhoseOwnDigestIsDamagedIsRefused) {
+  ASSERT_TRUE(push("p.nc", "G1 X1.\n"));
+  damage("UPDATE revision SET sha256 = CAST(x'00' || substr(sha256, 2) AS BLOB)");
+  EXPECT_EQ(store_->revision("p.nc", 1).error().code, Errc::Corrupt);
+}
+
+/// A run keeps the content it was created with, whatever happens to the rows of its revision.
+TEST_F(ProgramTest, ARunKeepsItsContentWhenItsRevisionNamesAnother) {
+  const auto run = make_run("r1");
+  ASSERT_TRUE(store_->create_run(run));
+  ASSERT_TRUE(push("other.nc", "G1 X999.\n"));
+  damage("UPDATE revision SET content = (SELECT id FROM content WHERE size = 9)");
+  const auto stored = store_->run("r1");
+  EXPECT_EQ(stored->content, run.content);
+  EXPECT_EQ(stored->size, run.size);
+  EXPECT_EQ(pull(stored->content).size(), run.size);
+}
+
+TEST_F(ProgramTest, ARunWhoseRowNamesAnotherRevisionWasNotVerified) {
+  ASSERT_TRUE(push("p.nc", "G1 X999.\n"));
+  auto run = make_run("r1");
+  run.content_verified = true;
+  run.state = RunState::Completed;
+  ASSERT_TRUE(store_->create_run(run));
+  EXPECT_EQ(store_->run("r1")->content_verified, true);
+  damage("UPDATE run SET revision = CASE revision WHEN 1 THEN 2 ELSE 1 END");
+  EXPECT_EQ(store_->run("r1")->content_verified, false);
+  EXPECT_EQ(store_->runs({}, {})->at(0).content_verified, false);
+}
+
 TEST_F(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;

@@ -82,6 +82,39 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   EXPECT_EQ(reports->at(0).first, later.records[0].time);
 }
 
+/// Runs that the server knows and runs that were begun at the machine; the journal of a gateway that
+/// lost its own has any epoch.
+TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
+  const auto memory = [](RecordBatch batch, std::initializer_list<std::size_t> places) {
+    for (const std::size_t i : places) {
+      batch.records[i].kind = "message";
+      batch.records[i].device = "memory";
+    }
+    return batch;
+  };
+  ASSERT_EQ(store_->store_records(memory(make_batch(1, 4, "r1"), {1, 2})), 4u);
+  clock_.advance(std::chrono::seconds(1));
+  ASSERT_EQ(store_->store_records(memory(make_batch(5, 6, "line-1"), {0})), 6u);
+  clock_.advance(std::chrono::seconds(1));
+  RecordBatch other = memory(make_batch(1, 1, "r9"), {0});
+  other.epoch = other.records[0].epoch = 3;
+  ASSERT_EQ(store_->store_records(other), 1u);
+  reopen();
+  const auto all = store_->memory_reports("m1", std::nullopt, {});
+  ASSERT_TRUE(all) << all.error().what;
+  ASSERT_EQ(all->size(), 3u);
+  EXPECT_EQ(all->at(0).run, "r9");
+  EXPECT_EQ(all->at(1).run, "line-1");
+  EXPECT_EQ(all->at(2).run, "r1");
+  EXPECT_EQ(all->at(2).texts, (std::vector<std::string>{"X2", "X3"}));
+  EXPECT_EQ(store_->memory_reports("m1", "line-1", {})->at(0).texts,
+            std::vector<std::string>{"X5"});
+  EXPECT_EQ(store_->memory_reports("m1", std::nullopt, {.limit = 1, .offset = 1})->at(0).run,
+            "line-1");
+  EXPECT_TRUE(store_->memory_reports("m1", "r2", {})->empty());
+  EXPECT_TRUE(store_->memory_reports("nobody", std::nullopt, {})->empty());
+}
+
 TEST_F(RecordTest, SentAgainAreStoredOnce) {
   EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
   EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
