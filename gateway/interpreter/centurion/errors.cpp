@@ -204,6 +204,7 @@ constexpr std::array kTexts{
     ErrorText{1010, "the input waited for does not come"},
     ErrorText{1011, "probe move before the start"},
     ErrorText{1012, "the program repeats without end"},
+    ErrorText{1013, "the start in the middle is not defined"},
     ErrorText{1020, "compensation begins and ends on straight moves"},
     ErrorText{1021, "too much between two compensated moves"},
     ErrorText{1022, "contour too narrow for the tool nose, where the control would back it up"},

@@ -129,6 +129,7 @@ class Terms {
     if (!constant(number)) return false;
     if (!is_byte) return read_parameter(run_, number, run_.column(start), value);
     if (!check_parameter_number(run_, number, kByteCount, run_.column(start))) return false;
+    run_.start.note_byte_read(static_cast<int>(number));
     value = run_.parameters.byte(static_cast<int>(number));
     return true;
   }
@@ -305,8 +306,11 @@ bool read_parameter(Run& run, double number, std::uint32_t column, double& value
   }
   // a change that waits for G11 reads as it was written
   for (const DataChange& change : run.state.data_changes) {
-    if (change.number == index) value = change.value;
+    if (change.number != index) continue;
+    value = change.value;
+    return true;
   }
+  run.start.note_read(index);
   return true;
 }
 

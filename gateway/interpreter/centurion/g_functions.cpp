@@ -50,6 +50,7 @@ bool set_data_mode(Run& run, bool on) {
   run.state.modes.takes_data = on;
   if (on) return true;
   for (const DataChange& change : run.state.data_changes) {
+    note_table_set(run, change.number);
     run.parameters[change.number] = change.value;
   }
   run.state.data_changes.clear();
@@ -64,6 +65,9 @@ bool read_byte_parameter(Run& run) {
   if (!(number >= 0 && number < kByteCount) || number != std::trunc(number)) {
     return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
   }
+  run.start.note_read(1);
+  run.start.note_byte_read(static_cast<int>(number));
+  run.start.note_set(0);
   run.parameters[0] = run.parameters.byte(static_cast<int>(number));
   return true;
 }
@@ -73,6 +77,8 @@ bool write_byte_parameter(Run& run) {
   if (!(number >= 0 && number < kByteCount) || number != std::trunc(number)) {
     return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
   }
+  run.start.note_read(1);
+  run.start.note_read(0);
   return store_byte(run, static_cast<int>(number), run.parameters[0], 0);
 }
 

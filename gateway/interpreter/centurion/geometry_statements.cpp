@@ -33,13 +33,19 @@ double x_scale(const Run& run) {
   return run.options.solver_x_is_radius ? 1 : 2;
 }
 
-PlaneVector point_at(const Run& run, int number) {
-  return {run.parameters[number], run.parameters[number + 1] / x_scale(run)};
+double input_at(Run& run, int number) {
+  run.start.note_read(number);
+  return run.parameters[number];
 }
-PlaneCircle circle_at(const Run& run, int number) {
-  return {point_at(run, number), run.parameters[number + 2]};
+PlaneVector point_at(Run& run, int number) {
+  return {input_at(run, number), input_at(run, number + 1) / x_scale(run)};
+}
+PlaneCircle circle_at(Run& run, int number) {
+  return {point_at(run, number), input_at(run, number + 2)};
 }
 void store_point(Run& run, int number, PlaneVector point) {
+  run.start.note_set(number);
+  run.start.note_set(number + 1);
   run.parameters[number] = point.first;
   run.parameters[number + 1] = point.second * x_scale(run);
 }
@@ -82,7 +88,7 @@ bool tangent_arc(Run& run, const char* start, const char*& at) {
   if (!read_case(run, 8, start, at, wanted)) return false;
   const PlaneCircle first = circle_at(run, kFirstInput);
   const PlaneCircle second = circle_at(run, kFirstInput + 3);
-  const double radius = run.parameters[kFirstInput + 6];
+  const double radius = input_at(run, kFirstInput + 6);
   for (double each : {first.radius, second.radius, radius}) {
     if (!refuse_radius(run, each, start)) return false;
   }
@@ -105,6 +111,8 @@ bool circle_of_points(Run& run, const char* start) {
                     "the three points lie on one line");
   }
   store_point(run, kFirstOutput, found->circle.center);
+  run.start.note_set(kRadius);
+  run.start.note_set(kDirection);
   run.parameters[kRadius] = found->circle.radius;
   run.parameters[kDirection] = found->is_counterclockwise ? 3 : 2;
   return true;

@@ -47,8 +47,9 @@ CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState st
   run_.joiner.reset(run_.present_position());
   if (start_) {
     first_ = take_snapshot(run_);
-    start_->attach(run_.state);
+    start_->attach(run_.state, run_.start);
     run_.state.is_searching = true;
+    run_.start.begin();
   }
 }
 
@@ -77,8 +78,10 @@ StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
       return paused();
     if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
       if (!run_.state.is_searching) return StepState::Ended;
-      begin_at_first();
+      if (!begin_at_first()) return paused();
     }
+    if (outcome == BlockOutcome::More) [[unlikely]]
+      return StepState::Ran;
     if (outcome == BlockOutcome::Finished) --left;
   }
   return StepState::Ran;
@@ -105,14 +108,21 @@ StepState CenturionInterpreter::paused() {
 }
 
 CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
+  if (is_looking_back_) [[unlikely]] {
+    if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
+  }
   const TextCursor::State loaded = run_.text.load(run_.state.at);
   if (loaded != TextCursor::State::Ready) [[unlikely]]
     return meet_line_state(loaded);
   Block::Parts& parts = run_.block.parts;
+  if (run_.state.is_searching && !is_way_back_known_ && may_start_here()) [[unlikely]]
+    return look_back();
   if (parts.stage == Stage::Start) {
     if (!begin_block()) [[unlikely]] {
       return run_off_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
     }
+    if (run_.pause != Pause::None) [[unlikely]]
+      return BlockOutcome::Paused;
     if (!run_.state.has_header && !run_.name_is_settled) [[unlikely]]
       settle_name();
   }
@@ -120,8 +130,10 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
     if (!read_items(run_) || !fits_mode()) [[unlikely]]
       return BlockOutcome::Paused;
     parts.stage = Stage::Execution;
-    if (run_.state.is_searching && parts.tool && start_->is_tool(*parts.tool)) [[unlikely]]
-      start_->begin_here(run_);
+  }
+  if (run_.state.is_searching && parts.tool && start_->is_tool(run_, *parts.tool)) [[unlikely]] {
+    if (!is_way_back_known_ && start_->asks_for_way_back(run_)) return look_back();
+    if (!start_->arrive(run_)) return BlockOutcome::Paused;
   }
   if (!execute_block(run_) || !finish_block()) [[unlikely]]
     return BlockOutcome::Paused;
@@ -167,8 +179,8 @@ bool CenturionInterpreter::begin_block() {
   run_.block.words.clear();
   run_.block.parts = kFreshParts;
   run_.block.parts.stage = Stage::Items;
-  if (run_.state.is_searching && starts_here()) [[unlikely]]
-    start_->begin_here(run_);
+  if (run_.state.is_searching && starts_here() && !start_->arrive(run_)) [[unlikely]]
+    return true;  // an alarm
   if (!is_plain && is_skipped()) [[unlikely]] {
     run_.block.parts.has_code = true;
     run_.block.parts.resume = run_.offset(run_.text.end());
@@ -188,6 +200,39 @@ bool CenturionInterpreter::starts_here() const {
   return start_->is_here(run_, has_number ? std::optional(head.number) : std::nullopt);
 }
 
+/// At a block that is not begun yet.
+bool CenturionInterpreter::may_start_here() {
+  if (run_.block.parts.stage != Stage::Start || !start_->asks_for_way_back(run_)) return false;
+  place_origin();
+  run_.origin.offset = run_.text.offset();
+  return starts_here();
+}
+
+CenturionInterpreter::BlockOutcome CenturionInterpreter::look_back() {
+  is_looking_back_ = true;
+  return BlockOutcome::NoBlock;
+}
+
+/// Finished: it is known now.
+CenturionInterpreter::BlockOutcome CenturionInterpreter::find_way_back() {
+  std::uint64_t line = 0;
+  const TextSearch::Outcome outcome = search_.find_way_back(run_.state.at, line);
+  if (outcome == TextSearch::Outcome::More) return BlockOutcome::More;
+  if (outcome == TextSearch::Outcome::NotYet) {
+    run_.pause = Pause::Text;
+    return BlockOutcome::Paused;
+  }
+  if (outcome != TextSearch::Outcome::Found && outcome != TextSearch::Outcome::Missing) {
+    refuse_search(run_, outcome);
+    return BlockOutcome::Paused;
+  }
+  const bool is_found = outcome == TextSearch::Outcome::Found;
+  start_->note_way_back(is_found ? std::optional(line) : std::nullopt);
+  is_way_back_known_ = true;
+  is_looking_back_ = false;
+  return BlockOutcome::Finished;
+}
+
 /// Nobody is bothered for what happens before the start, unless the program's way hangs on it.
 /// False leaves the question to the owner, or an alarm.
 bool CenturionInterpreter::settle_in_search() {
@@ -197,12 +242,16 @@ bool CenturionInterpreter::settle_in_search() {
 }
 
 /// The start that was asked for is not in the program.
-void CenturionInterpreter::begin_at_first() {
+bool CenturionInterpreter::begin_at_first() {
+  if (run_.start.arrivals > 0) {
+    run_.state.phase = RunPhase::Running;
+    return start_->begin_at_first(run_);
+  }
   const bool has_header = run_.state.has_header;
   const bool is_restored = restore(*first_).has_value();
   invariant(is_restored, "the state of a moment ago reads back");
   run_.state.has_header = has_header;
-  start_->begin_at_first(run_);
+  return start_->begin_at_first(run_);
 }
 
 bool CenturionInterpreter::is_end_of_segment() const {

@@ -28,7 +28,7 @@ class CenturionInterpreter final : public Interpreter, public RetainedMemory {
   bool read_memory(std::vector<double>& values) override;
 
  private:
-  enum class BlockOutcome : std::uint8_t { Finished, NoBlock, Paused };
+  enum class BlockOutcome : std::uint8_t { Finished, NoBlock, Paused, More };
 
   BlockOutcome run_block();
   BlockOutcome meet_line_state(TextCursor::State state);
@@ -41,8 +41,11 @@ class CenturionInterpreter final : public Interpreter, public RetainedMemory {
   void place_origin();
   bool fits_mode();
   bool starts_here() const;
+  bool may_start_here();
+  BlockOutcome look_back();
+  BlockOutcome find_way_back();
   bool settle_in_search();
-  void begin_at_first();
+  bool begin_at_first();
 
   // What the run's events pass on their way to the owner's sink; each only where it is asked for.
   std::unique_ptr<DryRun> dry_run_;
@@ -50,7 +53,7 @@ class CenturionInterpreter final : public Interpreter, public RetainedMemory {
   std::optional<Snapshot> first_;  ///< the state at the first block, while a start is looked for
   Run run_;
   TextSearch search_;
-  bool is_asking_ = false;
+  bool is_asking_ = false, is_way_back_known_ = false, is_looking_back_ = false;
   Units memory_units_;       ///< of the tables at the start
   Parameters known_memory_;  ///< when it was read last
 };

@@ -240,6 +240,7 @@ void apply_spindle_range(Run& run) {
   for (std::uint8_t i = 0; i < run.block.parts.m_count; ++i) {
     const MRow& row = m_row(run.block.m[i]);
     if (row.action != MAction::SpindleRange) continue;
+    run.start.note_byte_set(kSpindleRange);
     run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
   }
 }

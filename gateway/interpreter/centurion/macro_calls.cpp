@@ -78,6 +78,7 @@ void pass_arguments(Run& run) {
   for (int letter = 0; letter < 26; ++letter) {
     const auto address = static_cast<Address>(letter);
     if ((kPassNothing & set_of(address)) != 0 || !words.has(address)) continue;
+    run.start.note_set(letter + 1);
     run.parameters[letter + 1] = words[address];
   }
 }

@@ -130,6 +130,21 @@ Result<void> read_mode(const Options& options, ControlOptions& control) {
   return {};
 }
 
+Result<void> read_start_choices(const Options& options, ControlOptions& control) {
+  const auto memory = options.choice("start_memory", {"ask", "begin", "now"}, 0);
+  if (!memory) return fail(memory.error());
+  control.may_count_again = *memory != 0;
+  const auto pass = options.integer("start_pass", 0);
+  if (!pass) return fail(pass.error());
+  if (*pass == 0) return {};
+  if (*pass < 0) return fail(Errc::LimitExceeded, "[control] start_pass: {} is below 1", *pass);
+  if (control.start_at->kind == StartAt::Kind::Count)
+    return fail(Errc::Syntax, "[control] start_pass: \"{}\" is one time only",
+                control.start_at->text);
+  control.start_pass = static_cast<std::uint64_t>(*pass);
+  return {};
+}
+
 Result<void> read_start(const Setup& setup, ControlOptions& control) {
   const Options& options = setup.control;
   constexpr double kUsualFeed = 10;
@@ -143,7 +158,7 @@ Result<void> read_start(const Setup& setup, ControlOptions& control) {
   auto start = parse_start_at(*text);
   if (!start) return fail(Errc::Syntax, "[control] start_at: {}", start.error().what);
   control.start_at = std::move(*start);
-  return {};
+  return read_start_choices(options, control);
 }
 
 Result<void> read_dry_run(const Options& options, ControlOptions& control) {
@@ -224,6 +239,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
                                     "mode",
                                     "dnc_mode",
                                     "start_at",
+                                    "start_pass",
+                                    "start_memory",
                                     "dry_run_feed",
                                     "dry_run_spindle",
                                     "chamfer",

@@ -28,6 +28,11 @@ struct ControlOptions {
   double pulse_ms = 150;                                   ///< of PULSE0 and PULSE1
   bool asks_for_inputs = false;        ///< `ask_inputs`: waits for inputs ask the owner
   std::optional<StartAt> start_at;     ///< `start_at`: not the first block
+  /// `start_pass`: which time the program comes to that block, where it may come more than once.
+  std::optional<std::uint64_t> start_pass;
+  /// `start_memory` = "begin" (what is given is as it was when the program began) or "now": the part
+  /// before the start may change what it has read before.
+  bool may_count_again = false;
   bool single_block = false;           ///< the panel's switch; cycles stop at their clearance
   bool is_dry_run = false;             ///< the panel's switch
   double dry_run_feed_mm = 0;          ///< `dry_run_feed`, per minute

@@ -63,6 +63,7 @@ bool save_parameters(Run& run) {
   }
   file->values.clear();
   for (int i = 0; i < request.count; ++i) {
+    run.start.note_read(request.first + i);
     file->values.push_back(run.parameters[request.first + i]);
   }
   return true;
@@ -76,6 +77,7 @@ bool load_parameters(Run& run) {
     return run.fail(ErrorCode::FileNotFound, 0, fmt::format("Q{:04}", request.file));
   }
   for (int i = 0; i < request.count; ++i) {
+    run.start.note_set(request.first + i);
     run.parameters[request.first + i] = file->values[static_cast<std::size_t>(i)];
   }
   return true;

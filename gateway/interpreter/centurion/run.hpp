@@ -11,6 +11,7 @@
 #include "gateway/interpreter/centurion/options.hpp"
 #include "gateway/interpreter/centurion/parameters.hpp"
 #include "gateway/interpreter/centurion/pattern_recorder.hpp"
+#include "gateway/interpreter/centurion/start_notes.hpp"
 #include "gateway/interpreter/centurion/text_cursor.hpp"
 #include "gateway/interpreter/centurion/transform_stage.hpp"
 #include "gateway/interpreter/centurion/travel_guard.hpp"
@@ -127,6 +128,7 @@ struct Run {
   TextCursor text;
   ModalState state;
   Parameters parameters;
+  StartNotes start;  ///< while a start is looked for
   std::string name;  ///< as the program calls itself; empty when it does not
   bool name_is_settled = false;
 

@@ -211,6 +211,25 @@ void visit_parameters(Archive& archive, Parameters& parameters) {
   visit_sparse(archive, kByteCount, [&](int n) -> std::uint8_t& { return parameters.byte(n); });
 }
 
+/// Only while a start is looked for: nobody reads them afterwards.
+template <class Archive>
+void visit_notes(Archive& archive, StartNotes& notes) {
+  std::size_t cells = notes.uses.size();
+  if (!archive.size(cells, kParameterCount + kByteCount)) return;
+  if (cells != 0 && cells != kParameterCount + kByteCount) return archive.damage();
+  notes.uses.resize(cells);
+  for (StartNotes::Use& use : notes.uses) {
+    archive(use);
+    if (use > StartNotes::Use::Lost) return archive.damage();
+  }
+  all(archive, notes.has_place, notes.program, notes.offset, notes.arrivals,
+      notes.arrival);
+  std::size_t withheld = notes.withheld.size();
+  if (!archive.size(withheld, StartNotes::kMaxWithheld)) return;
+  notes.withheld.resize(withheld);
+  for (auto& [code, state, line] : notes.withheld) all(archive, code, state, line);
+}
+
 template <class Archive>
 void visit_name(Archive& archive, std::string& name, bool& is_settled) {
   std::size_t length = name.size();
@@ -263,6 +282,8 @@ Snapshot take_snapshot(const Run& run) {
   std::string name = run.name;
   bool is_settled = run.name_is_settled;
   visit_states(writer, state);
+  StartNotes notes = run.start;
+  if (state.is_searching) visit_notes(writer, notes);
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
@@ -283,6 +304,8 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   std::string name;
   bool is_settled = false;
   visit_states(reader, state);
+  StartNotes notes;
+  if (state.is_searching) visit_notes(reader, notes);
   visit_parameters(reader, parameters);
   visit(reader, origin);
   visit_name(reader, name, is_settled);
@@ -300,6 +323,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   }
   run.state = std::move(state);
   run.parameters = parameters;
+  run.start = std::move(notes);
   run.origin = origin;
   run.name = std::move(name);
   run.name_is_settled = is_settled;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/centurion/cycle_words.hpp"
 #include "gateway/interpreter/centurion/machine_functions.hpp"
@@ -72,8 +73,15 @@ Result<StartAt> parse_start_at(std::string_view text) {
   return start;
 }
 
+bool StartSearch::is_same_place(const Run& run) {
+  const StartNotes& notes = run.start;
+  return !notes.has_place ||
+         (run.origin.program == notes.program && run.origin.offset == notes.offset);
+}
+
 bool StartSearch::is_here(const Run& run, std::optional<std::uint32_t> sequence) const {
   const bool is_main = run.state.at.program == kMainProgram;
+  if (!is_same_place(run)) return false;
   switch (start_.kind) {
     case StartAt::Kind::Block:
       return sequence && *sequence == start_.number;
@@ -89,21 +97,77 @@ bool StartSearch::is_here(const Run& run, std::optional<std::uint32_t> sequence)
   return false;
 }
 
-bool StartSearch::is_tool(int tool) const {
-  return start_.kind == StartAt::Kind::Tool && static_cast<std::uint64_t>(tool) == start_.number;
+bool StartSearch::is_tool(const Run& run, int tool) const {
+  return start_.kind == StartAt::Kind::Tool && static_cast<std::uint64_t>(tool) == start_.number &&
+         is_same_place(run);
 }
 
-void StartSearch::begin_here(Run& run) {
+bool StartSearch::asks_for_way_back(const Run& run) const {
+  return start_.kind != StartAt::Kind::Count && !run.options.start_pass;
+}
+
+bool StartSearch::arrive(Run& run) {
+  StartNotes& notes = run.start;
+  if (!std::exchange(notes.has_place, true)) {
+    notes.program = run.origin.program;
+    notes.offset = run.origin.offset;
+  }
+  if (std::exchange(notes.arrival, run.origin.block) == run.origin.block) return true;
+  ++notes.arrivals;
+  if (run.options.start_pass && notes.arrivals < *run.options.start_pass) return true;
+  return begin_here(run);
+}
+
+/// Why the state at this block is not the one that is meant, or not known.
+std::string StartSearch::refusal(const Run& run) const {
+  std::string text;
+  const auto add = [&text](const std::string& reason) {
+    if (!text.empty()) text += "; ";
+    text += reason;
+  };
+  if (run.state.pattern.phase != PatternPhase::None)
+    add("it is in the pattern of a cycle: start at the cycle's block");
+  if (asks_for_way_back(run)) {
+    std::string flow = open_flow_text(run);
+    if (way_back_) {
+      flow += fmt::format("{}line {}, which comes back over it", flow.empty() ? "" : ", ",
+                          *way_back_);
+    }
+    if (!flow.empty())
+      add(fmt::format("it is in {}: which time is meant (pass, start_pass)?", flow));
+  }
+  if (const std::string lost = lost_memory_text(run); !lost.empty() && !run.options.may_count_again)
+    add(fmt::format("the part before it reads {} and then sets it: is the memory meant as it was when "
+                    "the program began, or as it is now, so that this counts once more (memory, "
+                    "start_memory)?",
+                    lost));
+  return text;
+}
+
+bool StartSearch::begin_here(Run& run) {
   ModalState& state = run.state;
+  if (const std::string why = refusal(run); !why.empty())
+    return run.fail(ErrorCode::StartUndefined, 0, fmt::format("{}: {}", start_.text, why));
+  run.start.end();
   run.settle_path();  // what still waits is part of what came before; the block's end looks at
                       // faults
   state.is_searching = false;
+  const std::string withheld = withheld_text(run.start);
+  if (!withheld.empty()) {
+    run.scratch = fmt::format("{}: not given out before it: {}", start_.text, withheld);
+    out().on_message({run.origin, run.scratch});
+  }
   show_machine_state(run);
   const Point from = state.searched_from;
   Point to = state.searched_to;
   if ((state.searched_axes & kHasX) == 0) to.x = from.x;
   if ((state.searched_axes & kHasZ) == 0) to.z = from.z;
-  if (!(to == from)) approach(run, from, to);
+  if (!(to == from)) {
+    approach(run, from, to);
+  } else if (!withheld.empty()) {
+    out().on_stop({run.origin, StopKind::Operator});
+  }
+  return true;
 }
 
 /// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after
@@ -129,11 +193,32 @@ void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   out().on_line({run.origin, place(to), approach_feed(run)});
 }
 
-void StartSearch::begin_at_first(Run& run) {
+bool StartSearch::begin_at_first(Run& run) {
+  if (run.start.arrivals > 0) {
+    return run.fail(ErrorCode::StartUndefined, 0,
+                    fmt::format("{}: the program comes to it {} times, not {}", start_.text,
+                                run.start.arrivals, run.options.start_pass.value_or(1)));
+  }
+  run.start.end();
   run.state.is_searching = false;
   run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
   out().on_message({run.origin, run.scratch});
   out().on_stop({run.origin, StopKind::Operator});  // nobody has asked for that
+  return true;
+}
+
+void StartSearch::on_miscellaneous(const Miscellaneous& event) {
+  if (is_open()) return out().on_miscellaneous(event);
+  notes_->withhold(static_cast<std::uint16_t>(event.code), true, event.origin.line);
+}
+
+/// A pulse leaves the output as it was.
+void StartSearch::on_pin(const PinChange& event) {
+  if (is_open()) return out().on_pin(event);
+  if (event.pulse_ms) return;
+  const int first = event.axis == Axis::X ? StartNotes::kOutputOfX : StartNotes::kOutputOfZ;
+  notes_->withhold(static_cast<std::uint16_t>(first + event.output), event.state,
+                   event.origin.line);
 }
 
 template <class Event>

@@ -253,6 +253,7 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
       status_parameter(state, run.parameters, number)) {
     return run.fail(ErrorCode::StatusParameter, column, fmt::format("P{}", number));
   }
+  run.start.note_set(number);
   run.parameters[number] = value;
   const bool is_material = number == kMaterialLength || number == kMaterialDiameter;
   if (is_material && state.has_header) run.tell_material();
@@ -266,6 +267,9 @@ bool store_byte(Run& run, int number, double value, std::uint32_t column) {
     return run.fail(ErrorCode::ParameterOutOfRange, column,
                     fmt::format("{} is not a byte, 0 to 255", value));
   }
+  // Flags that decide how the blocks before were read are in use whether they were named or not.
+  if (number == kSpecialFlags) run.start.note_byte_read(number);
+  run.start.note_byte_set(number);
   run.parameters.byte(number) = static_cast<std::uint8_t>(byte);
   if (number == kSpecialFlags) run.state.nose_is_stale = true;
   return true;

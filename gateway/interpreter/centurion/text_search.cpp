@@ -1,6 +1,7 @@
 #include "gateway/interpreter/centurion/text_search.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "gateway/interpreter/centurion/keywords.hpp"
 #include "gateway/interpreter/centurion/number.hpp"
@@ -96,6 +97,36 @@ bool count_loops(const char* begin, int& depth) {
   return false;
 }
 
+namespace {
+
+constexpr std::uint32_t kComputed = ~0u;
+
+/// The label of the first GOTO in the block, kComputed where it is an expression.
+std::optional<std::uint32_t> goto_target(const char* begin) {
+  for (const char* at = begin; !is_end_of_block(*at);) {
+    if (*at == '(') {
+      at = skip_to(at, ')');
+    } else if (kind_of(*at) != CharKind::Letter) {
+      ++at;
+    } else if (upper(*at) == 'G' && take_word(at, "GOTO")) {
+      at = skip_blanks(at);
+      if (!is_digit(*at)) return kComputed;
+      const Number number = read_number(at);
+      const char* behind = skip_blanks(at);
+      const bool is_alone = is_end_of_block(*behind) || *behind == '(';
+      if (number.fault != NumberFault::None || !is_alone) return kComputed;
+      return static_cast<std::uint32_t>(number.value);
+    } else if (take_word(at, "PRINT") || take_word(at, "DPRNT")) {
+      at = skip_output_text(at);
+    } else {
+      ++at;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 TextSearch::Outcome TextSearch::load(const TextPosition& at) {
   switch (cursor_.load(at)) {
     case TextCursor::State::Ready:
@@ -174,6 +205,36 @@ TextSearch::Outcome TextSearch::find_program(std::uint32_t number, TextPosition&
       programs_.try_emplace(head.number, Place{cursor_.offset(), programs_next_.line});
     }
     cursor_.advance(programs_next_);
+  }
+  return Outcome::More;
+}
+
+TextSearch::Outcome TextSearch::find_way_back(const TextPosition& from, std::uint64_t& line) {
+  if (back_blocks_ == 0 || !same_place(back_from_, from)) {
+    back_from_ = back_next_ = from;
+    back_blocks_ = 1;
+    back_label_.reset();
+  }
+  for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
+    if (back_label_) {
+      TextPosition label;
+      const Outcome found = *back_label_ == kComputed ? Outcome::Found
+                                                      : find_label(from, *back_label_, label);
+      if (found != Outcome::Found && found != Outcome::Missing) return found;
+      back_label_.reset();
+      line = back_next_.line - 1;
+      if (found == Outcome::Found && label.offset <= from.offset) return Outcome::Found;
+    }
+    if (back_blocks_ > kBlocksLookedAt) return Outcome::Missing;
+    const Outcome loaded = load(back_next_);
+    if (loaded != Outcome::Found) return loaded;
+    const BlockHead block = read_head(cursor_.begin());
+    const bool is_next_program = block.kind == BlockHead::Kind::Program && back_next_.code_seen;
+    if (is_next_program && back_blocks_ > 1) return Outcome::Missing;
+    back_label_ = goto_target(cursor_.begin());
+    if (block.kind != BlockHead::Kind::Empty) back_next_.code_seen = true;
+    cursor_.advance(back_next_);
+    ++back_blocks_;
   }
   return Outcome::More;
 }

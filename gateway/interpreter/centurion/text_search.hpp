@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 #include "gateway/interpreter/centurion/modal_state.hpp"
@@ -42,6 +43,11 @@ class TextSearch {
   Outcome find_label(const TextPosition& from, std::uint32_t label, TextPosition& found);
   /// The program O `number` in the text that was started: a file may hold several (spec 20.2).
   Outcome find_program(std::uint32_t number, TextPosition& found);
+  /// The first block from `from` on that may jump back over it: a GOTO to a label of its program that
+  /// is at `from` or before it, or one whose label is computed. Missing: none in the next
+  /// kBlocksLookedAt blocks. `line`: of that block.
+  Outcome find_way_back(const TextPosition& from, std::uint64_t& line);
+  static constexpr std::uint64_t kBlocksLookedAt = 1u << 20;  ///< a loop that takes in more is none
   /// The end of the loop whose WHILE block is at `head`; `behind` is the place behind that block.
   Outcome find_wend(const TextPosition& head, const TextPosition& behind, LoopFrame& loop);
 
@@ -74,6 +80,9 @@ class TextSearch {
   bool programs_complete_ = false;
   std::array<LoopFrame, kKnownLoops> known_loops_{};
   std::size_t next_known_loop_ = 0;
+  TextPosition back_from_, back_next_;  ///< of the search that was interrupted
+  std::uint64_t back_blocks_ = 0;
+  std::optional<std::uint32_t> back_label_;  ///< of the GOTO met last, while it is looked for
   TextPosition loop_head_;  ///< of the search that was interrupted
   TextPosition loop_next_;
   int loop_depth_ = 0;
