@@ -36,15 +36,25 @@ void switch_coolant(Run& run, bool on) {
 }
 
 /// M94: whole turns are taken off what a rotary axis shows. The axis stands where it stood, so the
-/// datum moves by them.
-void reduce_rotary_axes(State& state) {
+/// datum moves by them. It is kept from run to run: before a start in the middle it has moved
+/// already when that part ran, and would move twice.
+bool reduce_rotary_axes(Run& run) {
+  State& state = run.state;
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     const auto i = static_cast<std::size_t>(axis);
     const double turns = std::trunc(state.nominal[i] / 360) * 360;
+    if (turns != 0 && state.start.is_searching) {
+      return run.fail(ErrorCode::ProgramStartUndefined,
+                      fmt::format("a start after M94 would lose the datum of {}, which it has moved "
+                                  "by {:+.0f} when it was executed: start before it",
+                                  letter(axis), turns));
+    }
     state.nominal[i] -= turns;
     state.transformation.datum[i] += turns;
   }
   state.transformation.update();
+  ++run.frame_changes;
+  return true;
 }
 
 /// Coded speeds: the next of the table.
@@ -118,9 +128,7 @@ bool begin_m(Run& run, int m) {
       switch_coolant(run, true);
       return true;
     case 94:
-      reduce_rotary_axes(run.state);
-      ++run.frame_changes;
-      return true;
+      return reduce_rotary_axes(run);
     case 89:
       if (!run.options.m89_modal) run.events().on_miscellaneous({run.origin, m});
       return true;

@@ -70,6 +70,13 @@ TEST(TncStart, BeginsTheContourWithItsTool) {
   EXPECT_EQ(tail(late), tail(whole));
 }
 
+// HD-192: the datum that M94 moves is kept from run to run, and would move once more.
+TEST(TncStart, IsRefusedAfterADatumThatM94HasMoved) {
+  EXPECT_THAT(refusal(from_block(3, {"L C+730 R0 F9999", "L C+740 M94", "L C+20"})),
+              HasSubstr("the datum of C, which it has moved by +720"));
+  EXPECT_EQ(from_block(3, {"L C+30 R0 F9999", "L C+40 M94", "L C+20"}, "start = { C = 40.0 }").alarm_id, "");
+}
+
 // HD-192: CC, the polar coordinates that refer to it, and the cycle defined last.
 TEST(TncStart, RebuildsThePoleAndTheCycle) {
   EXPECT_THAT(
