@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <cmath>
-#include <unordered_map>
 
 #include "protocol/dds/message.hpp"
 
@@ -23,35 +22,77 @@ ControlMemory::ControlMemory(report::Outbox& outbox) : outbox_(outbox) {
     cells_[name] = {kept, interpreter::Keeps::Always};
 }
 
-std::vector<interpreter::VariableRecord> ControlMemory::begin(
+bool ControlMemory::is_in_force(const std::string& name, const report::KeptCell& kept) const {
+  const auto place = places_.find(name);
+  return place != places_.end() && report::is_same_number(kept.base, base_[place->second]) &&
+         kept.is_named == named_.contains(name);
+}
+
+Result<std::vector<interpreter::VariableRecord>> ControlMemory::begin(
     std::vector<interpreter::MemoryCell> cells, std::vector<double> base,
     const interpreter::Setup& setup) {
+  if (!fault().empty()) {
+    return fail(Errc::Corrupt,
+                "{}: nothing begins with numbers that nobody knows. `dncgw panel ... "
+                "discard-memory` at the machine begins with what the setup gives, `dnc memory "
+                "restore` gives back what a run had left",
+                fault());
+  }
   known_ = std::move(cells);
   base_ = std::move(base);
   named_.clear();
   for (const auto& variable : setup.variables) named_[variable.name] = true;
-  std::unordered_map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < known_.size(); ++i) places[known_[i].name] = i;
+  places_.clear();
+  for (std::size_t i = 0; i < known_.size(); ++i) places_[known_[i].name] = i;
 
   std::vector<interpreter::VariableRecord> given;
   for (auto cell = cells_.begin(); cell != cells_.end();) {
     const auto& [name, now] = *cell;
-    const auto place = places.find(name);
-    const bool is_as_before = place != places.end() &&
-                              report::is_same_number(now.kept.base, base_[place->second]) &&
-                              now.kept.is_named == named_.contains(name);
-    if (is_as_before) {
+    if (is_in_force(name, now.kept)) {
       given.push_back({name, now.kept.value});
       ++cell;
       continue;
     }
+    const auto place = places_.find(name);
     spdlog::info("memory: {} is {} by the setup, not {} as it was kept", name,
-                 place == places.end() ? "gone" : number_text(base_[place->second]),
+                 place == places_.end() ? "gone" : number_text(base_[place->second]),
                  number_text(now.kept.value));
     cell = cells_.erase(cell);
     has_unstaged_ = has_changed_ = true;
   }
   return given;
+}
+
+Result<std::vector<interpreter::VariableRecord>> ControlMemory::at_beginning(
+    const std::string& revision) const {
+  const report::Outbox::Beginning& beginning = outbox_.beginning();
+  if (revision.empty() || beginning.revision != revision) {
+    return fail(Errc::NotFound,
+                "memory as it was when the program began: the last run that began at its first "
+                "block was {}",
+                beginning.revision.empty() ? "none of the server's programs"
+                                           : "of revision " + beginning.revision.substr(0, 12));
+  }
+  std::vector<interpreter::VariableRecord> given;
+  for (const auto& [name, kept] : beginning.cells) {
+    if (is_in_force(name, kept)) given.push_back({name, kept.value});
+  }
+  return given;
+}
+
+void ControlMemory::stage_beginning(const std::string& revision) {
+  report::Outbox::Beginning beginning{revision, {}};
+  for (const auto& [name, cell] : cells_) {
+    if (cell.keeps == interpreter::Keeps::Always) beginning.cells[name] = cell.kept;
+  }
+  if (outbox_.beginning() != beginning) outbox_.stage_beginning(std::move(beginning));
+}
+
+void ControlMemory::discard() {
+  cells_.clear();
+  outbox_.stage_no_memory();
+  has_unstaged_ = false;
+  has_changed_ = true;
 }
 
 void ControlMemory::note(std::size_t place, double value) {

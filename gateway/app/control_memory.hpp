@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "gateway/interpreter/retained_memory.hpp"
@@ -20,10 +21,19 @@ class ControlMemory {
   explicit ControlMemory(report::Outbox& outbox);
 
   /// A program begins under `setup`, which alone gives `cells` the numbers `base`. Returns what it
-  /// is to be given besides.
-  std::vector<interpreter::VariableRecord> begin(std::vector<interpreter::MemoryCell> cells,
-                                                 std::vector<double> base,
-                                                 const interpreter::Setup& setup);
+  /// is to be given besides. Errors: Corrupt (what was kept is damaged or lost).
+  Result<std::vector<interpreter::VariableRecord>> begin(
+      std::vector<interpreter::MemoryCell> cells, std::vector<double> base,
+      const interpreter::Setup& setup);
+  /// After `begin`: the same, as it was when the last run began at its first block. Errors: NotFound
+  /// (that was no run of `revision`).
+  Result<std::vector<interpreter::VariableRecord>> at_beginning(const std::string& revision) const;
+  /// After `begin`: stages what a start in the middle of this revision may ask for later.
+  void stage_beginning(const std::string& revision);
+  /// Stages that nothing is kept any more, and that this is well.
+  void discard();
+  /// Why nothing can begin; empty: it can.
+  const std::string& fault() const { return outbox_.memory_fault(); }
   /// The machine has executed a block that changed a cell (its place among those of `begin`).
   void note(std::size_t cell, double value);
 
@@ -41,9 +51,13 @@ class ControlMemory {
     report::KeptCell kept;
     interpreter::Keeps keeps = interpreter::Keeps::Always;
   };
+  /// Whether the setup, as it is now, leaves the cell as it was kept.
+  bool is_in_force(const std::string& name, const report::KeptCell& kept) const;
+
   report::Outbox& outbox_;
   std::map<std::string, Cell> cells_;
   std::vector<interpreter::MemoryCell> known_;  ///< of the program that runs, or the last one
+  std::unordered_map<std::string, std::size_t> places_;  ///< of their names
   std::vector<double> base_;
   std::map<std::string, bool> named_;  ///< variables of its setup
   bool has_unstaged_ = false, has_changed_ = false;

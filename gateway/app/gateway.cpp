@@ -48,6 +48,11 @@ Gateway::Gateway(Parts parts)
 }
 
 Result<void> Gateway::recover() {
+  if (!memory_.fault().empty()) {
+    last_message_ = valid_text(memory_.fault(), kMaxReason);
+    spdlog::error("{}: no program is begun until the memory is discarded at the panel {}",
+                  memory_.fault(), label());
+  }
   const auto& run = outbox_.active_run();
   if (!run) {
     parts_.journal.clear();
@@ -83,7 +88,8 @@ Result<void> Gateway::recover() {
   dds::Record kept = record;
   kept.kind = dds::RecordKind::Message;
   kept.device = ExecutionRecorder::kMemoryDevice;
-  const auto memory = outbox_.memory().empty() ? std::vector<std::string>() : memory_.report();
+  const bool is_told = !outbox_.memory().empty() && memory_.fault().empty();
+  const auto memory = is_told ? memory_.report() : std::vector<std::string>();
   for (const std::string& text : memory) {
     kept.text = text;
     outbox_.append(kept);

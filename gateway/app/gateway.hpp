@@ -13,6 +13,7 @@
 #include "gateway/app/options.hpp"
 #include "gateway/app/order_validity.hpp"
 #include "gateway/app/run_session.hpp"
+#include "gateway/app/start_argument.hpp"
 #include "gateway/feed/control_line.hpp"
 #include "gateway/feed/line_feed.hpp"
 #include "gateway/report/record_sender.hpp"
@@ -77,7 +78,7 @@ class Gateway {
   struct StartedBy {
     std::string order;  ///< what is answered; empty: nobody
     std::string setup;  ///< what the server knows of tools, offsets and variables, TOML
-    std::string from;   ///< where it begins ("N120"); empty: at the beginning
+    StartArgument from = {};  ///< where it begins; without a place at the beginning
   };
   Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                          const StartedBy& started_by);
@@ -105,6 +106,7 @@ class Gateway {
   Reply set_remote_enable(bool is_enabled);
   Reply set_emergency_stop_at_panel(bool is_pressed);
   Reply cycle_start();
+  Reply discard_memory();
   std::string panel_status() const;
   bool wait_for_cycle_start(SteadyTime now);
   dds::RemoteEnable remote_enable() const;

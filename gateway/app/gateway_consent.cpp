@@ -53,6 +53,13 @@ void Gateway::on_panel(const PanelRequest& request) {
   request.answer(std::move(answer));
 }
 
+Gateway::Reply Gateway::discard_memory() {
+  if (session_) return refuse(fmt::format("run {} is active", session_->run().run));
+  memory_.discard();
+  last_message_.clear();
+  return {};
+}
+
 Gateway::Reply Gateway::carry_out_at_panel(const PanelCommand& command) {
   using Verb = PanelCommand::Verb;
   switch (command.verb) {
@@ -69,6 +76,8 @@ Gateway::Reply Gateway::carry_out_at_panel(const PanelCommand& command) {
       return set_override(order_of(OrderAction::RapidOverride, command));
     case Verb::SpindleOverride:
       return set_override(order_of(OrderAction::SpindleOverride, command));
+    case Verb::DiscardMemory:
+      return discard_memory();
     default:
       break;
   }

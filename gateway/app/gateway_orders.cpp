@@ -135,13 +135,15 @@ std::optional<Gateway::Reply> Gateway::refusal_of_start(const dds::Order& order)
 
 Gateway::Reply Gateway::start(const dds::Order& order) {
   if (auto refusal = refusal_of_start(order)) return *refusal;
+  auto from = parse_start_argument(order.argument);
+  if (!from) return refuse(from.error().what);
   auto feed = std::make_unique<feed::PullFeed>(
       feed::FeedRun{parts_.options.machine, parts_.session, order.run, order.size},
       feed::PullFeedOptions{}, [this](const dds::BlockRequest& request) {
         return parts_.endpoint.write(request).has_value();
       });
   const auto done = begin_run({order.run, order.program, order.revision, order.control, order.size},
-                              std::move(feed), {order.id, order.setup, order.argument});
+                              std::move(feed), {order.id, order.setup, *std::move(from)});
   return done ? Reply{} : refuse(done.error().what);
 }
 
@@ -163,9 +165,15 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   if (!known) return fail(known.error().code, "the server's setup: {}", known.error().what);
   interpreter::Setup setup = *std::move(known);
   setup.switches.block_skip = machine_.panel().block_skip;
-  const bool is_taken_up = !started_by.from.empty();
+  const StartArgument& from = started_by.from;
+  const bool is_taken_up = !from.place.empty();
   if (is_taken_up) {
-    setup.control.set("start_at", {started_by.from, 0});
+    setup.control.set("start_at", {from.place, 0});
+    if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
+    if (from.memory != StartMemory::Ask) {
+      const bool is_former = from.memory == StartMemory::Begin;
+      setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
+    }
     setup.stands = machine_.status().position;
   }
   auto session = RunSession::make({.run = run,
@@ -173,12 +181,18 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
                                    .machine = machine_,
                                    .recorder = recorder_,
                                    .clock = parts_.clock,
-                                   .memory = memory_},
+                                   .memory = memory_,
+                                   .begins_with_former_memory = from.memory == StartMemory::Begin},
                                   parts_.dialect, setup);
-  if (!session) return fail(session.error().code, "setup: {}", session.error().what);
+  if (!session) {
+    const bool is_memory =
+        session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
+    return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
+  }
 
   outbox_.discard();
   memory_.stage();
+  if (!is_taken_up) memory_.stage_beginning(run.revision);
   recorder_.begin(run, [raw = session->get()] {
     return ExecutionRecorder::Supply{raw->feed().sent(), raw->accepted()};
   });

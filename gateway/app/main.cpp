@@ -113,6 +113,20 @@ Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& optio
                                    .wake = [&inbox] { inbox.post(LineChanged{}); }});
 }
 
+/// A folder that has a journal had an outbox too, and in it what the control has kept.
+Result<report::Outbox> open_outbox(const StateFolder& folder) {
+  std::error_code error;
+  const bool is_lost = !std::filesystem::exists(folder.outbox(), error) &&
+                       std::filesystem::exists(folder.journal(), error);
+  auto outbox = report::Outbox::open(folder.outbox());
+  if (!outbox || !is_lost) return outbox;
+  spdlog::error("{} is gone, and with it what was not delivered yet", folder.outbox().string());
+  outbox->stage_memory_fault("what the control has kept is lost with the file " +
+                             folder.outbox().filename().string());
+  if (const auto done = outbox->commit(); !done) return fail(done.error());
+  return outbox;
+}
+
 Result<void> run(const GatewayOptions& options) {
   if (auto files = process::require_open_files(process::kGatewayFiles); !files) return files;
   const auto dialect = interpreter::find_dialect(options.control);
@@ -122,7 +136,7 @@ Result<void> run(const GatewayOptions& options) {
   if (auto fits = check_line(options, *setup); !fits) return fits;
   auto folder = StateFolder::open(options.state);
   if (!folder) return fail(folder.error());
-  auto outbox = report::Outbox::open(folder->outbox());
+  auto outbox = open_outbox(*folder);
   if (!outbox) return fail(outbox.error());
   auto journal = report::RunJournal::open(folder->journal());
   if (!journal) return fail(journal.error());

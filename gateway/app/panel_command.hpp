@@ -24,7 +24,8 @@ struct PanelCommand {
     FeedOverride,   ///< value: a factor, as the two after it
     RapidOverride,
     SpindleOverride,
-    Handwheel,  ///< value: clicks
+    Handwheel,      ///< value: clicks
+    DiscardMemory,  ///< the next program begins with what the setup gives
   };
   Verb verb = Verb::Status;
   std::string text;

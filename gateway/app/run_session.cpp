@@ -35,22 +35,42 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   };
   auto made = make(given);
   if (!made) return fail(made.error());
-  if (auto* alone = dynamic_cast<interpreter::RetainedMemory*>(made->get())) {
-    // What the setup alone gives decides which of what was kept is given besides.
-    (void)alone->read_memory(session->known_);
-    const auto kept =
-        session->parts_.memory.begin(alone->memory_cells(), session->known_, given);
-    given.variables.insert(given.variables.end(), kept.begin(), kept.end());
-    if (!kept.empty()) made = make(given);
-    if (!made) return fail(made.error());
-    session->retained_ = dynamic_cast<interpreter::RetainedMemory*>(made->get());
-    session->known_.clear();
-    (void)session->retained_->read_memory(session->known_);
-    session->cells_ = session->known_;
-  }
   session->interpreter_ = std::move(*made);
+  if (auto done = session->give_memory(make, given); !done) return fail(done.error());
   session->note_modes();
   return session;
+}
+
+/// What the setup alone gives decides which of what was kept is given besides.
+Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup& setup) {
+  retained_ = dynamic_cast<interpreter::RetainedMemory*>(interpreter_.get());
+  if (retained_ == nullptr) return {};
+  const auto make_with =
+      [&](const std::vector<interpreter::VariableRecord>& kept) -> Result<void> {
+    interpreter::Setup given = setup;
+    given.variables.insert(given.variables.end(), kept.begin(), kept.end());
+    auto made = make(given);
+    if (!made) return fail(made.error());
+    interpreter_ = std::move(*made);
+    retained_ = dynamic_cast<interpreter::RetainedMemory*>(interpreter_.get());
+    cells_.clear();
+    (void)retained_->read_memory(cells_);
+    return {};
+  };
+  ControlMemory& memory = parts_.memory;
+  (void)retained_->read_memory(cells_);
+  const auto kept = memory.begin(retained_->memory_cells(), cells_, setup);
+  if (!kept) return fail(kept.error());
+  if (!kept->empty()) {
+    if (auto done = make_with(*kept); !done) return done;
+  }
+  known_ = cells_;
+  if (!parts_.begins_with_former_memory) return {};
+  const auto former = memory.at_beginning(parts_.run.revision);
+  if (!former) return fail(former.error());
+  if (auto done = make_with(*former); !done) return done;
+  note_changes(1);
+  return {};
 }
 
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
@@ -112,11 +132,16 @@ bool is_unchanged(double before, double now) {
 }  // namespace
 
 void RunSession::note_memory() {
-  if (retained_ == nullptr || !retained_->read_memory(cells_)) return;
+  if (retained_ != nullptr && retained_->read_memory(cells_))
+    note_changes(interpreter_->origin().block);
+}
+
+/// They count when `block` has been executed.
+void RunSession::note_changes(std::uint64_t block) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (is_unchanged(known_[i], cells_[i])) continue;
     known_[i] = cells_[i];
-    changes_.push_back({interpreter_->origin().block, i, cells_[i]});
+    changes_.push_back({block, i, cells_[i]});
   }
 }
 

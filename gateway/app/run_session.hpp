@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ class RunSession {
     ExecutionRecorder& recorder;
     const Clock& clock;
     ControlMemory& memory;
+    /// The control's memory is given as it was when the run's revision began; what differs from now
+    /// counts when the first block is executed.
+    bool begins_with_former_memory = false;
   };
   /// Errors: those of Dialect::make. Nothing has happened to the machine then.
   static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
@@ -58,6 +62,9 @@ class RunSession {
 
  private:
   RunSession(Parts parts, const interpreter::Setup& setup);
+  using Make =
+      std::function<Result<std::unique_ptr<interpreter::Interpreter>>(const interpreter::Setup&)>;
+  Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
   /// True: the interpreter can go on.
   bool settle_question();
   bool settle(const interpreter::ProbeQuestion& question);
@@ -68,6 +75,7 @@ class RunSession {
   bool machine_rests() const;
   void note_modes();
   void note_memory();
+  void note_changes(std::uint64_t block);
   void forget_modes();
 
   Parts parts_;

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "gateway/report/outbox_schema.hpp"
+#include "protocol/base/digest.hpp"
 #include "protocol/base/random.hpp"
 #include "storage/sqlite/transaction.hpp"
 
@@ -102,30 +104,117 @@ Result<void> Outbox::load_run() {
   return load_memory();
 }
 
-Result<void> Outbox::load_memory() {
-  auto query = database_.prepare("SELECT name, value, base, is_named FROM memory");
+namespace {
+
+Result<KeptCells> read_cells(sqlite::Database& database, const std::string& table) {
+  auto query = database.prepare("SELECT name, value, base, is_named FROM " + table);
   if (!query) return fail(query.error());
+  KeptCells cells;
   for (;;) {
     const auto row = query->step();
     if (!row) return fail(row.error());
-    if (!*row) return {};
-    memory_[query->text(0)] = {number_or_vacant(*query, 1), number_or_vacant(*query, 2),
-                               query->integer(3) != 0};
+    if (!*row) return cells;
+    cells[query->text(0)] = {number_or_vacant(*query, 1), number_or_vacant(*query, 2),
+                             query->integer(3) != 0};
   }
 }
 
+Result<void> insert_cell(sqlite::Statement& insert, const std::string& name, const KeptCell& cell) {
+  return insert.bind(name, stored(cell.value), stored(cell.base), cell.is_named ? 1 : 0).run();
+}
+
+/// Of everything that is kept, so that a row which was changed behind our back is noticed.
+std::string digest_of(const KeptCells& memory, const Outbox::Beginning& beginning,
+                      const std::string& fault) {
+  Sha256 hash;
+  const auto add = [&hash](const std::string& text) { hash.update(std::as_bytes(std::span(text))); };
+  const auto add_cells = [&add](char table, const KeptCells& cells) {
+    for (const auto& [name, cell] : cells) {
+      add(fmt::format("{} {} {} {} {}\n", table, name, stored(cell.value).value_or("vacant"),
+                      stored(cell.base).value_or("vacant"), cell.is_named ? 1 : 0));
+    }
+  };
+  add_cells('m', memory);
+  add_cells('b', beginning.cells);
+  add(beginning.revision + "\n" + fault);
+  return hash.digest().hex();
+}
+
+}  // namespace
+
+Result<void> Outbox::load_memory() {
+  auto cells = read_cells(database_, "memory");
+  if (!cells) return fail(cells.error());
+  memory_ = *std::move(cells);
+  cells = read_cells(database_, "memory_beginning");
+  if (!cells) return fail(cells.error());
+  beginning_.cells = *std::move(cells);
+  return load_memory_state();
+}
+
+Result<void> Outbox::load_memory_state() {
+  auto query = database_.prepare("SELECT revision, digest, fault FROM memory_state");
+  if (!query) return fail(query.error());
+  const auto row = query->step();
+  if (!row) return fail(row.error());
+  if (!*row) {
+    memory_fault_ = "the row that seals what the control has kept is gone";
+    return {};
+  }
+  beginning_.revision = query->text(0);
+  const std::string digest = query->text(1);
+  memory_fault_ = query->text(2);
+  if (digest.empty() || digest == digest_of(memory_, beginning_, memory_fault_)) return {};
+  memory_fault_ = "what the control has kept is not as it was written";
+  return {};
+}
+
+void Outbox::stage_no_memory() {
+  for (const auto& [name, cell] : memory_) staged_cells_[name] = std::nullopt;
+  staged_beginning_ = Beginning{};
+  staged_fault_ = "";
+}
+
 Result<void> Outbox::write_cells() {
-  if (staged_cells_.empty()) return {};
   auto replace = database_.prepare("INSERT OR REPLACE INTO memory VALUES (?1, ?2, ?3, ?4)");
   if (!replace) return fail(replace.error());
   auto drop = database_.prepare("DELETE FROM memory WHERE name = ?1");
   if (!drop) return fail(drop.error());
   for (const auto& [name, cell] : staged_cells_) {
-    if (cell) replace->bind(name, stored(cell->value), stored(cell->base), cell->is_named ? 1 : 0);
-    const auto done = cell ? replace->run() : drop->bind(name).run();
+    const auto done = cell ? insert_cell(*replace, name, *cell) : drop->bind(name).run();
     if (!done) return done;
   }
   return {};
+}
+
+Result<void> Outbox::write_beginning() {
+  if (!staged_beginning_) return {};
+  if (auto done = database_.execute("DELETE FROM memory_beginning"); !done) return done;
+  auto insert = database_.prepare("INSERT INTO memory_beginning VALUES (?1, ?2, ?3, ?4)");
+  if (!insert) return fail(insert.error());
+  for (const auto& [name, cell] : staged_beginning_->cells) {
+    if (const auto done = insert_cell(*insert, name, cell); !done) return done;
+  }
+  return {};
+}
+
+Result<void> Outbox::write_memory() {
+  if (staged_cells_.empty() && !staged_beginning_ && !staged_fault_) return {};
+  if (const auto done = write_cells(); !done) return done;
+  if (const auto done = write_beginning(); !done) return done;
+  KeptCells memory = memory_;
+  for (const auto& [name, cell] : staged_cells_) {
+    if (cell) {
+      memory[name] = *cell;
+    } else {
+      memory.erase(name);
+    }
+  }
+  const Beginning& beginning = staged_beginning_ ? *staged_beginning_ : beginning_;
+  const std::string& fault = staged_fault_ ? *staged_fault_ : memory_fault_;
+  auto replace = database_.prepare("INSERT OR REPLACE INTO memory_state VALUES (1, ?1, ?2, ?3)");
+  if (!replace) return fail(replace.error());
+  return replace->bind(beginning.revision, digest_of(memory, beginning, fault), fault).run();
 }
 
 void Outbox::append(dds::Record record) {
@@ -153,11 +242,14 @@ void Outbox::discard() {
   staged_.clear();
   staged_results_.clear();
   staged_cells_.clear();
+  staged_beginning_.reset();
+  staged_fault_.reset();
 }
 
 Result<void> Outbox::commit() {
   const bool has_change = !staged_.empty() || !staged_results_.empty() ||
-                          !staged_cells_.empty() || run_change_ != RunChange::None;
+                          !staged_cells_.empty() || staged_beginning_ || staged_fault_ ||
+                          run_change_ != RunChange::None;
   if (!has_change) return {};
   auto transaction = sqlite::Transaction::begin(database_);
   if (!transaction) return fail(transaction.error());
@@ -179,6 +271,8 @@ Result<void> Outbox::commit() {
       memory_.erase(name);
     }
   }
+  if (staged_beginning_) beginning_ = *std::exchange(staged_beginning_, std::nullopt);
+  if (staged_fault_) memory_fault_ = *std::exchange(staged_fault_, std::nullopt);
   return {};
 }
 
@@ -186,7 +280,7 @@ Result<void> Outbox::write_all() {
   if (const auto done = write_records(); !done) return done;
   if (const auto done = write_run(); !done) return done;
   if (const auto done = write_order_results(); !done) return done;
-  if (const auto done = write_cells(); !done) return done;
+  if (const auto done = write_memory(); !done) return done;
   return delete_acknowledged();
 }
 

@@ -21,6 +21,7 @@ struct KeptCell {
   bool is_named = false;  ///< the setup gave it as a variable
   friend bool operator==(const KeptCell& a, const KeptCell& b);
 };
+using KeptCells = std::map<std::string, KeptCell>;
 /// Two vacant ones are the same.
 bool is_same_number(double a, double b);
 
@@ -59,7 +60,23 @@ class Outbox {
     staged_cells_[name] = cell;
   }
   /// As it was at the last commit.
-  const std::map<std::string, KeptCell>& memory() const { return memory_; }
+  const KeptCells& memory() const { return memory_; }
+
+  /// The memory when a run of the revision began at its first block; the last one that did.
+  struct Beginning {
+    std::string revision;  ///< SHA-256; empty: none, or not known
+    KeptCells cells;
+    friend bool operator==(const Beginning&, const Beginning&) = default;
+  };
+  void stage_beginning(Beginning beginning) { staged_beginning_ = std::move(beginning); }
+  const Beginning& beginning() const { return beginning_; }
+
+  /// Why the memory can not be used: its rows are not as they were written, or it is lost with a
+  /// former file. Empty: it is sound. Stays until the memory is discarded.
+  const std::string& memory_fault() const { return memory_fault_; }
+  /// Stages a fault, or the end of one with nothing kept.
+  void stage_memory_fault(const std::string& fault) { staged_fault_ = fault; }
+  void stage_no_memory();
 
   /// Forgets what was staged since the last commit.
   void discard();
@@ -103,7 +120,10 @@ class Outbox {
   Result<void> write_run();
   Result<void> write_order_results();
   Result<void> write_cells();
+  Result<void> write_beginning();
+  Result<void> write_memory();
   Result<void> load_memory();
+  Result<void> load_memory_state();
   Result<void> delete_acknowledged();
 
   struct StagedResult {
@@ -120,8 +140,12 @@ class Outbox {
 
   std::vector<dds::Record> staged_;
   std::vector<StagedResult> staged_results_;
-  std::map<std::string, KeptCell> memory_;
+  KeptCells memory_;
+  Beginning beginning_;
+  std::string memory_fault_;
   std::map<std::string, std::optional<KeptCell>> staged_cells_;
+  std::optional<Beginning> staged_beginning_;
+  std::optional<std::string> staged_fault_;
   RunChange run_change_ = RunChange::None;
   ActiveRun staged_run_;
   Progress progress_;

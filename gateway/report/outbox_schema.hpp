@@ -52,6 +52,23 @@ CREATE TABLE memory (
   base     TEXT,              -- what the setup gave it when the value came to be; NULL: vacant
   is_named INTEGER NOT NULL   -- 1: it gave it as a variable
 ) STRICT;
+)sql"},
+                                        storage::sqlite::Migration{3, "memory_seal", R"sql(
+-- The same as it was when the last run began at its program's first block: what a start in the
+-- middle of that program rests on.
+CREATE TABLE memory_beginning (
+  name     TEXT PRIMARY KEY,
+  value    TEXT,
+  base     TEXT,
+  is_named INTEGER NOT NULL
+) STRICT;
+CREATE TABLE memory_state (
+  only_row INTEGER PRIMARY KEY CHECK (only_row = 1),
+  revision TEXT NOT NULL, -- SHA-256 of the program of memory_beginning; empty: none
+  digest   TEXT NOT NULL, -- SHA-256 of both tables and this row; empty: written by a version before 3
+  fault    TEXT NOT NULL  -- why the memory is not to be used; empty: it is sound
+) STRICT;
+INSERT INTO memory_state VALUES (1, '', '', '');
 )sql"}};
 
 }  // namespace dripline::report

@@ -7,6 +7,7 @@
 #include "gateway/interpreter/fanuc/dialect.hpp"
 #include "gateway/interpreter/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/tnc155/dialect.hpp"
+#include "storage/sqlite/database.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// What a control keeps from one program to the next. Rows: CEN-074, CEN-171, NGC-016.
@@ -160,6 +161,154 @@ TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
   EXPECT_EQ(cleared[0].find('7'), std::string::npos) << cleared[0];
 }
 
+/// A start in the middle looks through what comes before it; what that part counts has been counted.
+class CenturionStart : public testing::Test {
+ protected:
+  static constexpr const char* kCount =
+      "O0001\nG98 F900\nP10=P10+1\nG0 X1 Z1\nN30 G1 X2\nP11=P11+1\nN40 G1 X3\nM30\n";
+
+  CenturionStart() { shop.push("O1", kCount); }
+  dds::RunEndText run_from(const std::string& place) {
+    dds::Order order = shop.start_order("O1");
+    order.argument = place;
+    const auto result = shop.send(order);
+    EXPECT_TRUE(result.accepted) << result.reason;
+    // The approach stops for the operator.
+    EXPECT_TRUE(shop.run_until([&] {
+      return shop.status && (shop.status->run.empty() ||
+                             shop.status->execution == dds::Execution::ProgramStopped);
+    }));
+    if (!shop.status->run.empty()) (void)shop.send(shop.order(dds::OrderAction::Resume));
+    return shop.ended();
+  }
+  std::string kept() {
+    return shop.printed("O0002\nPOPEN P0\nDPRNT[#10[20] #11[20]]\nPCLOS\nM30\n").at(0);
+  }
+  void run_whole() {
+    ASSERT_TRUE(shop.start("O1").accepted);
+    ASSERT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  }
+  MemoryShop shop{interpreter::kCenturionDialect};
+};
+
+TEST_F(CenturionStart, IsRefusedWhereWhatWasCountedWouldCountTwice) {
+  run_whole();
+  const auto end = run_from("N30");
+  EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
+  EXPECT_NE(end.reason.find("CEN1013"), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("P10"), std::string::npos) << end.reason;
+  EXPECT_EQ(kept(), "01 01");
+}
+
+TEST_F(CenturionStart, CountsOnceMoreWhenThatIsMeant) {
+  run_whole();
+  EXPECT_EQ(run_from("N30 memory=now").outcome, RunOutcome::Completed);
+  EXPECT_EQ(kept(), "02 02");
+}
+
+TEST_F(CenturionStart, GoesThroughTheProgramWithTheMemoryOfItsBegin) {
+  run_whole();
+  EXPECT_EQ(run_from("N40 memory=begin").outcome, RunOutcome::Completed);
+  EXPECT_EQ(kept(), "01 01");
+}
+
+TEST_F(CenturionStart, KnowsTheMemoryOfTheBeginAfterARestart) {
+  run_whole();
+  shop.restart_gateway();
+  EXPECT_EQ(run_from("N40 memory=begin").outcome, RunOutcome::Completed);
+  EXPECT_EQ(kept(), "01 01");
+}
+
+TEST_F(CenturionStart, KnowsNoMemoryOfTheBeginOfAnotherProgram) {
+  run_whole();
+  EXPECT_EQ(kept(), "01 01");  // another program has begun since
+  dds::Order order = shop.start_order("O1");
+  order.argument = "N40 memory=begin";
+  const auto result = shop.send(order);
+  EXPECT_FALSE(result.accepted);
+  EXPECT_NE(result.reason.find("last run that began at its first block"), std::string::npos)
+      << result.reason;
+}
+
+/// What an aborted start would have changed is as it was.
+TEST_F(CenturionStart, ChangesNothingBeforeItsFirstBlockIsExecuted) {
+  run_whole();
+  for (const char* place : {"N40 memory=begin", "N40 memory=now"}) {
+    dds::Order order = shop.start_order("O1");
+    order.argument = place;
+    ASSERT_TRUE(shop.send(order).accepted);
+    ASSERT_TRUE(shop.run_until([&] {
+      return shop.status && shop.status->execution == dds::Execution::ProgramStopped;
+    }));
+    ASSERT_TRUE(shop.send(shop.order(dds::OrderAction::Abort)).accepted);
+    EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+    run_whole();  // the begin of the next start
+  }
+  EXPECT_EQ(kept(), "03 03");
+}
+
+TEST_F(CenturionStart, TakesNothingThatItDoesNotKnow) {
+  dds::Order order = shop.start_order("O1");
+  order.argument = "N30 speed=9";
+  EXPECT_FALSE(shop.send(order).accepted);
+}
+
+/// A row that was changed behind the gateway's back, and a file that is gone.
+class DamagedMemory : public testing::Test {
+ protected:
+  void SetUp() override { shop.run(kChange); }
+  void expect_refused(const std::string& why) {
+    shop.push("O9", kPrint);
+    const auto result = shop.start("O9");
+    EXPECT_FALSE(result.accepted);
+    EXPECT_NE(result.reason.find(why), std::string::npos) << result.reason;
+    ASSERT_TRUE(shop.run_until([&] { return shop.status.has_value(); }));
+    EXPECT_NE(shop.status->message.find(why), std::string::npos) << shop.status->message;
+  }
+  void change(const std::string& sql) {
+    shop.gateway.reset();
+    auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite");
+    ASSERT_TRUE(database) << database.error().what;
+    const auto done = database->execute(sql);
+    ASSERT_TRUE(done) << done.error().what;
+  }
+  MemoryShop shop{interpreter::kCenturionDialect};
+};
+
+TEST_F(DamagedMemory, BeginsNothingUntilItIsDiscarded) {
+  change("UPDATE memory SET value = '1.35' WHERE name = 'P500'");
+  shop.restart_gateway();
+  expect_refused("not as it was written");
+  shop.restart_gateway();
+  expect_refused("not as it was written");
+  EXPECT_EQ(shop.panel("discard-memory"), "ok");
+  const Lines after = shop.printed(kPrint);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(after[0].find("1.35"), std::string::npos) << after[0];
+  EXPECT_EQ(after[0].find("7.5"), std::string::npos) << after[0];
+}
+
+TEST_F(DamagedMemory, WithARowLessIsNoticed) {
+  change("DELETE FROM memory WHERE name = 'P10'");
+  shop.restart_gateway();
+  expect_refused("not as it was written");
+}
+
+TEST_F(DamagedMemory, OfARunsBeginIsNoticed) {
+  shop.run("O0003\nM30\n");  // begins with what the first one left
+  change("UPDATE memory_beginning SET value = '9' WHERE name = 'P10'");
+  shop.restart_gateway();
+  expect_refused("not as it was written");
+}
+
+TEST_F(DamagedMemory, IsNotDiscardedUnderARun) {
+  shop.push("O1", kSlow);
+  MemoryShop slow(interpreter::kCenturionDialect, "", "1x");
+  slow.push("O1", kSlow);
+  ASSERT_TRUE(slow.start("O1").accepted);
+  EXPECT_TRUE(slow.panel("discard-memory").starts_with("refused run"));
+}
+
 TEST(FanucMemory, KeepsVariablesFrom500AndOffsets) {
   MemoryShop shop(interpreter::kFanucDialect);
   shop.run("O0001\n#500=7.5\n#100=9\n#1=8\nG10 L2 P1 X1.5\nG10 L10 P3 R2.5\n#3901=4\nM30\n");
@@ -207,6 +356,18 @@ TEST(TncMemory, BeginsEveryProgramWithoutQParameters) {
   MemoryShop shop(interpreter::kTnc155Dialect);
   shop.run("0 BEGIN PGM 1 MM\n1 FN 0: Q1 = +7,5\n2 L C+730 R0 F9999 M94\n3 END PGM 1 MM\n");
   EXPECT_EQ(shop.reported().find("Q1"), std::string::npos) << shop.reported();
+}
+
+/// M94 moves the datum of the rotary axis by whole turns: what is C+730 when its block begins is
+/// C+10 then.
+TEST(TncMemory, KeepsTheDatumThatM94Moves) {
+  MemoryShop shop(interpreter::kTnc155Dialect);
+  const std::string turn = "0 BEGIN PGM 1 MM\n1 L C+730 R0 F9999\n2 L C+20 R0 F9999 M94\n3 END PGM 1 MM\n";
+  shop.run(turn);
+  EXPECT_NE(shop.reported().find(R"("datum.C":[720,0])"), std::string::npos) << shop.reported();
+  shop.restart_gateway();
+  shop.run(turn);  // from the datum that is kept
+  EXPECT_NE(shop.reported().find(R"("datum.C":[1440,0])"), std::string::npos) << shop.reported();
 }
 
 }  // namespace
