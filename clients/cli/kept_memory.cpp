@@ -2,58 +2,14 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
-#include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "clients/cli/setup_edit.hpp"
 
 namespace dripline::cli {
-namespace {
-
-using Json = nlohmann::json;
-
-constexpr std::size_t kMaxText = 4096;  ///< of a record
-
-/// A number or null.
-bool read_number(const Json& json, std::optional<double>& number) {
-  if (json.is_null()) return true;
-  if (!json.is_number()) return false;
-  number = json.get<double>();
-  return std::isfinite(*number);
-}
-
-/// A name as controls have them: P10, #500, G54.1P7.X
-bool is_cell_name(std::string_view name) {
-  if (name.empty() || name.size() > 64) return false;
-  return name.find_first_not_of(
-             "#.0123456789_ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz") ==
-         std::string_view::npos;
-}
-
-}  // namespace
-
-Result<void> add_memory_text(std::string_view text, KeptMemory& memory) {
-  if (text.size() > kMaxText)
-    return fail(Errc::LimitExceeded, "a memory text of {} bytes, at most {}", text.size(),
-                kMaxText);
-  // Ours nests three deep; brackets within names do not occur.
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '[' || c == '{') ++depth;
-    if (depth > 8) return fail(Errc::Syntax, "a memory text is nested too deeply");
-    if (c == ']' || c == '}') --depth;
-  }
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("cells") || !json["cells"].is_object())
-    return fail(Errc::Syntax, "a memory text without cells");
-  for (const auto& [name, pair] : json["cells"].items()) {
-    KeptCell cell;
-    const bool is_good = is_cell_name(name) && pair.is_array() && pair.size() == 2 &&
-                         read_number(pair[0], cell.value) && read_number(pair[1], cell.base);
-    if (!is_good) return fail(Errc::Syntax, "a memory text with a cell that is none");
-    memory[name] = cell;
-  }
-  return {};
+KeptMemory cells_of(const client::Memory& memory) {
+  KeptMemory cells;
+  for (const auto& cell : memory.cells) cells[cell.name] = {cell.value, cell.setup};
+  return cells;
 }
 
 KeptMemory filtered(const KeptMemory& memory, std::string_view filter) {

@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/lib/api_types.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::cli {
 
 /// What a machine's control keeps when a program is over, as its gateway reports it at the end of
-/// a run: records of kind message from the device "memory".
+/// a run.
 struct KeptCell {
   std::optional<double> value;  ///< none: vacant
   std::optional<double> base;   ///< what the setup gave it
@@ -19,10 +20,7 @@ struct KeptCell {
 };
 using KeptMemory = std::map<std::string, KeptCell>;
 
-inline constexpr std::string_view kMemoryDevice = "memory";
-
-/// Adds one record's text. Errors: Syntax, LimitExceeded (no record is so long).
-Result<void> add_memory_text(std::string_view text, KeptMemory& memory);
+KeptMemory cells_of(const client::Memory& memory);
 
 /// `name` matches when it holds `filter`, or all of it when that is empty.
 KeptMemory filtered(const KeptMemory& memory, std::string_view filter);

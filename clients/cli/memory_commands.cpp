@@ -13,68 +13,93 @@
 namespace dripline::cli {
 namespace {
 
-/// Runs looked at for one that told what the control keeps.
+/// Reports of a machine that are looked at.
 constexpr std::uint64_t kMaxRuns = 200;
 
 struct MemoryCommand {
   std::string machine, run = {}, filter = {}, comment = {};
 };
 
-/// Of one run; none: it changed nothing that its control keeps.
-client::Reply<std::optional<KeptMemory>> memory_of(client::Client& client, const std::string& run) {
-  auto records =
-      fetch_all(0, [&](client::Page page) { return client.records(run, "message", page); });
-  if (!records) return client::failed(records.error());
-  std::optional<KeptMemory> memory;
-  for (const auto& record : *records) {
-    if (record.device != kMemoryDevice) continue;
-    if (!memory) memory.emplace();
-    if (auto added = add_memory_text(record.text, *memory); !added)
-      return client::failed(client::Failure::Kind::Refused, added.error().code, "run {}: {}", run,
-                            added.error().what);
-  }
-  return memory;
-}
-
 struct Found {
-  client::Run run;
+  client::Memory told;
   KeptMemory memory;
 };
 
-/// The newest runs of the machine that told of its memory, at most `limit`.
+Found found_in(client::Memory told) {
+  KeptMemory cells = cells_of(told);
+  return {std::move(told), std::move(cells)};
+}
+
+/// The newest that the machine told, at most `limit`.
 client::Reply<std::vector<Found>> memories(client::Client& client, const std::string& machine,
-                                           std::size_t limit) {
-  auto runs = fetch_all(kMaxRuns, [&](client::Page page) {
-    return client.runs({machine, "", "", page});
+                                           std::uint64_t limit) {
+  auto told = fetch_all(limit, [&](client::Page page) {
+    return client.memories(machine, "", page);
   });
-  if (!runs) return client::failed(runs.error());
+  if (!told) return client::failed(told.error());
   std::vector<Found> found;
-  for (auto& run : *runs) {
-    if (found.size() >= limit) break;
-    auto memory = memory_of(client, run.id);
-    if (!memory) return client::failed(memory.error());
-    if (*memory) found.push_back({std::move(run), **std::move(memory)});
-  }
+  for (auto& memory : *told) found.push_back(found_in(std::move(memory)));
   return found;
+}
+
+/// Runs that were begun at the machine are not among the server's: they are known by what they
+/// told.
+client::Reply<Found> of_own_run(client::Client& client, const MemoryCommand& command) {
+  auto all = memories(client, command.machine, kMaxRuns);
+  if (!all) return client::failed(all.error());
+  Found* found = nullptr;
+  for (auto& memory : *all) {
+    if (!memory.told.run.starts_with(command.run)) continue;
+    if (found != nullptr)
+      return client::failed(client::Failure::Kind::Refused, Errc::ModalConflict,
+                            "run '{}' fits {} and {}; expected more of the id", command.run,
+                            found->told.run, memory.told.run);
+    found = &memory;
+  }
+  if (found != nullptr) return std::move(*found);
+  return client::failed(client::Failure::Kind::Refused, Errc::NotFound,
+                        "no run's id begins with '{}'; expected one of dnc memory list {}, of dnc "
+                        "run list, or latest",
+                        command.run, command.machine);
 }
 
 /// Of the run that the command names, or the machine's newest.
 client::Reply<Found> wanted(client::Client& client, const MemoryCommand& command) {
   if (!command.run.empty()) {
     auto run = find_run(client, command.run);
+    if (!run && run.error().code == Errc::NotFound) return of_own_run(client, command);
     if (!run) return client::failed(run.error());
-    auto memory = memory_of(client, run->id);
-    if (!memory) return client::failed(memory.error());
-    if (!*memory)
-      return client::failed(client::Failure::Kind::Refused, Errc::NotFound,
-                            "run {} has changed nothing in its control's memory", run->id);
-    return Found{*std::move(run), **std::move(memory)};
+    auto told = client.memories(run->machine, run->id, {1, 0});
+    if (!told) return client::failed(told.error());
+    return found_in(std::move(told->front()));
   }
-  auto found = memories(client, command.machine, 1);
+  constexpr std::uint64_t kEnough = 10;  // one that is still on its way is left out
+  auto found = memories(client, command.machine, kEnough);
   if (!found) return client::failed(found.error());
   if (!found->empty()) return std::move(found->front());
+  const auto machine = client.machine(command.machine);
+  if (!machine) return client::failed(machine.error());
   return client::failed(client::Failure::Kind::Refused, Errc::NotFound,
-                        "no run of {} has left anything in its control's memory", command.machine);
+                        "no run of {} has left anything in its control's memory{}", command.machine,
+                        machine->connected ? ""
+                                           : ", as far as is known: its gateway is not connected");
+}
+
+/// What the shown memory does not know of yet, or empty.
+std::string what_may_follow(client::Client& client, const std::string& machine) {
+  const auto now = client.machine(machine);
+  if (!now) return {};
+  if (!now->connected) {
+    return fmt::format(
+        "The gateway of {} is not connected, last seen {}: what it has kept since is not known\n",
+        machine, time_text(now->last_seen));
+  }
+  if (!now->status || now->status->run.empty()) return {};
+  const auto run = client.run(now->status->run);
+  const bool is_over = run && run->state != "active" && run->state != "ordered";
+  if (is_over) return {};
+  return fmt::format("Run {} is under way: what it changes is told at its end\n",
+                     short_id(now->status->run));
 }
 
 std::string number_text(const std::optional<double>& number) {
@@ -88,10 +113,10 @@ nlohmann::ordered_json to_json(const Found& found, const KeptMemory& cells) {
   };
   for (const auto& [name, cell] : cells)
     list.push_back({{"name", name}, {"value", number(cell.value)}, {"setup", number(cell.base)}});
-  return {{"machine", found.run.machine},
-          {"run", found.run.id},
-          {"program", found.run.program},
-          {"ended", found.run.ended},
+  return {{"machine", found.told.machine},
+          {"run", found.told.run},
+          {"program", found.told.program},
+          {"ended", found.told.time},
           {"cells", std::move(list)}};
 }
 
@@ -109,8 +134,11 @@ int show(Context& context, const MemoryCommand& command) {
   for (const auto& [name, cell] : cells)
     table.add({name, number_text(cell.value), number_text(cell.base)});
   context.print(table);
-  context.print(fmt::format("As run {} of {} left it, {}\n", short_id(found->run.id),
-                            found->run.program, time_text(found->run.ended)));
+  const std::string program =
+      found->told.program.empty() ? "begun at the machine" : "of " + found->told.program;
+  context.print(fmt::format("As run {} {} left it, {}\n", short_id(found->told.run), program,
+                            time_text(found->told.time)));
+  if (command.run.empty()) context.print(what_may_follow(*client, command.machine));
   return kExitOk;
 }
 
@@ -127,7 +155,7 @@ int list(Context& context, const MemoryCommand& command) {
   }
   Table table({{"RUN"}, {"PROGRAM"}, {"ENDED"}, {"CELLS", Align::Right}});
   for (const Found& found : *all) {
-    table.add({short_id(found.run.id), found.run.program, time_text(found.run.ended),
+    table.add({short_id(found.told.run), found.told.program, time_text(found.told.time),
                std::to_string(found.memory.size())});
   }
   context.print(table);
@@ -147,7 +175,7 @@ int compare(Context& context, const MemoryCommand& command) {
     const auto found = memory.find(name);
     return found == memory.end() ? std::string("as the setup") : number_text(found->second.value);
   };
-  Table table({{"NAME"}, {"NOW", Align::Right}, {short_id(then->run.id), Align::Right}});
+  Table table({{"NAME"}, {"NOW", Align::Right}, {short_id(then->told.run), Align::Right}});
   bool differ = false;
   for (const auto& [name, unused] : filtered(names, command.filter)) {
     const std::string a = text_in(now->memory, name), b = text_in(then->memory, name);
@@ -189,7 +217,7 @@ int restore(Context& context, const MemoryCommand& command) {
     if (cell.value) variables[name] = *cell.value;
   }
   return save(context, *client, command, variables,
-              fmt::format("memory of run {}", short_id(then->run.id)));
+              fmt::format("memory of run {}", short_id(then->told.run)));
 }
 
 int clear(Context& context, const MemoryCommand& command) {

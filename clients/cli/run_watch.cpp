@@ -23,7 +23,7 @@ constexpr auto kGiveUpAfter = 60s;
 
 /// What the operator must see even when the next status replaces it.
 bool is_for_people(const client::Record& record) {
-  if (record.device == kMemoryDevice) return false;  // for dnc memory
+  if (record.device == "memory") return false;  // for dnc memory
   return record.kind == "message" || record.kind == "stop" || record.kind == "warning" ||
          record.kind == "alarm";
 }

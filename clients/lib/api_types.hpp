@@ -151,6 +151,19 @@ struct Setup {
   bool unchanged = false;  ///< the newest had this text already
 };
 
+/// One thing that a control keeps when a program is over.
+struct MemoryCell {
+  std::string name;
+  std::optional<double> value;  ///< none: vacant
+  std::optional<double> setup;  ///< what the setup gave it
+};
+struct Memory {
+  std::string machine, run;
+  std::string program;  ///< empty: the run was begun at the machine
+  std::string time;
+  std::vector<MemoryCell> cells;
+};
+
 struct Record {
   std::string machine;
   std::uint64_t epoch = 0, number = 0;

@@ -1,5 +1,6 @@
 #include "clients/lib/client.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "clients/lib/api_json.hpp"
@@ -145,6 +146,7 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
 
 template Reply<Setup> Client::fetch(const HttpRequest&);
 template Reply<std::vector<Setup>> Client::fetch_list(const std::string&, const char*);
+template Reply<std::vector<Memory>> Client::fetch_list(const std::string&, const char*);
 template Reply<Port> Client::fetch(const HttpRequest&);
 template Reply<PortTest> Client::fetch(const HttpRequest&);
 template Reply<Transfer> Client::fetch(const HttpRequest&);
@@ -212,9 +214,15 @@ Reply<Content> Client::content(const ContentRange& range) {
                                        std::to_string(range.revision)));
   const std::uint64_t last = range.offset + range.length - 1;
   request.headers.emplace_back("Range", fmt::format("bytes={}-{}", range.offset, last));
-  request.max_body = range.length;
+  constexpr std::uint64_t kMaxErrorText = 4096;  // which comes in the place of a few bytes
+  request.max_body = std::max(range.length, kMaxErrorText);
   auto response = exchange(request);
   if (!response) return failed(response.error());
+  if (response->body.size() > range.length) {
+    return failed(Failure::Kind::BadReply, Errc::LimitExceeded,
+                  "the answer of {} to {} is longer than {} bytes", address_.url, request.path,
+                  range.length);
+  }
   if (response->status != 206 && range.offset != 0) {
     return failed(Failure::Kind::BadReply, Errc::Unsupported,
                   "{} does not serve parts of a program (status {}, expected 206)", address_.url,
@@ -280,6 +288,8 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   if (request.revision) json["revision"] = *request.revision;
   if (!request.from.empty()) json["from"] = request.from;
   if (!request.head.empty()) json["head"] = request.head;
+  if (!request.memory.empty()) json["memory"] = request.memory;
+  if (request.pass) json["pass"] = *request.pass;
   const std::string body = dumped(json);
   HttpRequest http = with_method("POST", path_of("runs"));
   http.body = body;

@@ -54,8 +54,10 @@ struct RunRequest {
   std::string machine, program;
   std::optional<std::uint64_t> revision;  ///< nullopt: the latest
   std::string from =
-      {};  ///< N120, L7 (line), B4096 (byte); empty: the beginning. Serial lines only
+      {};  ///< N120, L7 (line), B4096 (byte), T3 (tool), +25 (blocks); empty: the beginning
   std::string head = {};  ///< on a serial line, with from: send, set; empty: ask
+  std::string memory = {};  ///< at a gateway, with from: begin, now; empty: ask
+  std::optional<std::uint64_t> pass = {};  ///< at a gateway, with from: which time it comes there
 };
 
 /// Texts empty: all.
@@ -129,6 +131,9 @@ class Client {
   /// The newest unless a revision is named.
   Reply<Setup> setup(std::string_view machine, std::optional<std::uint64_t> revision);
   Reply<Setup> save_setup(const SetupRequest& request);
+  /// What the machine's control kept after its runs, newest first; after `run` alone, or all
+  /// (empty).
+  Reply<std::vector<Memory>> memories(std::string_view machine, std::string_view run, Page page);
 
   Reply<Run> start_run(const RunRequest& request);
   Reply<std::vector<Run>> runs(const RunQuery& query);

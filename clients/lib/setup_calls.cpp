@@ -32,4 +32,13 @@ Reply<Setup> Client::save_setup(const SetupRequest& request) {
   return fetch<Setup>(http);
 }
 
+Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
+                                            Page page) {
+  std::string path = path_of("machines", machine) + "/memory";
+  path = with_query(std::move(path), "run", std::string(run));
+  path = with_query(std::move(path), "limit", std::to_string(page.limit));
+  return fetch_list<Memory>(with_query(std::move(path), "offset", std::to_string(page.offset)),
+                            "memories");
+}
+
 }  // namespace dripline::client

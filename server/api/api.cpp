@@ -27,6 +27,7 @@ Api::Api(Services services, Token token)
   add_run_routes(router_, services_);
   add_report_routes(router_, services_);
   add_setup_routes(router_, services_);
+  add_memory_routes(router_, services_);
   add_port_routes(router_, services_);
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are looked at
 constexpr std::size_t kMaxStartPoint = 24;
+constexpr std::uint64_t kMaxPass = 1'000'000;
 constexpr std::size_t kMaxArgument = 255;  ///< the order's member in the IDL
 
 struct ActionRow {
@@ -113,17 +114,32 @@ Result<feeds::StartRequest> decode_start(std::string_view body) {
   start.revision = object->optional_unsigned("revision");
   const auto from = object->optional_text("from", kMaxStartPoint);
   const auto head = object->optional_text("head", kMaxStartPoint);
+  const auto memory = object->optional_text("memory", kMaxStartPoint);
+  const auto pass = object->optional_unsigned("pass");
   if (auto good = object->finish(); !good) return fail(good.error());
   if (head && *head != "send" && *head != "set") {
     return fail(Errc::Syntax, "head is '{}'; expected send or set", *head);
   }
   if (head) start.head = *head == "send" ? feeds::StartHead::Send : feeds::StartHead::Set;
+  if (memory && *memory != "begin" && *memory != "now") {
+    return fail(Errc::Syntax, "memory is '{}'; expected begin or now", *memory);
+  }
+  if (memory) {
+    start.memory = *memory == "begin" ? feeds::StartMemory::Begin : feeds::StartMemory::Now;
+  }
+  if (pass && (*pass == 0 || *pass > kMaxPass)) {
+    return fail(Errc::LimitExceeded, "pass {} is not 1 to {}", *pass, kMaxPass);
+  }
   if (auto good = check_machine_name(start.machine); !good) return fail(good.error());
   if (auto good = check_program_name(start.program); !good) return fail(good.error());
+  if (!from && (memory || pass)) {
+    return fail(Errc::Syntax, "memory and pass belong to a start with from");
+  }
   if (!from) return start;
   const auto point = feeds::parse_start_point(*from);
   if (!point) return fail(Errc::Syntax, "from: {}", point.error().what);
   start.from = *point;
+  start.from.pass = pass;
   return start;
 }
 

@@ -12,6 +12,7 @@ void add_machine_routes(Router& router, Services& services);
 void add_run_routes(Router& router, Services& services);
 void add_report_routes(Router& router, Services& services);
 void add_setup_routes(Router& router, Services& services);
+void add_memory_routes(Router& router, Services& services);
 void add_port_routes(Router& router, Services& services);
 
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer

@@ -33,6 +33,9 @@ struct StartPoint {
   std::optional<std::uint64_t> sequence;  ///< the first block with this N number
   std::optional<std::uint64_t> tool;      ///< the first block with this tool
   std::optional<std::uint64_t> skipped;   ///< behind so many blocks
+  /// Where the program comes to that block more than once: which time, from 1. A gateway's control
+  /// asks for it; over a serial line Unsupported.
+  std::optional<std::uint64_t> pass = {};
 };
 
 /// Over a serial line, what becomes of the words before the beginning that the rest relies on
@@ -43,6 +46,14 @@ enum class StartHead : std::uint8_t {
   Set,   ///< whoever starts the run says that they are in force at the control
 };
 
+/// With which memory of the control (variables, offsets) a gateway looks through the skipped part,
+/// where that part changes what it has read before. Over a serial line Unsupported.
+enum class StartMemory : std::uint8_t {
+  Ask,    ///< the run is refused, and what it would lose is named
+  Begin,  ///< as it was when the machine's last run of this revision began at its first block
+  Now,    ///< as it is: the skipped part applies once more
+};
+
 struct StartRequest {
   std::string machine;
   std::string program;
@@ -50,6 +61,7 @@ struct StartRequest {
   std::string author;
   StartPoint from = {};
   StartHead head = StartHead::Ask;
+  StartMemory memory = StartMemory::Ask;
 };
 
 struct OrderRequest {

@@ -227,7 +227,7 @@ Result<storage::Run> FeedService::start(const StartRequest& request) {
   order.revision = run->content.hex();
   order.size = run->size;
   order.control = run->control;
-  order.argument = start_text(request.from);
+  order.argument = start_argument(request);
   if (*setup) order.setup = (*setup)->text;
   return conclude_start(*run, parts->orders.carry_out(std::move(order)));
 }

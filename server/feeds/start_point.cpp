@@ -43,4 +43,13 @@ std::string start_text(const StartPoint& point) {
   return {};
 }
 
+std::string start_argument(const StartRequest& request) {
+  std::string text = start_text(request.from);
+  if (text.empty()) return text;
+  if (request.from.pass) text += fmt::format(" pass={}", *request.from.pass);
+  if (request.memory == StartMemory::Begin) text += " memory=begin";
+  if (request.memory == StartMemory::Now) text += " memory=now";
+  return text;
+}
+
 }  // namespace dripline::feeds

@@ -220,6 +220,22 @@ void members(V& v, Is<Setup> auto& x) {
 }
 
 template <class V>
+void members(V& v, Is<MemoryCell> auto& x) {
+  v("name", x.name);
+  v("value", x.value);
+  v("setup", x.setup);
+}
+
+template <class V>
+void members(V& v, Is<Memory> auto& x) {
+  v("machine", x.machine);
+  v("run", x.run);
+  v("program", x.program);
+  v("time", x.time);
+  v("cells", x.cells);
+}
+
+template <class V>
 void members(V& v, Is<Record> auto& x) {
   v("machine", x.machine);
   v("epoch", x.epoch);

@@ -3,17 +3,23 @@
 // and has no name twice, however often it is done.
 #include <cstdint>
 #include <cstdlib>
+#include <sstream>
 
 #include "clients/cli/kept_memory.hpp"
+#include "server/library/kept_memory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::cli;
-  KeptMemory memory;
-  const auto read = add_memory_text({reinterpret_cast<const char*>(data), size}, memory);
+  std::vector<std::string> texts;  // one a line
+  std::istringstream lines(std::string(reinterpret_cast<const char*>(data), size));
+  for (std::string line; std::getline(lines, line);) texts.push_back(line);
+  const auto read = dripline::library::read_memory_texts(texts);
   if (!read && read.error().what.empty()) std::abort();
   std::map<std::string, double> variables;
-  for (const auto& [name, cell] : memory) {
-    if (cell.value) variables[name] = *cell.value;
+  if (read) {
+    for (const auto& [name, cell] : *read) {
+      if (cell.value) variables[name] = *cell.value;
+    }
   }
   const auto once = with_variables("", variables);
   if (!once || with_variables(*once, variables).value() != *once) std::abort();

@@ -5,25 +5,13 @@
 namespace dripline::cli {
 namespace {
 
-TEST(KeptMemory, IsReadPartByPart) {
-  KeptMemory memory;
-  ASSERT_TRUE(
-      add_memory_text(R"({"part":1,"parts":2,"cells":{"P10":[7.5,0],"PB50":[2,1]}})", memory));
-  ASSERT_TRUE(add_memory_text(R"({"part":2,"parts":2,"cells":{"#500":[null,3]}})", memory));
-  ASSERT_EQ(memory.size(), 3U);
-  EXPECT_EQ(memory["P10"], (KeptCell{7.5, 0}));
-  EXPECT_EQ(memory["#500"], (KeptCell{std::nullopt, 3}));
+TEST(KeptMemory, IsFilteredByName) {
+  client::Memory told;
+  told.cells = {{"P10", 7.5, 0}, {"PB50", 2, 1}, {"#500", std::nullopt, 3}};
+  const KeptMemory memory = cells_of(told);
+  EXPECT_EQ(memory.at("#500"), (KeptCell{std::nullopt, 3}));
   EXPECT_EQ(filtered(memory, "P").size(), 2U);
   EXPECT_EQ(filtered(memory, "").size(), 3U);
-}
-
-TEST(KeptMemory, IsNotReadFromOtherTexts) {
-  for (const char* text :
-       {"", "DRILL", "[]", R"({"cells":[]})", R"({"cells":{"P1":1}})", R"({"cells":{"P1":[1]}})",
-        R"({"cells":{"a\"b":[1,2]}})", R"({"cells":{"P1":["1",2]}})", "[[[[[[[[[[[["}) {
-    KeptMemory memory;
-    EXPECT_FALSE(add_memory_text(text, memory)) << text;
-  }
 }
 
 TEST(KeptMemory, BecomesVariablesOfASetup) {

@@ -79,6 +79,32 @@ class OpenApi : public ApiTest {
     expect_described("GET", "/api/v1/machines/{name}/setup", get(path));
     expect_described("GET", "/api/v1/machines/{name}/setups", get(path + "s"));
   }
+  void expect_memory_described() {
+    storage::Record record;
+    record.machine = "lathe-1";
+    record.epoch = 77;
+    record.number = 1;
+    record.time = clock_.now();
+    record.run = "line-1";
+    record.kind = "message";
+    record.device = "memory";
+    record.text = R"({"part":1,"parts":1,"cells":{"P10":[7.5,0],"#500":[null,null]}})";
+    storage::RecordBatch batch;
+    batch.machine = "lathe-1";
+    batch.epoch = 77;
+    batch.records = {record};
+    ASSERT_TRUE(store_->store_records(batch));
+    const std::string path = "/api/v1/machines/lathe-1/memory";
+    const Json memories = json(get(path))["memories"];
+    ASSERT_EQ(memories.size(), 1u);
+    EXPECT_EQ(memories[0]["run"], "line-1");
+    EXPECT_EQ(memories[0]["program"], nullptr);
+    EXPECT_EQ(memories[0]["cells"].size(), 2u);
+    expect_described("GET", "/api/v1/machines/{name}/memory", get(path));
+    EXPECT_EQ(get(path + "?run=line-1").status, 200);
+    EXPECT_EQ(get(path + "?run=r9").status, 404);
+    EXPECT_EQ(get("/api/v1/machines/nobody/memory").status, 404);
+  }
   void expect_judgement_described() {
     for (const std::string number : {"1", "2"}) {
       const auto upload = programs_->begin(
@@ -166,6 +192,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
   expect_described("GET", "/api/v1/events", get("/api/v1/events"));
   expect_setups_described();
+  expect_memory_described();
   expect_ports_described();
   expect_judgement_described();
   expect_described("POST", "/api/v1/programs/{name}/copy",

@@ -1,0 +1,52 @@
+#include <nlohmann/json.hpp>
+
+#include "server/api/routes.hpp"
+#include "server/library/kept_memory.hpp"
+
+namespace dripline::api {
+namespace {
+
+using nlohmann::json;
+
+json number_json(const std::optional<double>& number) {
+  return number ? json(*number) : json(nullptr);
+}
+
+json memory_json(const library::KeptMemory& memory) {
+  auto cells = json::array();
+  for (const auto& [name, cell] : memory.cells) {
+    cells.push_back({{"name", name},
+                     {"value", number_json(cell.value)},
+                     {"setup", number_json(cell.base)}});
+  }
+  return {{"machine", memory.machine},
+          {"run", memory.run},
+          {"program", memory.program ? json(*memory.program) : json(nullptr)},
+          {"time", to_iso8601(memory.time)},
+          {"cells", std::move(cells)}};
+}
+
+/// From the records that the server has, so that a gateway that is away is no hindrance.
+Response list_memories(Services& services, const Request& request) {
+  QueryReader query(request);
+  const storage::Page page = read_page(query);
+  const auto run = query.text("run");
+  if (auto good = query.finish(); !good) return error_response(good.error());
+  const std::string machine = request.parameter("name");
+  if (const auto known = services.feeds.machine(machine); !known)
+    return error_response(known.error());
+  const auto memories = library::kept_memories(services.store, machine, run, page);
+  if (!memories) return error_response(memories.error());
+  auto list = json::array();
+  for (const auto& memory : *memories) list.push_back(memory_json(memory));
+  return json_response(200, {{"memories", std::move(list)}});
+}
+
+}  // namespace
+
+void add_memory_routes(Router& router, Services& services) {
+  router.add("GET", "/api/v1/machines/{name}/memory",
+             [&](const Request& request) { return list_memories(services, request); });
+}
+
+}  // namespace dripline::api

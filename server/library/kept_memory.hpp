@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "storage/store.hpp"
+
+namespace dripline::library {
+
+/// One thing that a machine's control keeps when a program is over.
+struct KeptCell {
+  std::optional<double> value;  ///< none: vacant
+  std::optional<double> base;   ///< what the setup gave it
+  friend bool operator==(const KeptCell&, const KeptCell&) = default;
+};
+
+/// All that it kept after a run, as its gateway reported it.
+struct KeptMemory {
+  std::string machine, run;
+  std::optional<std::string> program;  ///< none: the run was begun at the machine
+  UtcTime time;                        ///< of the report, at the gateway
+  std::map<std::string, KeptCell> cells;
+};
+
+/// Reads the texts of one report, which come in parts. Errors: Syntax, LimitExceeded (no record is
+/// so long), NotFound (a part is missing).
+Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std::string>& texts);
+
+/// Newest first; what can not be read is left out. With `run` after this one alone. Errors: NotFound
+/// (it has left nothing, or not all parts of it), those of the store.
+Result<std::vector<KeptMemory>> kept_memories(storage::Store& store, const std::string& machine,
+                                              const std::optional<std::string>& run,
+                                              storage::Page page);
+
+}  // namespace dripline::library
