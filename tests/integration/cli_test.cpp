@@ -1,6 +1,7 @@
 // `dnc` as its users type it: what it prints, what it exits with, what it leaves behind.
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 
@@ -126,6 +127,57 @@ TEST_F(Cli, TheWholeMemoryOfALatheComesBackFromItsBackup) {
   EXPECT_EQ(before, "05.0-05.0-015.005.25000.5000.500\n");
   EXPECT_EQ(changed, "08.0-08.0-018.008.25000.8000.800\n");
   EXPECT_EQ(dnc_json({"setup", "list", "lathe-1"}).at("setups").size(), 3u);
+}
+
+/// What the control of one machine keeps, after its gateway went and the server was started again,
+/// goes to another machine.
+TEST_F(Cli, TheMemoryOfAMachineThatIsAwayGoesToAnother) {
+  start_all();
+  const std::string change = "P10=7.5\nG10\nP500=1.25\nG11\nM30\n";
+  const std::string print = "POPEN P0\nP11=P500\nDPRNT [#10[22] #11[22]]\nPCLOS\nM30\n";
+  dnc({"program", "push", write("c.nc", change), "--name", "O1", "--control", "centurion"});
+  dnc({"program", "push", write("p.nc", print), "--name", "O2", "--control", "centurion"});
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--wait"}).status, 0);
+  const std::string run = dnc_json({"run", "show", "latest"}).at("id");
+  const auto cells = [&] { return dnc_json({"memory", "show", "lathe-1"}).at("cells"); };
+  const auto before = cells();
+  EXPECT_EQ(before.size(), 2u) << before;
+
+  system.gateway().signal(SIGTERM);
+  system.gateway().wait(std::chrono::seconds(10));
+  system.server().signal(SIGTERM);
+  ASSERT_EQ(system.server().wait(std::chrono::seconds(10)), 0);
+  system.start_server();
+  EXPECT_EQ(cells(), before);
+  const auto shown = dnc({"memory", "show", "lathe-1"});
+  EXPECT_NE(shown.output.find("not connected, last seen"), std::string::npos) << shown.output;
+
+  system.start_gateway("lathe-2");
+  system.wait_connected("lathe-2");
+  const auto none = dnc({"memory", "show", "lathe-2"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.output.find("no run of lathe-2"), std::string::npos) << none.output;
+  EXPECT_EQ(dnc({"setup", "push", "lathe-2", write("s.toml", "# lathe 2\n")}).status, 0);
+  const auto restored = dnc({"memory", "restore", "lathe-2", run});
+  EXPECT_EQ(restored.status, 0) << restored.output;
+  EXPECT_EQ(dnc({"run", "start", "lathe-2", "O2", "--wait"}).status, 0);
+  const auto line = dnc({"report", "export", "latest"}).output;
+  EXPECT_NE(line.find("7.50"), std::string::npos) << line;
+  EXPECT_NE(line.find("1.25"), std::string::npos) << line;
+}
+
+/// At the machine and from the network the reason is the same.
+TEST_F(Cli, AStartInTheMiddleNamesWhatItWouldCountTwice) {
+  start_all();
+  const std::string count = "G98 F900\nP10=P10+1\nG0 X1 Z1\nN30 G1 X2\nM30\n";
+  dnc({"program", "push", write("c.nc", count), "--name", "O1", "--control", "centurion"});
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--wait"}).status, 0);
+  const auto refused = dnc({"run", "start", "lathe-1", "O1", "--from", "N30", "--wait"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.output.find("P10"), std::string::npos) << refused.output;
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--memory", "now"}).status, 1) << "without --from";
+  const std::string reason = dnc_json({"run", "show", "latest"}).at("reason");
+  EXPECT_NE(reason.find("CEN1013"), std::string::npos) << reason;
 }
 
 TEST_F(Cli, AProgramGoesInRunsAndItsReportComesOut) {
