@@ -69,8 +69,10 @@ TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   elsewhere.program = "O0100";
   elsewhere.author = "cam";
   elsewhere.from.tool = 12;
+  elsewhere.from.pass = 3;
+  elsewhere.memory = feeds::StartMemory::Begin;
   ASSERT_TRUE(service_->start(elsewhere));
-  EXPECT_EQ(written_->orders.at(0).argument, "T12");
+  EXPECT_EQ(written_->orders.at(0).argument, "T12 pass=3 memory=begin");
 }
 
 TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {

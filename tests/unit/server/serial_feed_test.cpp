@@ -155,6 +155,9 @@ TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   feeds::StartRequest request{
       .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = at_sequence(6)};
+  request.memory = feeds::StartMemory::Now;
+  EXPECT_EQ(ports_->feed().start(request).error().code, Errc::Unsupported);
+  request.memory = feeds::StartMemory::Ask;
   request.head = feeds::StartHead::Send;
   const auto sent = ports_->feed().start(request);
   ASSERT_TRUE(sent) << sent.error().what;
