@@ -161,6 +161,9 @@ class Discipline {
   /// Ends the transfer in progress, telling the other end where the protocol can, and drops a
   /// request of the other end that waits. Idle afterwards.
   virtual void abort(LineTime now) = 0;
+  /// A program was broken off before this object was made: what the other end says next may let go
+  /// that one, and asks for no other.
+  virtual void expect_release() {}
 
   virtual LineState state() const = 0;
   /// Everything since the last call, in order.

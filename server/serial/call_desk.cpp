@@ -8,6 +8,7 @@
 #include "server/feeds/start_point.hpp"
 #include "server/library/control_words.hpp"
 #include "server/serial/answer_text.hpp"
+#include "server/serial/line_runs.hpp"
 #include "server/serial/line_transfer.hpp"
 #include "server/serial/program_head.hpp"
 #include "server/serial/program_stream.hpp"
@@ -167,23 +168,14 @@ void CallDesk::send_next() {
 /// A control in the middle of a program that was broken off asks for the rest of it with the same
 /// words. Another program's text would be executed there.
 Result<void> CallDesk::check_last_run() const {
-  using storage::RunState;
   if (is_sent_since_) return {};
-  constexpr std::uint64_t kLook = 50;
-  const auto runs =
-      parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = kLook});
-  if (!runs) return fail(runs.error());
-  for (const auto& run : *runs) {
-    if (run.state == RunState::Refused) continue;
-    const bool is_over =
-        run.state == RunState::Completed || (run.state == RunState::Aborted && parts_.tells_aborts);
-    if (is_over) return {};
-    return fail(Errc::ModalConflict,
-                "run {} of program {} was broken off, and the control may be asking for its rest: "
-                "nothing is offered until a run or dnc port send has gone through",
-                run.id, run.program);
-  }
-  return {};
+  const auto run = broken_run(parts_.store, parts_.machine, parts_.tells_aborts);
+  if (!run) return fail(run.error());
+  if (!*run) return {};
+  return fail(Errc::ModalConflict,
+              "run {} of program {} was broken off, and the control may be asking for its rest: "
+              "nothing is offered until a run or dnc port send has gone through",
+              (*run)->id, (*run)->program);
 }
 
 /// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).

@@ -62,6 +62,22 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
               revision.program, revision.number, revision.control, machine.name, machine.control);
 }
 
+Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+                                               bool are_aborts_told) {
+  using storage::RunState;
+  constexpr std::uint64_t kLook = 50;
+  const auto runs = store.runs({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
+  if (!runs) return fail(runs.error());
+  for (const auto& run : *runs) {
+    if (run.state == RunState::Refused) continue;
+    const bool is_over =
+        run.state == RunState::Completed || (run.state == RunState::Aborted && are_aborts_told);
+    if (is_over) return std::nullopt;
+    return run;
+  }
+  return std::nullopt;
+}
+
 Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
                                       const storage::Machine& machine) {
   const auto revision = store_.revision(request.program, request.revision);

@@ -9,6 +9,12 @@
 
 namespace dripline::ports {
 
+/// The last run that began, when it ended in the middle of its program, or has not ended; the
+/// control may be in the middle of it. Only while no run is on the line. `are_aborts_told`: an
+/// aborted run is over at the control too.
+Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+                                               bool are_aborts_told);
+
 /// Errors: Unsupported (the revision is for another control than the machine is).
 Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine);
 

@@ -79,6 +79,8 @@ void PortLine::open() {
                              .listener = line_listener()});
   if (driver) {
     driver_ = *std::move(driver);
+    if (parts_.is_program_broken)
+      driver_->post([](wire::Discipline& line, wire::LineTime) { line.expect_release(); });
     return;
   }
   trouble_ = driver.error().what;

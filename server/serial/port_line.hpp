@@ -41,6 +41,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
     FlightRecorder::Options recording;
     std::function<void(const PortTraffic&)> on_traffic;
     PortListener listener;
+    bool is_program_broken = false;  ///< Discipline::expect_release
   };
   /// Called on the strand, once, with what came of it.
   using Answer = std::function<void(const Result<void>&)>;

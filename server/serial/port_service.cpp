@@ -8,6 +8,7 @@
 #include "protocol/base/names.hpp"
 #include "protocol/serial/address.hpp"
 #include "server/serial/control_protocol.hpp"
+#include "server/serial/line_runs.hpp"
 #include "server/serial/line_transfer.hpp"
 #include "server/serial/port_settings.hpp"
 #include "server/serial/reception.hpp"
@@ -294,6 +295,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
 
 std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
                                                  PortListener listener) {
+  const auto broken = broken_run(store_, entry.port.machine, true);
   return PortLine::make(
       {.port = entry.port,
        .settings = entry.settings,
@@ -303,7 +305,8 @@ std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Stran
        .open = options_.open ? options_.open : default_opener(),
        .recording = {.port = entry.port.name, .folder = options_.recordings},
        .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
-       .listener = std::move(listener)});
+       .listener = std::move(listener),
+       .is_program_broken = broken && broken->has_value()});
 }
 
 void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {

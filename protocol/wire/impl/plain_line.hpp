@@ -25,6 +25,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   Result<void> refuse(std::string_view reason, LineTime now) override;
   void set_ready(bool is_ready, LineTime now) override;
   void abort(LineTime now) override;
+  void expect_release() override { is_release_due_ = waits_for_dc1(); }
   LineState state() const override;
 
  private:

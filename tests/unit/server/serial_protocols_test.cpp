@@ -257,6 +257,30 @@ TEST_F(SerialFanucTest, SendsTheRunThatIsStartedAfterTheOperatorAsked) {
   EXPECT_FALSE(ports_->port("com1")->request);
 }
 
+/// The server was started again in the middle of a program; the control has room for more of it.
+TEST_F(SerialFanucTest, WaitsForAResetAfterAFormerLifeOfTheServerBrokeAProgramOff) {
+  add_fanuc();
+  push("O2001", "O2001\nM30\n", "fanuc");
+  push("O2002", blocks(20000), "fanuc");
+  const auto former = start("O2002");
+  ASSERT_TRUE(former) << former.error().what;
+  line().write("\x11");
+  line().read_until("N500 ");
+  line().write("\x13");
+  ports_.reset();
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  ASSERT_EQ(store_->run(former->id)->state, RunState::Interrupted);
+  line().read_for(std::chrono::milliseconds(50));
+  const auto run = start("O2001");
+  ASSERT_TRUE(run) << run.error().what;
+  line().write("\x11");
+  ASSERT_TRUE(wait([&] { return is_noted("DC1 came for the program that was broken off"); }));
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "");
+  line().write("\x13\x11");
+  EXPECT_EQ(line().read_until("M30\n%"), "%\nO2001\nM30\n%");
+}
+
 TEST_F(SerialFanucTest, ForgetsARequestWithItsLine) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");

@@ -81,6 +81,17 @@ TEST(DcCodes, HostTakesNoReleaseOfABrokenProgramForTheStartOfAnother) {
   }
 }
 
+TEST(DcCodes, HostThatWasReplacedInTheMiddleTakesNoReleaseForAStart) {
+  TestedLine host(template_with("fanuc"), Role::Host);
+  host.line->expect_release();
+  ASSERT_TRUE(host.line->begin_send("", host.now));
+  ASSERT_TRUE(host.offer("O2\nM30\n"));
+  host.hear("\x11");
+  EXPECT_EQ(host.say(), "");
+  host.hear("\x11");
+  EXPECT_EQ(host.say(), "%\nO2\nM30\n%");
+}
+
 TEST(DcCodes, HostIsStartedByAControlThatWasResetAfterABrokenProgram) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x11");
