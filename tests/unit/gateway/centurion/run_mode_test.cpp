@@ -36,10 +36,10 @@ TEST(StartAt, LineIsTheFirstBlockFromThereOn) {
       << "over to X1 (radius .5 inch), then N5 and what follows";
 }
 
-/// A start inside a called program is found in the order of execution.
+/// A start inside a called program is found in the order of execution, when the pass is named.
 TEST(StartAt, BlockMayStandInACalledProgram) {
   ProgramRun run("O1\nG0 X1\nM98 P2\nX3\nM30\nO2\nX7\nN70 X2\n",
-                 with_control("start_at = \"N70\""));
+                 with_control("start_at = \"N70\"\nstart_pass = 1"));
   EXPECT_EQ(run.step(), StepState::Ended);
   EXPECT_EQ(run.events("rapid").size(), 3U) << "to where O2 was by then, N70, X3";
 }
