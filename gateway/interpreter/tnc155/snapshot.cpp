@@ -139,7 +139,8 @@ void visit_transformation(Archive& archive, Transformation& transformation) {
 template <class Archive>
 void visit_contour(Archive& archive, State& state) {
   up_to(archive, state.compensation, Compensation::Shorter);
-  visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.has_compensated,
+  visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.needs_side,
+            state.has_compensated,
             state.is_first_contour, state.awaits_contour);
   Joint& joint = state.joint;
   up_to(archive, joint.kind, JointKind::RunOff);

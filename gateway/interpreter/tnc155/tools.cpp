@@ -119,7 +119,10 @@ bool call_tool(Run& run, const Block& block) {
   const bool is_change = block.target != Block::kNone;
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
   if (block.axis && !check_axis(run, *block.axis)) return false;
-  if (is_change || names_axis) end_contour(run, false);
+  if (is_change || names_axis) {
+    state.needs_side |= state.is_compensating() || state.is_parallel;
+    end_contour(run, false);
+  }
   if (is_change && !(choose(run, block.target) && change_tool(run, block.target))) return false;
   if (names_axis) {
     state.tool.axis = block.is_fourth_axis ? run.options.fourth_axis : *block.axis;
