@@ -77,9 +77,9 @@ const Dialect kFanucDialect{"fanuc",
                             &make,
                             Units::Millimetre,
                             MachineKind::Mill,
-                            // T selects and M06 exchanges (spec 7.1): a machining centre's changer
-                            // does it, and there is no tool change stop to wait at.
+                            // T selects and M06 exchanges (spec 7.1): only a machine without
+                            // `tool_changer` has a tool change stop.
                             {},
-                            false};
+                            true};
 
 }  // namespace dripline::interpreter

@@ -52,7 +52,10 @@ void change_tool(Run& run) {
   if (!tool.is_pending) run.warn(WarningCode::NoToolSelected, 0);
   if (tool.is_pending) tool.active = tool.pending;
   tool.is_pending = false;
+  const bool by_hand = !run.options.has_tool_changer;
+  if (by_hand && is_turning(run.state.spindle.state)) turn_spindle(run, SpindleState::Off);
   run.events().on_tool({run.origin, tool.active, false, {}});
+  if (by_hand) run.events().on_stop({run.origin, StopKind::ToolChange});
 }
 
 bool acts_after(const Run& run, int code) {

@@ -83,6 +83,7 @@ AxisValues values_of(const Position& position) {
 
 void read_numbers(Reader& read, ControlOptions& control) {
   read.flag("calculator_point", control.calculator_point);
+  read.flag("tool_changer", control.has_tool_changer);
   control.decimals_mm = 2 + static_cast<int>(read.choice("increment", {"IS-A", "IS-B", "IS-C"}, 1));
   read.number("feed_unit_inch", control.feed_unit_inch);
   if (!(control.feed_unit_inch > 0)) read.complain("[control] feed_unit_inch: must be above 0");
@@ -256,6 +257,7 @@ Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   auto known = options.check_known({"model",
                                     "calculator_point",
+                                    "tool_changer",
                                     "increment",
                                     "start_units",
                                     "start_g",

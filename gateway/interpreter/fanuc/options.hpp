@@ -19,6 +19,7 @@ enum class OffsetMemory : std::uint8_t { A, B, C };
 struct ControlOptions {
   Model model = Model::M16;
   bool calculator_point = false;
+  bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands
   int decimals_mm = 3;  ///< of the least increment; inches have one more
   Units start_units = Units::Millimetre;
   std::vector<std::uint8_t> start_g;

@@ -97,8 +97,8 @@ const Dialect kRs274NgcDialect{"rs274ngc",
                                Units::Millimetre,
                                MachineKind::Mill,
                                // The language's machine has a changer with slots (spec 1, 6: M6):
-                               // there is no tool change stop to wait at.
+                               // only one without `tool_changer` has a tool change stop.
                                {},
-                               false};
+                               true};
 
 }  // namespace dripline::interpreter

@@ -71,6 +71,9 @@ bool change_tool(Run& run, int code) {
     state.tool.loaded = state.tool.selected;
   }
   run.events().on_tool({run.origin, state.tool.loaded, false, {}});
+  if (code != 61 && !run.options.has_tool_changer) {
+    run.events().on_stop({run.origin, StopKind::ToolChange});
+  }
   // A move of the same line still begins at the programmed place.
   if (run.is_linuxcnc() && run.block.motion < 0) go_on_from_tool(run);
   return true;

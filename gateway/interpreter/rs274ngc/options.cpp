@@ -69,7 +69,8 @@ Result<void> read_pins(const Options& options, ControlOptions& control) {
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
   if (auto known = options.check_known({"profile", "axes", "ignore_missing_axis_words", "slots",
-                                        "max_passes", "max_loops", "pins", "spline_tolerance"});
+                                        "max_passes", "max_loops", "pins", "spline_tolerance",
+                                        "tool_changer"});
       !known) {
     return fail(known.error());
   }
@@ -83,6 +84,9 @@ Result<ControlOptions> read_options(const Setup& setup) {
   if (!profile) return fail(profile.error());
   if (!axes) return fail(axes.error());
   if (!ignores) return fail(ignores.error());
+  const auto has_changer = options.flag("tool_changer", true);
+  if (!has_changer) return fail(has_changer.error());
+  control.has_tool_changer = *has_changer;
   control.profile = *profile == 0 ? Profile::Nist : Profile::LinuxCnc;
   control.axes = *axes;
   control.ignores_missing_axes = *ignores;

@@ -30,6 +30,7 @@ struct ControlOptions {
   bool block_skip = false;
   bool optional_stop = false;
   AddressSet axes = 0;  ///< words of the axes the machine has
+  bool has_tool_changer = true;  ///< false: M6 stops for the operator's hands
   bool ignores_missing_axes = false;
   int slots = 128;                       ///< of the tool changer
   std::uint64_t max_passes = 1'000'000;  ///< of loops and calls, together
