@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "gateway/interpreter/trace/event_tee.hpp"
@@ -25,6 +28,7 @@ class Diagnostics final : public EventSink {
     }
   }
   void on_warning(const Warning&) override { ++warnings; }
+  void on_dwell(const Dwell& event) override { dwelt += event.seconds; }
   void on_alarm(const Alarm& event) override {
     alarm = event.diagnostic;
     program = event.origin.program;
@@ -34,6 +38,7 @@ class Diagnostics final : public EventSink {
   std::optional<Diagnostic> alarm;
   ProgramIndex program = kMainProgram;
   std::uint64_t repeated = 0;  ///< blocks that had been executed before
+  double dwelt = 0;            ///< seconds
 
  private:
   std::vector<std::uint64_t> furthest_;  ///< by program: behind the block that begins last
@@ -52,11 +57,22 @@ void tell_endless(const Interpreter& interpreter, std::uint64_t repeated, EventS
                   origin.line, 0}});
 }
 
+/// Later on the same day; a clock that is asked for its time does not go past midnight.
+LocalTime later(LocalTime time, std::int64_t seconds) {
+  constexpr std::int64_t kLast = 24 * 3600 - 1;
+  const std::int64_t now = time.hour * 3600 + time.minute * 60 + time.second;
+  const std::int64_t then = std::min(now + seconds, std::max(now, kLast));
+  time.hour = static_cast<int>(then / 3600);
+  time.minute = static_cast<int>(then / 60 % 60);
+  time.second = static_cast<int>(then % 60);
+  return time;
+}
+
 /// Gives the answers of a setup, in order.
 class SetupAnswers {
  public:
-  SetupAnswers(const Setup& setup, std::vector<std::int64_t> pins)
-      : setup_(setup), pins_(std::move(pins)) {}
+  SetupAnswers(const Setup& setup, std::vector<std::int64_t> pins, const Diagnostics& diagnostics)
+      : setup_(setup), pins_(std::move(pins)), diagnostics_(diagnostics) {}
 
   Result<Answer> operator()(const ProbeQuestion& question, const Origin&) {
     const Probe& probe = question.probe;
@@ -74,14 +90,24 @@ class SetupAnswers {
   Result<Answer> operator()(const InputQuestion& question, const Origin&) {
     return Answer(std::find(pins_.begin(), pins_.end(), question.pin) != pins_.end());
   }
-  Result<Answer> operator()(const TimeQuestion&, const Origin&) {
-    return Answer(setup_.date_time.value_or(kDefaultTime));
+  Result<Answer> operator()(const TimeQuestion&, const Origin& origin) {
+    // A program that waits for its clock would wait for ever in a run that takes no time: dwells
+    // count, and a block that asks again takes a second.
+    const auto dwelt = static_cast<std::int64_t>(std::min(std::ceil(diagnostics_.dwelt), 1e6));
+    const bool is_new = asked_at_.insert({origin.program, origin.offset}).second;
+    if (!is_new && origin.block != asked_in_) ++waited_;
+    asked_in_ = origin.block;
+    return Answer(later(setup_.date_time.value_or(kDefaultTime), dwelt + waited_));
   }
 
  private:
   const Setup& setup_;
   std::vector<std::int64_t> pins_;
+  const Diagnostics& diagnostics_;
   std::size_t used_ = 0;
+  std::set<std::pair<ProgramIndex, std::uint64_t>> asked_at_;  ///< blocks
+  std::uint64_t asked_in_ = 0;
+  std::int64_t waited_ = 0;  ///< seconds
 };
 
 Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
@@ -137,7 +163,7 @@ Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
   EventSink& first = limits.stop ? static_cast<EventSink&>(gate) : tee;
   auto interpreter = dialect.make(setup, source, first);
   if (!interpreter) return fail(interpreter.error());
-  SetupAnswers answers(setup, *std::move(pins));
+  SetupAnswers answers(setup, *std::move(pins), diagnostics);
   const auto state = run(**interpreter, answers, limits, gate, tee, diagnostics);
   if (!state) return fail(state.error());
   return OfflineOutcome{.ended = *state == StepState::Ended,

@@ -5,6 +5,7 @@
 
 #include "gateway/interpreter/language/line_reader.hpp"
 #include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -151,6 +152,24 @@ TEST(OfflineRun, WhatTheControlRefusesOfASetupIsAnError) {
   const auto outcome = run("end\n", "[control]\nspeed = 1");
   ASSERT_FALSE(outcome);
   EXPECT_THAT(outcome.error().what, HasSubstr("speed"));
+}
+
+/// The control's clock has to go on where nothing else takes time.
+TEST(OfflineRun, AProgramThatWaitsForItsClockGoesOn) {
+  const auto dialect = find_dialect("fanuc");
+  ASSERT_TRUE(dialect);
+  MemorySource source(
+      "O1\n#3001=0\nWHILE[#3001LT2500]DO1\nEND1\n#3001=0\nG04P250\nIF[#3001LT200]GOTO9\nG00X1.\n"
+      "N9M30\n");
+  struct Rapids final : EventSink {
+    void on_rapid(const Rapid&) override { ++count; }
+    int count = 0;
+  } sink;
+  const auto outcome = run_offline(**dialect, interpreter::Setup{}, source, sink);
+  ASSERT_TRUE(outcome) << outcome.error().what;
+  EXPECT_TRUE(outcome->ended) << (outcome->alarm ? outcome->alarm->text : "");
+  EXPECT_LT(outcome->blocks, 20U);
+  EXPECT_EQ(sink.count, 1) << "the dwell has not moved the clock";
 }
 
 }  // namespace
