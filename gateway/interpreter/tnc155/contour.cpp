@@ -219,13 +219,13 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
     if (!run.joint_follows) return true;
   }
   State& state = run.state;
+  if (!check_joint(run, move)) return false;
   // Whether the control goes on beside the contour or on it is not told: on it the tool would cut
   // its radius too deep.
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
   if (state.needs_side && move.has_any) {
     return refuse_start(run, "the tool call ended RL or RR, and the block has neither these nor R0");
   }
-  if (!check_joint(run, move)) return false;
   if (state.joint.kind == JointKind::RunOn) warn_of_quadrant(run, move);
   if (state.joint.kind == JointKind::None) release_corner(run);
   const bool was_on = state.is_compensating();

@@ -120,7 +120,8 @@ bool call_tool(Run& run, const Block& block) {
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
   if (block.axis && !check_axis(run, *block.axis)) return false;
   if (is_change || names_axis) {
-    state.needs_side |= state.is_compensating() || state.is_parallel;
+    // Tool 0 has no radius: the way to where it is changed is uncompensated, as the manual has it.
+    state.needs_side = block.target != 0 && (state.is_compensating() || state.needs_side);
     end_contour(run, false);
   }
   if (is_change && !(choose(run, block.target) && change_tool(run, block.target))) return false;
