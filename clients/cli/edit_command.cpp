@@ -19,9 +19,9 @@ using Texts = std::vector<std::pair<std::string, std::string>>;
 struct EditCommand {
   EditedText::Place place;
   std::vector<std::string> deletions;
-  Texts insertions, replacements;  ///< block numbers and text
-  Texts values;                    ///< block numbers and words
-  Texts omissions, shortenings;    ///< block numbers and addresses
+  Texts insertions, replacements;   ///< block numbers and text
+  Texts values;                     ///< block numbers and words
+  Texts omissions, shortenings;     ///< block numbers and addresses
   std::vector<std::string> wanted;  ///< addresses that are looked for
   std::optional<std::int32_t> increment;
   std::string setup;  ///< file with the control's options

@@ -15,9 +15,9 @@ struct FormConversion {
   std::string input, output;  ///< files; `-` writes to standard output
   bool to_plain = false;      ///< else to ISO
   bool has_decimal_point = false;
-  bool has_lf = false;  ///< LF at line ends; else CR LF as the control writes it
+  bool has_lf = false;                    ///< LF at line ends; else CR LF as the control writes it
   std::optional<std::int32_t> increment;  ///< of ISO block numbers; absent: as the setup says
-  std::string setup;  ///< file with the control's options; empty: none
+  std::string setup;                      ///< file with the control's options; empty: none
 };
 
 /// True when `head`, the first bytes of a file, begins a program in the control's plain language.

@@ -19,7 +19,7 @@ struct GraphicsCommand {
   std::string heights;  ///< .json
   std::string print;    ///< bytes for a printer
   std::string printer;  ///< empty: the setup's, or an EPSON
-  std::string view;  ///< empty: the machine's usual one
+  std::string view;     ///< empty: the machine's usual one
   int shades = 17;
   std::string arrangement = "din";
   double rotation = -30, tilt = 35;

@@ -33,9 +33,8 @@ Found found_in(client::Memory told) {
 /// The newest that the machine told, at most `limit`.
 client::Reply<std::vector<Found>> memories(client::Client& client, const std::string& machine,
                                            std::uint64_t limit) {
-  auto told = fetch_all(limit, [&](client::Page page) {
-    return client.memories(machine, "", page);
-  });
+  auto told =
+      fetch_all(limit, [&](client::Page page) { return client.memories(machine, "", page); });
   if (!told) return client::failed(told.error());
   std::vector<Found> found;
   for (auto& memory : *told) found.push_back(found_in(std::move(memory)));
@@ -79,10 +78,10 @@ client::Reply<Found> wanted(client::Client& client, const MemoryCommand& command
   if (!found->empty()) return std::move(found->front());
   const auto machine = client.machine(command.machine);
   if (!machine) return client::failed(machine.error());
-  return client::failed(client::Failure::Kind::Refused, Errc::NotFound,
-                        "no run of {} has left anything in its control's memory{}", command.machine,
-                        machine->connected ? ""
-                                           : ", as far as is known: its gateway is not connected");
+  return client::failed(
+      client::Failure::Kind::Refused, Errc::NotFound,
+      "no run of {} has left anything in its control's memory{}", command.machine,
+      machine->connected ? "" : ", as far as is known: its gateway is not connected");
 }
 
 /// What the shown memory does not know of yet, or empty.

@@ -150,14 +150,16 @@ void add_start(CLI::App& group, Context& context) {
           "On a serial line: they are in force at the control, nothing is sent for them")
       ->excludes(send);
   command
-      ->add_option("--memory", options->request.memory,
-                   "With --from at a gateway: look through the skipped part with the control's memory "
-                   "(variables, offsets) as it was at the begin of the machine's last run of this "
-                   "revision, or as it is now, so that the skipped part applies once more")
+      ->add_option(
+          "--memory", options->request.memory,
+          "With --from at a gateway: look through the skipped part with the control's memory "
+          "(variables, offsets) as it was at the begin of the machine's last run of this "
+          "revision, or as it is now, so that the skipped part applies once more")
       ->check(CLI::IsMember({"begin", "now"}));
-  command->add_option("--pass", options->request.pass,
-                      "With --from at a gateway: which time the program comes to that block (loops, "
-                      "subprograms)");
+  command->add_option(
+      "--pass", options->request.pass,
+      "With --from at a gateway: which time the program comes to that block (loops, "
+      "subprograms)");
   auto* follow = command->add_flag("--follow", options->follows, "Watch it to its end");
   command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
       ->excludes(follow);
@@ -165,8 +167,10 @@ void add_start(CLI::App& group, Context& context) {
   command->footer(
       "On a serial line a run with --from is refused while the rest of the program relies on words "
       "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
-      "send.\nAt a gateway the program is looked through: a start that would lose what the control keeps, "
-      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass say what is "
+      "send.\nAt a gateway the program is looked through: a start that would lose what the control "
+      "keeps, "
+      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass say "
+      "what is "
       "meant.\n\n"
       "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
       "ends\nthe watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 "

@@ -55,8 +55,8 @@ struct RunRequest {
   std::optional<std::uint64_t> revision;  ///< nullopt: the latest
   std::string from =
       {};  ///< N120, L7 (line), B4096 (byte), T3 (tool), +25 (blocks); empty: the beginning
-  std::string head = {};  ///< on a serial line, with from: send, set; empty: ask
-  std::string memory = {};  ///< at a gateway, with from: begin, now; empty: ask
+  std::string head = {};                   ///< on a serial line, with from: send, set; empty: ask
+  std::string memory = {};                 ///< at a gateway, with from: begin, now; empty: ask
   std::optional<std::uint64_t> pass = {};  ///< at a gateway, with from: which time it comes there
 };
 

@@ -22,11 +22,11 @@ class ControlMemory {
 
   /// A program begins under `setup`, which alone gives `cells` the numbers `base`. Returns what it
   /// is to be given besides. Errors: Corrupt (what was kept is damaged or lost).
-  Result<std::vector<interpreter::VariableRecord>> begin(
-      std::vector<interpreter::MemoryCell> cells, std::vector<double> base,
-      const interpreter::Setup& setup);
-  /// After `begin`: the same, as it was when the last run began at its first block. Errors: NotFound
-  /// (that was no run of `revision`).
+  Result<std::vector<interpreter::VariableRecord>> begin(std::vector<interpreter::MemoryCell> cells,
+                                                         std::vector<double> base,
+                                                         const interpreter::Setup& setup);
+  /// After `begin`: the same, as it was when the last run began at its first block. Errors:
+  /// NotFound (that was no run of `revision`).
   Result<std::vector<interpreter::VariableRecord>> at_beginning(const std::string& revision) const;
   /// After `begin`: stages what a start in the middle of this revision may ask for later.
   void stage_beginning(const std::string& revision);

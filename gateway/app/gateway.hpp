@@ -76,8 +76,8 @@ class Gateway {
   Reply carry_out(const dds::Order& order, bool is_stop);
   Reply start(const dds::Order& order);
   struct StartedBy {
-    std::string order;  ///< what is answered; empty: nobody
-    std::string setup;  ///< what the server knows of tools, offsets and variables, TOML
+    std::string order;        ///< what is answered; empty: nobody
+    std::string setup;        ///< what the server knows of tools, offsets and variables, TOML
     StartArgument from = {};  ///< where it begins; without a place at the beginning
   };
   Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,

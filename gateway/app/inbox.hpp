@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/base/clock.hpp"
 #include "gateway/app/panel_command.hpp"
+#include "protocol/base/clock.hpp"
 #include "protocol/dds/message.hpp"
 
 namespace dripline::gateway {

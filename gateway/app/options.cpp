@@ -77,14 +77,15 @@ constexpr std::array kRows{
                 o.network.interface = v;
                 return {};
               }},
-    OptionRow{"dds-open-network", "yes|no", "", "no",
-              "yes: DDS beyond this machine although it has no authentication; only on a network of "
-              "its own",
-              [](Options& o, std::string_view v) -> Result<void> {
-                if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is not yes or no", v);
-                o.network.is_open_network_allowed = v == "yes";
-                return {};
-              }},
+    OptionRow{
+        "dds-open-network", "yes|no", "", "no",
+        "yes: DDS beyond this machine although it has no authentication; only on a network of "
+        "its own",
+        [](Options& o, std::string_view v) -> Result<void> {
+          if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is not yes or no", v);
+          o.network.is_open_network_allowed = v == "yes";
+          return {};
+        }},
     OptionRow{"discovery-interval-ms", "number", "ms", "250", "between two looks for the server",
               [](Options& o, std::string_view v) {
                 return set_number(o.network.discovery_interval_ms, v, 10, 60'000);

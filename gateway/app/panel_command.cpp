@@ -45,8 +45,9 @@ constexpr std::array kRows{
     VerbRow{"rapid-override PERCENT", Verb::RapidOverride, Takes::Percent, ""},
     VerbRow{"spindle-override PERCENT", Verb::SpindleOverride, Takes::Percent, ""},
     VerbRow{"handwheel CLICKS", Verb::Handwheel, Takes::Count, "turn it, in handwheel mode"},
-    VerbRow{"discard-memory", Verb::DiscardMemory, Takes::Nothing,
-            "drop what the control has kept (variables, offsets): after a damage, or to begin again"},
+    VerbRow{
+        "discard-memory", Verb::DiscardMemory, Takes::Nothing,
+        "drop what the control has kept (variables, offsets): after a damage, or to begin again"},
 };
 
 std::string_view first_word(std::string_view text) {

@@ -45,8 +45,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
 Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup& setup) {
   retained_ = dynamic_cast<interpreter::RetainedMemory*>(interpreter_.get());
   if (retained_ == nullptr) return {};
-  const auto make_with =
-      [&](const std::vector<interpreter::VariableRecord>& kept) -> Result<void> {
+  const auto make_with = [&](const std::vector<interpreter::VariableRecord>& kept) -> Result<void> {
     interpreter::Setup given = setup;
     given.variables.insert(given.variables.end(), kept.begin(), kept.end());
     auto made = make(given);
@@ -126,7 +125,8 @@ namespace {
 /// Tables that were converted to another unit and back differ in the last digits.
 bool is_unchanged(double before, double now) {
   constexpr double kNoise = 1e-14;
-  return report::is_same_number(before, now) || std::fabs(now - before) <= kNoise * std::fabs(before);
+  return report::is_same_number(before, now) ||
+         std::fabs(now - before) <= kNoise * std::fabs(before);
 }
 
 }  // namespace

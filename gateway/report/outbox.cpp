@@ -127,7 +127,9 @@ Result<void> insert_cell(sqlite::Statement& insert, const std::string& name, con
 std::string digest_of(const KeptCells& memory, const Outbox::Beginning& beginning,
                       const std::string& fault) {
   Sha256 hash;
-  const auto add = [&hash](const std::string& text) { hash.update(std::as_bytes(std::span(text))); };
+  const auto add = [&hash](const std::string& text) {
+    hash.update(std::as_bytes(std::span(text)));
+  };
   const auto add_cells = [&add](char table, const KeptCells& cells) {
     for (const auto& [name, cell] : cells) {
       add(fmt::format("{} {} {} {} {}\n", table, name, stored(cell.value).value_or("vacant"),
@@ -247,9 +249,8 @@ void Outbox::discard() {
 }
 
 Result<void> Outbox::commit() {
-  const bool has_change = !staged_.empty() || !staged_results_.empty() ||
-                          !staged_cells_.empty() || staged_beginning_ || staged_fault_ ||
-                          run_change_ != RunChange::None;
+  const bool has_change = !staged_.empty() || !staged_results_.empty() || !staged_cells_.empty() ||
+                          staged_beginning_ || staged_fault_ || run_change_ != RunChange::None;
   if (!has_change) return {};
   auto transaction = sqlite::Transaction::begin(database_);
   if (!transaction) return fail(transaction.error());

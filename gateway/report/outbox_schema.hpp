@@ -44,7 +44,7 @@ CREATE TABLE order_result (
   reason      TEXT NOT NULL
 ) STRICT;
 )sql"},
-                                        storage::sqlite::Migration{2, "memory", R"sql(
+                                              storage::sqlite::Migration{2, "memory", R"sql(
 -- What the control keeps when a program is over, as far as programs have changed it.
 CREATE TABLE memory (
   name     TEXT PRIMARY KEY,  -- the control's own: P10, #500, G54.X
@@ -53,7 +53,7 @@ CREATE TABLE memory (
   is_named INTEGER NOT NULL   -- 1: it gave it as a variable
 ) STRICT;
 )sql"},
-                                        storage::sqlite::Migration{3, "memory_seal", R"sql(
+                                              storage::sqlite::Migration{3, "memory_seal", R"sql(
 -- The same as it was when the last run began at its program's first block: what a start in the
 -- middle of that program rests on.
 CREATE TABLE memory_beginning (

@@ -25,8 +25,8 @@ std::string_view to_string(RecordKind value) {
 
 std::string_view to_string(OrderAction value) {
   static constexpr std::array<std::string_view, 11> kNames{
-      "start",          "hold",             "resume",    "abort", "answer", "switch", "feed_override",
-      "rapid_override", "spindle_override", "handwheel", "refuse"};
+      "start",         "hold",           "resume",           "abort",     "answer", "switch",
+      "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse"};
   return kNames.at(static_cast<std::size_t>(value));
 }
 

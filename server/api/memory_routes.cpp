@@ -15,9 +15,8 @@ json number_json(const std::optional<double>& number) {
 json memory_json(const library::KeptMemory& memory) {
   auto cells = json::array();
   for (const auto& [name, cell] : memory.cells) {
-    cells.push_back({{"name", name},
-                     {"value", number_json(cell.value)},
-                     {"setup", number_json(cell.base)}});
+    cells.push_back(
+        {{"name", name}, {"value", number_json(cell.value)}, {"setup", number_json(cell.base)}});
   }
   return {{"machine", memory.machine},
           {"run", memory.run},

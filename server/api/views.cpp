@@ -170,16 +170,17 @@ json machine_json(const feeds::MachineView& view) {
   const auto seconds = [](std::chrono::microseconds time) {
     return std::chrono::duration<double>(time).count();
   };
-  return {{"name", view.machine.name},
-          {"control", optional_text(view.machine.control)},
-          {"description", optional_text(view.machine.description)},
-          {"gateway_version", optional_text(view.machine.gateway_version)},
-          {"connected", view.is_connected},
-          {"clock_ahead_seconds", view.clock_ahead ? json(seconds(*view.clock_ahead)) : json(nullptr)},
-          {"notices", feeds::notices_of(view)},
-          {"first_seen", to_iso8601(view.machine.first_seen)},
-          {"last_seen", to_iso8601(view.machine.last_seen)},
-          {"status", view.status ? status_json(*view.status) : json(nullptr)}};
+  return {
+      {"name", view.machine.name},
+      {"control", optional_text(view.machine.control)},
+      {"description", optional_text(view.machine.description)},
+      {"gateway_version", optional_text(view.machine.gateway_version)},
+      {"connected", view.is_connected},
+      {"clock_ahead_seconds", view.clock_ahead ? json(seconds(*view.clock_ahead)) : json(nullptr)},
+      {"notices", feeds::notices_of(view)},
+      {"first_seen", to_iso8601(view.machine.first_seen)},
+      {"last_seen", to_iso8601(view.machine.last_seen)},
+      {"status", view.status ? status_json(*view.status) : json(nullptr)}};
 }
 
 json run_json(const storage::Run& run) {

@@ -30,7 +30,7 @@ struct Settings {
   std::string log_level = "info";
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;
-  bool begin_empty = false;  ///< on the command line alone: once, by somebody who looks
+  bool begin_empty = false;          ///< on the command line alone: once, by somebody who looks
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 

@@ -20,9 +20,9 @@ class StateFolder {
   /// Errors: Io, Denied (others may read or change it).
   Result<std::string> token() const;
 
-  /// Before the database is opened: one that this folder has had must be there. `begin_empty`: it is
-  /// known to be lost, and a new one is wanted. Errors: Corrupt (missing or empty), Busy (wanted,
-  /// but it is there), Io.
+  /// Before the database is opened: one that this folder has had must be there. `begin_empty`: it
+  /// is known to be lost, and a new one is wanted. Errors: Corrupt (missing or empty), Busy
+  /// (wanted, but it is there), Io.
   Result<void> expect_database(bool begin_empty) const;
   /// After it was opened. Errors: Corrupt (it is not the one this folder has had), Io.
   Result<void> remember_database(const std::string& identity) const;

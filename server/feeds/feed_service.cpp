@@ -276,13 +276,12 @@ Result<void> FeedService::check_order(const OrderRequest& request, const Machine
   if (request.action == OrderAction::Hold || request.action == OrderAction::Abort || presses_stop)
     return {};
   if (view.status) {
-    const bool lowers =
-        (request.action == OrderAction::FeedOverride &&
-         request.value < view.status->feed_override) ||
-        (request.action == OrderAction::RapidOverride &&
-         request.value < view.status->rapid_override) ||
-        (request.action == OrderAction::SpindleOverride &&
-         request.value < view.status->spindle_override);
+    const bool lowers = (request.action == OrderAction::FeedOverride &&
+                         request.value < view.status->feed_override) ||
+                        (request.action == OrderAction::RapidOverride &&
+                         request.value < view.status->rapid_override) ||
+                        (request.action == OrderAction::SpindleOverride &&
+                         request.value < view.status->spindle_override);
     if (lowers) return {};
   }
   return check_protocol(view);

@@ -223,7 +223,7 @@ void MachineBoard::save() {
     const storage::Counters counters{
         .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
     auto saved = parts_.store.update_counters(status.machine, status.run, counters, status.line,
-                                               status.sequence);
+                                              status.sequence);
     if (!saved && saved.error().code != Errc::NotFound) {
       spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
                     saved.error().what);

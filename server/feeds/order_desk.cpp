@@ -62,9 +62,9 @@ Result<void> OrderDesk::send_to_present(dds::Order order, SteadyTime deadline) {
     const auto gateway = options_.gateway_of(order.machine);
     order.session = gateway.session;
     if (gateway.steady_ahead) {
-      order.deadline = std::chrono::duration_cast<std::chrono::microseconds>(
-                           deadline.time_since_epoch()) +
-                       *gateway.steady_ahead;
+      order.deadline =
+          std::chrono::duration_cast<std::chrono::microseconds>(deadline.time_since_epoch()) +
+          *gateway.steady_ahead;
     } else if (!may_stop(order)) {
       return fail(Errc::Timeout, "machine {} has not reported its status yet", order.machine);
     }

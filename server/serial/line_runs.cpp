@@ -101,10 +101,11 @@ Result<storage::Run> LineRuns::create(const feeds::StartRequest& request,
 
 Result<SendJob> LineRuns::job(const storage::Run& run, const feeds::StartRequest& request) {
   if (request.from.pass || request.memory != feeds::StartMemory::Ask) {
-    return fail(Errc::Unsupported,
-                "pass and memory: the program is looked through at a gateway; machine '{}' hangs on "
-                "a serial line, and its control has its own memory",
-                run.machine);
+    return fail(
+        Errc::Unsupported,
+        "pass and memory: the program is looked through at a gateway; machine '{}' hangs on "
+        "a serial line, and its control has its own memory",
+        run.machine);
   }
   const auto place = find_start(store_, run, request.from);
   if (!place) return fail(place.error());

@@ -69,13 +69,12 @@ Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::u
   for (const EncodedChunk& chunk : chunks) {
     const auto id = put_chunk(database, chunk);
     if (!id) return fail(id.error());
-    const auto placed =
-        sqlite::run(database,
-                    "INSERT INTO content_chunk (content, position, chunk, sha256) "
-                    "VALUES (?1, ?2, ?3, ?4) ON CONFLICT (content, position) DO UPDATE "
-                    "SET chunk = excluded.chunk, sha256 = excluded.sha256",
-                    content, bytes_before / kChunkBytes, *id,
-                    std::span<const std::byte>(chunk.digest.bytes));
+    const auto placed = sqlite::run(
+        database,
+        "INSERT INTO content_chunk (content, position, chunk, sha256) "
+        "VALUES (?1, ?2, ?3, ?4) ON CONFLICT (content, position) DO UPDATE "
+        "SET chunk = excluded.chunk, sha256 = excluded.sha256",
+        content, bytes_before / kChunkBytes, *id, std::span<const std::byte>(chunk.digest.bytes));
     if (!placed) return placed;
     bytes_before += chunk.size;
   }

@@ -65,9 +65,7 @@ Result<void> check_places(sqlite::Database& database, const ContentRow& content,
       "SELECT position, chunk.id IS NULL FROM content_chunk "
       "LEFT JOIN chunk INDEXED BY chunk_digest ON chunk.id = content_chunk.chunk "
       "WHERE content = ?1 AND chunk.sha256 IS NOT content_chunk.sha256 ORDER BY position LIMIT 1",
-      [](const sqlite::Statement& row) {
-        return std::pair(row.number(0), row.integer(1) != 0);
-      },
+      [](const sqlite::Statement& row) { return std::pair(row.number(0), row.integer(1) != 0); },
       content.id);
   if (!wrong) return fail(wrong.error());
   if (!*wrong) return {};
@@ -82,11 +80,11 @@ Result<void> check_places(sqlite::Database& database, const ContentRow& content,
 Result<void> seal_content(sqlite::Database& database, const ContentRow& content,
                           const Digest& digest) {
   // Rows of a version before 5 have none.
-  const auto filled = sqlite::run(
-      database,
-      "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM chunk WHERE chunk.id = "
-      "content_chunk.chunk) WHERE content = ?1 AND sha256 IS NULL",
-      content.id);
+  const auto filled =
+      sqlite::run(database,
+                  "UPDATE content_chunk SET sha256 = (SELECT sha256 FROM chunk WHERE chunk.id = "
+                  "content_chunk.chunk) WHERE content = ?1 AND sha256 IS NULL",
+                  content.id);
   if (!filled) return filled;
   const auto chunks = read_list(database, content, digest);
   if (!chunks) return fail(chunks.error());

@@ -8,8 +8,8 @@
 
 #include "storage/impl/content.hpp"
 
-/// A content is a list of chunks, and each chunk is checked against its own digest. That the list is
-/// the one that was committed is what its seal says: a digest over the content's own digest, its
+/// A content is a list of chunks, and each chunk is checked against its own digest. That the list
+/// is the one that was committed is what its seal says: a digest over the content's own digest, its
 /// size and its chunks' digests in order, made when all bytes had been compared with the content's
 /// SHA-256. Checking it reads a few dozen bytes for each 256 KiB, so a run of a program of any size
 /// begins at once and is still refused when one row names another chunk.

@@ -103,9 +103,8 @@ Result<ProgramRepository::Sealed> ProgramRepository::sealed(const Digest& conten
 /// A content from before seals were known: all its bytes are read once.
 Result<ProgramRepository::Sealed> ProgramRepository::seal(const Digest& content,
                                                           const ContentRow& row) {
-  const auto compared = connections_.read([&](sqlite::Database& database) {
-    return compare_whole(database, row, content);
-  });
+  const auto compared = connections_.read(
+      [&](sqlite::Database& database) { return compare_whole(database, row, content); });
   if (!compared) return fail(compared.error());
   return connections_.write([&](sqlite::Database& database) -> Result<Sealed> {
     if (auto done = seal_content(database, row, content); !done) return fail(done.error());

@@ -78,12 +78,14 @@ Result<std::uint64_t> insert_contiguous(sqlite::Database& database, const Record
   for (const Record& record : batch.records) {
     if (record.number <= last) continue;
     if (record.number != last + 1) break;
-    if (auto done = insert_record(*insert, received.machine, record, received.time); !done) return fail(done.error());
+    if (auto done = insert_record(*insert, received.machine, record, received.time); !done)
+      return fail(done.error());
     if (record.kind == "output" && !record.run.empty()) ++outputs[record.run];
     last = record.number;
   }
   for (const auto& [run, count] : outputs) {
-    if (auto done = add_outputs(database, received.machine, {run, count}); !done) return fail(done.error());
+    if (auto done = add_outputs(database, received.machine, {run, count}); !done)
+      return fail(done.error());
   }
   return last;
 }
@@ -132,7 +134,8 @@ Result<std::uint64_t> RecordRepository::store(const RecordBatch& batch) {
                       *machine, batch.epoch, *last);
       if (!noted) return fail(noted.error());
     }
-    if (auto done = apply_to_runs(database, batch, *machine, *last); !done) return fail(done.error());
+    if (auto done = apply_to_runs(database, batch, *machine, *last); !done)
+      return fail(done.error());
     return last;
   });
 }
@@ -227,7 +230,8 @@ Result<std::vector<MemoryReport>> RecordRepository::memory(const std::string& ma
 
 Result<std::vector<Record>> RecordRepository::without_run(const std::string& machine, Page page) {
   static const std::string kSelect =
-      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, received_us "
+      "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
+      "received_us "
       "FROM record WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
       "AND run IS NULL AND kind IN ('output', 'probe') "
       "ORDER BY epoch, number LIMIT ?2 OFFSET ?3";

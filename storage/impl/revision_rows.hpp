@@ -10,8 +10,8 @@
 /// transaction.
 namespace dripline::storage {
 
-/// Columns of read_revision, the digest of the content that the row names, then FROM with program and
-/// content joined; a WHERE follows.
+/// Columns of read_revision, the digest of the content that the row names, then FROM with program
+/// and content joined; a WHERE follows.
 extern const std::string kRevisionColumns;
 extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.

@@ -8,7 +8,8 @@ namespace dripline::storage {
 namespace {
 
 const std::string kSelect =
-    "SELECT run.id, machine.name, program.name, run.revision, run.sha256, coalesce(content.size, 0), "
+    "SELECT run.id, machine.name, program.name, run.revision, run.sha256, coalesce(content.size, "
+    "0), "
     "run.control, run.state, run.sent, run.accepted, run.executed, run.line, run.sequence, "
     "run.reason, run.executed_content, run.content_verified, run.author, run.created_us, "
     "run.started_us, run.ended_us, run.outputs, run.setup, run.sha256 IS revision.sha256 FROM run "
@@ -32,7 +33,8 @@ Run read_run(const sqlite::Statement& row) {
   run.sequence = row.integer(12);
   run.reason = row.text(13);
   run.executed_content = row.optional_text(14);
-  // A row that names another revision than the run was created with is damaged: nothing was verified.
+  // A row that names another revision than the run was created with is damaged: nothing was
+  // verified.
   const bool is_bound = row.integer(22) != 0;
   if (const auto verified = row.optional_integer(15)) {
     run.content_verified = *verified != 0 && is_bound;
@@ -81,7 +83,8 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
   };
   const auto found = sqlite::first_row(
       database,
-      "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256 FROM revision "
+      "SELECT program.id, revision.sha256, revision.standing = 'held', content.sha256 FROM "
+      "revision "
       "JOIN program ON program.id = revision.program "
       "LEFT JOIN content ON content.id = revision.content "
       "WHERE program.name = ?1 AND revision.number = ?2 "
@@ -127,7 +130,8 @@ Result<void> insert_run(sqlite::Database& database, const Run& run, const RunPla
       database,
       "INSERT INTO run (id, machine, program, revision, control, state, sent, accepted, executed, "
       "line, sequence, reason, executed_content, content_verified, author, created_us, started_us, "
-      "ended_us, setup, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, "
+      "ended_us, setup, sha256) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, "
+      "?14, "
       "?15, ?16, ?17, ?18, ?19, ?20)",
       run.id, place.machine, place.program, run.revision, run.control, to_string(run.state),
       run.counters.sent, run.counters.accepted, run.counters.executed, run.line, run.sequence,

@@ -175,7 +175,8 @@ TEST_F(Cli, AStartInTheMiddleNamesWhatItWouldCountTwice) {
   const auto refused = dnc({"run", "start", "lathe-1", "O1", "--from", "N30", "--wait"});
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.output.find("P10"), std::string::npos) << refused.output;
-  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--memory", "now"}).status, 1) << "without --from";
+  EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--memory", "now"}).status, 1)
+      << "without --from";
   const std::string reason = dnc_json({"run", "show", "latest"}).at("reason");
   EXPECT_NE(reason.find("CEN1013"), std::string::npos) << reason;
 }

@@ -202,10 +202,9 @@ TEST(LineSystemLoss, ResumesACheckedProtocolWhenTheCableIsBack) {
 TEST(LineSystemPanel, TextWaitsForTheReleaseOfTheEmergencyStop) {
   PtyCable cable;
   System::Options options;
-  options.gateway_arguments = {"--line",         cable.control(),  "--line-template",
-                               "centurion",      "--line-setting", "idle_end_ms=300",
-                               "--line-setting", "baud=115200",    "--unattended",
-                               "yes"};
+  options.gateway_arguments = {
+      "--line",          cable.control(),  "--line-template", "centurion",    "--line-setting",
+      "idle_end_ms=300", "--line-setting", "baud=115200",     "--unattended", "yes"};
   System system(options);
   system.start_server();
   system.start_gateway();

@@ -64,9 +64,9 @@ TEST_P(Clocks, ThatDifferByAnHourNeitherStopNorHinderAnything) {
   EXPECT_EQ(ended.value("state", ""), "aborted");
   EXPECT_LE(ended.value("created", ""), ended.value("started", ""));
   EXPECT_LE(ended.value("started", ""), ended.value("ended", ""));
-  const auto pressed = system.rest().post(
-      "/api/v1/machines/lathe-1/orders",
-      {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
+  const auto pressed =
+      system.rest().post("/api/v1/machines/lathe-1/orders",
+                         {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
   EXPECT_EQ(pressed.status, 200) << pressed.body;
   EXPECT_TRUE(eventually([&] { return machine()["status"].value("emergency_stop", false); }));
 
@@ -92,15 +92,14 @@ class Database : public testing::Test {
   }
   std::filesystem::path file() const { return system.server_state() / "dripline.sqlite"; }
   test_support::Finished start(const std::string& option = "") const {
-    std::vector<std::string> command{program_path("dncd"), "--state",      system.server_state(),
-                                     "--http",             "127.0.0.1:0", "--dds-domain",
-                                     std::to_string(system.domain())};
+    std::vector<std::string> command{
+        program_path("dncd"), "--state",      system.server_state(),          "--http",
+        "127.0.0.1:0",        "--dds-domain", std::to_string(system.domain())};
     if (!option.empty()) command.push_back(option);
     return run_to_end(command, system.folder() / "refused.out", std::chrono::seconds(20));
   }
   void change(const std::string& sql) const {
-    const auto done =
-        run_to_end({"/usr/bin/sqlite3", file(), sql}, system.folder() / "sqlite.out");
+    const auto done = run_to_end({"/usr/bin/sqlite3", file(), sql}, system.folder() / "sqlite.out");
     ASSERT_EQ(done.status, 0) << done.output;
   }
   System system;

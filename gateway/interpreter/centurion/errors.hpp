@@ -95,7 +95,7 @@ enum class ErrorCode : std::uint16_t {
   SpindleNeeded = 1009,
   InputMissing = 1010,
   ProbeBeforeStart = 1011,
-  LoopLimit = 1012,  ///< the program repeats, and nothing moves or takes time
+  LoopLimit = 1012,       ///< the program repeats, and nothing moves or takes time
   StartUndefined = 1013,  ///< the state at a start in the middle is not known
 
   CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends

@@ -26,12 +26,12 @@ struct ControlOptions {
   bool refuses_goto = false;             ///< `dnc_refusals` with `resolve_dnc` off
   std::array<double, 3> spindle_ranges{9999, 9999, 9999};  ///< most revolutions: low, medium, high
   double pulse_ms = 150;                                   ///< of PULSE0 and PULSE1
-  bool asks_for_inputs = false;        ///< `ask_inputs`: waits for inputs ask the owner
-  std::optional<StartAt> start_at;     ///< `start_at`: not the first block
+  bool asks_for_inputs = false;     ///< `ask_inputs`: waits for inputs ask the owner
+  std::optional<StartAt> start_at;  ///< `start_at`: not the first block
   /// `start_pass`: which time the program comes to that block, where it may come more than once.
   std::optional<std::uint64_t> start_pass;
-  /// `start_memory` = "begin" (what is given is as it was when the program began) or "now": the part
-  /// before the start may change what it has read before.
+  /// `start_memory` = "begin" (what is given is as it was when the program began) or "now": the
+  /// part before the start may change what it has read before.
   bool may_count_again = false;
   bool single_block = false;           ///< the panel's switch; cycles stop at their clearance
   bool is_dry_run = false;             ///< the panel's switch

@@ -222,8 +222,7 @@ void visit_notes(Archive& archive, StartNotes& notes) {
     archive(use);
     if (use > StartNotes::Use::Lost) return archive.damage();
   }
-  all(archive, notes.has_place, notes.program, notes.offset, notes.arrivals,
-      notes.arrival);
+  all(archive, notes.has_place, notes.program, notes.offset, notes.arrivals, notes.arrival);
   std::size_t withheld = notes.withheld.size();
   if (!archive.size(withheld, StartNotes::kMaxWithheld)) return;
   notes.withheld.resize(withheld);

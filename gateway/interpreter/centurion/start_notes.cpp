@@ -39,7 +39,8 @@ void StartNotes::withhold(std::uint16_t code, bool state, std::uint64_t line) {
 
 void note_table_set(Run& run, int parameter) {
   const ModalState& state = run.state;
-  const bool is_in_use = (state.moved_axes | state.searched_axes) != 0 || !(state.floating_zero == Point{});
+  const bool is_in_use =
+      (state.moved_axes | state.searched_axes) != 0 || !(state.floating_zero == Point{});
   if (is_in_use) run.start.note_read(parameter);
   run.start.note_set(parameter);
 }
@@ -53,8 +54,8 @@ std::string lost_memory_text(const Run& run) {
     if (uses[cell] != StartNotes::Use::Lost || ++lost > kMaxNames) continue;
     const int number = static_cast<int>(cell);
     const bool is_byte = number >= kParameterCount;
-    append(text, is_byte ? fmt::format("PB{}", number - kParameterCount)
-                         : fmt::format("P{}", number));
+    append(text,
+           is_byte ? fmt::format("PB{}", number - kParameterCount) : fmt::format("P{}", number));
   }
   if (lost > kMaxNames) text += fmt::format(" and {} more", lost - kMaxNames);
   return text;

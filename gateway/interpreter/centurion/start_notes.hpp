@@ -23,8 +23,8 @@ struct Run;
 struct StartNotes {
   enum class Use : std::uint8_t {
     None,
-    Read,   ///< as the program found it
-    Set,    ///< before it was read
+    Read,  ///< as the program found it
+    Set,   ///< before it was read
     Lost,  ///< read, then set
   };
   /// Of P0 to P999, then PB0 to PB639; empty while no start is looked for.

@@ -130,17 +130,18 @@ std::string StartSearch::refusal(const Run& run) const {
   if (asks_for_way_back(run)) {
     std::string flow = open_flow_text(run);
     if (way_back_) {
-      flow += fmt::format("{}line {}, which comes back over it", flow.empty() ? "" : ", ",
-                          *way_back_);
+      flow +=
+          fmt::format("{}line {}, which comes back over it", flow.empty() ? "" : ", ", *way_back_);
     }
     if (!flow.empty())
       add(fmt::format("it is in {}: which time is meant (pass, start_pass)?", flow));
   }
   if (const std::string lost = lost_memory_text(run); !lost.empty() && !run.options.may_count_again)
-    add(fmt::format("the part before it reads {} and then sets it: is the memory meant as it was when "
-                    "the program began, or as it is now, so that this counts once more (memory, "
-                    "start_memory)?",
-                    lost));
+    add(fmt::format(
+        "the part before it reads {} and then sets it: is the memory meant as it was when "
+        "the program began, or as it is now, so that this counts once more (memory, "
+        "start_memory)?",
+        lost));
   return text;
 }
 

@@ -29,14 +29,13 @@ Result<StartAt> parse_start_at(std::string_view text);
 
 /// Looks for the start through everything the program does before it: nothing of that reaches the
 /// machine, but all of it counts (modes, zeros, parameters, tool). At the start the tool, spindle
-/// and coolant are shown, M functions and outputs that were not given out are named, and the machine
-/// moves from where it stands to where the program is by way of the clearance plane (spec 24.3). A
-/// program that has no such place begins at its first block, with a message, and when the operator
-/// has agreed.
-/// An alarm before anything moves: the block is in a loop, a subroutine or a called program, or the
-/// program may come back over it, and `start_pass` does not name which time is meant; it is in a
-/// pattern; what comes before it changes parameters that it has read, and `start_memory` does not
-/// name which memory is meant (start_notes.hpp).
+/// and coolant are shown, M functions and outputs that were not given out are named, and the
+/// machine moves from where it stands to where the program is by way of the clearance plane
+/// (spec 24.3). A program that has no such place begins at its first block, with a message, and
+/// when the operator has agreed. An alarm before anything moves: the block is in a loop, a
+/// subroutine or a called program, or the program may come back over it, and `start_pass` does not
+/// name which time is meant; it is in a pattern; what comes before it changes parameters that it
+/// has read, and `start_memory` does not name which memory is meant (start_notes.hpp).
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}

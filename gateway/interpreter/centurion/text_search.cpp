@@ -218,8 +218,8 @@ TextSearch::Outcome TextSearch::find_way_back(const TextPosition& from, std::uin
   for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
     if (back_label_) {
       TextPosition label;
-      const Outcome found = *back_label_ == kComputed ? Outcome::Found
-                                                      : find_label(from, *back_label_, label);
+      const Outcome found =
+          *back_label_ == kComputed ? Outcome::Found : find_label(from, *back_label_, label);
       if (found != Outcome::Found && found != Outcome::Missing) return found;
       back_label_.reset();
       line = back_next_.line - 1;

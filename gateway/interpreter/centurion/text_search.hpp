@@ -43,8 +43,8 @@ class TextSearch {
   Outcome find_label(const TextPosition& from, std::uint32_t label, TextPosition& found);
   /// The program O `number` in the text that was started: a file may hold several (spec 20.2).
   Outcome find_program(std::uint32_t number, TextPosition& found);
-  /// The first block from `from` on that may jump back over it: a GOTO to a label of its program that
-  /// is at `from` or before it, or one whose label is computed. Missing: none in the next
+  /// The first block from `from` on that may jump back over it: a GOTO to a label of its program
+  /// that is at `from` or before it, or one whose label is computed. Missing: none in the next
   /// kBlocksLookedAt blocks. `line`: of that block.
   Outcome find_way_back(const TextPosition& from, std::uint64_t& line);
   static constexpr std::uint64_t kBlocksLookedAt = 1u << 20;  ///< a loop that takes in more is none
@@ -83,7 +83,7 @@ class TextSearch {
   TextPosition back_from_, back_next_;  ///< of the search that was interrupted
   std::uint64_t back_blocks_ = 0;
   std::optional<std::uint32_t> back_label_;  ///< of the GOTO met last, while it is looked for
-  TextPosition loop_head_;  ///< of the search that was interrupted
+  TextPosition loop_head_;                   ///< of the search that was interrupted
   TextPosition loop_next_;
   int loop_depth_ = 0;
 };

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "gateway/interpreter/event_filter.hpp"
 #include "gateway/interpreter/centurion/transformation.hpp"
+#include "gateway/interpreter/event_filter.hpp"
 
 namespace dripline::interpreter::centurion {
 

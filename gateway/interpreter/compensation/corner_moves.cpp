@@ -17,7 +17,8 @@ std::optional<PlaneVector> Compensator::last_direction() const {
   return (-1 / state_.offset) * left_of(out);
 }
 
-bool Compensator::go_round_corner(const Origin& origin, Feed feed, std::optional<PlaneVector> along) {
+bool Compensator::go_round_corner(const Origin& origin, Feed feed,
+                                  std::optional<PlaneVector> along) {
   if (fault_ || state_.offset == 0) return true;
   const auto direction = last_direction();
   if (!direction || state_.phase != Phase::On) return false;

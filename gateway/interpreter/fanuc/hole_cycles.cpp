@@ -348,10 +348,10 @@ void check_levels(Run& run) {
              data.has_retract ? "no bottom is written, R is taken"
                               : "no R is written, the level reached is taken");
   } else if (run.state.g[kCycleGroup] != 87 && down * approach < 0) {
-    run.warn(WarningCode::CycleLevels, run.block.parts.g_column,
-             fmt::format("initial {:.6g}, R {:.6g}, bottom {:.6g}",
-                         run.in_units(Axis::Z, data.initial), run.in_units(Axis::Z, data.retract),
-                         run.in_units(Axis::Z, data.bottom)));
+    run.warn(
+        WarningCode::CycleLevels, run.block.parts.g_column,
+        fmt::format("initial {:.6g}, R {:.6g}, bottom {:.6g}", run.in_units(Axis::Z, data.initial),
+                    run.in_units(Axis::Z, data.retract), run.in_units(Axis::Z, data.bottom)));
   }
 }
 

@@ -20,7 +20,7 @@ struct ControlOptions {
   Model model = Model::M16;
   bool calculator_point = false;
   bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands
-  int decimals_mm = 3;  ///< of the least increment; inches have one more
+  int decimals_mm = 3;           ///< of the least increment; inches have one more
   Units start_units = Units::Millimetre;
   std::vector<std::uint8_t> start_g;
   RepeatAddress repeat_address = RepeatAddress::Both;

@@ -25,8 +25,7 @@ std::string describe(const Fault& fault, Units units) {
       if (limit < 0)
         return fmt::format("no arc of radius {:.6f} touches the moves of lines {} and {}", value,
                            line, next);
-      return fmt::format("the corner takes {:.6f} of a move that is {:.6f} long", value,
-                         limit);
+      return fmt::format("the corner takes {:.6f} of a move that is {:.6f} long", value, limit);
     case FaultKind::ChamferAtArc:
       return fmt::format("a chamfer between lines {} and {}, of which one is an arc", line, next);
     case FaultKind::OtherPlane:

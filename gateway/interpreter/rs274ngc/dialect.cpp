@@ -36,8 +36,8 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (auto loaded = load_memory(setup, *options, state, *parameters, tools); !loaded) {
     return fail(loaded.error());
   }
-  auto made = std::make_unique<Rs274NgcInterpreter>(
-      std::move(*options), std::move(tools), std::move(state), *parameters, source, sink);
+  auto made = std::make_unique<Rs274NgcInterpreter>(std::move(*options), std::move(tools),
+                                                    std::move(state), *parameters, source, sink);
   made->set_parameter_file(listed_parameters(setup));
   return std::unique_ptr<Interpreter>(std::move(made));
 }

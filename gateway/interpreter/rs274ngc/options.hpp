@@ -29,7 +29,7 @@ struct ControlOptions {
   Profile profile = Profile::Nist;
   bool block_skip = false;
   bool optional_stop = false;
-  AddressSet axes = 0;  ///< words of the axes the machine has
+  AddressSet axes = 0;           ///< words of the axes the machine has
   bool has_tool_changer = true;  ///< false: M6 stops for the operator's hands
   bool ignores_missing_axes = false;
   int slots = 128;                       ///< of the tool changer

@@ -24,7 +24,7 @@ bool check_probe(Run& run, const Target& target) {
     squares += part * part;
   }
   // the later program refuses only what is no move
-  const double least = run.is_linuxcnc()             ? 1e-9
+  const double least = run.is_linuxcnc()            ? 1e-9
                        : state.units == Units::Inch ? 0.01 * Length::kMillimetresPerInch
                                                     : 0.254;
   if (std::sqrt(squares) < least) return run.fail(ErrorCode::ProbeTooClose, 0);

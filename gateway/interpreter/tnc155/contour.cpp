@@ -224,7 +224,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   // its radius too deep.
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
   if (state.needs_side && move.has_any) {
-    return refuse_start(run, "the tool call ended RL or RR, and the block has neither these nor R0");
+    return refuse_start(run,
+                        "the tool call ended RL or RR, and the block has neither these nor R0");
   }
   if (state.joint.kind == JointKind::RunOn) warn_of_quadrant(run, move);
   if (state.joint.kind == JointKind::None) release_corner(run);

@@ -44,10 +44,11 @@ bool reduce_rotary_axes(Run& run) {
     const auto i = static_cast<std::size_t>(axis);
     const double turns = std::trunc(state.nominal[i] / 360) * 360;
     if (turns != 0 && state.start.is_searching) {
-      return run.fail(ErrorCode::ProgramStartUndefined,
-                      fmt::format("a start after M94 would lose the datum of {}, which it has moved "
-                                  "by {:+.0f} when it was executed: start before it",
-                                  letter(axis), turns));
+      return run.fail(
+          ErrorCode::ProgramStartUndefined,
+          fmt::format("a start after M94 would lose the datum of {}, which it has moved "
+                      "by {:+.0f} when it was executed: start before it",
+                      letter(axis), turns));
     }
     state.nominal[i] -= turns;
     state.transformation.datum[i] += turns;

@@ -39,9 +39,9 @@ struct ControlOptions {
   /// What G functions leave in force belongs to the run; off: to each program, where nothing is
   /// preset, and the caller finds its own again.
   bool modes_go_over_calls = false;
-  bool strict_numbers = false;          ///< blocks of plain language are numbered without gaps
-  char decimal_sign = ',';              ///< of texts that are written
-  std::int32_t block_increment = 10;    ///< of ISO block numbers that are written
+  bool strict_numbers = false;        ///< blocks of plain language are numbered without gaps
+  char decimal_sign = ',';            ///< of texts that are written
+  std::int32_t block_increment = 10;  ///< of ISO block numbers that are written
   /// The control keeps its programs: one that does not fit its memory does not run. Otherwise they
   /// are drip-fed, and that is only worth a warning.
   bool memory_limits = false;

@@ -140,8 +140,7 @@ template <class Archive>
 void visit_contour(Archive& archive, State& state) {
   up_to(archive, state.compensation, Compensation::Shorter);
   visit_all(archive, state.uses_stages, state.joins, state.is_parallel, state.needs_side,
-            state.has_compensated,
-            state.is_first_contour, state.awaits_contour);
+            state.has_compensated, state.is_first_contour, state.awaits_contour);
   Joint& joint = state.joint;
   up_to(archive, joint.kind, JointKind::RunOff);
   visit_all(archive, joint.is_stated, joint.is_lost);

@@ -55,8 +55,8 @@ void Cell::post_announced(Arrived arrived) {
   {
     std::lock_guard lock(news_mutex_);
     MachineNews* news = news_of(arrived.announce.machine);
-    is_taken = news != nullptr && (news->announced.size() < kMaxWriters ||
-                                   news->announced.contains(arrived.writer));
+    is_taken = news != nullptr &&
+               (news->announced.size() < kMaxWriters || news->announced.contains(arrived.writer));
     if (is_taken) news->announced.insert_or_assign(arrived.writer, std::move(arrived));
   }
   if (!is_taken) {

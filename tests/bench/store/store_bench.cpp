@@ -112,7 +112,8 @@ void UpdateCounters(benchmark::State& state) {
   std::uint64_t n = 0;
   for (auto _ : state) {
     ++n;
-    invariant(store.update_counters("m1", "r1", {n, n, n}, n, 0).has_value(), "counters are stored");
+    invariant(store.update_counters("m1", "r1", {n, n, n}, n, 0).has_value(),
+              "counters are stored");
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(n));
 }

@@ -17,7 +17,8 @@ void add(std::vector<Intake::Item> items, std::string& told) {
   for (const auto& item : items) {
     if (item.what == What::Line && item.text.size() > Intake::kMaxLine) std::abort();
     // Pieces of a program may be cut anywhere.
-    if (item.what != What::ProgramText) told += static_cast<char>('A' + static_cast<int>(item.what));
+    if (item.what != What::ProgramText)
+      told += static_cast<char>('A' + static_cast<int>(item.what));
     told += item.text;
     if (item.what != What::ProgramText) told += '\0';
   }

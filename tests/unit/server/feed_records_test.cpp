@@ -194,9 +194,8 @@ TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
   EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
   EXPECT_TRUE(store_->records(run, "", {})->empty());
   record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
-  EXPECT_TRUE(wait_told(runs_, [&](const Run& r) {
-    return r.id == run && r.state == storage::RunState::Completed;
-  }));
+  EXPECT_TRUE(wait_told(
+      runs_, [&](const Run& r) { return r.id == run && r.state == storage::RunState::Completed; }));
   service_->end();
   EXPECT_EQ(store_->run(run)->counters.executed, 1u);
   for (const auto& told : records_) EXPECT_NE(told.text, "FORGED");

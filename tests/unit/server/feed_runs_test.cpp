@@ -379,7 +379,8 @@ TEST_F(FeedRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
   announce();
   network_.on_rival("lathe-1", true);
   answer_orders(true);
-  ASSERT_TRUE(start("O0100")) << "the successor of a killed gateway waits, and the killed is silent";
+  ASSERT_TRUE(start("O0100"))
+      << "the successor of a killed gateway waits, and the killed is silent";
   heartbeat();
   EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
   network_.on_rival("lathe-1", false);

@@ -205,8 +205,8 @@ TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
   other.counters = {};
   ASSERT_TRUE(store_->create_run(other));
   ASSERT_TRUE(store_->set_run_state(other.id, RunState::Active, ""));
-  ASSERT_TRUE(
-      store_->update_counters(other.machine, other.id, {.sent = 1234, .accepted = 5, .executed = 0}, 0, -1));
+  ASSERT_TRUE(store_->update_counters(other.machine, other.id,
+                                      {.sent = 1234, .accepted = 5, .executed = 0}, 0, -1));
   start_ports();
   ASSERT_TRUE(wait_state(other.id, RunState::Interrupted));
   EXPECT_EQ(store_->run(other.id)->counters.sent, 1234u);

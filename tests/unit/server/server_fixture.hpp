@@ -15,7 +15,8 @@
 
 namespace dripline::server_test {
 
-/// Two controls, unless a test knows more; a text that begins with `%C` is for the first, one with `%2` for both.
+/// Two controls, unless a test knows more; a text that begins with `%C` is for the first, one with
+/// `%2` for both.
 class FakeCatalog final : public library::ControlCatalog {
  public:
   std::vector<std::string> known = {"centurion", "tnc155"};

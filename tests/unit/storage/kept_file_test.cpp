@@ -89,7 +89,8 @@ TEST_P(KeptFile, HasSetupsSinceVersion3) {
   EXPECT_EQ(store_->setup("m1", 1)->text, "[[tool]]\nnumber = 4\n");
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptFile, testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql",
+INSTANTIATE_TEST_SUITE_P(, KeptFile,
+                         testing::Values("v1.sql", "v2.sql", "v3.sql", "v4.sql", "v5.sql",
                                          "v6.sql"),
                          [](const auto& i) { return std::string(i.param, 2); });
 

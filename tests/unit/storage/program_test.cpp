@@ -197,8 +197,9 @@ TEST_F(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
   const auto other = push("other.nc", "G1 X999.\n");
   Run run = make_run("r2");  // p.nc of its own text
   run.revision = store_->revision("p.nc", std::nullopt)->number;
-  damage("UPDATE revision SET content = (SELECT id FROM content WHERE size = 9) "
-         "WHERE program = (SELECT id FROM program WHERE name = 'p.nc')");
+  damage(
+      "UPDATE revision SET content = (SELECT id FROM content WHERE size = 9) "
+      "WHERE program = (SELECT id FROM program WHERE name = 'p.nc')");
   const auto refused = store_->revision("p.nc", first->number);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);

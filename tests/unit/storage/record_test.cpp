@@ -82,8 +82,8 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   EXPECT_EQ(reports->at(0).first, later.records[0].time);
 }
 
-/// Runs that the server knows and runs that were begun at the machine; the journal of a gateway that
-/// lost its own has any epoch.
+/// Runs that the server knows and runs that were begun at the machine; the journal of a gateway
+/// that lost its own has any epoch.
 TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
   const auto memory = [](RecordBatch batch, std::initializer_list<std::size_t> places) {
     for (const std::size_t i : places) {

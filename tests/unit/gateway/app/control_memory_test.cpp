@@ -161,7 +161,8 @@ TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
   EXPECT_EQ(cleared[0].find('7'), std::string::npos) << cleared[0];
 }
 
-/// A start in the middle looks through what comes before it; what that part counts has been counted.
+/// A start in the middle looks through what comes before it; what that part counts has been
+/// counted.
 class CenturionStart : public testing::Test {
  protected:
   static constexpr const char* kCount =
@@ -175,8 +176,8 @@ class CenturionStart : public testing::Test {
     EXPECT_TRUE(result.accepted) << result.reason;
     // The approach stops for the operator.
     EXPECT_TRUE(shop.run_until([&] {
-      return shop.status && (shop.status->run.empty() ||
-                             shop.status->execution == dds::Execution::ProgramStopped);
+      return shop.status &&
+             (shop.status->run.empty() || shop.status->execution == dds::Execution::ProgramStopped);
     }));
     if (!shop.status->run.empty()) (void)shop.send(shop.order(dds::OrderAction::Resume));
     return shop.ended();
@@ -237,9 +238,8 @@ TEST_F(CenturionStart, ChangesNothingBeforeItsFirstBlockIsExecuted) {
     dds::Order order = shop.start_order("O1");
     order.argument = place;
     ASSERT_TRUE(shop.send(order).accepted);
-    ASSERT_TRUE(shop.run_until([&] {
-      return shop.status && shop.status->execution == dds::Execution::ProgramStopped;
-    }));
+    ASSERT_TRUE(shop.run_until(
+        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
     ASSERT_TRUE(shop.send(shop.order(dds::OrderAction::Abort)).accepted);
     EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
     run_whole();  // the begin of the next start
@@ -362,7 +362,8 @@ TEST(TncMemory, BeginsEveryProgramWithoutQParameters) {
 /// C+10 then.
 TEST(TncMemory, KeepsTheDatumThatM94Moves) {
   MemoryShop shop(interpreter::kTnc155Dialect);
-  const std::string turn = "0 BEGIN PGM 1 MM\n1 L C+730 R0 F9999\n2 L C+20 R0 F9999 M94\n3 END PGM 1 MM\n";
+  const std::string turn =
+      "0 BEGIN PGM 1 MM\n1 L C+730 R0 F9999\n2 L C+20 R0 F9999 M94\n3 END PGM 1 MM\n";
   shop.run(turn);
   EXPECT_NE(shop.reported().find(R"("datum.C":[720,0])"), std::string::npos) << shop.reported();
   shop.restart_gateway();

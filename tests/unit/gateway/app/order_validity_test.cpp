@@ -135,8 +135,8 @@ TEST_F(Orders, WorkOnAGatewayWhoseTimeOfDayIsAnHourOff) {
 TEST_F(Orders, AreNotToBeExpectedFromAServerThatRefusesTheGateway) {
   shop.gateway->receive(make(OrderAction::Refuse, 0, "protocol 2, not 9"), shop.clock.steady);
   EXPECT_TRUE(shop.run_until([&] {
-    return shop.status && shop.status->message ==
-                              "the server does not command this gateway: protocol 2, not 9";
+    return shop.status &&
+           shop.status->message == "the server does not command this gateway: protocol 2, not 9";
   }));
 }
 

@@ -89,7 +89,7 @@ TEST(JsonString, EscapesWhatJsonDemands) {
 TEST(JsonString, KeepsValidUtf8AndReplacesTheRest) {
   EXPECT_EQ(in_json("Stück ≤ 5 😀"), "\"Stück ≤ 5 😀\"");
   EXPECT_EQ(in_json("a\xFF"
-                   "b"),
+                    "b"),
             "\"a\xEF\xBF\xBD"
             "b\"");
   EXPECT_EQ(in_json("\xC0\x80"), "\"\xEF\xBF\xBD\xEF\xBF\xBD\"") << "a NUL in disguise";

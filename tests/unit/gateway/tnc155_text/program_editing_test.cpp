@@ -78,8 +78,9 @@ TEST(Tnc155Editing, NumbersOfAllChangesAreThoseBefore) {
 TEST(Tnc155Editing, RefusesAWrongBlockInTheControlsWords) {
   EXPECT_EQ(edit(kPlain, {{Kind::Insert, 3, 3, "CALL LBL 0"}}).error().what,
             "\"CALL LBL 0\", column 10: JUMP TO LABEL 0 NOT PERMITTED: CALL LBL 0");
-  EXPECT_EQ(edit(kPlain, {{Kind::Insert, 3, 3, "TOOL CALL 255"}}).error().what,
-            "\"TOOL CALL 255\", column 11: ENTRY VALUE INCORRECT: TOOL CALL 255 is not within 0 to 254");
+  EXPECT_EQ(
+      edit(kPlain, {{Kind::Insert, 3, 3, "TOOL CALL 255"}}).error().what,
+      "\"TOOL CALL 255\", column 11: ENTRY VALUE INCORRECT: TOOL CALL 255 is not within 0 to 254");
   EXPECT_FALSE(edit(kPlain, {{Kind::Insert, 3, 3, "BEGIN PGM 3 MM"}}));
 }
 

@@ -12,8 +12,7 @@ struct PostedChoice {
   std::string_view name, posted;
 };
 
-inline constexpr std::array kFeedModes{PostedChoice{"none", ""},
-                                       PostedChoice{"revolution", "G99"},
+inline constexpr std::array kFeedModes{PostedChoice{"none", ""}, PostedChoice{"revolution", "G99"},
                                        PostedChoice{"minute", "G98"}};
 inline constexpr std::array kSpindleModes{
     PostedChoice{"none", ""}, PostedChoice{"surface speed", "G96"}, PostedChoice{"rpm", "G97"}};
