@@ -1,6 +1,5 @@
 #include "tests/golden/golden_case.hpp"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -10,49 +9,126 @@ namespace dripline::interpreter {
 namespace fs = std::filesystem;
 
 namespace {
+
 const fs::path kRoot = "tests/golden";  // tests run in the source folder
-}
+constexpr std::string_view kSuffix = ".golden";
+constexpr std::string_view kOpen = "-- ";
+constexpr std::string_view kClose = " --";
+constexpr std::string_view kUnended = ", without a final newline --";
+constexpr std::string_view kTrace = "expected.jsonl";
 
-std::vector<GoldenCase> golden_cases() {
-  std::vector<GoldenCase> cases;
-  if (!fs::exists(kRoot)) return cases;
-  for (const auto& control : fs::directory_iterator(kRoot)) {
-    if (!control.is_directory()) continue;
-    for (const auto& folder : fs::directory_iterator(control)) {
-      if (!fs::exists(folder.path() / "program.nc")) continue;
-      cases.push_back({control.path().filename(), folder.path().filename(), folder.path()});
-    }
-  }
-  std::sort(cases.begin(), cases.end(),
-            [](const auto& a, const auto& b) { return a.folder < b.folder; });
-  return cases;
-}
-
-std::string read_text(const fs::path& path) {
+std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("there is no golden case " + path.string());
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
+/// The name in a line `-- NAME --`; empty for every other line.
+std::string_view part_name(std::string_view line) {
+  if (!line.starts_with(kOpen)) return {};
+  line.remove_prefix(kOpen.size());
+  if (line.ends_with(kUnended)) return line.substr(0, line.size() - kUnended.size());
+  if (line.ends_with(kClose)) return line.substr(0, line.size() - kClose.size());
+  return {};
+}
+
+GoldenCase parse_case(const fs::path& file, const std::string& text) {
+  GoldenCase golden{file.parent_path().filename(), file.stem(), file, {}, {}};
+  bool is_unended = false;
+  const auto end_part = [&] {
+    if (is_unended) golden.parts.back().second.pop_back();
+  };
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t newline = text.find('\n', begin);
+    if (newline == std::string::npos) throw std::runtime_error(file.string() + " is cut off");
+    const auto line = std::string_view(text).substr(begin, newline - begin);
+    if (const auto name = part_name(line); !name.empty()) {
+      end_part();
+      golden.parts.emplace_back(name, "");
+      is_unended = line.ends_with(kUnended);
+    } else {
+      auto& part = golden.parts.empty() ? golden.note : golden.parts.back().second;
+      part.append(line).push_back('\n');
+    }
+    begin = newline + 1;
+  }
+  end_part();
+  if (golden.find("program.nc") == nullptr) {
+    throw std::runtime_error(file.string() + " has no part program.nc");
+  }
+  return golden;
+}
+
+}  // namespace
+
+const std::string* GoldenCase::find(std::string_view part) const {
+  const auto found = std::find_if(parts.begin(), parts.end(),
+                                  [&](const auto& each) { return each.first == part; });
+  return found == parts.end() ? nullptr : &found->second;
+}
+
+std::string GoldenCase::text(std::string_view part) const {
+  const std::string* found = find(part);
+  return found == nullptr ? std::string() : *found;
+}
+
+std::ostream& operator<<(std::ostream& out, const GoldenCase& golden) {
+  return out << golden.control << '/' << golden.name;
+}
+
+std::vector<GoldenCase> golden_cases(std::string_view control) {
+  std::vector<GoldenCase> cases;
+  if (!fs::exists(kRoot)) return cases;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot)) {
+    const fs::path& path = entry.path();
+    if (path.extension() != kSuffix) continue;
+    if (!control.empty() && path.parent_path().filename() != control) continue;
+    cases.push_back(parse_case(path, read_file(path)));
+  }
+  std::sort(cases.begin(), cases.end(),
+            [](const auto& a, const auto& b) { return a.file < b.file; });
+  return cases;
+}
+
+GoldenCase read_golden_case(std::string_view control, std::string_view name) {
+  const fs::path path = kRoot / control / (std::string(name) + std::string(kSuffix));
+  return parse_case(path, read_file(path));
+}
+
+void accept_trace(GoldenCase golden, const std::string& trace) {
+  auto expected = std::find_if(golden.parts.begin(), golden.parts.end(),
+                               [](const auto& part) { return part.first == kTrace; });
+  if (expected == golden.parts.end()) {
+    expected = golden.parts.emplace(golden.parts.end(), kTrace, "");
+  }
+  expected->second = trace;
+  std::ofstream file(golden.file, std::ios::binary);
+  file << golden.note;
+  for (const auto& [name, text] : golden.parts) {
+    const bool is_unended = !text.empty() && text.back() != '\n';
+    file << kOpen << name << (is_unended ? kUnended : kClose) << '\n'
+         << text << (is_unended ? "\n" : "");
+  }
+}
+
 Setup setup_of(const GoldenCase& golden, const Dialect& dialect) {
-  const fs::path path = golden.folder / "setup.toml";
-  const auto setup = parse_setup(fs::exists(path) ? read_text(path) : "", dialect.units);
-  if (!setup) throw std::runtime_error(path.string() + ": " + setup.error().what);
+  const auto setup = parse_setup(golden.text("setup.toml"), dialect.units);
+  if (!setup) throw std::runtime_error(golden.file.string() + ": " + setup.error().what);
   return *setup;
 }
 
 MemorySource::Loader loader_of(const GoldenCase& golden) {
-  return [folder = golden.folder](std::string_view name) -> std::optional<std::string> {
-    const fs::path path = folder / (std::string(name) + ".nc");
-    if (!fs::exists(path)) return std::nullopt;
-    return read_text(path);
+  return [golden](std::string_view name) -> std::optional<std::string> {
+    const std::string* part = golden.find(std::string(name) + ".nc");
+    return part == nullptr ? std::nullopt : std::optional(*part);
   };
 }
 
-std::optional<Verdict> verdict_of(const GoldenCase& golden, const std::string& program) {
-  const fs::path file = golden.folder / "verdict.txt";
-  const std::string text = fs::exists(file) ? read_text(file) : program;
+std::optional<Verdict> verdict_of(const GoldenCase& golden) {
+  const std::string* part = golden.find("verdict");
+  const std::string text = part == nullptr ? golden.program() : *part;
   char id[32] = {};
   unsigned long line = 0;
   unsigned column = 0;

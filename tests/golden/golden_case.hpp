@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gateway/interpreter/memory_source.hpp"
@@ -10,30 +13,44 @@
 
 namespace dripline::interpreter {
 
-/// One folder tests/golden/<control>/<case>: program.nc, setup.toml if the defaults will not do,
-/// expected.jsonl, and a README.md that says which rule it shows.
+/// One file tests/golden/<control>/<case>.golden: a note and the parts of the case, each after a
+/// line `-- NAME --`. README.md of this folder lists the parts.
 struct GoldenCase {
   std::string control;
   std::string name;
-  std::filesystem::path folder;
+  std::filesystem::path file;
+  std::string note;  ///< the text before the first part
+  std::vector<std::pair<std::string, std::string>> parts;
+
+  /// nullptr: the case has no such part.
+  const std::string* find(std::string_view part) const;
+  /// Empty when the case has no such part.
+  std::string text(std::string_view part) const;
+  std::string program() const { return text("program.nc"); }
 };
 
-/// Every case in the tree, in the order of their names.
-std::vector<GoldenCase> golden_cases();
+/// What gtest prints for a case in a listing.
+std::ostream& operator<<(std::ostream& out, const GoldenCase& golden);
 
-std::string read_text(const std::filesystem::path& path);
-/// Setup of the case: its file, or the defaults.
+/// Every case in the tree, or those of one control, in the order of their names.
+std::vector<GoldenCase> golden_cases(std::string_view control = {});
+/// Throws when there is no such file or its form is wrong.
+GoldenCase read_golden_case(std::string_view control, std::string_view name);
+/// Replaces the part `expected.jsonl` in the file of the case.
+void accept_trace(GoldenCase golden, const std::string& trace);
+
+/// Setup of the case: its part, or the defaults.
 Setup setup_of(const GoldenCase& golden, const Dialect& dialect);
-/// Called programs of the case: `O2.nc`, `O0002.nc` beside its program.
+/// Called programs of the case: its parts `O2.nc`, `O0002.nc`.
 MemorySource::Loader loader_of(const GoldenCase& golden);
 
 /// The verdict on a program that is to be refused, in its line 1 or, of a control without comments,
-/// in a file verdict.txt beside it: `(expect CEN0549 4:9)`.
+/// in the part `verdict`: `(expect CEN0549 4:9)`.
 struct Verdict {
   std::string id;
   std::uint64_t line = 0;
   std::uint32_t column = 0;
 };
-std::optional<Verdict> verdict_of(const GoldenCase& golden, const std::string& program);
+std::optional<Verdict> verdict_of(const GoldenCase& golden);
 
 }  // namespace dripline::interpreter

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
 
 #include "gateway/interpreter/trace/event_tee.hpp"
 #include "gateway/interpreter/trace/offline_run.hpp"
@@ -23,7 +22,7 @@ class Golden : public testing::TestWithParam<GoldenCase> {
     ASSERT_TRUE(found) << found.error().what;
     dialect_ = *found;
     setup_ = setup_of(GetParam(), *dialect_);
-    program_ = read_text(GetParam().folder / "program.nc");
+    program_ = GetParam().program();
   }
 
   const Dialect* dialect_ = nullptr;
@@ -46,7 +45,7 @@ TEST_P(Golden, TraceIsAsExpected) {
     ASSERT_TRUE(ran) << ran.error().what;
     outcome = *ran;
   }
-  const auto verdict = verdict_of(GetParam(), program_);
+  const auto verdict = verdict_of(GetParam());
   ASSERT_EQ(verdict.has_value(), outcome->alarm.has_value())
       << (outcome->alarm ? outcome->alarm->text : "no alarm");
   if (verdict) {
@@ -54,12 +53,11 @@ TEST_P(Golden, TraceIsAsExpected) {
     EXPECT_EQ(outcome->alarm->line, verdict->line) << outcome->alarm->text;
     EXPECT_EQ(outcome->alarm->column, verdict->column) << outcome->alarm->text;
   }
-  const auto expected = GetParam().folder / "expected.jsonl";
   if (accepts()) {
-    std::ofstream(expected, std::ios::binary) << trace;
-    GTEST_SKIP() << "accepted: review the diff of " << expected;
+    accept_trace(GetParam(), trace);
+    GTEST_SKIP() << "accepted: review the diff of " << GetParam().file;
   }
-  EXPECT_EQ(trace, read_text(expected));
+  EXPECT_EQ(trace, GetParam().text("expected.jsonl"));
 }
 
 /// Gives every text in windows of at most `chunk` bytes more than asked for, each only after one

@@ -10,7 +10,7 @@ Rows come from tests/golden/<control>/checklist.txt, one a line:
     NGC-099 | not applicable | what the row is about | why it means nothing here
 
 Empty lines and lines that begin with # are left out. A test points at a row by naming its id: a golden case in its
-README.md ("Rows: NGC-001, NGC-002"), other tests anywhere in their sources or READMEs.
+note ("Rows: NGC-001, NGC-002"), other tests anywhere in their sources or READMEs.
 """
 import pathlib
 import re
@@ -43,9 +43,10 @@ def ids_in(text, rows):
 def tests_of(control, rows):
     """Row id -> names of the tests that name it, sorted."""
     found = {row: set() for row in rows}
-    for readme in (ROOT / "tests/golden" / control).glob("*/README.md"):
-        for row in ids_in(readme.read_text(), rows):
-            found[row].add(f"golden {readme.parent.name}")
+    for case in (ROOT / "tests/golden" / control).glob("*.golden"):
+        note = case.read_text(errors="replace").split("\n-- ", 1)[0]
+        for row in ids_in(note, rows):
+            found[row].add(f"golden {case.stem}")
     for area in OTHER_TESTS:
         for path in (ROOT / "tests" / area).rglob("*"):
             if path.suffix in SUFFIXES and path.is_file():

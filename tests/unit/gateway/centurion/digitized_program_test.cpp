@@ -19,9 +19,9 @@ class Report final : public EventSink {
 /// The golden case's profile passes through the points that the control's manual prints for its
 /// digitizing program; the report must have its 525 moves with just those figures.
 TEST(DigitizedProgram, HasTheMovesOfTheManual) {
-  const GoldenCase golden{"centurion", "digitize", "tests/golden/centurion/digitize"};
+  const GoldenCase golden = read_golden_case("centurion", "digitize");
   const Dialect& dialect = **find_dialect("centurion");
-  const std::string program = read_text(golden.folder / "program.nc");
+  const std::string program = golden.program();
   MemorySource source(program);
   Report report;
   ASSERT_TRUE(run_offline(dialect, setup_of(golden, dialect), source, report));

@@ -47,9 +47,8 @@ std::vector<std::string> motion(const std::string& text) {
 TEST(EventList, SentBackAndReceivedAgainIsTheSameProgram) {
   int programs = 0;
   std::size_t moves = 0;
-  for (const GoldenCase& golden : golden_cases()) {
-    if (golden.control != "prototrak-plus") continue;
-    const std::string text = read_text(golden.folder / "program.nc");
+  for (const GoldenCase& golden : golden_cases("prototrak-plus")) {
+    const std::string text = golden.program();
     const auto list = control().list(text);
     if (!list) continue;  // refused programs have nothing to send
     ++programs;

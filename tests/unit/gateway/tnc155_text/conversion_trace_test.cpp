@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "gateway/interpreter/tnc155/conversion.hpp"
+#include "tests/golden/golden_case.hpp"
 #include "tests/support/tnc155_trace.hpp"
 
 /// A program and its conversion do the same: over the golden programs, and over programs made at
@@ -38,15 +36,12 @@ bool does_the_same(const std::string& text) {
 
 TEST(Tnc155ConversionTrace, OfGoldenProgramsIsTheSame) {
   int converted = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(DRIPLINE_GOLDEN)) {
-    std::ifstream file(entry.path() / "program.nc", std::ios::binary);
-    if (!file) continue;
-    std::ostringstream text;
-    text << file.rdbuf();
-    SCOPED_TRACE(entry.path().filename().string());
-    const auto readable = rewrite_program(text.str());
+  for (const GoldenCase& golden : golden_cases("tnc155")) {
+    SCOPED_TRACE(golden.name);
+    const std::string text = golden.program();
+    const auto readable = rewrite_program(text);
     if (!readable) continue;  // a case of a block that can not be read
-    converted += does_the_same(text.str()) ? 1 : 0;
+    converted += does_the_same(text) ? 1 : 0;
   }
   EXPECT_GE(converted, 20);
 }

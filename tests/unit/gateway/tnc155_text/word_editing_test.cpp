@@ -1,13 +1,11 @@
 // HD-062, HD-064, HD-065: searching by address; words with new values, left out, shortened blocks.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "gateway/interpreter/tnc155/block_words.hpp"
 #include "gateway/interpreter/tnc155/cut_program.hpp"
 #include "gateway/interpreter/tnc155/program_keeping.hpp"
+#include "tests/golden/golden_case.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -249,17 +247,15 @@ int set_all_words(const std::string& text, std::int64_t number, const std::strin
 // Whatever a block is, each of its words is found again by what it says.
 TEST(Tnc155WordEdits, OfEveryWordToItsOwnValueChangeNothing) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(DRIPLINE_GOLDEN)) {
-    std::ifstream file(entry.path() / "program.nc", std::ios::binary);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf())) continue;
-    SCOPED_TRACE(entry.path().filename().string());
-    const CutProgram program(text.str());
+  for (const GoldenCase& golden : golden_cases("tnc155")) {
+    SCOPED_TRACE(golden.name);
+    const std::string text = golden.program();
+    const CutProgram program(text);
     for (const TextBlock& block : program.blocks()) {
       const BlockChange same{BlockChange::Kind::Replace, block.number, block.number, block.text()};
-      const auto edited = edit_program(text.str(), {&same, 1});
+      const auto edited = edit_program(text, {&same, 1});
       if (!edited || edited->changes.size() != 2 || edited->renumbered > 0) continue;
-      count += set_all_words(text.str(), block.number, edited->changes[1].text, program.form());
+      count += set_all_words(text, block.number, edited->changes[1].text, program.form());
     }
   }
   EXPECT_GE(count, 2000);

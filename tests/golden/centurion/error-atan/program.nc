@@ -1,2 +1,0 @@
-(expect CEN0555 2:10)
-P1=ATAN[1]

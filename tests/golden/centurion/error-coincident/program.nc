@@ -1,3 +1,0 @@
-(expect CEN0504 3:4)
-G0 X1 Z1
-G2 X1 Z1 R1 F5

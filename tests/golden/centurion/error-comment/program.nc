@@ -1,2 +1,0 @@
-(expect CEN0547 2:4)
-X1 (NOT CLOSED

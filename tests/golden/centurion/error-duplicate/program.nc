@@ -1,2 +1,0 @@
-(expect CEN0529 2:7)
-X1 Z1 X2

@@ -1,8 +1,0 @@
-(expect CEN0584 4:0)
-G98 F5
-G0 X2 Z.1
-G71 P1 Q2 D.1
-N1 G0 X1
-G1 Z-.5
-G3 X2.02 Z-1 R.5
-N2 G1 Z-1.5

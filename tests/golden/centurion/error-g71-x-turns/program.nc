@@ -1,9 +1,0 @@
-(expect CEN0582 5:0)
-G98 F5
-G0 X2 Z.1
-P117=1
-G71 P1 Q2 D.1
-N1 G0 X1
-G1 Z-.5
-X.9 Z-.6
-N2 X2

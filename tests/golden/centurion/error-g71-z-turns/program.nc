@@ -1,8 +1,0 @@
-(expect CEN0583 4:0)
-G98 F5
-G0 X2 Z.1
-G71 P1 Q2 D.1
-N1 G0 X1
-G1 Z-.5
-X1.2 Z-.4
-N2 Z-.8

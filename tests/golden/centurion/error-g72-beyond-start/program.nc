@@ -1,7 +1,0 @@
-(expect CEN0587 4:0)
-G98 F5
-G0 X0 Z.1
-G72 P1 Q2 D.1
-N1 G0 Z-.5
-G1 X1
-N2 Z.2

@@ -1,8 +1,0 @@
-(expect CEN0586 4:0)
-G98 F5
-G0 X0 Z.1
-G72 P1 Q2 D.1
-N1 G0 Z-.5
-G1 X1
-X.8 Z-.4
-N2 X1.4

@@ -1,9 +1,0 @@
-(expect CEN0585 5:0)
-G98 F5
-G0 X0 Z.1
-P117=1
-G72 P1 Q2 D.1
-N1 G0 Z-.05
-G1 X.5
-X1 Z-.4
-N2 Z0

@@ -1,2 +1,0 @@
-(expect CEN0577 2:4)
-X1 INPUT (A) P1

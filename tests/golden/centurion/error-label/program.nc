@@ -1,2 +1,0 @@
-(expect CEN0568 2:0)
-GOTO 99

@@ -1,2 +1,0 @@
-(expect CEN0602 2:0)
-WHILE 1=1

@@ -1,3 +1,0 @@
-(expect CEN0416 3:8)
-G0 X0 Z0
-G91 G2 I1 K0 X1 F5

@@ -1,5 +1,0 @@
-(expect CEN0568 3:0)
-G98 F5
-G71 P1 Q3 D.1
-N1 G0 X1
-N2 G1 Z-1

@@ -1,5 +1,0 @@
-(expect CEN0518 5:0)
-G98 F5
-N2 G1 X2 Z0
-N1 G0 X1
-G70 P1 Q2

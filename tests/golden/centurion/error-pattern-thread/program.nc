@@ -1,6 +1,0 @@
-(expect CEN0518 5:0)
-G98 F5
-G73 P1 Q2 D2 I.1
-N1 G0 X1
-G32 F.1 Z-1
-N2 G0 X2

@@ -1,3 +1,0 @@
-(expect CEN0505 3:10)
-G0 X0 Z0
-G2 X0 Z3 R1 F5

@@ -1,2 +1,0 @@
-(expect CEN0503 2:0)
-RETURN

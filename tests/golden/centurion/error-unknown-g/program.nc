@@ -1,3 +1,0 @@
-(expect CEN0549 3:8)
-G1 X1
-(TEXT) G77

@@ -1,2 +1,0 @@
-(expect CEN0601 2:0)
-WEND

@@ -1,6 +1,0 @@
-X0 Z0 (P3)
-X0 Z5 (P2)
-G50 X0 Z0
-X2 Z1 (P1)
-G53 X0 Z0 (P4)
-X0 Z-5 (P3 AGAIN)

@@ -1,3 +1,0 @@
-(expect CEN1007 3:0)
-G0 X2 Z1
-G76 X1 Z-1 F.1 D.001 A60 P1 K.022

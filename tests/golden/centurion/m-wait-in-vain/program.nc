@@ -1,4 +1,0 @@
-(expect CEN1010 3:0)
-M81
-G1 G98 F9 Z-1 M83
-X9

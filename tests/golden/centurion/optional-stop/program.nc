@@ -1,2 +1,0 @@
-X1 M1 (MEASURE)
-M0

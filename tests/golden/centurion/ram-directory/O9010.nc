@@ -1,1 +1,0 @@
-PRINT [PARTS 9010]

@@ -1,5 +1,0 @@
-O0443 (LAST SIDE)
-
-(DOWN)
-Y5.
-M99

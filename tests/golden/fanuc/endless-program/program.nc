@@ -1,2 +1,0 @@
-(expect loop-limit 2:0)
-M99

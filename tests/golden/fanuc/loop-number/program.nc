@@ -1,5 +1,0 @@
-(expect PS126 3:1)
-O0626
-WHILE[1EQ1]DO4
-END4
-M30

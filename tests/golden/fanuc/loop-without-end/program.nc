@@ -1,4 +1,0 @@
-(expect PS124 3:0)
-O0627
-WHILE[1EQ1]DO1
-M30

@@ -1,7 +1,0 @@
-(expect PS124 3:0)
-O0628
-DO1
-DO2
-END1
-END2
-M30

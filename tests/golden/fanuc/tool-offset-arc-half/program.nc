@@ -1,4 +1,0 @@
-(expect PS-g45-arc 3:9)
-O0525
-G91 G45 G03 X20. I10. D1 F100
-M30

@@ -1,5 +1,0 @@
-(expect PTK0108 4:0)
-PN1 G20 ;
-N1 G00 X1. Y0 T1 ;
-N2 G03 X0 Y1. R1. F100 ;
-%

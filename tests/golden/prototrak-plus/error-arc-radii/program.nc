@@ -1,4 +1,0 @@
-(expect PTK0201 3:0)
-PN1 G20 ;
-N1 G103 XB2. YB0 XE0 YE2.1 XC0 YC0 F80 CR- ;
-%

@@ -1,4 +1,0 @@
-(expect PTK0104 3:0)
-PN1 G21 ;
-G101 XB0 YB0 XE1. F4 ;
-%

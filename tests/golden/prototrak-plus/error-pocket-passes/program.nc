@@ -1,4 +1,0 @@
-(expect PTK0204 3:0)
-PN1 G20 ;
-N1 G106 XB0 YB0 XD9. YD9. FC0 F60 D0.02 ;
-%

@@ -1,4 +1,0 @@
-(expect PTK0204 3:0)
-PN1 G20 ;
-N1 G106 XB0 YB0 XD2. YD0.4 FC0 F60 D0.5 ;
-%

@@ -1,5 +1,0 @@
-(expect PTK0202 4:0)
-PN1 G20 ;
-N1 G100 X1. Y1. ;
-N2 G105 FE1 LE2 XO1. RE1 ;
-%

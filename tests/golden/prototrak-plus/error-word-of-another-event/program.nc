@@ -1,4 +1,0 @@
-(expect PTK0109 3:0)
-PN1 G20 ;
-N1 G100 X1. Y1. XE2. T1 ;
-%

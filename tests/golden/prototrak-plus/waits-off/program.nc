@@ -1,4 +1,0 @@
-PN1 G20 ;
-G100 X1. Y1. ;
-G101 XB0I YB0I XE2. F60 CR- ;
-%

@@ -1,5 +1,0 @@
-G21 G92 X5
-M4 S100 M8
-G0 X7 Y1
-M30
-not read

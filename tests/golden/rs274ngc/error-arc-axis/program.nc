@@ -1,4 +1,0 @@
-(expect NGC0215 3:0)
-G21 F10 G0 X0 Y0
-G2 Z4 I2
-M2

@@ -1,4 +1,0 @@
-(expect NGC0216 3:0)
-G21 F10 G0 X0 Y0
-G2 X4.1 Y0 I2
-M2

@@ -1,4 +1,0 @@
-(expect NGC0213 3:13)
-G21 F10 G0 X0 Y0
-G2 X4 Y0 I2 R2
-M2

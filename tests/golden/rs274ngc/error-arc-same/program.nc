@@ -1,4 +1,0 @@
-(expect NGC0211 3:10)
-G21 F10 G0 X0 Y0
-G2 X0 Y0 R2
-M2

@@ -1,4 +1,0 @@
-(expect NGC0217 3:0)
-G21 F10 G0 X0 Y0
-G2 X4 Y0 I0 J0
-M2

@@ -1,3 +1,0 @@
-(expect NGC0125 2:13)
-G0 X[ATAN[1]]
-M2

@@ -1,3 +1,0 @@
-(expect NGC0160 2:0)
-G92 X1 G1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0126 2:10)
-G0 X[SIN 30]
-M2

@@ -1,3 +1,0 @@
-(expect NGC0301 2:1)
-o9 call
-M2

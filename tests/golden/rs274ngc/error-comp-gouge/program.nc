@@ -1,4 +1,0 @@
-(expect NGC0279 3:0)
-G21 F100 G0 X0 Y0
-G41 D1 G1 X1.5
-M2

@@ -1,4 +1,0 @@
-(expect NGC0260 3:0)
-G21 G93 G0 Z5
-G81 X1 Z-5 R1 F5
-M2

@@ -1,4 +1,0 @@
-(expect NGC0256 3:0)
-G21 F10 M3 S1 G0 Z5
-G83 X1 Z-5 R1
-M2

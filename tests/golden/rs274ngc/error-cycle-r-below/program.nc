@@ -1,4 +1,0 @@
-(expect NGC0254 3:0)
-G21 F10 M3 S1 G0 Z5
-G81 X1 Z5 R1
-M2

@@ -1,4 +1,0 @@
-(expect NGC0250 3:16)
-G21 F10 G0 Z5
-G81 X1 Z-5 R1  L0
-M2

@@ -1,4 +1,0 @@
-(expect NGC0259 3:0)
-G21 F10 M3 S1 G0 Z5
-M5 G86 X1 Z-5 R1 P1
-M2

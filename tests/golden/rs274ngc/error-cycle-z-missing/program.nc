@@ -1,4 +1,0 @@
-(expect NGC0253 3:0)
-G21 F10 M3 S1 G0 Z5
-G81 X1 R1
-M2

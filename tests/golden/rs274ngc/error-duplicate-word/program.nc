@@ -1,3 +1,0 @@
-(expect NGC0110 2:11)
-G0 X1 Y2  X3
-M2

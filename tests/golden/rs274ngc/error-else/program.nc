@@ -1,3 +1,0 @@
-(expect NGC0292 2:1)
-o2 else
-M2

@@ -1,3 +1,0 @@
-(expect NGC0100 2:6)
-G0 X1E3
-M2

@@ -1,5 +1,0 @@
-(expect NGC0200 4:0)
-G93 G1 X1 F2
-G94
-X2
-M2

@@ -1,3 +1,0 @@
-(expect NGC0153 2:7)
-G4 P1 G53 G0 X1
-M2

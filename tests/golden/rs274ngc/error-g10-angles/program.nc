@@ -1,3 +1,0 @@
-(expect NGC0173 2:14)
-G10 L2 P1 X0 I1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0221 2:5)
-G10 L3 P1 X1
-M2

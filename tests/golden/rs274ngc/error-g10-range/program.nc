@@ -1,3 +1,0 @@
-(expect NGC0223 2:8)
-G10 L2 P10 X1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0224 2:0)
-G91 G53 G0 X1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0225 2:0)
-G53 G2 X1 Y1 R5
-M2

@@ -1,4 +1,0 @@
-(expect NGC0204 3:0)
-G93 G1 X1 F2
-X2
-M2

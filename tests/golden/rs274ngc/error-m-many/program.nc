@@ -1,3 +1,0 @@
-(expect NGC0158 2:14)
-M3 M7 M6 M48 M0
-M2

@@ -1,3 +1,0 @@
-(expect NGC0165 2:7)
-G0 X1 C5
-M2

@@ -1,3 +1,0 @@
-(expect NGC0153 2:5)
-G80 G0 X1
-M2

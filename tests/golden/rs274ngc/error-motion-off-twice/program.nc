@@ -1,3 +1,0 @@
-(expect NGC0153 2:8)
-G80 G0 G1 X1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0133 2:6)
-G0 X#<nothing>
-M2

@@ -1,4 +1,0 @@
-(expect NGC0332 3:0)
-F100 G5.2 X1 Y1 P1
-G0 X5
-M2

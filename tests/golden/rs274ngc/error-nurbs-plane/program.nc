@@ -1,3 +1,0 @@
-(expect NGC0330 2:0)
-F100 G18 G5.2 X1 Y1 P1
-M2

@@ -1,5 +1,0 @@
-(expect NGC0331 4:0)
-F100 G5.2 X1 Y1 P1 L5
-X2 Y0 P1
-G5.3
-M2

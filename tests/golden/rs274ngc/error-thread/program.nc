@@ -1,3 +1,0 @@
-(expect NGC0320 2:0)
-M3 S1 G33 Z-1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0223 2:0)
-G10 L1 Z5
-M2

@@ -1,4 +1,0 @@
-(expect NGC0233 3:5)
-T2 M6
-G10 L0
-M2

@@ -1,3 +1,0 @@
-(expect NGC0230 2:8)
-G10 L1 P7 Z5
-M2

@@ -1,3 +1,0 @@
-(expect NGC0170 2:7)
-G0 X1 D1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0172 2:7)
-G0 X1 H1
-M2

@@ -1,3 +1,0 @@
-(expect NGC0173 2:7)
-G0 X1 I1
-M2

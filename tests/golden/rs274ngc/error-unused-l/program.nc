@@ -1,3 +1,0 @@
-(expect NGC0176 2:7)
-G0 X1 L2
-M2

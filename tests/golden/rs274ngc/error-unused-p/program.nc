@@ -1,3 +1,0 @@
-(expect NGC0177 2:7)
-G0 X1 P1
-M2

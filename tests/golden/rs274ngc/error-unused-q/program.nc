@@ -1,3 +1,0 @@
-(expect NGC0178 2:7)
-G0 X1 Q1
-M2

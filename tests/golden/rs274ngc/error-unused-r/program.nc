@@ -1,3 +1,0 @@
-(expect NGC0179 2:7)
-G0 X1 R1
-M2

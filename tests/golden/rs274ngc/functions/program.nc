@@ -1,6 +1,0 @@
-G0 X[ATAN[1]/[-1]] Y[ATAN[0]/[-2]] Z[ATAN[0]/[0]]
-X[FIX[-2.8]] Y[FUP[-2.8]] Z[ROUND[-2.5]]
-X[LN[EXP[2]]] Y[SQRT[2.25]] Z[ABS[-4]]
-X[ASIN[1]] Y[ACOS[0]] Z[TAN[45]]
-X[COS[60]] Y[SIN[30]]
-M2

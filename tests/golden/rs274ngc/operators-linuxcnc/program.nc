@@ -1,4 +1,0 @@
-G0 X[1+1 AND 0] Y[2 GT 1 AND 3 LE 3] Z[1 EQ 1.0000001]
-X[2 LT 1 OR 5] Y[4 NE 4] Z[3 GE 4]
-X--1 Y-[2+1] Z-SIN[90]
-M2

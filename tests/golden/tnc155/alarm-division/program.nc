@@ -1,4 +1,0 @@
-0 BEGIN PGM 1 MM
-1 FN 0: Q1 = +0
-2 FN 4: Q2 = +1 DIV +Q1
-3 END PGM 1 MM
