@@ -1,5 +1,7 @@
 #include "gateway/app/consent.hpp"
 
+#include "protocol/dds/stop_orders.hpp"
+
 namespace dripline::gateway {
 namespace {
 
@@ -26,11 +28,9 @@ bool needs_consent(const dds::Order& order, const machine::OperatorPanel& panel)
     case OrderAction::Switch:
       return lets_run_on(order, panel);
     case OrderAction::FeedOverride:
-      return !(order.value <= panel.feed_override);
     case OrderAction::RapidOverride:
-      return !(order.value <= panel.rapid_override);
     case OrderAction::SpindleOverride:
-      return !(order.value <= panel.spindle_override);
+      return !(order.value <= dds::override_of(order.action, panel));
     case OrderAction::Resume:
     case OrderAction::Answer:
     case OrderAction::Handwheel:

@@ -4,6 +4,7 @@
 #include "gateway/app/gateway.hpp"
 #include "gateway/feed/pull_feed.hpp"
 #include "protocol/base/names.hpp"
+#include "protocol/dds/stop_orders.hpp"
 
 /// The part of the gateway that takes orders.
 namespace dripline::gateway {
@@ -55,22 +56,8 @@ void Gateway::on_refusal(const dds::Order& order) {
 
 /// What stops is done whenever it comes and whoever is meant: stopping once too often does no harm.
 bool Gateway::stops(const dds::Order& order) const {
-  const machine::OperatorPanel panel = machine_.panel();
-  switch (order.action) {
-    case OrderAction::Hold:
-    case OrderAction::Abort:
-      return true;
-    case OrderAction::Switch:
-      return order.argument == "emergency_stop" && order.value == 1;
-    case OrderAction::FeedOverride:
-      return order.value < panel.feed_override;
-    case OrderAction::RapidOverride:
-      return order.value < panel.rapid_override;
-    case OrderAction::SpindleOverride:
-      return order.value < panel.spindle_override;
-    default:
-      return false;
-  }
+  return dds::is_stop(order.action, order.argument, order.value) ||
+         dds::lowers_override(order.action, order.value, machine_.panel());
 }
 
 /// After a kill an order may be carried out twice; that does no harm, because the run it was meant
@@ -101,9 +88,7 @@ Gateway::Reply Gateway::carry_out(const dds::Order& order, bool is_stop) {
   if (order.action == OrderAction::Start) return start(order);
   if (auto refusal = refusal_without_consent(order)) return *refusal;
   if (order.action == OrderAction::Switch) return set_switch(order);
-  if (order.action == OrderAction::FeedOverride || order.action == OrderAction::RapidOverride ||
-      order.action == OrderAction::SpindleOverride)
-    return set_override(order);
+  if (dds::is_override(order.action)) return set_override(order);
   if (!session_ || is_ending_) return refuse("no run is active");
   if (!order.run.empty() && order.run != session_->run().run)
     return refuse(fmt::format("run {} is not active, {} is", order.run, session_->run().run));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gateway/app/gateway.hpp"
+#include "protocol/dds/stop_orders.hpp"
 
 /// The part of the gateway that stands at the operator's panel: switches, overrides, handwheel.
 namespace dripline::gateway {
@@ -118,10 +119,7 @@ std::optional<std::string> Gateway::refusal_of_spindle(double factor) const {
 
 Gateway::Reply Gateway::set_override(const dds::Order& order) {
   OperatorPanel panel = machine_.panel();
-  double& knob = order.action == OrderAction::FeedOverride    ? panel.feed_override
-                 : order.action == OrderAction::RapidOverride ? panel.rapid_override
-                                                              : panel.spindle_override;
-  knob = order.value;
+  dds::override_of(order.action, panel) = order.value;
   if (!std::isfinite(order.value) || panel.clamped() != panel)
     return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
   std::optional<std::string> refusal;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <set>
 
+#include "protocol/dds/stop_orders.hpp"
 #include "server/feeds/control_memory.hpp"
 #include "server/feeds/identifiers.hpp"
 #include "server/feeds/machine_notices.hpp"
@@ -270,20 +271,8 @@ Result<void> FeedService::check_protocol(const MachineView& view) {
 }
 
 Result<void> FeedService::check_order(const OrderRequest& request, const MachineView& view) {
-  using dds::OrderAction;
-  const bool presses_stop = request.action == OrderAction::Switch &&
-                            request.argument == "emergency_stop" && request.value == 1;
-  if (request.action == OrderAction::Hold || request.action == OrderAction::Abort || presses_stop)
-    return {};
-  if (view.status) {
-    const bool lowers = (request.action == OrderAction::FeedOverride &&
-                         request.value < view.status->feed_override) ||
-                        (request.action == OrderAction::RapidOverride &&
-                         request.value < view.status->rapid_override) ||
-                        (request.action == OrderAction::SpindleOverride &&
-                         request.value < view.status->spindle_override);
-    if (lowers) return {};
-  }
+  if (dds::is_stop(request.action, request.argument, request.value)) return {};
+  if (view.status && dds::lowers_override(request.action, request.value, *view.status)) return {};
   return check_protocol(view);
 }
 

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "protocol/base/random.hpp"
+#include "protocol/dds/stop_orders.hpp"
 #include "server/feeds/identifiers.hpp"
 
 namespace dripline::feeds {
@@ -14,22 +15,11 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMaxGivenUp = 64;
 constexpr auto kRetry = 10ms;  ///< before an order is offered again to a full queue
 
-/// These are sent at once, whatever is known of the gateway.
+/// These are sent at once, whatever is known of the gateway. Whether an override is lowered is for
+/// the gateway to say.
 bool may_stop(const dds::Order& order) {
-  using dds::OrderAction;
-  switch (order.action) {
-    case OrderAction::Hold:
-    case OrderAction::Abort:
-    case OrderAction::FeedOverride:
-    case OrderAction::RapidOverride:
-    case OrderAction::SpindleOverride:
-    case OrderAction::Refuse:
-      return true;
-    case OrderAction::Switch:
-      return order.argument == "emergency_stop" && order.value == 1;
-    default:
-      return false;
-  }
+  return dds::is_stop(order.action, order.argument, order.value) ||
+         dds::is_override(order.action) || order.action == dds::OrderAction::Refuse;
 }
 
 }  // namespace
