@@ -215,11 +215,11 @@ class Store {
   virtual Result<Upload> begin_upload(const Upload& upload) = 0;
   virtual Result<Upload> upload(const std::string& id) = 0;
   /// Appends at `offset`. Sending a piece again that is already there is no error. Errors:
-  /// NotFound, ModalConflict (a gap, an overlap, or other bytes than before), LimitExceeded (a
+  /// NotFound, Conflict (a gap, an overlap, or other bytes than before), LimitExceeded (a
   /// piece of more than 16 MiB).
   virtual Result<Upload> append_upload(const std::string& id, std::uint64_t offset,
                                        std::span<const std::byte> bytes) = 0;
-  /// Bytes received so far, from `offset`, at most `length`; empty behind the end. Errors:
+  /// Bytes received so far, from `offset`, at most `length`; empty after the end. Errors:
   /// NotFound.
   virtual Result<std::vector<std::byte>> read_upload(const std::string& id, std::uint64_t offset,
                                                      std::uint64_t length) = 0;
@@ -241,7 +241,7 @@ class Store {
   /// Newest first, held ones among them. Errors: NotFound.
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
   /// The latest that is not held, or the one with that number, held or not. Errors: NotFound (also
-  /// when the program was removed), ModalConflict (nothing but held ones), Corrupt (its row names
+  /// when the program was removed), Conflict (nothing but held ones), Corrupt (its row names
   /// another content than it was stored with).
   virtual Result<Revision> revision(const std::string& program,
                                     std::optional<std::uint64_t> number) = 0;
@@ -250,12 +250,12 @@ class Store {
   /// transaction. Errors: NotFound.
   virtual Result<Revision> accept_revision(const std::string& program, std::uint64_t number,
                                            const std::string& who) = 0;
-  /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is not held).
+  /// Hides a held revision for ever. Errors: NotFound, Conflict (it is not held).
   virtual Result<void> reject_revision(const std::string& program, std::uint64_t number,
                                        const std::string& who) = 0;
   /// Makes a new program of the latest revision, or of the one with that number; the audit entry
   /// (program.copy) is part of the transaction. Errors: NotFound, Syntax and LimitExceeded (the new
-  /// name), ModalConflict (it exists, or is the same; the revision is held).
+  /// name), Conflict (it exists, or is the same; the revision is held).
   virtual Result<Revision> copy_program(const ProgramMove& move,
                                         std::optional<std::uint64_t> number) = 0;
   /// Gives a program with all its revisions, and its runs, another name; the audit entry
@@ -285,26 +285,26 @@ class Store {
 
   // Runs
   /// Errors: Busy (the machine has an unfinished run; named), NotFound (machine or revision),
-  /// ModalConflict (the content is not the revision's, the revision is held, or the id was used
+  /// Conflict (the content is not the revision's, the revision is held, or the id was used
   /// before).
   virtual Result<void> create_run(const Run& run) = 0;
   virtual Result<Run> run(const std::string& id) = 0;
   /// Newest first.
   virtual Result<std::vector<Run>> runs(const RunFilter& filter, Page page) = 0;
   /// Ordered to Active, or either to a final state; to the state it has: nothing to do. A final
-  /// state is never left. Errors: NotFound, ModalConflict.
+  /// state is never left. Errors: NotFound, Conflict.
   virtual Result<void> set_run_state(const std::string& id, RunState state,
                                      const std::string& reason) = 0;
   /// Progress of `machine`'s run, as that machine reports it: never goes backwards, never changes
   /// the state; ignored for runs that have ended. Survives a kill of the process; a power cut may
-  /// take the last ones. Errors: NotFound, ModalConflict (the run is another machine's).
+  /// take the last ones. Errors: NotFound, Conflict (the run is another machine's).
   virtual Result<void> update_counters(const std::string& machine, const std::string& id,
                                        const Counters& counters, std::uint64_t line,
                                        std::int64_t sequence) = 0;
 
   // Records
   /// Stores what is new and contiguous, in one transaction; returns the highest number stored
-  /// without a gap in this epoch. Records already stored are skipped; those behind a gap are left
+  /// without a gap in this epoch. Records already stored are skipped; those after a gap are left
   /// out (the gateway sends them again), and so is a beginning or ending whose record (run_started,
   /// run_ended) is left out. An ending never changes a run that has ended, and no run ends before it
   /// began. A machine not known yet is added; a run not known is no error. A record that names
@@ -338,7 +338,7 @@ class Store {
   /// Makes `text` the machine's newest setup, or returns the newest when it has that text already.
   /// `number`, `sha256`, `size` and `created` are the store's own. `base`: the number that must
   /// still be the newest for a new text to be kept, 0 for none at all. Errors: Syntax and
-  /// LimitExceeded (the machine's name, kMaxSetup), ModalConflict (another is the newest by now).
+  /// LimitExceeded (the machine's name, kMaxSetup), Conflict (another is the newest by now).
   virtual Result<SetupRevision> save_setup(const SetupRevision& setup,
                                            std::optional<std::uint64_t> base) = 0;
   /// Newest first, their texts left out.

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "clients/cli/exit_status.hpp"
-#include "clients/cli/table.hpp"
+#include "clients/cli/text/table.hpp"
 #include "clients/lib/client.hpp"
 #include "clients/lib/retry.hpp"
 #include "clients/lib/server_location.hpp"

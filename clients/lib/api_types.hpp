@@ -120,7 +120,7 @@ struct MachineStatus {
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
-  std::optional<double> clock_ahead_seconds;  ///< of the gateway's; negative: behind the server's
+  std::optional<double> clock_ahead_seconds;  ///< of the gateway's; negative: after the server's
   std::vector<std::string> notices;           ///< what is wrong between server and gateway
   std::string first_seen, last_seen;
   std::optional<MachineStatus> status;

@@ -24,7 +24,7 @@ struct CodeName {
 };
 constexpr CodeName kCodes[] = {
     {"syntax", Errc::Syntax},
-    {"modal_conflict", Errc::ModalConflict},
+    {"conflict", Errc::Conflict},
     {"unsupported", Errc::Unsupported},
     {"limit_exceeded", Errc::LimitExceeded},
     {"not_found", Errc::NotFound},
@@ -84,11 +84,11 @@ std::string header_text(const HttpResponse& response, const std::string& name) {
   return found == response.headers.end() ? std::string() : found->second;
 }
 
-std::string order_body(const OrderRequest& order) {
-  Json body{{"action", order.action}};
-  if (order.text) body["text"] = *order.text;
-  if (order.name) body["name"] = *order.name;
-  if (order.value) body["value"] = *order.value;
+std::string command_body(const CommandRequest& command) {
+  Json body{{"action", command.action}};
+  if (command.text) body["text"] = *command.text;
+  if (command.name) body["name"] = *command.name;
+  if (command.value) body["value"] = *command.value;
   return dumped(body);
 }
 
@@ -308,17 +308,17 @@ Reply<Run> Client::run(std::string_view id) {
   return fetch<Run>(get(path_of("runs", id)));
 }
 
-Reply<void> Client::order(std::string_view run, const OrderRequest& request) {
-  return send_order(path_of("runs", run), request);
+Reply<void> Client::command(std::string_view run, const CommandRequest& request) {
+  return send_command(path_of("runs", run), request);
 }
 
-Reply<void> Client::order_machine(std::string_view machine, const OrderRequest& request) {
-  return send_order(path_of("machines", machine), request);
+Reply<void> Client::command_machine(std::string_view machine, const CommandRequest& request) {
+  return send_command(path_of("machines", machine), request);
 }
 
-Reply<void> Client::send_order(const std::string& path, const OrderRequest& request) {
-  const std::string body = order_body(request);
-  HttpRequest http = with_method("POST", path + "/orders");
+Reply<void> Client::send_command(const std::string& path, const CommandRequest& request) {
+  const std::string body = command_body(request);
+  HttpRequest http = with_method("POST", path + "/commands");
   http.body = body;
   auto response = exchange(http);
   if (!response) return failed(response.error());

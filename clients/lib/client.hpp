@@ -71,7 +71,7 @@ struct ReportQuery {
   Page page;
 };
 
-struct OrderRequest {
+struct CommandRequest {
   std::string action;
   std::optional<std::string> text, name;
   std::optional<double> value;
@@ -138,9 +138,9 @@ class Client {
   Reply<Run> start_run(const RunRequest& request);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
-  Reply<void> order(std::string_view run, const OrderRequest& request);
+  Reply<void> command(std::string_view run, const CommandRequest& request);
   /// At its panel, with a run or without: switches and overrides.
-  Reply<void> order_machine(std::string_view machine, const OrderRequest& request);
+  Reply<void> command_machine(std::string_view machine, const CommandRequest& request);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
 
   Reply<std::vector<Port>> ports();
@@ -167,7 +167,7 @@ class Client {
                                     const std::function<bool(std::string_view)>& sink);
 
  private:
-  Reply<void> send_order(const std::string& path, const OrderRequest& request);
+  Reply<void> send_command(const std::string& path, const CommandRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
   template <class T>
   Reply<T> fetch(const HttpRequest& request);

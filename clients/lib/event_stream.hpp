@@ -27,7 +27,7 @@ using StreamItem =
 
 /// The server's events (GET /api/v1/events, or a port's traffic), read by a thread of its own that
 /// reconnects with back-off. `next` is for one thread. At most 1024 items wait; when the reader
-/// falls behind, the connection is not read on, and what the server then drops is made good by the
+/// falls after, the connection is not read on, and what the server then drops is made good by the
 /// next StreamOpened.
 class EventStream {
  public:

@@ -28,7 +28,7 @@ std::string_view reason(httplib::Error error) {
     case httplib::Error::SSLServerVerification:
       return "its certificate is not trusted; expected one signed by the authority of --ca FILE";
     case httplib::Error::SSLLoadingCerts:
-      return "the file of --ca can not be loaded, expected PEM certificates";
+      return "the file of --ca cannot be loaded, expected PEM certificates";
     case httplib::Error::SSLConnection:
       return "no TLS there; expected an https server";
     case httplib::Error::Canceled:

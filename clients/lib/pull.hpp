@@ -20,7 +20,7 @@ struct PullOptions {
 
 /// Writes the revision to `path`: first to a file beside it, which takes the name only once the
 /// SHA-256 is right, so that `path` is never half a program. Memory: one piece. Failures: those of
-/// the calls; Local (the file can not be written); BadReply with Errc::Corrupt (wrong digest). On
+/// the calls; Local (the file cannot be written); BadReply with Errc::Corrupt (wrong digest). On
 /// any failure `path` is as it was and nothing else is left.
 Reply<Revision> pull_program_to_file(Client& client, const PullOptions& options,
                                      const std::string& path);

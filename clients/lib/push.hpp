@@ -18,7 +18,7 @@ struct PushOptions {
 
 /// Sends `source` as a new revision, in pieces, and has the server check the SHA-256 computed on
 /// the way. When the connection breaks it waits, asks what the server has received and goes on from
-/// there. Memory: one piece. Failures: those of the calls; Local when the source can not be read;
+/// there. Memory: one piece. Failures: those of the calls; Local when the source cannot be read;
 /// Unreachable when the attempts are used up.
 Reply<Revision> push_program(Client& client, ByteSource& source, const PushOptions& options);
 

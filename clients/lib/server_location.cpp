@@ -21,13 +21,13 @@ struct LocalServer {
 Result<std::string> read_small_file(const std::string& path, std::string_view purpose) {
   std::error_code ec;
   const auto size = fs::file_size(path, ec);
-  if (ec) return fail(Errc::Io, "{} {} can not be read: {}", purpose, path, ec.message());
+  if (ec) return fail(Errc::Io, "{} {} cannot be read: {}", purpose, path, ec.message());
   if (size > kMaxSmallFile) {
     return fail(Errc::LimitExceeded, "{} {} has {} bytes, expected at most {}", purpose, path, size,
                 kMaxSmallFile);
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(Errc::Io, "{} {} can not be read: permission denied?", purpose, path);
+  if (!file) return fail(Errc::Io, "{} {} cannot be read: permission denied?", purpose, path);
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 

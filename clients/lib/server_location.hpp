@@ -22,7 +22,7 @@ struct LocationOptions {
 /// of dncd.json; that last one is used only for the server which dncd.json names, or when the state
 /// folder was named explicitly, so that the local token is never sent elsewhere.
 /// Errors: Syntax (an address or dncd.json that is not as described), NotFound (no server is named
-/// anywhere), Io (a file that can not be read).
+/// anywhere), Io (a file that cannot be read).
 Result<ServerAddress> locate_server(const LocationOptions& options, const Environment& environment,
                                     bool is_root);
 

@@ -12,7 +12,7 @@ namespace dripline::gateway {
 /// Whether an order from the network can let the machine move, move on or move faster, with the
 /// panel as it is. What stops or slows down needs nobody's consent; a start is not asked here: it
 /// is accepted and waits (Consent::await).
-bool needs_consent(const dds::Order& order, const machine::OperatorPanel& panel);
+bool needs_consent(const dds::Command& command, const machine::OperatorPanel& panel);
 
 /// What the machine's side has agreed to. At an unattended machine everything; at any other the
 /// remote enable must have been given at its panel, else a run waits there for cycle start.

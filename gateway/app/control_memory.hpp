@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gateway/interpreter/retained_memory.hpp"
-#include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/core/retained_memory.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "gateway/report/outbox.hpp"
 
 namespace dripline::gateway {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "gateway/interpreter/trace/event_words.hpp"
+#include "gateway/interpreter/core/event_words.hpp"
 
 namespace dripline::gateway {
 
@@ -18,7 +18,7 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, std::function<Supply
   probed_.reset();
   alarm_.reset();
   has_ended_ = was_aborted_ = false;
-  parts_.witness.reset();
+  parts_.execution_probe.reset();
   parts_.outbox.begin_run(run);
   append({}, {RecordKind::RunStarted,
               {},
@@ -49,9 +49,9 @@ void ExecutionRecorder::finish() {
 
 Result<void> ExecutionRecorder::commit() {
   parts_.outbox.note_progress(reached_);
-  parts_.witness.begin(reached_.executed, outputs_);
+  parts_.execution_probe.begin(reached_.executed, outputs_);
   const auto done = parts_.outbox.commit();
-  trouble_ = done ? std::string() : done.error().what;
+  fault_ = done ? std::string() : done.error().what;
   if (!done) return done;
   count();
   return {};
@@ -60,7 +60,7 @@ Result<void> ExecutionRecorder::commit() {
 void ExecutionRecorder::count() {
   if (counted_ != reached_) parts_.journal.write(reached_);
   counted_ = reached_;
-  parts_.witness.finish();
+  parts_.execution_probe.finish();
 }
 
 void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
@@ -69,15 +69,15 @@ void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
               origin.line, origin.sequence, origin.offset};
   is_between_blocks_ = true;
   if (!parts_.outbox.has_staged_records()) {
-    parts_.witness.begin(reached_.executed, outputs_);
+    parts_.execution_probe.begin(reached_.executed, outputs_);
     count();
-  } else if (parts_.outbox.staged_records() >= kMaxBatch && trouble_.empty()) {
+  } else if (parts_.outbox.staged_records() >= kMaxBatch && fault_.empty()) {
     (void)commit();  // a failure is kept in trouble()
   }
 }
 
 void ExecutionRecorder::on_motion_starts(const interpreter::Origin&) {
-  if (is_between_blocks_ && trouble_.empty() && parts_.outbox.has_staged_records()) (void)commit();
+  if (is_between_blocks_ && fault_.empty() && parts_.outbox.has_staged_records()) (void)commit();
 }
 
 void ExecutionRecorder::append(const interpreter::Origin& origin, Report report) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gateway/app/run_texts.hpp"
-#include "gateway/app/witness.hpp"
+#include "gateway/app/execution_probe.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/report/outbox.hpp"
 #include "gateway/report/run_journal.hpp"
@@ -24,7 +24,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     std::string machine;
     report::Outbox& outbox;
     report::RunJournal& journal;
-    Witness& witness;
+    ExecutionProbe& execution_probe;
     const Clock& clock;
     /// What is printed at a device, besides being recorded; may be empty.
     std::function<void(const interpreter::Output&)> on_output = {};
@@ -45,7 +45,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   /// Commits what is staged, and counts it. Errors: those of the outbox.
   Result<void> commit();
   /// Why the last commit failed; empty when it did not.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& trouble() const { return fault_; }
   /// At a block's end (records of half a block are not yet committed).
   bool is_between_blocks() const { return is_between_blocks_; }
   const report::Progress& executed() const { return counted_; }
@@ -100,7 +100,7 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   report::Progress counted_;  ///< in journal and outbox
   std::uint64_t outputs_ = 0;
   bool is_between_blocks_ = true;
-  std::string trouble_, notice_, message_;
+  std::string fault_, notice_, message_;
   std::optional<interpreter::Probe> probed_;
   std::optional<interpreter::Diagnostic> alarm_;
   bool has_ended_ = false, was_aborted_ = false;

@@ -14,8 +14,8 @@ machine::MachineLimits limits_of(std::string_view control) {
   const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
   auto limits = is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
   limits.waits_at_tool_change = dialect && (*dialect)->waits_at_tool_change;
-  if (dialect && (*dialect)->feed_dial.fastest) {
-    limits.fastest_feed_per_minute = (*dialect)->feed_dial.fastest->mm();
+  if (dialect && (*dialect)->feed_override_switch.fastest) {
+    limits.fastest_feed_per_minute = (*dialect)->feed_override_switch.fastest->mm();
   }
   return limits;
 }
@@ -25,7 +25,7 @@ machine::MachineLimits limits_of(std::string_view control) {
 Gateway::Gateway(Parts parts)
     : parts_(std::move(parts)),
       outbox_(parts_.outbox),
-      recorder_({parts_.options.machine, parts_.outbox, parts_.journal, parts_.witness,
+      recorder_({parts_.options.machine, parts_.outbox, parts_.journal, parts_.execution_probe,
                  parts_.clock,
                  [this](const interpreter::Output& output) { print_on_line(output); }}),
       memory_(parts_.outbox),
@@ -102,8 +102,8 @@ Result<void> Gateway::recover() {
 }
 
 void Gateway::receive(Incoming incoming, SteadyTime now) {
-  if (const auto* order = std::get_if<dds::Order>(&incoming)) {
-    on_order(*order);
+  if (const auto* command = std::get_if<dds::Command>(&incoming)) {
+    on_command(*command);
   } else if (const auto* ack = std::get_if<dds::RecordAck>(&incoming)) {
     sender_.on_ack(*ack, now);
   } else if (const auto* data = std::get_if<dds::BlockData>(&incoming)) {

@@ -11,7 +11,7 @@
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/options.hpp"
-#include "gateway/app/order_validity.hpp"
+#include "gateway/app/command_validity.hpp"
 #include "gateway/app/run_session.hpp"
 #include "gateway/app/start_argument.hpp"
 #include "gateway/feed/control_line.hpp"
@@ -34,7 +34,7 @@ class Gateway {
     dds::GatewayEndpoint& endpoint;
     report::Outbox& outbox;
     report::RunJournal& journal;
-    Witness& witness;
+    ExecutionProbe& execution_probe;
     const Clock& clock;
     std::uint64_t session = 0;          ///< of this process, not zero
     feed::ControlLine* line = nullptr;  ///< where programs come from instead of the server
@@ -69,38 +69,38 @@ class Gateway {
   };
   static Reply refuse(std::string reason) { return {false, std::move(reason)}; }
 
-  // gateway_orders.cpp
-  void on_order(const dds::Order& order);
-  void on_refusal(const dds::Order& order);
-  bool stops(const dds::Order& order) const;
-  Reply carry_out(const dds::Order& order, bool is_stop);
-  Reply start(const dds::Order& order);
+  // gateway_commands.cpp
+  void on_command(const dds::Command& command);
+  void on_refusal(const dds::Command& command);
+  bool stops(const dds::Command& command) const;
+  Reply carry_out(const dds::Command& command, bool is_stop);
+  Reply start(const dds::Command& command);
   struct StartedBy {
-    std::string order;        ///< what is answered; empty: nobody
+    std::string command;        ///< what is answered; empty: nobody
     std::string setup;        ///< what the server knows of tools, offsets and variables, TOML
     StartArgument from = {};  ///< where it begins; without a place at the beginning
   };
   Result<void> begin_run(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
                          const StartedBy& started_by);
   Result<interpreter::Setup> setup_with(const std::string& control_data) const;
-  std::optional<Reply> refusal_of_start(const dds::Order& order);
-  Reply operate(const dds::Order& order);
-  void keep_result(const dds::Order& order, const Reply& reply);
-  void answer(const dds::Order& order, const Reply& reply);
+  std::optional<Reply> refusal_of_start(const dds::Command& command);
+  Reply operate(const dds::Command& command);
+  void keep_result(const dds::Command& command, const Reply& reply);
+  void answer(const dds::Command& command, const Reply& reply);
   void send_results();
 
   // gateway_panel.cpp
   void take_panel_tables(const interpreter::Setup& setup);
-  Reply set_switch(const dds::Order& order);
+  Reply set_switch(const dds::Command& command);
   Reply set_emergency_stop(bool is_pressed);
-  Reply set_override(const dds::Order& order);
+  Reply set_override(const dds::Command& command);
   std::optional<std::string> refusal_of_feed(double factor) const;
   std::optional<std::string> refusal_of_spindle(double factor) const;
-  Reply turn_handwheel(const dds::Order& order);
+  Reply turn_handwheel(const dds::Command& command);
 
   // gateway_consent.cpp
   /// Why an order that came over the network is not carried out for now.
-  std::optional<Reply> refusal_without_consent(const dds::Order& order) const;
+  std::optional<Reply> refusal_without_consent(const dds::Command& command) const;
   void on_panel(const PanelRequest& request);
   Reply carry_out_at_panel(const PanelCommand& command);
   Reply set_remote_enable(bool is_enabled);
@@ -118,7 +118,7 @@ class Gateway {
   void commit_reports();
   void keep_memory();
   void report_memory();
-  bool wait_out_trouble(SteadyTime now);
+  bool wait_out_fault(SteadyTime now);
   void judge_end();
   void end_run(dds::RunOutcome outcome, const std::string& reason);
   void try_to_finish(SteadyTime now);
@@ -157,15 +157,15 @@ class Gateway {
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
   std::unique_ptr<RunSession> session_;
-  OrderValidity validity_;
+  CommandValidity validity_;
   interpreter::PanelTables panel_tables_;
   Consent consent_;
   bool is_stopped_at_panel_ = false;  ///< the emergency stop was pressed there
 
-  std::deque<dds::OrderResult> results_;
+  std::deque<dds::CommandResult> results_;
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
   bool is_ending_ = false;              ///< the run's last records are staged, not yet on disk
-  bool is_held_by_trouble_ = false;     ///< not by the operator
+  bool is_held_by_fault_ = false;     ///< not by the operator
   bool was_emergency_stopped_ = false;  ///< the run; it ends when the switch is released
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_rejected_log_{};
   std::uint64_t rejected_logged_ = 0;
@@ -183,7 +183,7 @@ class Gateway {
   } line_ = Line::Closed;
   feed::LineFeed* line_feed_ = nullptr;  ///< of session_
   std::uint64_t line_released_ = 0;      ///< of its text
-  std::string line_program_, line_trouble_;
+  std::string line_program_, line_fault_;
   std::string line_request_;  ///< still to be asked for; "next": always
   std::optional<SteadyTime> listen_at_;
   std::vector<feed::LineItem> held_items_;  ///< of the next run: the emergency stop is pressed

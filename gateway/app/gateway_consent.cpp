@@ -7,18 +7,18 @@
 /// else is done at the machine's own panel.
 namespace dripline::gateway {
 
-using dds::OrderAction;
+using dds::CommandAction;
 using machine::MachineState;
 
 namespace {
 
-/// An order that nobody sent: the same is done for the panel as for the network.
-dds::Order order_of(OrderAction action, const PanelCommand& command) {
-  dds::Order order;
-  order.action = action;
-  order.argument = command.text;
-  order.value = command.value;
-  return order;
+/// A command that came from the panel; it is carried out as one from the network is.
+dds::Command command_of(CommandAction action, const PanelCommand& panel) {
+  dds::Command command;
+  command.action = action;
+  command.argument = panel.text;
+  command.value = panel.value;
+  return command;
 }
 
 std::string_view state_text(bool is_on) {
@@ -27,12 +27,12 @@ std::string_view state_text(bool is_on) {
 
 }  // namespace
 
-std::optional<Gateway::Reply> Gateway::refusal_without_consent(const dds::Order& order) const {
+std::optional<Gateway::Reply> Gateway::refusal_without_consent(const dds::Command& command) const {
   const bool releases =
-      order.action == OrderAction::Switch && order.argument == "emergency_stop" && order.value == 0;
+      command.action == CommandAction::Switch && command.argument == "emergency_stop" && command.value == 0;
   if (releases && is_stopped_at_panel_)
     return refuse("the emergency stop was pressed at the machine's panel: release it there");
-  if (consent_.is_given() || !needs_consent(order, machine_.panel())) return std::nullopt;
+  if (consent_.is_given() || !needs_consent(command, machine_.panel())) return std::nullopt;
   return refuse(std::string(kNoConsent));
 }
 
@@ -69,13 +69,13 @@ Gateway::Reply Gateway::carry_out_at_panel(const PanelCommand& command) {
       return set_emergency_stop_at_panel(command.value == 1);
     case Verb::Switch:
       if (command.text == "emergency_stop") return set_emergency_stop_at_panel(command.value == 1);
-      return set_switch(order_of(OrderAction::Switch, command));
+      return set_switch(command_of(CommandAction::Switch, command));
     case Verb::FeedOverride:
-      return set_override(order_of(OrderAction::FeedOverride, command));
+      return set_override(command_of(CommandAction::FeedOverride, command));
     case Verb::RapidOverride:
-      return set_override(order_of(OrderAction::RapidOverride, command));
+      return set_override(command_of(CommandAction::RapidOverride, command));
     case Verb::SpindleOverride:
-      return set_override(order_of(OrderAction::SpindleOverride, command));
+      return set_override(command_of(CommandAction::SpindleOverride, command));
     case Verb::DiscardMemory:
       return discard_memory();
     default:
@@ -87,14 +87,14 @@ Gateway::Reply Gateway::carry_out_at_panel(const PanelCommand& command) {
       recorder_.note_at_panel(machine_.status().origin, "cycle start");
       return cycle_start();
     case Verb::Hold:
-      return operate(order_of(OrderAction::Hold, command));
+      return operate(command_of(CommandAction::Hold, command));
     case Verb::Abort:
       recorder_.note_at_panel(machine_.status().origin, "abort");
-      return operate(order_of(OrderAction::Abort, command));
+      return operate(command_of(CommandAction::Abort, command));
     case Verb::Answer:
-      return operate(order_of(OrderAction::Answer, command));
+      return operate(command_of(CommandAction::Answer, command));
     case Verb::Handwheel:
-      return operate(order_of(OrderAction::Handwheel, command));
+      return operate(command_of(CommandAction::Handwheel, command));
     default:
       return refuse("not a verb of this panel");
   }
@@ -124,7 +124,7 @@ Gateway::Reply Gateway::set_emergency_stop_at_panel(bool is_pressed) {
 /// Of a run that waits for it, or after a hold or a stop.
 Gateway::Reply Gateway::cycle_start() {
   if (!consent_.is_awaited()) {
-    const dds::Order resume = order_of(OrderAction::Resume, {});
+    const dds::Command resume = command_of(CommandAction::Resume, {});
     return operate(resume);
   }
   if (machine_.panel().emergency_stop)

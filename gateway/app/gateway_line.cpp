@@ -83,9 +83,9 @@ void Gateway::take_line_item(LineItem& item) {
       return session_ ? parts_.line->refuse("a program is running") : listen(false);
     case What::Asked:
       return parts_.line->refuse("no program is to be sent from here");
-    case What::Trouble:
+    case What::Fault:
       if (const auto text = fmt::format("line: {}", item.text);
-          std::exchange(line_trouble_, text) != text)
+          std::exchange(line_fault_, text) != text)
         spdlog::warn("{} {}", text, label());
       // What was asked for could not begin, a busy line for instance.
       if (line_ == Line::Listening) listen_at_ = parts_.clock.steady_now() + kListenAgain;
@@ -93,7 +93,7 @@ void Gateway::take_line_item(LineItem& item) {
     case What::Channel:
       spdlog::info("line {} {} {}", parts_.line->address(),
                    item.text.empty() ? "is open" : item.text, label());
-      line_trouble_ = item.text.empty() ? "" : fmt::format("line: {}", item.text);
+      line_fault_ = item.text.empty() ? "" : fmt::format("line: {}", item.text);
       return;
   }
 }
@@ -104,7 +104,7 @@ void Gateway::take_line_text(std::string_view text) {
     parts_.line->abort();
   }
   if (line_ != Line::Feeding) return parts_.line->release(text.size());
-  line_trouble_.clear();
+  line_fault_.clear();
   line_feed_->append(text);
 }
 
@@ -122,10 +122,10 @@ void Gateway::line_text_ended() {
 }
 
 void Gateway::line_failed(const std::string& reason) {
-  if (const auto text = fmt::format("line: {}", reason); std::exchange(line_trouble_, text) != text)
+  if (const auto text = fmt::format("line: {}", reason); std::exchange(line_fault_, text) != text)
     spdlog::warn("{} {}", text, label());
   if (line_ == Line::Feeding) {
-    line_feed_->break_off(line_trouble_);
+    line_feed_->break_off(line_fault_);
     line_ = Line::Complete;
   } else if (line_ == Line::Listening || (line_ == Line::Draining && !session_)) {
     listen_at_ = parts_.clock.steady_now() + kListenAgain;

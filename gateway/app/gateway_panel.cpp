@@ -3,27 +3,27 @@
 #include <cmath>
 
 #include "gateway/app/gateway.hpp"
-#include "protocol/dds/stop_orders.hpp"
+#include "protocol/dds/stop_commands.hpp"
 
 /// The part of the gateway that stands at the operator's panel: switches, overrides, handwheel.
 namespace dripline::gateway {
 
-using dds::OrderAction;
+using dds::CommandAction;
 using machine::OperatorPanel;
 
 namespace {
 
 constexpr double kNoise = 1e-6;
-constexpr double kMostClicks = 1000;  ///< in one order
+constexpr double kMaxClicks = 1000;  ///< in one order
 /// Of a control whose setup has no table for it.
-constexpr double kLeastSpindle = 0.5, kMostSpindle = 1.2;
+constexpr double kLeastSpindle = 0.5, kMaxSpindle = 1.2;
 
-std::string range_of(OrderAction override) {
-  if (override == OrderAction::FeedOverride)
+std::string range_of(CommandAction override) {
+  if (override == CommandAction::FeedOverride)
     return fmt::format("0 to {:.4g} %", OperatorPanel::kMaxFeedOverride * 100);
-  if (override == OrderAction::RapidOverride)
+  if (override == CommandAction::RapidOverride)
     return fmt::format("0 to {:.4g} %", OperatorPanel::kMaxRapidOverride * 100);
-  return fmt::format("{:.4g} to {:.4g} %", kLeastSpindle * 100, kMostSpindle * 100);
+  return fmt::format("{:.4g} to {:.4g} %", kLeastSpindle * 100, kMaxSpindle * 100);
 }
 
 /// The position of a switch that stands for `factor`; the table's size when none does.
@@ -55,19 +55,19 @@ void Gateway::take_panel_tables(const interpreter::Setup& setup) {
   }
 }
 
-Gateway::Reply Gateway::set_switch(const dds::Order& order) {
-  if (order.value != 0 && order.value != 1)
-    return refuse(fmt::format("a switch is 0 or 1, not {}", order.value));
+Gateway::Reply Gateway::set_switch(const dds::Command& command) {
+  if (command.value != 0 && command.value != 1)
+    return refuse(fmt::format("a switch is 0 or 1, not {}", command.value));
   OperatorPanel panel = machine_.panel();
-  const bool is_on = order.value == 1;
-  if (order.argument == "emergency_stop") return set_emergency_stop(is_on);
-  if (order.argument == "single_block") {
+  const bool is_on = command.value == 1;
+  if (command.argument == "emergency_stop") return set_emergency_stop(is_on);
+  if (command.argument == "single_block") {
     panel.single_block = is_on;
-  } else if (order.argument == "optional_stop") {
+  } else if (command.argument == "optional_stop") {
     panel.optional_stop = is_on;
-  } else if (order.argument == "block_skip") {
+  } else if (command.argument == "block_skip") {
     panel.block_skip = is_on;
-  } else if (order.argument == "handwheel") {
+  } else if (command.argument == "handwheel") {
     if (panel_tables_.click_seconds.empty())
       return refuse(
           fmt::format("a handwheel drives no program of control {}", parts_.options.control));
@@ -76,10 +76,10 @@ Gateway::Reply Gateway::set_switch(const dds::Order& order) {
     return refuse(
         fmt::format("no switch '{}': single_block, optional_stop, block_skip, handwheel, "
                     "emergency_stop",
-                    order.argument));
+                    command.argument));
   }
   machine_.set_panel(panel);
-  const bool is_for_next_run = session_ && order.argument == "block_skip";
+  const bool is_for_next_run = session_ && command.argument == "block_skip";
   return {true, is_for_next_run ? "block_skip takes effect at the next start" : ""};
 }
 
@@ -102,7 +102,7 @@ Gateway::Reply Gateway::set_emergency_stop(bool is_pressed) {
 /// Controls whose knob has positions do not stand between them.
 std::optional<std::string> Gateway::refusal_of_feed(double factor) const {
   if (!panel_tables_.feed.empty()) return refusal_of(panel_tables_.feed, factor);
-  const interpreter::FeedDial& dial = parts_.dialect.feed_dial;
+  const interpreter::FeedOverrideSwitch& dial = parts_.dialect.feed_override_switch;
   if (dial.step <= 0) return std::nullopt;
   const double position = factor / dial.step;
   if (factor <= dial.most + kNoise && std::fabs(position - std::round(position)) <= kNoise)
@@ -113,34 +113,34 @@ std::optional<std::string> Gateway::refusal_of_feed(double factor) const {
 
 std::optional<std::string> Gateway::refusal_of_spindle(double factor) const {
   if (!panel_tables_.spindle.empty()) return refusal_of(panel_tables_.spindle, factor);
-  if (factor >= kLeastSpindle && factor <= kMostSpindle) return std::nullopt;
-  return fmt::format("{:.4g} %: expected {}", factor * 100, range_of(OrderAction::SpindleOverride));
+  if (factor >= kLeastSpindle && factor <= kMaxSpindle) return std::nullopt;
+  return fmt::format("{:.4g} %: expected {}", factor * 100, range_of(CommandAction::SpindleOverride));
 }
 
-Gateway::Reply Gateway::set_override(const dds::Order& order) {
+Gateway::Reply Gateway::set_override(const dds::Command& command) {
   OperatorPanel panel = machine_.panel();
-  dds::override_of(order.action, panel) = order.value;
-  if (!std::isfinite(order.value) || panel.clamped() != panel)
-    return refuse(fmt::format("{:.4g} %: expected {}", order.value * 100, range_of(order.action)));
+  dds::override_of(command.action, panel) = command.value;
+  if (!std::isfinite(command.value) || panel.clamped() != panel)
+    return refuse(fmt::format("{:.4g} %: expected {}", command.value * 100, range_of(command.action)));
   std::optional<std::string> refusal;
-  if (order.action == OrderAction::FeedOverride) refusal = refusal_of_feed(order.value);
-  if (order.action == OrderAction::SpindleOverride) refusal = refusal_of_spindle(order.value);
+  if (command.action == CommandAction::FeedOverride) refusal = refusal_of_feed(command.value);
+  if (command.action == CommandAction::SpindleOverride) refusal = refusal_of_spindle(command.value);
   if (refusal) return refuse(*std::move(refusal));
   machine_.set_panel(panel);
   return {};
 }
 
 /// The feed switch says how much a click is.
-Gateway::Reply Gateway::turn_handwheel(const dds::Order& order) {
+Gateway::Reply Gateway::turn_handwheel(const dds::Command& command) {
   if (!machine_.panel().handwheel)
     return refuse("the handwheel does not drive the program: switch handwheel on first");
-  if (!(order.value >= 1 && order.value <= kMostClicks) || order.value != std::floor(order.value))
+  if (!(command.value >= 1 && command.value <= kMaxClicks) || command.value != std::floor(command.value))
     return refuse(fmt::format("{} clicks: expected a whole number from 1 to {}, forward only",
-                              order.value, kMostClicks));
+                              command.value, kMaxClicks));
   const auto& clicks = panel_tables_.click_seconds;
   const std::size_t position = position_of(panel_tables_.feed, machine_.panel().feed_override);
   const double click = clicks.at(std::min(position, clicks.size() - 1));
-  machine_.turn_handwheel(machine::Seconds{order.value * click});
+  machine_.turn_handwheel(machine::Seconds{command.value * click});
   return {};
 }
 

@@ -27,7 +27,7 @@ void Gateway::run_slice(SteadyTime now) {
   double seconds = factor ? std::chrono::duration<double>(elapsed).count() * *factor
                           : std::numeric_limits<double>::infinity();
   if (wait_for_cycle_start(now)) return;
-  if (wait_out_trouble(now)) {
+  if (wait_out_fault(now)) {
     (void)machine_.advance(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
     return;
   }
@@ -84,22 +84,22 @@ void Gateway::commit_reports() {
   if (!outbox_.has_staged_records() || !may_commit || !recorder_.trouble().empty()) return;
   (void)recorder_.commit();
   if (recorder_.trouble().empty()) return;
-  spdlog::error("reports can not be kept, the machine is held: {} {}", recorder_.trouble(),
+  spdlog::error("reports cannot be kept, the machine is held: {} {}", recorder_.trouble(),
                 label());
 }
 
-/// True: records can not be written. The machine stands until they can.
-bool Gateway::wait_out_trouble(SteadyTime now) {
+/// True: records cannot be written. The machine stands until they can.
+bool Gateway::wait_out_fault(SteadyTime now) {
   if (recorder_.trouble().empty()) return false;
-  if (!is_held_by_trouble_ && machine_.state() == MachineState::Running) {
+  if (!is_held_by_fault_ && machine_.state() == MachineState::Running) {
     machine_.hold();
-    is_held_by_trouble_ = true;
+    is_held_by_fault_ = true;
   }
   if (now < next_commit_) return true;
   next_commit_ = now + kCommitRetry;
   if (!recorder_.commit()) return true;
   spdlog::info("reports are kept again {}", label());
-  if (std::exchange(is_held_by_trouble_, false) && consent_.is_given()) machine_.resume();
+  if (std::exchange(is_held_by_fault_, false) && consent_.is_given()) machine_.resume();
   return false;
 }
 
@@ -131,7 +131,7 @@ void Gateway::end_run(dds::RunOutcome outcome, const std::string& reason) {
   recorder_.end(std::move(end));
   consent_.end_wait();
   is_ending_ = true;
-  is_held_by_trouble_ = false;
+  is_held_by_fault_ = false;
   try_to_finish(parts_.clock.steady_now());
 }
 
@@ -139,7 +139,7 @@ void Gateway::try_to_finish(SteadyTime now) {
   if (!recorder_.trouble().empty() && now < next_commit_) return;
   next_commit_ = now + kCommitRetry;
   if (const auto done = recorder_.commit(); !done) {
-    spdlog::error("the end of the run can not be kept yet: {} {}", done.error().what, label());
+    spdlog::error("the end of the run cannot be kept yet: {} {}", done.error().what, label());
     return;
   }
   spdlog::info("run ended {}{} executed={} accepted={} sent={} {}",

@@ -80,8 +80,8 @@ dds::SpindleState spindle_of(interpreter::SpindleState state) {
       return dds::SpindleState::Off;
     case interpreter::SpindleState::Clockwise:
       return dds::SpindleState::Clockwise;
-    case interpreter::SpindleState::CounterClockwise:
-      return dds::SpindleState::CounterClockwise;
+    case interpreter::SpindleState::Counterclockwise:
+      return dds::SpindleState::Counterclockwise;
     case interpreter::SpindleState::Oriented:
       return dds::SpindleState::Oriented;
   }
@@ -193,10 +193,10 @@ void Gateway::fill_execution(dds::Status& status) const {
     message = "EMERGENCY STOP";
   } else if (!recorder_.trouble().empty()) {
     status.execution = Execution::Waiting;
-    message = fmt::format("reports can not be kept: {}", recorder_.trouble());
+    message = fmt::format("reports cannot be kept: {}", recorder_.trouble());
   } else if (message.empty()) {
     message = refused_by_server_.empty()
-                  ? line_trouble_
+                  ? line_fault_
                   : fmt::format("the server does not command this gateway: {}", refused_by_server_);
   }
   status.message = valid_text(message, kMaxReason);
@@ -216,7 +216,7 @@ Execution Gateway::execution_of_run(std::string& message) const {
     }
     if (session_->waits() == RunSession::Waits::ForText) {
       if (parts_.line != nullptr) {
-        message = line_trouble_.empty() ? "waiting for text from the line" : line_trouble_;
+        message = line_fault_.empty() ? "waiting for text from the line" : line_fault_;
         return Execution::Waiting;
       }
       message = is_connected_ ? "waiting for program text" : "waiting for program text: no server";

@@ -6,7 +6,7 @@ namespace dripline::gateway {
 
 void Inbox::post(Incoming incoming) {
   const bool is_block = std::holds_alternative<dds::BlockData>(incoming);
-  const bool may_be_dropped = is_block || std::holds_alternative<dds::Order>(incoming) ||
+  const bool may_be_dropped = is_block || std::holds_alternative<dds::Command>(incoming) ||
                               std::holds_alternative<dds::RecordAck>(incoming);
   {
     const std::lock_guard lock(mutex_);

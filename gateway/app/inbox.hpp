@@ -19,7 +19,7 @@ struct StopRequested {
 };
 /// The line has something to be taken.
 struct LineChanged {};
-using Incoming = std::variant<dds::Order, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
+using Incoming = std::variant<dds::Command, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
                               LineChanged, PanelRequest>;
 
 /// Where other threads leave what the gateway's own thread does. Bounded: program text and orders

@@ -53,7 +53,7 @@ Result<std::string> read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!file || !(text << file.rdbuf()))
-    return fail(Errc::NotFound, "can not read {}", path.string());
+    return fail(Errc::NotFound, "cannot read {}", path.string());
   return std::move(text).str();
 }
 
@@ -140,14 +140,14 @@ Result<void> run(const GatewayOptions& options) {
   if (!outbox) return fail(outbox.error());
   auto journal = report::RunJournal::open(folder->journal());
   if (!journal) return fail(journal.error());
-  auto witness = options.witness ? Witness::open(*options.witness) : Result<Witness>(Witness());
-  if (!witness) return fail(witness.error());
+  auto execution_probe = options.execution_probe ? ExecutionProbe::open(*options.execution_probe) : Result<ExecutionProbe>(ExecutionProbe());
+  if (!execution_probe) return fail(execution_probe.error());
 
   const sigset_t signals = process::block_stop_signals();  // before DDS starts its threads
   const SystemClock clock;
   Inbox inbox;
   auto endpoint = open_endpoint(
-      options, {.on_order = [&](dds::Order order) { inbox.post(std::move(order)); },
+      options, {.on_command = [&](dds::Command command) { inbox.post(std::move(command)); },
                 .on_ack = [&](dds::RecordAck ack) { inbox.post(std::move(ack)); },
                 .on_block = [&](dds::BlockData data) { inbox.post(std::move(data)); },
                 .on_server = [&](bool is_connected) { inbox.post(ServerSeen{is_connected}); }});
@@ -158,7 +158,7 @@ Result<void> run(const GatewayOptions& options) {
       options.state, [&](PanelRequest request) { inbox.post(std::move(request)); });
   if (!panel) return fail(panel.error());
   const SignalWatch watch(inbox, signals);
-  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *witness,
+  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *execution_probe,
                    clock, new_session(), line->get()});
   if (const auto done = gateway.recover(); !done) return done;
   spdlog::info(

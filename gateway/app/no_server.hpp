@@ -10,7 +10,7 @@ class NoServer final : public dds::GatewayEndpoint {
   Result<void> write(const dds::Announce&) override { return {}; }
   Result<void> write(const dds::Status&) override { return {}; }
   Result<void> write(const dds::Record&) override { return {}; }
-  Result<void> write(const dds::OrderResult&) override { return {}; }
+  Result<void> write(const dds::CommandResult&) override { return {}; }
   Result<void> write(const dds::BlockRequest&) override { return {}; }
   bool is_connected() const override { return false; }
   dds::Rejected rejected() const override { return {}; }

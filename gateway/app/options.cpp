@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 
-#include "gateway/interpreter/tnc155/control_version.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/state_location.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
@@ -185,9 +185,9 @@ constexpr std::array kRows{
                 o.cycle_start_wait = std::chrono::seconds(*seconds);
                 return {};
               }},
-    OptionRow{"witness", "file", "", "(none)", "for tests: counts what was truly executed",
+    OptionRow{"execution_probe", "file", "", "(none)", "for tests: counts what was truly executed",
               [](Options& o, std::string_view v) -> Result<void> {
-                o.witness = v;
+                o.execution_probe = v;
                 return {};
               }},
 };

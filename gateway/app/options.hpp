@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/wire/line_settings.hpp"
@@ -37,7 +37,7 @@ struct GatewayOptions {
   std::filesystem::path state;
   dds::NetworkOptions network;
   Speed speed;
-  std::optional<std::filesystem::path> setup, log, witness;
+  std::optional<std::filesystem::path> setup, log, execution_probe;
   std::string log_level = "info";
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;

@@ -214,7 +214,7 @@ void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
   ask(id, connection);
 }
 
-/// Hands on the first whole line. A line that can not be understood is answered here.
+/// Hands on the first whole line. A line that cannot be understood is answered here.
 void PanelSocket::Server::ask(std::uint64_t id, Connection& connection) {
   while (!connection.is_asking && !connection.is_closing) {
     const std::size_t end = connection.received.find('\n');

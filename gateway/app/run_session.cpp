@@ -207,7 +207,7 @@ bool RunSession::machine_rests() const {
   return parts_.machine.drained() && parts_.machine.state() == machine::MachineState::Idle;
 }
 
-/// An answer the interpreter can not use leaves the question open; the next one in line, or the
+/// An answer the interpreter cannot use leaves the question open; the next one in line, or the
 /// operator, is asked.
 bool RunSession::give(const interpreter::Answer& answer) {
   const auto taken = interpreter_->answer(answer);

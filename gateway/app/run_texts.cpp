@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "gateway/interpreter/trace/event_words.hpp"
+#include "gateway/interpreter/core/event_words.hpp"
 #include "protocol/base/utf8.hpp"
 
 namespace dripline::gateway {

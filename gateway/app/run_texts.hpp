@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "protocol/dds/record_text.hpp"
 
 /// What the interpreter's and machine's words are in records.

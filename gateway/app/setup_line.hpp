@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gateway/app/options.hpp"
-#include "gateway/interpreter/option.hpp"
+#include "gateway/interpreter/core/option.hpp"
 
 namespace dripline::gateway {
 

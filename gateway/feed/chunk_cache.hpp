@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "gateway/interpreter/program_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 
 namespace dripline::feed {
 

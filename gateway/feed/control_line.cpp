@@ -57,8 +57,8 @@ void ControlLine::on_event(wire::Event& event) {
     }
     put(What::Failed, std::move(failed->error.what));
     go_on();
-  } else if (auto* trouble = std::get_if<wire::LineTrouble>(&event)) {
-    put(What::Trouble, std::move(trouble->error.what));
+  } else if (auto* trouble = std::get_if<wire::LineError>(&event)) {
+    put(What::Fault, std::move(trouble->error.what));
   } else if (auto* asked = std::get_if<wire::TransferRequest>(&event)) {
     const bool is_offer = asked->kind == wire::TransferRequest::Kind::TakeProgram;
     put(is_offer ? What::Offered : What::Asked, std::move(asked->name));
@@ -98,7 +98,7 @@ void ControlLine::put(What what, std::string text) {
       return;  // whoever is to take it has been told
     }
     // Only trouble comes without bound (text is held off), and only when nobody takes it.
-    if (items_.size() >= kMaxItems && what == What::Trouble) return;
+    if (items_.size() >= kMaxItems && what == What::Fault) return;
     items_.push_back({what, std::move(text)});
   }
   if (parts_.wake) parts_.wake();
@@ -140,7 +140,7 @@ void ControlLine::listen(wire::Discipline& end, wire::LineTime now) {
   const bool is_busy = !done && done.error().code == Errc::Busy;
   if (is_busy && end.state().phase == wire::Phase::Sending) return;  // again when it has ended
   is_expecting_ = false;
-  if (!done && !is_busy) put(What::Trouble, done.error().what);
+  if (!done && !is_busy) put(What::Fault, done.error().what);
 }
 
 void ControlLine::refuse(std::string reason) {

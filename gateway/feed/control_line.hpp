@@ -21,7 +21,7 @@ struct LineItem {
     Failed,   ///< no more of it comes; `text` says why
     Offered,  ///< the host wants to send one, `text` is its name: answer with `expect`
     Asked,    ///< the host wants one, `text` is its name
-    Trouble,  ///< something else was wrong; `text` says what
+    Fault,  ///< something else was wrong; `text` says what
     Channel,  ///< the line is open (empty text), or why it is not
   };
   What what = What::Text;
@@ -53,12 +53,12 @@ class ControlLine {
   void release(std::size_t bytes);
 
   /// Listens for a program, or asks for one by `request`, as soon as the line is not busy sending.
-  /// What is wrong with that comes as Trouble; on a line that is listening it means nothing.
+  /// What is wrong with that comes as Fault; on a line that is listening it means nothing.
   void expect(const wire::TransferRequest* request = nullptr);
   void refuse(std::string reason);
   /// Gives up the program that is coming, and tells the host where the protocol can; output stays.
   void abort();
-  /// Sends text when the line lets it, behind everything sent before. False: no room for it.
+  /// Sends text when the line lets it, after everything sent before. False: no room for it.
   bool send(std::string_view text);
   /// Nothing has come for so long that what comes next is something new.
   bool is_quiet() const;

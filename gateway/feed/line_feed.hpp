@@ -9,7 +9,7 @@ namespace dripline::feed {
 
 /// A run's text as it comes over a line: in order, once, until the sender ends. What was executed
 /// is kept as far as the cache holds, so that loops work; a jump back further than that fails, as
-/// does the text behind a line that broke. Pure; one thread.
+/// does the text after a line that broke. Pure; one thread.
 class LineFeed final : public ProgramFeed {
  public:
   static constexpr std::size_t kKeptBytes = 8 * 1024 * 1024;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/program_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "protocol/base/clock.hpp"
 #include "protocol/base/digest.hpp"
 #include "protocol/dds/message.hpp"

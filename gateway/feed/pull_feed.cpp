@@ -32,7 +32,7 @@ std::string_view meaning_of(dds::BlockStatus status) {
     case dds::BlockStatus::Corrupt:
       return "the stored program is corrupt";
     case dds::BlockStatus::Failed:
-      return "the server can not read the program";
+      return "the server cannot read the program";
   }
   return "the server refuses";
 }

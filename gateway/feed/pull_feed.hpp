@@ -59,7 +59,7 @@ class PullFeed final : public ProgramFeed {
   /// Sizes the window to `target_seconds`; nullopt: as fast as possible, the whole window.
   void set_consumption(std::optional<double> bytes_per_second) override;
 
-  /// Why the program can not be had any more; empty: it can.
+  /// Why the program cannot be had any more; empty: it can.
   const std::string& failure() const { return failure_; }
   std::uint64_t sent() const override { return hashed_; }
   /// Equals the revision's once sent() is the program's size.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/centurion/dialect.hpp"
-#include "gateway/interpreter/fanuc/dialect.hpp"
-#include "gateway/interpreter/prototrak/dialect.hpp"
-#include "gateway/interpreter/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/tektronix1704/dialect.hpp"
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+#include "gateway/interpreter/dialects/prototrak/dialect.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 
 namespace dripline::interpreter {
 namespace {

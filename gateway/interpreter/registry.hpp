@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/interpreter.hpp"
-#include "gateway/interpreter/panel_tables.hpp"
-#include "gateway/interpreter/program_keeping.hpp"
-#include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/panel_tables.hpp"
+#include "gateway/interpreter/core/program_storage.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter {
 
@@ -17,7 +17,7 @@ namespace dripline::interpreter {
 enum class MachineKind : std::uint8_t { Mill, Lathe };
 
 /// The knob for feeds on a control's panel.
-struct FeedDial {
+struct FeedOverrideSwitch {
   double step = 0;  ///< between its positions, as a factor; 0: turns freely
   double most = 2;
   std::optional<Length> fastest;  ///< per minute; no position goes beyond it
@@ -37,16 +37,16 @@ struct Dialect {
   /// Units of the control's own memory at power on: of a setup file that names none.
   Units units = Units::Millimetre;
   MachineKind machine = MachineKind::Mill;
-  FeedDial feed_dial = {};
+  FeedOverrideSwitch feed_override_switch = {};
   bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START goes on
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.
   Result<std::string> (*list)(std::string_view text) = nullptr;
   /// Switches of the panel that a setup can be given tables for; nullptr: the panel is as
-  /// `feed_dial` says. Errors: Syntax, LimitExceeded.
+  /// `feed_override_switch` says. Errors: Syntax, LimitExceeded.
   Result<PanelTables> (*panel_tables)(const Setup& setup) = nullptr;
   /// Of a control that keeps programs in numbered blocks; nullptr: a program is its lines.
-  const ProgramKeeping* keeping = nullptr;
+  const ProgramStorage* keeping = nullptr;
 };
 
 std::span<const Dialect> dialects();

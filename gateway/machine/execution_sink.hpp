@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::machine {
 
@@ -30,7 +30,7 @@ class ExecutionSink {
   virtual void on_probed(const interpreter::Probe&) {}
   /// A stop was reached. An optional stop with its switch off is not reported.
   virtual void on_stop(const interpreter::Stop&) {}
-  /// The program's alarm, or the machine's own (MCH...): nothing queued behind it happens.
+  /// The program's alarm, or the machine's own (MCH...): nothing queued after it happens.
   virtual void on_alarm(const interpreter::Alarm&) {}
   virtual void on_end(const interpreter::End&) {}
   /// `abort` has brought the axes to rest; what was queued is discarded.

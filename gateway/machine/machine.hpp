@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 
-#include "gateway/interpreter/event.hpp"
-#include "gateway/interpreter/geometry/workpiece.hpp"
+#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/geometry/workpiece.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/machine_limits.hpp"
 #include "gateway/machine/operator_panel.hpp"
@@ -31,7 +31,7 @@ enum class MachineState : std::uint8_t {
   EmergencyStop,  ///< braking or standing; Aborted once it stands and the switch is released
 };
 
-enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
+enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 
 struct MachineStatus {
   MachineState state = MachineState::Idle;
@@ -52,7 +52,7 @@ struct MachineStatus {
   bool flood = false, mist = false;
 };
 
-/// The machine behind the interpreter: queues what the program does and executes it in order, in
+/// The machine after the interpreter: queues what the program does and executes it in order, in
 /// machine time. Pure and deterministic: no thread, socket or clock; time comes in by `advance`.
 /// The same events and the same calls at the same machine times give the same execution, however
 /// finely time is sliced.
@@ -117,7 +117,7 @@ class Machine {
   /// while it is pressed, a program that `begin` starts included.
   void set_panel(const OperatorPanel& panel);
   /// Feed hold: slows down along the path and stands. A thread is finished first, and what the
-  /// program has locked against it (PanelLock).
+  /// program has locked against it (OverrideInhibit).
   void hold();
   /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
   bool resume();

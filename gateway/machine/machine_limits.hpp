@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::machine {
@@ -48,7 +48,7 @@ struct MachineLimits {
   static MachineLimits mill();
 };
 
-/// Errors: LimitExceeded, naming the axis and the value that can not be (a speed or acceleration
+/// Errors: LimitExceeded, naming the axis and the value that cannot be (a speed or acceleration
 /// that is not positive and finite, min above max, no axis at all).
 Result<void> check(const MachineLimits& limits);
 

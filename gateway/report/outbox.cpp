@@ -123,7 +123,7 @@ Result<void> insert_cell(sqlite::Statement& insert, const std::string& name, con
   return insert.bind(name, stored(cell.value), stored(cell.base), cell.is_named ? 1 : 0).run();
 }
 
-/// Of everything that is kept, so that a row which was changed behind our back is noticed.
+/// Of everything that is kept, so that a row which was changed after our back is noticed.
 std::string digest_of(const KeptCells& memory, const Outbox::Beginning& beginning,
                       const std::string& fault) {
   Sha256 hash;
@@ -235,7 +235,7 @@ void Outbox::end_run() {
   run_change_ = RunChange::Ends;
 }
 
-void Outbox::add_order_result(const std::string& id, bool is_accepted, const std::string& reason) {
+void Outbox::add_command_result(const std::string& id, bool is_accepted, const std::string& reason) {
   staged_results_.push_back({id, {is_accepted, reason}});
 }
 
@@ -280,7 +280,7 @@ Result<void> Outbox::commit() {
 Result<void> Outbox::write_all() {
   if (const auto done = write_records(); !done) return done;
   if (const auto done = write_run(); !done) return done;
-  if (const auto done = write_order_results(); !done) return done;
+  if (const auto done = write_command_results(); !done) return done;
   if (const auto done = write_memory(); !done) return done;
   return delete_acknowledged();
 }
@@ -313,19 +313,19 @@ Result<void> Outbox::write_run() {
   return replace->run();
 }
 
-Result<void> Outbox::write_order_results() {
+Result<void> Outbox::write_command_results() {
   if (staged_results_.empty()) return {};
   auto insert = database_.prepare(
-      "INSERT OR IGNORE INTO order_result (id, is_accepted, reason) VALUES (?1, ?2, ?3)");
+      "INSERT OR IGNORE INTO command_result (id, is_accepted, reason) VALUES (?1, ?2, ?3)");
   if (!insert) return fail(insert.error());
   for (const StagedResult& result : staged_results_) {
     insert->bind(result.id, result.answer.is_accepted ? 1 : 0, result.answer.reason);
     if (const auto done = insert->run(); !done) return done;
   }
   auto drop = database_.prepare(
-      "DELETE FROM order_result WHERE position <= (SELECT max(position) FROM order_result) - ?1");
+      "DELETE FROM command_result WHERE position <= (SELECT max(position) FROM command_result) - ?1");
   if (!drop) return fail(drop.error());
-  return drop->bind(kKeptOrderResults).run();
+  return drop->bind(kKeptCommandResults).run();
 }
 
 Result<void> Outbox::delete_acknowledged() {
@@ -335,11 +335,11 @@ Result<void> Outbox::delete_acknowledged() {
   return drop->bind(acknowledged_).run();
 }
 
-Result<std::optional<Outbox::Answer>> Outbox::order_result(const std::string& id) {
+Result<std::optional<Outbox::Answer>> Outbox::command_result(const std::string& id) {
   for (const StagedResult& staged : staged_results_) {
     if (staged.id == id) return std::optional(staged.answer);
   }
-  auto query = database_.prepare("SELECT is_accepted, reason FROM order_result WHERE id = ?1");
+  auto query = database_.prepare("SELECT is_accepted, reason FROM command_result WHERE id = ?1");
   if (!query) return fail(query.error());
   const auto row = query->bind(id).step();
   if (!row) return fail(row.error());

@@ -53,7 +53,7 @@ class Outbox {
   void end_run();
   /// Stages how far the active run has come; what was staged last is written.
   void note_progress(const Progress& progress) { progress_ = progress; }
-  void add_order_result(const std::string& id, bool is_accepted, const std::string& reason);
+  void add_command_result(const std::string& id, bool is_accepted, const std::string& reason);
 
   /// Stages what the control keeps under a name; nullopt: no longer.
   void stage_cell(const std::string& name, const std::optional<KeptCell>& cell) {
@@ -71,7 +71,7 @@ class Outbox {
   void stage_beginning(Beginning beginning) { staged_beginning_ = std::move(beginning); }
   const Beginning& beginning() const { return beginning_; }
 
-  /// Why the memory can not be used: its rows are not as they were written, or it is lost with a
+  /// Why the memory cannot be used: its rows are not as they were written, or it is lost with a
   /// former file. Empty: it is sound. Stays until the memory is discarded.
   const std::string& memory_fault() const { return memory_fault_; }
   /// Stages a fault, or the end of one with nothing kept.
@@ -95,7 +95,7 @@ class Outbox {
     bool is_accepted = false;
     std::string reason;
   };
-  Result<std::optional<Answer>> order_result(const std::string& id);
+  Result<std::optional<Answer>> command_result(const std::string& id);
 
   /// Committed records after `number`, in order.
   Result<std::vector<dds::Record>> read(const std::string& machine, std::uint64_t number,
@@ -108,7 +108,7 @@ class Outbox {
   /// copy): what is unacknowledged is numbered anew in a new epoch.
   Result<void> begin_epoch();
 
-  static constexpr std::uint64_t kKeptOrderResults = 10'000;
+  static constexpr std::uint64_t kKeptCommandResults = 10'000;
 
  private:
   explicit Outbox(storage::sqlite::Database database) : database_(std::move(database)) {}
@@ -118,7 +118,7 @@ class Outbox {
   Result<void> write_all();
   Result<void> write_records();
   Result<void> write_run();
-  Result<void> write_order_results();
+  Result<void> write_command_results();
   Result<void> write_cells();
   Result<void> write_beginning();
   Result<void> write_memory();

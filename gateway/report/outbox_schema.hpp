@@ -37,7 +37,7 @@ CREATE TABLE active_run (
   sequence INTEGER NOT NULL, -- its N number, -1 none
   offset   INTEGER NOT NULL  -- bytes
 ) STRICT;
-CREATE TABLE order_result (
+CREATE TABLE command_result (
   position    INTEGER PRIMARY KEY AUTOINCREMENT, -- the oldest are dropped
   id          TEXT NOT NULL UNIQUE,
   is_accepted INTEGER NOT NULL,

@@ -125,7 +125,7 @@ void RunJournal::store() {
   next[kOffset] = progress_.offset;
   next[kGeneration] = ++generation_;
   next[kChecksum] = checksum_of(next);
-  // The other slot holds the entry before; nothing of this one may move ahead of it or behind.
+  // The other slot holds the entry before; nothing of this one may move ahead of it or after.
   std::atomic_signal_fence(std::memory_order_seq_cst);
   std::memcpy((*pages_)[generation_ % 2].data(), next.data(), sizeof(Slot));
   std::atomic_signal_fence(std::memory_order_seq_cst);

@@ -24,7 +24,7 @@ bool is_machine_name_character(char c) {
 
 /// The name of a thing that stands on the shop floor.
 Result<void> check_handle(std::string_view thing, std::string_view name) {
-  if (name.empty()) return fail(Errc::Syntax, "a {} name can not be empty", thing);
+  if (name.empty()) return fail(Errc::Syntax, "a {} name cannot be empty", thing);
   if (name.size() > kMaxMachineName) {
     return fail(Errc::LimitExceeded, "{} name of {} characters: at most {}", thing, name.size(),
                 kMaxMachineName);
@@ -42,7 +42,7 @@ Result<void> check_handle(std::string_view thing, std::string_view name) {
 }  // namespace
 
 Result<void> check_program_name(std::string_view name) {
-  if (name.empty()) return fail(Errc::Syntax, "a program name can not be empty");
+  if (name.empty()) return fail(Errc::Syntax, "a program name cannot be empty");
   if (name.size() > kMaxProgramName) {
     return fail(Errc::LimitExceeded, "program name of {} characters: at most {}", name.size(),
                 kMaxProgramName);

@@ -19,7 +19,7 @@ Result<std::string> make_private_folder(const std::filesystem::path& folder) {
   constexpr mode_t kModes = 07777;
   if (::chmod(folder.c_str(), facts.st_mode & kModes & ~others) != 0) {
     return fail(Errc::Denied,
-                "folder '{}' can be entered or written by others, and it can not be "
+                "folder '{}' can be entered or written by others, and it cannot be "
                 "closed to them: {}",
                 folder.string(), std::generic_category().message(errno));
   }

@@ -11,7 +11,7 @@ namespace dripline {
 /// What kind of failure a caller may have to tell apart; the words are for people.
 enum class Errc {
   Syntax,         ///< outside text or bytes that do not follow their grammar
-  ModalConflict,  ///< two words or settings that exclude each other
+  Conflict,  ///< two words or settings that exclude each other
   Unsupported,    ///< understood, but this control, version or build does not do it
   LimitExceeded,  ///< over a stated bound
   NotFound,
@@ -47,8 +47,8 @@ inline std::string_view to_string(Errc code) {
   switch (code) {
     case Errc::Syntax:
       return "syntax";
-    case Errc::ModalConflict:
-      return "modal_conflict";
+    case Errc::Conflict:
+      return "conflict";
     case Errc::Unsupported:
       return "unsupported";
     case Errc::LimitExceeded:

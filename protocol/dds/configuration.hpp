@@ -24,7 +24,7 @@ constexpr std::uint16_t server_port(std::uint32_t domain, std::uint32_t cell = 0
 
 /// The Cyclone DDS configuration of one end of the star, complete: nothing is left to defaults that
 /// could reach another network. No multicast. Pure.
-/// Errors: Syntax, LimitExceeded (an option that can not be).
+/// Errors: Syntax, LimitExceeded (an option that cannot be).
 Result<std::string> domain_configuration(const NetworkOptions& options, Role role,
                                          std::uint32_t cell);
 

@@ -11,7 +11,7 @@
 #include "protocol/dds/message.hpp"
 
 /// The two ends of the star: one server, many gateways, a partition per machine. Everything else of
-/// DDS stays behind these.
+/// DDS stays after these.
 namespace dripline::dds {
 
 /// File names of DDS Security (PEM; governance and permissions signed). Loopback runs without.
@@ -58,7 +58,7 @@ inline constexpr std::size_t kMaxMachines = 4096;
 /// executor) and must not call back into the endpoint or destroy it. Callbacks of different kinds
 /// may run at the same time. After the endpoint's destructor returns, no callback runs any more.
 struct GatewayHandlers {
-  std::function<void(Order)> on_order;
+  std::function<void(Command)> on_command;
   std::function<void(RecordAck)> on_ack;
   std::function<void(BlockData)> on_block;
   /// true: a server hears this gateway and is heard by it; repeated when another server takes over
@@ -71,7 +71,7 @@ struct GatewayHandlers {
 /// the endpoint repeats it to every server that comes. The write functions never wait longer than a
 /// few milliseconds: Errc::Timeout means "not taken, try later"; any thread. What is written while
 /// no server is connected is lost, except the last Announce and Status. Errors of writing: Syntax,
-/// LimitExceeded (a member that can not be), Timeout, Io.
+/// LimitExceeded (a member that cannot be), Timeout, Io.
 class GatewayEndpoint {
  public:
   /// Errors: Syntax, LimitExceeded (options, machine name), NotFound (a security file), Io.
@@ -82,7 +82,7 @@ class GatewayEndpoint {
   virtual Result<void> write(const Announce& message) = 0;
   virtual Result<void> write(const Status& message) = 0;
   virtual Result<void> write(const Record& message) = 0;
-  virtual Result<void> write(const OrderResult& message) = 0;
+  virtual Result<void> write(const CommandResult& message) = 0;
   virtual Result<void> write(const BlockRequest& message) = 0;
   virtual bool is_connected() const = 0;
   virtual Rejected rejected() const = 0;
@@ -99,7 +99,7 @@ struct ServerHandlers {
   std::function<void(std::string machine, bool is_there)> on_rival;
   std::function<void(Status)> on_status;
   std::function<void(Record)> on_record;
-  std::function<void(OrderResult)> on_order_result;
+  std::function<void(CommandResult)> on_command_result;
   std::function<void(BlockRequest)> on_request;
 };
 
@@ -114,7 +114,7 @@ class ServerEndpoint {
   virtual ~ServerEndpoint() = default;
   /// Errors: NotFound (not connected), Syntax, LimitExceeded, Timeout (not taken: try later), Io.
   virtual Result<void> write(const RecordAck& message) = 0;
-  virtual Result<void> write(const Order& message) = 0;
+  virtual Result<void> write(const Command& message) = 0;
   virtual Result<void> write(const BlockData& message) = 0;
   virtual Rejected rejected() const = 0;
 };

@@ -36,7 +36,7 @@ class Gateway final : public GatewayEndpoint {
   }
   Result<void> write(const Status& message) override { return write_own(*status_, message); }
   Result<void> write(const Record& message) override { return write_own(*record_, message); }
-  Result<void> write(const OrderResult& message) override { return write_own(*result_, message); }
+  Result<void> write(const CommandResult& message) override { return write_own(*result_, message); }
   Result<void> write(const BlockRequest& message) override { return write_own(*request_, message); }
   bool is_connected() const override { return is_connected_; }
   Rejected rejected() const override { return rejections_.get(); }
@@ -88,9 +88,9 @@ class Gateway final : public GatewayEndpoint {
   std::unique_ptr<Writer<Announce>> announcer_;
   std::unique_ptr<Writer<Status>> status_;
   std::unique_ptr<Writer<Record>> record_;
-  std::unique_ptr<Writer<OrderResult>> result_;
+  std::unique_ptr<Writer<CommandResult>> result_;
   std::unique_ptr<Writer<BlockRequest>> request_;
-  std::unique_ptr<PeerReader<Order>> order_;
+  std::unique_ptr<PeerReader<Command>> order_;
   std::unique_ptr<PeerReader<RecordAck>> ack_;
   std::unique_ptr<PeerReader<BlockData>> block_;
   std::jthread watcher_;
@@ -138,7 +138,7 @@ Result<void> Gateway::start() {
   if (!subscriber) return fail(subscriber.error());
   subscriber_ = std::move(*subscriber);
 
-  if (auto r = open_reader(subscriber_, order_, handlers_.on_order); !r) return r;
+  if (auto r = open_reader(subscriber_, order_, handlers_.on_command); !r) return r;
   if (auto r = open_reader(subscriber_, ack_, handlers_.on_ack); !r) return r;
   if (auto r = open_reader(subscriber_, block_, handlers_.on_block); !r) return r;
   if (auto r = open_writer(publisher_, announcer_); !r) return r;

@@ -23,7 +23,7 @@ std::string_view to_string(RecordKind value) {
   return kNames.at(static_cast<std::size_t>(value));
 }
 
-std::string_view to_string(OrderAction value) {
+std::string_view to_string(CommandAction value) {
   static constexpr std::array<std::string_view, 11> kNames{
       "start",         "hold",           "resume",           "abort",     "answer", "switch",
       "feed_override", "rapid_override", "spindle_override", "handwheel", "refuse"};

@@ -36,7 +36,7 @@ enum class Execution : std::uint8_t {
 enum class ControllerMode : std::uint8_t { Automatic, ManualDataInput, Manual };
 enum class RecordKind : std::uint8_t {
   RunStarted,  ///< text: JSON {"program","revision","control"}
-  RunEnded,    ///< text: JSON RunEnd, see server/feeds and gateway/report
+  RunEnded,    ///< text: JSON RunEnd, see server/machines and gateway/report
   Output,      ///< text: the line; device: where it went
   Probe,       ///< text: JSON {"to":{},"until":"","tripped":true,"at":{}}
   Message,
@@ -46,7 +46,7 @@ enum class RecordKind : std::uint8_t {
   DeviceOpened,  ///< text: the name given, or empty
   DeviceClosed,
 };
-enum class OrderAction : std::uint8_t {
+enum class CommandAction : std::uint8_t {
   Start,
   Hold,
   Resume,
@@ -59,10 +59,10 @@ enum class OrderAction : std::uint8_t {
   Handwheel,
   Refuse,  ///< no order: the server does not command this gateway; `argument` says why
 };
-enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, CounterClockwise, Thread };
+enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
-enum class SpindleState : std::uint8_t { NotTold, Off, Clockwise, CounterClockwise, Oriented };
+enum class SpindleState : std::uint8_t { NotTold, Off, Clockwise, Counterclockwise, Oriented };
 /// Whether the machine's side lets the network start it.
 enum class RemoteEnable : std::uint8_t { NotTold, Unattended, Given, NotGiven };
 /// What a run goes on with. CycleStart: at the machine's panel, or a resume where that may.
@@ -72,7 +72,7 @@ enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange
 std::string_view to_string(Execution value);
 std::string_view to_string(ControllerMode value);
 std::string_view to_string(RecordKind value);
-std::string_view to_string(OrderAction value);
+std::string_view to_string(CommandAction value);
 std::string_view to_string(BlockStatus value);
 std::string_view to_string(MotionKind value);
 std::string_view to_string(CompensationSide value);
@@ -175,28 +175,28 @@ struct RecordAck {
   friend bool operator==(const RecordAck&, const RecordAck&) = default;
 };
 
-inline constexpr std::size_t kMaxOrderSetup = 64 * 1024;
+inline constexpr std::size_t kMaxCommandSetup = 64 * 1024;
 
-struct Order {
+struct Command {
   std::string machine, id;
   UtcTime expires;  ///< for gateways of protocol 1
-  OrderAction action = OrderAction::Hold;
+  CommandAction action = CommandAction::Hold;
   std::string run, program, revision;
   std::uint64_t size = 0;
   std::string control, argument;
   double value = 0;
   std::uint64_t session = 0;  ///< 0: whichever gateway hears it
-  std::string setup;          ///< start: TOML, at most kMaxOrderSetup; empty: the gateway's own
+  std::string setup;          ///< start: TOML, at most kMaxCommandSetup; empty: the gateway's own
   std::uint64_t server = 0, number = 0;
   std::chrono::microseconds deadline{0};  ///< by the gateway's steady clock; 0: none
-  friend bool operator==(const Order&, const Order&) = default;
+  friend bool operator==(const Command&, const Command&) = default;
 };
 
-struct OrderResult {
+struct CommandResult {
   std::string machine, id;
   bool accepted = false;
   std::string reason;
-  friend bool operator==(const OrderResult&, const OrderResult&) = default;
+  friend bool operator==(const CommandResult&, const CommandResult&) = default;
 };
 
 struct BlockRequest {

@@ -12,7 +12,7 @@
 namespace dripline::dds {
 namespace {
 
-// A write that can not be taken at once (it should not happen, see above) fails instead of holding
+// A write that cannot be taken at once (it should not happen, see above) fails instead of holding
 // up the caller's thread.
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(5);
 
@@ -91,12 +91,12 @@ Qos topic_qos<RecordAck>() {
 // Volatile on purpose: a restarted gateway must not be handed the orders of its past. A person's
 // orders come singly; more than this many unacknowledged means the gateway hangs.
 template <>
-Qos topic_qos<Order>() {
+Qos topic_qos<Command>() {
   return keep_last(64);
 }
 
 template <>
-Qos topic_qos<OrderResult>() {
+Qos topic_qos<CommandResult>() {
   return keep_last(64);
 }
 

@@ -26,9 +26,9 @@ Qos topic_qos<Record>();
 template <>
 Qos topic_qos<RecordAck>();
 template <>
-Qos topic_qos<Order>();
+Qos topic_qos<Command>();
 template <>
-Qos topic_qos<OrderResult>();
+Qos topic_qos<CommandResult>();
 template <>
 Qos topic_qos<BlockRequest>();
 template <>

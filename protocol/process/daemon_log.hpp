@@ -17,7 +17,7 @@ struct LogOptions {
 
 /// Makes spdlog's default logger: UTC offset, level and the message on one line, whatever is in it.
 /// Call after umask: the file is as private as that says. Errors: Denied (another level), Io (the
-/// file can not be written).
+/// file cannot be written).
 Result<void> start_log(const std::string& program, const LogOptions& options);
 
 /// Opens the log file anew, after something else moved it away. False: there is none. Any thread.

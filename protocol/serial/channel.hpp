@@ -19,7 +19,7 @@ namespace dripline::serial {
 /// What came in: characters, or what the UART says of one.
 struct Received {
   std::size_t bytes = 0;  ///< put into the caller's span
-  /// Behind that many of these bytes; a character with a fault is not among them.
+  /// After that many of these bytes; a character with a fault is not among them.
   std::optional<wire::LineFault> fault;
 };
 

@@ -89,7 +89,7 @@ class Line final : public LineDriver {
   LineTime open_at_{}, look_at_{}, ticked_{-1};
   std::optional<wire::InputLines> input_lines_;
   std::optional<wire::OutputLines> output_lines_;
-  std::string trouble_;  ///< told last
+  std::string fault_;  ///< told last
   std::size_t told_room_ = 0;
 
   mutable std::mutex mutex_;
@@ -144,13 +144,13 @@ void Line::open() {
                             : open_channel(parts_.address, parts_.settings, parts_.open_limit);
   if (!opened) {
     open_at_ = now() + parts_.reopen_after;
-    if (std::exchange(trouble_, opened.error().what) == opened.error().what) return;
+    if (std::exchange(fault_, opened.error().what) == opened.error().what) return;
     tell(LineTraffic::What::Note, {}, opened.error().what);
     if (parts_.listener.on_channel) parts_.listener.on_channel(&opened.error());
     return;
   }
   channel_ = std::move(*opened);
-  trouble_.clear();
+  fault_.clear();
   has_input_ = may_have_more_ = has_lines_ = true;
   input_lines_.reset();
   output_lines_.reset();
@@ -165,7 +165,7 @@ void Line::lose(const Error& error) {
   is_open_ = false;
   held_count_ = 0;
   open_at_ = now() + parts_.reopen_after;
-  trouble_ = error.what;
+  fault_ = error.what;
   tell(LineTraffic::What::Note, {}, error.what);
   const bool is_checked = parts_.settings.flow == wire::Flow::Xmodem ||
                           parts_.settings.flow == wire::Flow::HeidenhainBcc;

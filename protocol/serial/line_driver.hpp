@@ -21,7 +21,7 @@ struct LineTraffic {
 struct LineListener {
   std::function<void(wire::Event&)> on_event;
   std::function<void(const LineTraffic&)> on_traffic;
-  /// The channel was lost or can not be opened (why; once for each reason), or is open (nullptr).
+  /// The channel was lost or cannot be opened (why; once for each reason), or is open (nullptr).
   std::function<void(const Error* lost)> on_channel;
   /// There is room for text to offer.
   std::function<void()> on_room;

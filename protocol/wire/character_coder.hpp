@@ -10,7 +10,7 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// Program text as it is kept (ASCII, LF behind each block) to characters on the line and back, a
+/// Program text as it is kept (ASCII, LF after each block) to characters on the line and back, a
 /// piece at a time, however it is cut. Not thread-safe.
 namespace dripline::wire {
 
@@ -38,7 +38,7 @@ class CharacterEncoder {
 
 /// What one character of the line adds to the text.
 struct DecodedCharacter {
-  std::optional<char> text;      ///< '?' in the place of one that can not be read
+  std::optional<char> text;      ///< '?' in the place of one that cannot be read
   std::optional<Error> trouble;  ///< Corrupt: wrong parity or no such character, with line, column
 };
 

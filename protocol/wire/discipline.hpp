@@ -50,7 +50,7 @@ struct TransferRequest {
 };
 
 struct TextReceived {
-  std::string text;  ///< program text as it is kept: ASCII, LF behind each block
+  std::string text;  ///< program text as it is kept: ASCII, LF after each block
 };
 struct TransferBegan {
   bool is_receiving = false;
@@ -76,11 +76,11 @@ struct TransferFailed {
 };
 /// Something was wrong and told; the transfer goes on (a repeated block, a parity error in an
 /// unchecked text, whose character was replaced by '?').
-struct LineTrouble {
+struct LineError {
   Error error;
 };
 using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChanged, TextAccepted,
-                           TransferFailed, LineTrouble, TransferRequest>;
+                           TransferFailed, LineError, TransferRequest>;
 
 enum class Phase : std::uint8_t { Idle, Sending, Receiving, Requesting };
 
@@ -117,7 +117,7 @@ struct LineState {
 /// the other end takes it back: DC3 where DC1 asked, EOT, silence over XMODEM, DSR off, or `abort`.
 ///
 /// Bounds: what `room()` says is all the text it keeps (at most 64 KiB); events are taken after
-/// each call; TextReceived that its owner can not keep is held off by `set_ready(false)`. Not
+/// each call; TextReceived that its owner cannot keep is held off by `set_ready(false)`. Not
 /// thread-safe.
 class Discipline {
  public:
@@ -141,14 +141,14 @@ class Discipline {
   virtual std::optional<LineTime> deadline() const = 0;
 
   // The owner's wishes
-  /// Errors: Busy (a transfer is in progress), Unsupported (this protocol can not begin here).
+  /// Errors: Busy (a transfer is in progress), Unsupported (this protocol cannot begin here).
   virtual Result<void> begin_send(std::string_view name, LineTime now) = 0;
   /// Text that `offer` takes now.
   virtual std::size_t room() const = 0;
-  /// More text of the transfer being sent: ASCII, LF behind each block; at most `room()` bytes.
+  /// More text of the transfer being sent: ASCII, LF after each block; at most `room()` bytes.
   /// `is_last` with the last piece, which may be empty. Errors: Syntax (a character that the line's
   /// code does not have, named with its line; the transfer has then failed), LimitExceeded (more
-  /// than room()), ModalConflict (nothing is being sent).
+  /// than room()), Conflict (nothing is being sent).
   virtual Result<void> offer(std::string_view text, bool is_last, LineTime now) = 0;
   /// Expects a transfer, or answers a TakeProgram. Errors: as begin_send.
   virtual Result<void> begin_receive(std::string_view name, LineTime now) = 0;

@@ -105,13 +105,13 @@ struct LineSettings {
   CharacterCode code = CharacterCode::Ascii;
   EndOfBlock end_of_block = EndOfBlock::CrLf;
   unsigned leader = 0;   ///< blank characters (NUL) before a program
-  unsigned trailer = 0;  ///< and behind it
+  unsigned trailer = 0;  ///< and after it
   std::optional<char>
       start_character;                ///< sent before the text, dropped when received (tape start)
-  std::optional<char> end_character;  ///< sent behind the text, ends what is received (EOF, ETX)
+  std::optional<char> end_character;  ///< sent after the text, ends what is received (EOF, ETX)
   bool wait_for_xon = false;          ///< a transfer begins when the control sends DC1
-  std::chrono::milliseconds line_delay{0};       ///< pause behind each end of block
-  std::chrono::microseconds character_delay{0};  ///< pause behind each character
+  std::chrono::milliseconds line_delay{0};       ///< pause after each end of block
+  std::chrono::microseconds character_delay{0};  ///< pause after each character
   /// Silence that ends what a control punches without an end character.
   std::chrono::milliseconds idle_end{2000};
   /// As a host: how long a program waits for the control to begin (DC1, the first NAK, a heading,

@@ -56,7 +56,7 @@ LineSettings fanuc() {
   settings.end_character = '%';
   settings.extracts_programs = true;
   settings.control.kind = ControlKind::Fanuc;
-  settings.control.buffer_size = 10;  // more than that behind its DC3 is alarm 087
+  settings.control.buffer_size = 10;  // more than that after its DC3 is alarm 087
   return settings;
 }
 

@@ -27,11 +27,11 @@ const auto& at(const LineSettings& settings) {
   return (settings.*....*kPath);
 }
 
-template <Key kKey, std::uint64_t kLeast, std::uint64_t kMost, auto... kPath>
+template <Key kKey, std::uint64_t kLeast, std::uint64_t kMax, auto... kPath>
 constexpr SettingRow number(std::string_view text) {
   return {kKey.view(), "number", text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
-            const auto parsed = parse_number(kKey.view(), value, {kLeast, kMost});
+            const auto parsed = parse_number(kKey.view(), value, {kLeast, kMax});
             if (!parsed) return fail(parsed.error());
             at<kPath...>(settings) = static_cast<unsigned>(*parsed);
             return {};
@@ -156,10 +156,10 @@ constexpr SettingRow choice(std::string_view text) {
           }};
 }
 
-constexpr std::uint64_t kLeastReaderRate = 1, kMostReaderRate = 100'000;
+constexpr std::uint64_t kLeastReaderRate = 1, kMaxReaderRate = 100'000;
 
 Result<void> set_reader_rate(LineSettings& settings, std::string_view value) {
-  const auto parsed = parse_rate("reader_cps", value, {kLeastReaderRate, kMostReaderRate});
+  const auto parsed = parse_rate("reader_cps", value, {kLeastReaderRate, kMaxReaderRate});
   if (!parsed) return fail(parsed.error());
   settings.reader.characters_per_second = *parsed;
   return {};
@@ -184,12 +184,12 @@ constexpr std::array kRows{
     choice<"code", kCodes, &S::code>("how characters stand on the line"),
     choice<"eob", kEndsOfBlock, &S::end_of_block>("what ends a block that is sent"),
     number<"leader", 0, kMaximumBlank, &S::leader>("blank characters (NUL) before a program"),
-    number<"trailer", 0, kMaximumBlank, &S::trailer>("blank characters (NUL) behind a program"),
+    number<"trailer", 0, kMaximumBlank, &S::trailer>("blank characters (NUL) after a program"),
     optional_character<"start_char", &S::start_character>("sent before a program, dropped from it"),
-    optional_character<"end_char", &S::end_character>("sent behind a program, ends what comes in"),
+    optional_character<"end_char", &S::end_character>("sent after a program, ends what comes in"),
     flag<"wait_for_xon", &S::wait_for_xon>("a program is sent when the control sends DC1"),
-    duration<"line_delay_ms", &S::line_delay>("pause behind each end of block"),
-    duration<"char_delay_us", &S::character_delay>("pause behind each character"),
+    duration<"line_delay_ms", &S::line_delay>("pause after each end of block"),
+    duration<"char_delay_us", &S::character_delay>("pause after each character"),
     duration<"idle_end_ms", &S::idle_end>("silence that ends what comes in without an end_char"),
     limit<"start_limit_ms", &S::start_limit>("longest wait for the control to begin a program"),
     limit<"answer_limit_ms", &S::answer_limit>("longest wait for the other end's answer"),
@@ -218,7 +218,7 @@ constexpr std::array kRows{
         "TNC blockwise: CR LF inside each block"),
     flag<"tnc_printable_bcc", &S::heidenhain, &H::bcc_is_printable>(
         "TNC blockwise: a blank keeps the check character printable"),
-    flag<"tnc_dc1", &S::heidenhain, &H::sends_dc1_after_block>("TNC blockwise: DC1 behind a block"),
+    flag<"tnc_dc1", &S::heidenhain, &H::sends_dc1_after_block>("TNC blockwise: DC1 after a block"),
     flag<"tnc_repeat", &S::heidenhain, &H::repeats_unanswered>(
         "TNC blockwise: repeat a block without an answer, instead of waiting"),
     SettingRow{"reader_cps", "number", "tape reader: characters per second", set_reader_rate,

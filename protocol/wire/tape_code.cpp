@@ -80,15 +80,15 @@ TapeRow decode_seven_bits(std::uint8_t row) {
   }
 }
 
-/// Rows behind a place, counted while walking towards the tape's beginning.
-struct RowsBehind {
+/// Rows after a place, counted while walking towards the tape's beginning.
+struct RowsAfter {
   std::size_t odd = 0, even = 0, blanks = 0;
   std::optional<std::uint8_t> next;  ///< the first that is not blank
 
   void put_before(std::uint8_t row) {
     constexpr std::size_t kEndOfText = 50;  // so many blanks are a trailer
     if (row == 0) {
-      if (++blanks >= kEndOfText) *this = RowsBehind{0, 0, blanks, std::nullopt};
+      if (++blanks >= kEndOfText) *this = RowsAfter{0, 0, blanks, std::nullopt};
       return;
     }
     blanks = 0;
@@ -105,13 +105,13 @@ bool begins_a_block(TapeRow row) {
   return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || kOther.find(c) != kOther.npos;
 }
 
-std::optional<CodeVerdict> judge(std::size_t at, std::uint8_t row, const RowsBehind& behind) {
+std::optional<CodeVerdict> judge(std::size_t at, std::uint8_t row, const RowsAfter& after) {
   const bool is_eia = row == 0x80;
   if (!is_eia && row != 0x0A && row != 0x8D) return std::nullopt;
   const auto code = is_eia ? CharacterCode::Eia : CharacterCode::Iso;
-  const std::size_t right = is_eia ? behind.odd : behind.even, all = behind.odd + behind.even;
-  if (!behind.next || right * 100 < all * 98) return std::nullopt;
-  if (!begins_a_block(decode_row(code, *behind.next))) return std::nullopt;
+  const std::size_t right = is_eia ? after.odd : after.even, all = after.odd + after.even;
+  if (!after.next || right * 100 < all * 98) return std::nullopt;
+  if (!begins_a_block(decode_row(code, *after.next))) return std::nullopt;
   const double share = static_cast<double>(right) / static_cast<double>(all);
   return CodeVerdict{code, share * (1 - std::pow(0.5, static_cast<double>(all))), at};
 }
@@ -222,11 +222,11 @@ Result<CodeVerdict> detect_code(std::span<const std::byte> rows) {
   const bool has_text = census.low_odd != 0 && census.line_ends != 0;
   if (is_plain_ascii(census) || (has_text && is_utf8(rows))) return ascii_verdict(census);
   std::optional<CodeVerdict> verdict;
-  RowsBehind behind;
+  RowsAfter after;
   for (std::size_t at = rows.size(); at-- > 0;) {
     const auto row = static_cast<std::uint8_t>(rows[at]);
-    if (const auto judged = judge(at, row, behind)) verdict = judged;
-    behind.put_before(row);
+    if (const auto judged = judge(at, row, after)) verdict = judged;
+    after.put_before(row);
   }
   if (verdict) return *verdict;
   return fail(Errc::Corrupt,

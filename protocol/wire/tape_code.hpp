@@ -62,7 +62,7 @@ struct CodeVerdict {
 /// Enough of a tape to judge it.
 inline constexpr std::size_t kDetectionWindow = 1 << 20;
 
-/// Judges the first `kDetectionWindow` rows: an end of block of one code, with rows behind it of
+/// Judges the first `kDetectionWindow` rows: an end of block of one code, with rows after it of
 /// which 98 in 100 have that code's parity and which begin as a block begins. A leader may hold any
 /// punching. Text of mixed parity is ASCII, with UTF-8 or a few Latin-1 characters in its comments.
 /// Errors: Corrupt (code not recognised; with the counts of both parities).

@@ -13,7 +13,7 @@
 #include "protocol/wire/tape_code.hpp"
 
 /// Whole tapes as files of rows: leader, title, rewind stop, end of block, blocks, trailer. Between
-/// them and program text as it is kept (ASCII, LF behind each block, '%' for the rewind stop), a
+/// them and program text as it is kept (ASCII, LF after each block, '%' for the rewind stop), a
 /// piece at a time: a tape of any length costs no memory. Not thread-safe.
 namespace dripline::wire {
 
@@ -26,7 +26,7 @@ struct TapeForm {
   CharacterCode code = CharacterCode::Iso;
   EndOfBlock end_of_block = EndOfBlock::CrLf;  ///< of ISO and ASCII
   unsigned leader = 100, trailer = 100;        ///< blank rows
-  std::string title;                           ///< for the eye, behind the leader
+  std::string title;                           ///< for the eye, after the leader
   bool has_rewind_stop = true;   ///< put one before the first block where the text has none
   bool has_parentheses = false;  ///< EIA: punch '(' and ')' as some builders do
 };
@@ -53,7 +53,7 @@ struct TapeReading {
   CharacterCode code = CharacterCode::Iso;
   /// Nothing counts before the first end of block, as a control reads; or everything is text.
   bool skips_head = true;
-  bool replaces_wrong_rows = false;      ///< '?' for what can not be read, instead of an error
+  bool replaces_wrong_rows = false;      ///< '?' for what cannot be read, instead of an error
   bool blank_is_wrong_in_block = false;  ///< EIA: zero holes are no odd number
 };
 

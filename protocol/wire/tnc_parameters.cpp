@@ -13,7 +13,7 @@ namespace {
 /// MP 222, the data format of a character (spec 23.3).
 constexpr unsigned kEightBits = 1, kPrintableBcc = 2, kStopByRts = 4, kStopByDc3 = 8, kOdd = 16,
                    kHasParity = 32, kStopBits = 192, kTwoStopBits = 64, kOneStopBit = 128;
-constexpr unsigned kMostFormat = 255, kMostWord = 65'535;
+constexpr unsigned kMaxFormat = 255, kMaxWord = 65'535;
 
 /// Two characters in a word, or a number; what a control has unless it was changed (spec 23.8).
 struct ParameterRow {
@@ -22,12 +22,12 @@ struct ParameterRow {
 };
 constexpr int kEnds = 71, kInputHeading = 218, kOutputHeading = 219, kBlockFrame = 220,
               kAnswers = 221, kFormat = 222, kProtocol = 223, kEndOfTransmission = 224;
-constexpr std::array kRows{ParameterRow{kEnds, 515, kMostWord},
-                           ParameterRow{kInputHeading, 17736, kMostWord},
-                           ParameterRow{kOutputHeading, 16712, kMostWord},
-                           ParameterRow{kBlockFrame, 279, kMostWord},
-                           ParameterRow{kAnswers, 5382, kMostWord},
-                           ParameterRow{kFormat, 168, kMostFormat},
+constexpr std::array kRows{ParameterRow{kEnds, 515, kMaxWord},
+                           ParameterRow{kInputHeading, 17736, kMaxWord},
+                           ParameterRow{kOutputHeading, 16712, kMaxWord},
+                           ParameterRow{kBlockFrame, 279, kMaxWord},
+                           ParameterRow{kAnswers, 5382, kMaxWord},
+                           ParameterRow{kFormat, 168, kMaxFormat},
                            ParameterRow{kProtocol, 0, 1},
                            ParameterRow{kEndOfTransmission, 4, 127}};
 
@@ -147,7 +147,7 @@ Result<LineSettings> line_of_tnc(const TncInterface& interface) {
     auto read = read_heading(*words, interface.heading, line.heidenhain);
     if (!read) return fail(read.error());
   }
-  // What a line can not be is said by the protocol itself: characters twice, or outside 1 to 47.
+  // What a line cannot be is said by the protocol itself: characters twice, or outside 1 to 47.
   if (auto made = make_discipline(line, Role::Host); !made) {
     return fail(made.error().code, "MP71, MP220, MP221 and MP224: {}", made.error().what);
   }

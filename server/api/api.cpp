@@ -66,13 +66,13 @@ storage::Page read_page(QueryReader& query) {
   return page;
 }
 
-feeds::FeedListener publish_to(EventHub& hub) {
+machines::FeedListener publish_to(EventHub& hub) {
   const auto publish = [&hub](std::string kind, const std::string& machine, const auto& make_json) {
     if (!hub.has_listeners()) return;
     hub.publish({.kind = std::move(kind), .machine = machine, .data = to_text(make_json())});
   };
   return {.on_machine =
-              [publish](const feeds::MachineView& view) {
+              [publish](const machines::MachineView& view) {
                 publish("machine", view.machine.name, [&] { return machine_json(view); });
               },
           .on_run =

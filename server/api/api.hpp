@@ -7,12 +7,12 @@
 #include "server/api/event_hub.hpp"
 #include "server/api/router.hpp"
 #include "server/api/token.hpp"
-#include "server/feeds/feed_control.hpp"
+#include "server/machines/machine_control.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/setups.hpp"
-#include "server/serial/port_control.hpp"
+#include "server/ports/port_control.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::api {
@@ -28,7 +28,7 @@ struct ServerFacts {
 struct Services {
   library::Programs& programs;
   library::Setups& setups;
-  feeds::FeedControl& feeds;
+  machines::MachineControl& feeds;
   storage::Store& store;
   library::AuditTrail& audit;
   EventHub& events;
@@ -69,7 +69,7 @@ class Api {
 };
 
 /// The listener that turns what the feeds tell into events.
-feeds::FeedListener publish_to(EventHub& hub);
+machines::FeedListener publish_to(EventHub& hub);
 
 /// The listener that turns what passes over lines into events; for PortControl::on_traffic.
 std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub);

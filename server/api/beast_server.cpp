@@ -204,7 +204,7 @@ Result<std::unique_ptr<HttpServer>> HttpServer::start(const HttpOptions& options
     return std::unique_ptr<HttpServer>(
         std::make_unique<BeastServer>(options, std::move(handlers), std::move(tls)));
   } catch (const std::exception& e) {
-    return fail(Errc::Io, "can not listen at {}: {}", options.address.text(), e.what());
+    return fail(Errc::Io, "cannot listen at {}: {}", options.address.text(), e.what());
   }
 }
 

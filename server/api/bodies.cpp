@@ -5,7 +5,7 @@
 
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
-#include "server/feeds/start_point.hpp"
+#include "server/machines/start_point.hpp"
 
 namespace dripline::api {
 namespace {
@@ -17,19 +17,19 @@ constexpr std::size_t kMaxArgument = 255;  ///< the order's member in the IDL
 
 struct ActionRow {
   std::string_view name;
-  dds::OrderAction action;
+  dds::CommandAction action;
   std::string_view needs;  ///< n(ame), t(ext), v(alue)
 };
 constexpr std::array kActions{
-    ActionRow{"hold", dds::OrderAction::Hold, ""},
-    ActionRow{"resume", dds::OrderAction::Resume, ""},
-    ActionRow{"abort", dds::OrderAction::Abort, ""},
-    ActionRow{"answer", dds::OrderAction::Answer, "t"},
-    ActionRow{"switch", dds::OrderAction::Switch, "nv"},
-    ActionRow{"feed_override", dds::OrderAction::FeedOverride, "v"},
-    ActionRow{"rapid_override", dds::OrderAction::RapidOverride, "v"},
-    ActionRow{"spindle_override", dds::OrderAction::SpindleOverride, "v"},
-    ActionRow{"handwheel", dds::OrderAction::Handwheel, "v"},
+    ActionRow{"hold", dds::CommandAction::Hold, ""},
+    ActionRow{"resume", dds::CommandAction::Resume, ""},
+    ActionRow{"abort", dds::CommandAction::Abort, ""},
+    ActionRow{"answer", dds::CommandAction::Answer, "t"},
+    ActionRow{"switch", dds::CommandAction::Switch, "nv"},
+    ActionRow{"feed_override", dds::CommandAction::FeedOverride, "v"},
+    ActionRow{"rapid_override", dds::CommandAction::RapidOverride, "v"},
+    ActionRow{"spindle_override", dds::CommandAction::SpindleOverride, "v"},
+    ActionRow{"handwheel", dds::CommandAction::Handwheel, "v"},
 };
 
 Result<const ActionRow*> find_action(std::string_view name) {
@@ -42,11 +42,11 @@ Result<const ActionRow*> find_action(std::string_view name) {
 }
 
 Result<void> check_value(const ActionRow& row, double value) {
-  if (row.action == dds::OrderAction::Switch) {
+  if (row.action == dds::CommandAction::Switch) {
     if (value == 0 || value == 1) return {};
     return fail(Errc::Syntax, "value {} of a switch must be 0 or 1", value);
   }
-  if (row.action == dds::OrderAction::Handwheel) {
+  if (row.action == dds::CommandAction::Handwheel) {
     if (value >= 1 && value <= kMaxClicks && value == std::floor(value)) return {};
     return fail(Errc::LimitExceeded, "value {} of handwheel must be a whole number from 1 to {}",
                 value, kMaxClicks);
@@ -105,10 +105,10 @@ Result<std::string> decode_rename(std::string_view body) {
   return to;
 }
 
-Result<feeds::StartRequest> decode_start(std::string_view body) {
+Result<machines::StartRequest> decode_start(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());
-  feeds::StartRequest start;
+  machines::StartRequest start;
   start.machine = object->required_text("machine", kMaxName);
   start.program = object->required_text("program", kMaxName);
   start.revision = object->optional_unsigned("revision");
@@ -120,12 +120,12 @@ Result<feeds::StartRequest> decode_start(std::string_view body) {
   if (head && *head != "send" && *head != "set") {
     return fail(Errc::Syntax, "head is '{}'; expected send or set", *head);
   }
-  if (head) start.head = *head == "send" ? feeds::StartHead::Send : feeds::StartHead::Set;
+  if (head) start.head = *head == "send" ? machines::StartHead::Send : machines::StartHead::Set;
   if (memory && *memory != "begin" && *memory != "now") {
     return fail(Errc::Syntax, "memory is '{}'; expected begin or now", *memory);
   }
   if (memory) {
-    start.memory = *memory == "begin" ? feeds::StartMemory::Begin : feeds::StartMemory::Now;
+    start.memory = *memory == "begin" ? machines::StartMemory::Begin : machines::StartMemory::Now;
   }
   if (pass && (*pass == 0 || *pass > kMaxPass)) {
     return fail(Errc::LimitExceeded, "pass {} is not 1 to {}", *pass, kMaxPass);
@@ -136,14 +136,14 @@ Result<feeds::StartRequest> decode_start(std::string_view body) {
     return fail(Errc::Syntax, "memory and pass belong to a start with from");
   }
   if (!from) return start;
-  const auto point = feeds::parse_start_point(*from);
+  const auto point = machines::parse_start_point(*from);
   if (!point) return fail(Errc::Syntax, "from: {}", point.error().what);
   start.from = *point;
   start.from.pass = pass;
   return start;
 }
 
-Result<feeds::OrderRequest> decode_order(std::string_view body) {
+Result<machines::CommandRequest> decode_command(std::string_view body) {
   auto object = JsonObject::parse(body);
   if (!object) return fail(object.error());
   const std::string name = object->required_text("action", kMaxName);
@@ -165,25 +165,25 @@ Result<feeds::OrderRequest> decode_order(std::string_view body) {
   if (value) {
     if (auto good = check_value(**row, *value); !good) return fail(good.error());
   }
-  feeds::OrderRequest order;
-  order.action = (*row)->action;
-  order.argument = text.value_or(switch_name.value_or(""));
-  order.value = value.value_or(0);
-  return order;
+  machines::CommandRequest command;
+  command.action = (*row)->action;
+  command.argument = text.value_or(switch_name.value_or(""));
+  command.value = value.value_or(0);
+  return command;
 }
 
-Result<feeds::OrderRequest> decode_machine_order(std::string_view body) {
-  auto order = decode_order(body);
-  if (!order) return order;
-  using dds::OrderAction;
+Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
+  auto command = decode_command(body);
+  if (!command) return command;
+  using dds::CommandAction;
   const bool is_of_panel =
-      order->action == OrderAction::Switch || order->action == OrderAction::FeedOverride ||
-      order->action == OrderAction::RapidOverride || order->action == OrderAction::SpindleOverride;
-  if (is_of_panel) return order;
+      command->action == CommandAction::Switch || command->action == CommandAction::FeedOverride ||
+      command->action == CommandAction::RapidOverride || command->action == CommandAction::SpindleOverride;
+  if (is_of_panel) return command;
   return fail(Errc::Unsupported,
               "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "
               "spindle_override",
-              dds::to_string(order->action));
+              dds::to_string(command->action));
 }
 
 }  // namespace dripline::api

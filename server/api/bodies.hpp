@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "protocol/base/digest.hpp"
-#include "server/feeds/feed_control.hpp"
+#include "server/machines/machine_control.hpp"
 #include "server/library/programs.hpp"
 
 /// The JSON bodies the API takes, decoded and checked. Pure. Errors: Syntax, LimitExceeded,
@@ -29,12 +29,12 @@ Result<CopyBody> decode_copy(std::string_view body);
 Result<std::string> decode_rename(std::string_view body);
 
 /// The author is left empty.
-Result<feeds::StartRequest> decode_start(std::string_view body);
+Result<machines::StartRequest> decode_start(std::string_view body);
 
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
-Result<feeds::OrderRequest> decode_order(std::string_view body);
+Result<machines::CommandRequest> decode_command(std::string_view body);
 /// The same for a machine's panel: switches and overrides. Unsupported: what is for a run.
-Result<feeds::OrderRequest> decode_machine_order(std::string_view body);
+Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 inline constexpr double kMaxOverride = 10;
 inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one order
 

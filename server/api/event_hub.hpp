@@ -54,7 +54,7 @@ class EventSubscription {
   mutable std::mutex mutex_;
   std::deque<Event> waiting_;
   std::size_t bytes_ = 0;
-  std::uint64_t lost_ = 0;  ///< behind those that wait
+  std::uint64_t lost_ = 0;  ///< after those that wait
   bool is_closed_ = false;
   std::function<void()> wake_;
 };

@@ -22,18 +22,18 @@ Response show_machine(Services& services, const Request& request) {
   return view ? json_response(200, machine_json(*view)) : error_response(view.error());
 }
 
-Response order_machine(Services& services, const Request& request) {
-  auto order = decode_machine_order(request.body);
-  if (!order) return error_response(order.error());
-  order->machine = request.parameter("name");
-  const auto done = services.feeds.order(*order);
+Response command_machine(Services& services, const Request& request) {
+  auto command = decode_machine_command(request.body);
+  if (!command) return error_response(command.error());
+  command->machine = request.parameter("name");
+  const auto done = services.feeds.command(*command);
   // Without an answer it may have been carried out all the same.
   const bool is_unknown = !done && done.error().code == Errc::Timeout;
   if (done || is_unknown) {
     services.audit.write({.who = request.who,
-                          .action = fmt::format("machine.{}", dds::to_string(order->action)),
-                          .subject = order->machine,
-                          .detail = fmt::format("{} {} {}", order->argument, order->value,
+                          .action = fmt::format("machine.{}", dds::to_string(command->action)),
+                          .subject = command->machine,
+                          .detail = fmt::format("{} {} {}", command->argument, command->value,
                                                 is_unknown ? "not answered" : "accepted")});
   }
   if (!done) return error_response(done.error());
@@ -48,8 +48,8 @@ void add_machine_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/machines/{name}",
              [&](const Request& request) { return show_machine(services, request); });
   router.add(
-      "POST", "/api/v1/machines/{name}/orders",
-      [&](const Request& request) { return order_machine(services, request); }, Waits::ForMachine);
+      "POST", "/api/v1/machines/{name}/commands",
+      [&](const Request& request) { return command_machine(services, request); }, Waits::ForMachine);
 }
 
 }  // namespace dripline::api

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
-#include "server/serial/port_control.hpp"
+#include "server/ports/port_control.hpp"
 
 /// The JSON bodies of serial ports, decoded and checked as those of bodies.hpp. Pure. What a
 /// setting's value means is judged by PortControl.

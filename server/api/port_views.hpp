@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "server/serial/port_control.hpp"
+#include "server/ports/port_control.hpp"
 
 /// The JSON of serial ports and what passes over them. Pure; absent values are null.
 namespace dripline::api {

@@ -32,7 +32,7 @@ int http_status(Errc code) {
     case Errc::NotFound:
       return 404;
     case Errc::Busy:
-    case Errc::ModalConflict:
+    case Errc::Conflict:
       return 409;
     case Errc::LimitExceeded:
       return 413;

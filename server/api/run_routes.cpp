@@ -51,18 +51,18 @@ Response show_run(Services& services, const Request& request) {
   return run ? json_response(200, run_json(*run)) : error_response(run.error());
 }
 
-Response order_run(Services& services, const Request& request) {
-  auto order = decode_order(request.body);
-  if (!order) return error_response(order.error());
-  order->run = request.parameter("id");
-  const auto done = services.feeds.order(*order);
+Response command_run(Services& services, const Request& request) {
+  auto command = decode_command(request.body);
+  if (!command) return error_response(command.error());
+  command->run = request.parameter("id");
+  const auto done = services.feeds.command(*command);
   // Without an answer it may have been carried out all the same.
   const bool is_unknown = !done && done.error().code == Errc::Timeout;
   if (done || is_unknown) {
     services.audit.write({.who = request.who,
-                          .action = fmt::format("run.{}", dds::to_string(order->action)),
-                          .subject = order->run,
-                          .detail = fmt::format("{} {} {}", order->argument, order->value,
+                          .action = fmt::format("run.{}", dds::to_string(command->action)),
+                          .subject = command->run,
+                          .detail = fmt::format("{} {} {}", command->argument, command->value,
                                                 is_unknown ? "not answered" : "accepted")});
   }
   if (!done) return error_response(done.error());
@@ -94,8 +94,8 @@ void add_run_routes(Router& router, Services& services) {
   router.add("GET", "/api/v1/runs/{id}",
              [&](const Request& request) { return show_run(services, request); });
   router.add(
-      "POST", "/api/v1/runs/{id}/orders",
-      [&](const Request& request) { return order_run(services, request); }, Waits::ForMachine);
+      "POST", "/api/v1/runs/{id}/commands",
+      [&](const Request& request) { return command_run(services, request); }, Waits::ForMachine);
   router.add("GET", "/api/v1/runs/{id}/records",
              [&](const Request& request) { return list_records(services, request); });
 }

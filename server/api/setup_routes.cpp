@@ -41,7 +41,7 @@ Result<std::string> control_of(Services& services, const std::string& machine,
                 machine);
   }
   if (given && *given != known) {
-    return fail(Errc::ModalConflict, "machine {} is a {}, not a {}", machine, known, *given);
+    return fail(Errc::Conflict, "machine {} is a {}, not a {}", machine, known, *given);
   }
   return known;
 }

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/feeds/machine_notices.hpp"
+#include "server/machines/machine_notices.hpp"
 
 namespace dripline::api {
 
@@ -166,7 +166,7 @@ json program_json(const storage::ProgramSummary& program, const std::string& tit
   return view;
 }
 
-json machine_json(const feeds::MachineView& view) {
+json machine_json(const machines::MachineView& view) {
   const auto seconds = [](std::chrono::microseconds time) {
     return std::chrono::duration<double>(time).count();
   };
@@ -177,7 +177,7 @@ json machine_json(const feeds::MachineView& view) {
       {"gateway_version", optional_text(view.machine.gateway_version)},
       {"connected", view.is_connected},
       {"clock_ahead_seconds", view.clock_ahead ? json(seconds(*view.clock_ahead)) : json(nullptr)},
-      {"notices", feeds::notices_of(view)},
+      {"notices", machines::notices_of(view)},
       {"first_seen", to_iso8601(view.machine.first_seen)},
       {"last_seen", to_iso8601(view.machine.last_seen)},
       {"status", view.status ? status_json(*view.status) : json(nullptr)}};

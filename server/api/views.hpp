@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "server/feeds/feed_control.hpp"
+#include "server/machines/machine_control.hpp"
 #include "storage/store.hpp"
 
 /// The JSON of everything the API shows. Pure; absent values are null, times ISO 8601 UTC.
@@ -12,7 +12,7 @@ nlohmann::json upload_json(const storage::Upload& upload, std::uint64_t max_piec
 /// `title`: what the program calls itself (library::program_title).
 nlohmann::json revision_json(const storage::Revision& revision, const std::string& title);
 nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
-nlohmann::json machine_json(const feeds::MachineView& view);
+nlohmann::json machine_json(const machines::MachineView& view);
 nlohmann::json run_json(const storage::Run& run);
 /// Without the text.
 nlohmann::json setup_json(const storage::SetupRevision& setup);

@@ -41,7 +41,7 @@ Result<std::string> read_rules_file(const toml::node& node, const std::string& f
   const auto path = std::filesystem::path(folder) / name->get();
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return fail(Errc::NotFound, "line {}: rules_file '{}' can not be read", line_of(node),
+    return fail(Errc::NotFound, "line {}: rules_file '{}' cannot be read", line_of(node),
                 path.string());
   }
   std::ostringstream text;

@@ -9,14 +9,14 @@
 #include "protocol/dds/endpoint.hpp"
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
-#include "server/feeds/feed_service.hpp"
-#include "server/feeds/machine_notices.hpp"
+#include "server/machines/machine_service.hpp"
+#include "server/machines/machine_notices.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/dialect_catalog.hpp"
 #include "server/library/health_watch.hpp"
 #include "server/library/programs.hpp"
-#include "server/serial/machine_feeds.hpp"
-#include "server/serial/port_service.hpp"
+#include "server/ports/machine_feeds.hpp"
+#include "server/ports/port_service.hpp"
 #include "storage/sqlite_store.hpp"
 
 namespace dripline::app {
@@ -100,7 +100,7 @@ struct Server::Parts {
         setups(*store, catalog, audit),
         feeds(*store, clock, feed_options(), feed_listener()),
         ports(*store, programs, clock,
-              {.recordings = folder.recordings(), .open = {}, .on_trouble = records_watch()},
+              {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               api::publish_to(events)),
         machines(*store, feeds, ports.feed()),
         api({.programs = programs,
@@ -121,9 +121,9 @@ struct Server::Parts {
             {.name = kTokenName, .secret = std::move(token)}),
         tidied(clock.steady_now()) {}
 
-  feeds::FeedService::Options feed_options() {
-    feeds::FeedService::Options options;
-    options.on_trouble = records_watch();
+  machines::MachineService::Options feed_options() {
+    machines::MachineService::Options options;
+    options.on_fault = records_watch();
     return options;
   }
 
@@ -133,16 +133,16 @@ struct Server::Parts {
       using Level = library::Health::Level;
       health.report(machine, {.level = trouble.empty() ? Level::Ok : Level::Degraded,
                               .subject = "records",
-                              .what = "records of a machine can not be stored",
+                              .what = "records of a machine cannot be stored",
                               .detail = fmt::format("machine={}: {}", machine, trouble)});
     };
   }
 
-  feeds::FeedListener feed_listener() {
-    feeds::FeedListener listener = api::publish_to(events);
-    listener.on_machine = [this, publish = listener.on_machine](const feeds::MachineView& view) {
+  machines::FeedListener feed_listener() {
+    machines::FeedListener listener = api::publish_to(events);
+    listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
       using Level = library::Health::Level;
-      const auto notices = feeds::notices_of(view);
+      const auto notices = machines::notices_of(view);
       health.report(view.machine.name, {.level = notices.empty() ? Level::Ok : Level::Degraded,
                                         .subject = "gateway",
                                         .what = "server and a gateway do not agree",
@@ -162,7 +162,7 @@ struct Server::Parts {
   library::Programs programs;
   library::Setups setups;
   api::EventHub events;
-  feeds::FeedService feeds;
+  machines::MachineService feeds;
   ports::PortService ports;
   ports::MachineFeeds machines;
   api::Api api;

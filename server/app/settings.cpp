@@ -16,7 +16,7 @@ namespace dripline::app {
 namespace {
 
 constexpr std::uint32_t kLongestMs = 600'000;
-constexpr std::uint32_t kMostConnections = 800;  ///< DDS waits with select(): below 1,000 files
+constexpr std::uint32_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
 constexpr std::array kRows{
     SettingRow{"state", &Settings::state, "DIR", 0, 0,
@@ -26,11 +26,11 @@ constexpr std::array kRows{
     SettingRow{"tls-certificate", &Settings::tls_certificate, "FILE", 0, 0,
                "certificate chain (PEM); needed to listen beyond this machine"},
     SettingRow{"tls-key", &Settings::tls_key, "FILE", 0, 0, "private key of the certificate (PEM)"},
-    SettingRow{"http-connections", &Settings::http_connections, "NUMBER", 16, kMostConnections,
+    SettingRow{"http-connections", &Settings::http_connections, "NUMBER", 16, kMaxConnections,
                "connections to the REST API at once; the longest silent one makes room"},
     SettingRow{"http-connections-per-address", &Settings::http_connections_per_address, "NUMBER", 4,
-               kMostConnections, "of these from one address; give more to a proxy in front"},
-    SettingRow{"http-event-streams", &Settings::http_event_streams, "NUMBER", 1, kMostConnections,
+               kMaxConnections, "of these from one address; give more to a proxy in front"},
+    SettingRow{"http-event-streams", &Settings::http_event_streams, "NUMBER", 1, kMaxConnections,
                "event streams at once; at most half of the connections"},
     SettingRow{"dds-domain", &Settings::dds_domain, "NUMBER", 0, 230, "DDS domain"},
     SettingRow{"dds-tag", &Settings::dds_tag, "TEXT", 0, 0,
@@ -86,7 +86,7 @@ Result<void> apply_value(Settings& settings, const SettingRow& row, const toml::
 
 Result<void> apply_file(Settings& settings, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(Errc::NotFound, "configuration file '{}' can not be read", path);
+  if (!file) return fail(Errc::NotFound, "configuration file '{}' cannot be read", path);
   std::ostringstream text;
   text << file.rdbuf();
   const auto folder = std::filesystem::path(path).parent_path();

@@ -7,7 +7,7 @@
 
 namespace dripline::library {
 
-/// Who changed what. Written after the change; an entry that can not be written is logged as an
+/// Who changed what. Written after the change; an entry that cannot be written is logged as an
 /// error and does not undo the change. Any thread.
 class AuditTrail {
  public:

@@ -52,7 +52,7 @@ Result<void> ContentCheck::begin_character(std::uint8_t byte) {
     if (byte == 0xF0) lowest_ = 0x90;
     if (byte == 0xF4) highest_ = 0x8F;
   } else {
-    return fail(Errc::Syntax, "byte 0x{:02X} at offset {}, line {} can not begin a UTF-8 character",
+    return fail(Errc::Syntax, "byte 0x{:02X} at offset {}, line {} cannot begin a UTF-8 character",
                 byte, offset_, line_);
   }
   return {};
@@ -61,7 +61,7 @@ Result<void> ContentCheck::begin_character(std::uint8_t byte) {
 Result<void> ContentCheck::continue_character(std::uint8_t byte) {
   if (byte < lowest_ || byte > highest_) {
     return fail(Errc::Syntax,
-                "byte 0x{:02X} at offset {}, line {} can not continue a UTF-8 character", byte,
+                "byte 0x{:02X} at offset {}, line {} cannot continue a UTF-8 character", byte,
                 offset_, line_);
   }
   lowest_ = 0x80;

@@ -10,7 +10,7 @@ namespace dripline::library {
 
 /// Looks at every byte of a program while it is uploaded, in pieces of any size: the verdict does
 /// not depend on how the text was cut. What passes is UTF-8 without NUL and without endless lines,
-/// so nothing behind it has to be afraid of the text. Constant memory; one thread at a time.
+/// so nothing after it has to be afraid of the text. Constant memory; one thread at a time.
 class ContentCheck {
  public:
   static constexpr std::uint64_t kMaxLine = 64 * 1024;
@@ -32,7 +32,7 @@ class ContentCheck {
   std::uint64_t line_length_ = 0;
   int missing_ = 0;              ///< continuation bytes of the character begun
   std::uint8_t lowest_ = 0x80;   ///< bounds of the next continuation byte: they keep out overlong
-  std::uint8_t highest_ = 0xBF;  ///< forms, surrogates and numbers behind U+10FFFF
+  std::uint8_t highest_ = 0xBF;  ///< forms, surrogates and numbers after U+10FFFF
 };
 
 }  // namespace dripline::library

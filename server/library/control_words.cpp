@@ -1,6 +1,6 @@
 #include "server/library/control_words.hpp"
 
-#include "gateway/interpreter/centurion/errors.hpp"
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
 
 namespace dripline::library {
 namespace {

@@ -26,7 +26,7 @@ enum class Refusal {
 /// it, or is none that numbers what its storage refuses. Pure.
 std::string control_words(std::string_view control, Refusal refusal);
 
-/// The error with the control's words behind it, for an operator who knows those:
+/// The error with the control's words after it, for an operator who knows those:
 /// "... exists already (centurion error 300: program already exists)".
 Error with_control_words(Error error, std::string_view control, Refusal refusal);
 

@@ -1,6 +1,6 @@
 #include "server/library/dialect_catalog.hpp"
 
-#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::library {

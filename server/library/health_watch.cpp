@@ -59,7 +59,7 @@ void HealthWatch::look() {
     // A store that is only busy for long does not lose anything.
     const bool is_busy = done.error().code == Errc::Busy;
     finding.level = is_busy ? Health::Level::Degraded : Health::Level::Failed;
-    finding.what = is_busy ? "the store is slow" : "the store can not be written or read";
+    finding.what = is_busy ? "the store is slow" : "the store cannot be written or read";
     finding.detail = done.error().what;
     spdlog::error("{}: {}", finding.what, finding.detail);
   }

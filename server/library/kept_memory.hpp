@@ -29,7 +29,7 @@ struct KeptMemory {
 /// so long), NotFound (a part is missing).
 Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std::string>& texts);
 
-/// Newest first; what can not be read is left out. With `run` after this one alone. Errors:
+/// Newest first; what cannot be read is left out. With `run` after this one alone. Errors:
 /// NotFound (it has left nothing, or not all parts of it), those of the store.
 Result<std::vector<KeptMemory>> kept_memories(storage::Store& store, const std::string& machine,
                                               const std::optional<std::string>& run,

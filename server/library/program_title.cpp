@@ -22,7 +22,7 @@ std::string_view trim(std::string_view text) {
 }
 
 /// Text without the first `O123` or `:123`.
-std::string_view behind_number(std::string_view block) {
+std::string_view after_number(std::string_view block) {
   constexpr std::string_view kLetters = "Oo:";
   if (block.size() < 2 || kLetters.find(block[0]) == kLetters.npos || !is_digit(block[1])) {
     return block;
@@ -76,7 +76,7 @@ std::string program_title(std::string_view head) {
       if (!front) front = comment;
       continue;
     }
-    first = behind_number(line);
+    first = after_number(line);
     const bool has_number = first->size() != line.size();
     if (comment && (has_number || !front)) return shown(*comment);
     if (!has_number && front) break;

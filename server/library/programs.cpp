@@ -128,7 +128,7 @@ Result<void> Programs::check_protection(const std::string& program,
   if (!head) return fail(head.error());
   const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
   if (!catalog_.is_protected(revision->control, text)) return {};
-  return fail(Errc::ModalConflict,
+  return fail(Errc::Conflict,
               "revision {} is protected against change and erasure; force overrides that",
               revision->number);
 }
@@ -155,7 +155,7 @@ Error Programs::in_control_words(const storage::ProgramMove& move, const Error& 
     refusal = Refusal::OntoItself;
   } else if (error.code == Errc::Syntax || error.code == Errc::LimitExceeded) {
     refusal = Refusal::BadNumber;
-  } else if (error.code == Errc::ModalConflict && store_.revisions(move.to)) {
+  } else if (error.code == Errc::Conflict && store_.revisions(move.to)) {
     refusal = Refusal::NameTaken;
   }
   return with_control_words(error, source->front().control, refusal);

@@ -46,11 +46,11 @@ class Programs {
   Result<storage::Upload> begin(const UploadRequest& request, const std::string& who);
   Result<storage::Upload> upload(const std::string& id) { return store_.upload(id); }
   /// Errors: those of ContentCheck and detect_control (the upload is dropped then), NotFound,
-  /// ModalConflict (a gap or an overlap).
+  /// Conflict (a gap or an overlap).
   Result<storage::Upload> append(const std::string& id, std::uint64_t offset,
                                  std::span<const std::byte> bytes);
   /// What a machine sent is not stopped by protection: it waits for acceptance anyway. Errors:
-  /// those of append, Syntax (empty), Corrupt (the digest is another one), ModalConflict (the
+  /// those of append, Syntax (empty), Corrupt (the digest is another one), Conflict (the
   /// newest revision is protected; the upload is dropped).
   Result<Committed> commit(const std::string& id, const std::optional<Digest>& expected,
                            const std::string& who, Protection protection = Protection::Respect);
@@ -73,9 +73,9 @@ class Programs {
   /// Puts a held revision in force. Errors: NotFound.
   Result<storage::Revision> accept(const std::string& program, std::uint64_t number,
                                    const std::string& who);
-  /// Hides a held revision for ever. Errors: NotFound, ModalConflict (it is in force).
+  /// Hides a held revision for ever. Errors: NotFound, Conflict (it is in force).
   Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
-  /// Errors: NotFound, Busy, ModalConflict (protected).
+  /// Errors: NotFound, Busy, Conflict (protected).
   Result<void> remove(const std::string& program, const std::string& who,
                       Protection protection = Protection::Respect);
   /// Promises of both: storage::Store.

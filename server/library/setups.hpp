@@ -30,7 +30,7 @@ class Setups {
       : store_(store), catalog_(catalog), audit_(audit) {}
 
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
-  /// line; the comment; the size), ModalConflict (`base` is not the newest any more).
+  /// line; the comment; the size), Conflict (`base` is not the newest any more).
   Result<SavedSetup> save(const SetupText& text, const std::string& who);
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,

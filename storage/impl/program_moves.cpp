@@ -34,17 +34,17 @@ Result<ProgramState> state_of(sqlite::Database& database, const std::string& pro
 Result<void> check_target(sqlite::Database& database, const ProgramMove& move, bool is_rename) {
   if (auto named = check_program_name(move.to); !named) return named;
   if (move.from == move.to) {
-    return fail(Errc::ModalConflict, "program {} can not be {} itself", move.from,
+    return fail(Errc::Conflict, "program {} cannot be {} itself", move.from,
                 is_rename ? "renamed to" : "copied to");
   }
   const auto target = state_of(database, move.to);
   if (!target) return fail(target.error());
   if (target->revisions > 0) {
-    return fail(Errc::ModalConflict, "program {} exists already, with {} revision{}", move.to,
+    return fail(Errc::Conflict, "program {} exists already, with {} revision{}", move.to,
                 target->revisions, target->revisions == 1 ? "" : "s");
   }
   if (!is_rename || !target->is_known) return {};
-  return fail(Errc::ModalConflict,
+  return fail(Errc::Conflict,
               "program {} was removed, and its runs and reports keep the name: choose another one",
               move.to);
 }
@@ -76,7 +76,7 @@ Result<Revision> copy_program(sqlite::Database& database, const ProgramMove& mov
   const auto source = find_revision(database, move.from, number);
   if (!source) return source;
   if (source->is_held) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "program {} revision {} waits for acceptance: accept it before it is copied",
                 move.from, source->number);
   }
@@ -107,7 +107,7 @@ Result<void> rename_program(sqlite::Database& database, const ProgramMove& move,
   }
   if (auto free = check_target(database, move, true); !free) return free;
   if (source->held != 0) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "program {} has a revision {} from a machine that waits for acceptance: accept or "
                 "reject it before the rename",
                 move.from, source->held);

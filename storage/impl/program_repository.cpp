@@ -63,7 +63,7 @@ Result<void> ProgramRepository::reject(const Judgement& judgement) {
 Result<void> ProgramRepository::remove(const std::string& program) {
   return connections_.write([&](sqlite::Database& database) -> Result<void> {
     if (const auto latest = find_revision(database, program, std::nullopt);
-        !latest && latest.error().code != Errc::ModalConflict) {
+        !latest && latest.error().code != Errc::Conflict) {
       return fail(latest.error());
     }
     if (auto unused = check_unused(database, program); !unused) return unused;

@@ -75,7 +75,7 @@ Result<Revision> no_latest(sqlite::Database& database, const std::string& progra
   const auto held = newest(database, program, "held");
   if (!held) return fail(held.error());
   if (*held) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "program {} came from a machine and waits for acceptance: accept its revision {} "
                 "first",
                 program, (*held)->revision.number);
@@ -184,7 +184,7 @@ Result<void> reject_revision(sqlite::Database& database, const Judgement& judgem
   const auto revision = find_revision(database, judgement.program, judgement.number);
   if (!revision) return fail(revision.error());
   if (!revision->is_held) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "program {} revision {} is in force; only one that waits for acceptance can be "
                 "rejected",
                 judgement.program, judgement.number);

@@ -21,7 +21,7 @@ Revision read_revision(const sqlite::Statement& row);
 /// Errors: Corrupt.
 Result<void> check_content(const Revision& revision, const Digest& named);
 
-/// `number` absent: the latest that is not held. Errors: NotFound, ModalConflict (nothing but held
+/// `number` absent: the latest that is not held. Errors: NotFound, Conflict (nothing but held
 /// ones), Corrupt (its row names another content than it was stored with).
 Result<Revision> find_revision(sqlite::Database& database, const std::string& program,
                                std::optional<std::uint64_t> number);

@@ -99,13 +99,13 @@ Result<std::int64_t> known_revision(sqlite::Database& database, const Run& run) 
                 run.revision);
   }
   if ((*found)->is_held) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "program {} revision {} came from a machine and waits for acceptance: accept it "
                 "before it is run",
                 run.program, run.revision);
   }
   if ((*found)->content != run.content) {
-    return fail(Errc::ModalConflict, "run {}: content {} is not that of {} revision {}", run.id,
+    return fail(Errc::Conflict, "run {}: content {} is not that of {} revision {}", run.id,
                 run.content.hex(), run.program, run.revision);
   }
   Revision revision;
@@ -180,7 +180,7 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
     if (!run) return fail(run.error());
     if (run->state == state) return {};
     if (is_finished(run->state) || state == RunState::Ordered) {
-      return fail(Errc::ModalConflict, "run {} is {} and can not become {}", id,
+      return fail(Errc::Conflict, "run {} is {} and cannot become {}", id,
                   to_string(run->state), to_string(state));
     }
     if (state == RunState::Active) {
@@ -211,7 +211,7 @@ Result<void> RunRepository::update_counters(const std::string& machine, const Pr
     const auto run = find_run(database, progress.run);  // ended: ignored
     if (!run) return fail(run.error());
     if (run->machine == machine) return {};
-    return fail(Errc::ModalConflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
+    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
                 machine);
   };
   // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.

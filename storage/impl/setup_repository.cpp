@@ -48,10 +48,10 @@ Result<void> check_base(const SetupRevision& setup, std::optional<std::uint64_t>
   if (!base || *base == newest) return {};
   const std::string made_from = *base == 0 ? "before there was one" : fmt::format("from {}", *base);
   if (newest == 0) {
-    return fail(Errc::ModalConflict, "machine {}: this setup was made {}, and there is none",
+    return fail(Errc::Conflict, "machine {}: this setup was made {}, and there is none",
                 setup.machine, made_from);
   }
-  return fail(Errc::ModalConflict,
+  return fail(Errc::Conflict,
               "machine {}: this setup was made {}, and {} is the newest by now; nothing was stored",
               setup.machine, made_from, newest);
 }

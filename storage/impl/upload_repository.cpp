@@ -78,7 +78,7 @@ Result<std::int64_t> settle_content(sqlite::Database& database, const ContentRow
 
 Result<void> check_unchanged(const UploadRow& row, const UploadProgress& progress) {
   if (row.content.size == progress.received) return {};
-  return fail(Errc::ModalConflict, "upload {} was changed by someone else meanwhile",
+  return fail(Errc::Conflict, "upload {} was changed by someone else meanwhile",
               row.upload.id);
 }
 
@@ -92,7 +92,7 @@ Result<Upload> UploadRepository::begin(const Upload& upload) {
   if (begun.created == UtcTime{}) begun.created = clock_.now();
   return connections_.write([&](sqlite::Database& database) -> Result<Upload> {
     if (find_row(database, begun.id)) {
-      return fail(Errc::ModalConflict, "upload {} exists already", begun.id);
+      return fail(Errc::Conflict, "upload {} exists already", begun.id);
     }
     const auto content = create_content(database);
     if (!content) return fail(content.error());
@@ -146,7 +146,7 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
   const std::lock_guard lock((*progress)->mutex);
   const std::uint64_t received = (*progress)->received;
   if (offset > received) {
-    return fail(Errc::ModalConflict,
+    return fail(Errc::Conflict,
                 "upload {}: the piece begins at {}, but only {} bytes are here", id, offset,
                 received);
   }
@@ -183,7 +183,7 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
                                               std::uint64_t offset,
                                               std::span<const std::byte> bytes) {
   if (bytes.size() > progress.received - offset) {
-    return fail(Errc::ModalConflict, "upload {}: bytes {} to {} overlap what is here: go on at {}",
+    return fail(Errc::Conflict, "upload {}: bytes {} to {} overlap what is here: go on at {}",
                 id, offset, offset + bytes.size(), progress.received);
   }
   return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
@@ -192,7 +192,7 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
     const auto known = load_range(database, row->content, offset, bytes.size(), label_of(id));
     if (!known) return fail(known.error());
     if (!std::ranges::equal(*known, bytes)) {
-      return fail(Errc::ModalConflict, "upload {}: other bytes than before were sent at {}", id,
+      return fail(Errc::Conflict, "upload {}: other bytes than before were sent at {}", id,
                   offset);
     }
     return std::move(row->upload);

@@ -30,7 +30,7 @@ struct OpenOptions {
 
 /// One connection to one file: WAL, foreign keys on, no secure delete. One thread at a time; a
 /// thread may hand it to another. Errors of everything here: Busy (another connection writes),
-/// Corrupt, Io (a full disk says "disk full"), ModalConflict (a constraint of the schema); the text
+/// Corrupt, Io (a full disk says "disk full"), Conflict (a constraint of the schema); the text
 /// holds SQLite's extended code and the SQL.
 class Database {
  public:

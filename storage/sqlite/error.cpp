@@ -15,7 +15,7 @@ Errc code_of(int primary) {
     case SQLITE_NOTADB:
       return Errc::Corrupt;
     case SQLITE_CONSTRAINT:
-      return Errc::ModalConflict;
+      return Errc::Conflict;
     case SQLITE_TOOBIG:
       return Errc::LimitExceeded;
     default:

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/memory_source.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {

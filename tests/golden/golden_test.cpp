@@ -3,9 +3,9 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "gateway/interpreter/trace/event_tee.hpp"
-#include "gateway/interpreter/trace/offline_run.hpp"
-#include "gateway/interpreter/trace/trace_writer.hpp"
+#include "clients/tools/offline/event_tee.hpp"
+#include "clients/tools/offline/offline_run.hpp"
+#include "clients/tools/offline/trace_writer.hpp"
 #include "tests/golden/golden_case.hpp"
 #include "tests/support/event_log.hpp"
 #include "tests/support/vanished_words.hpp"
@@ -88,9 +88,9 @@ class SlowSource final : public ProgramSource {
 };
 
 TEST_P(Golden, NoAxisWordVanishes) {
-  constexpr std::uint64_t kMostBlocks = 300;
+  constexpr std::uint64_t kMaxBlocks = 300;
   const auto found =
-      find_vanished_word(*dialect_, program_, setup_, kMostBlocks, loader_of(GetParam()));
+      find_vanished_word(*dialect_, program_, setup_, kMaxBlocks, loader_of(GetParam()));
   EXPECT_FALSE(found) << *found;
 }
 
@@ -108,8 +108,8 @@ class Stepper {
 
   template <class OnBoundary>
   void run(OnBoundary on_boundary) {
-    constexpr std::uint64_t kMostSteps = 1'000'000;
-    for (std::uint64_t steps = 0; steps < kMostSteps; ++steps) {
+    constexpr std::uint64_t kMaxSteps = 1'000'000;
+    for (std::uint64_t steps = 0; steps < kMaxSteps; ++steps) {
       switch (interpreter_.step(1)) {
         case StepState::Ended:
         case StepState::Alarmed:
@@ -179,7 +179,7 @@ TEST_P(Golden, WindowsOfTheTextDoNotShow) {
 }
 
 TEST_P(Golden, RunsOnTheSameFromEveryBlockBoundary) {
-  constexpr std::size_t kMostBoundaries = 150;  // of long programs a sample
+  constexpr std::size_t kMaxBoundaries = 150;  // of long programs a sample
   MemorySource source(program_, loader_of(GetParam()));
   EventLog whole;
   std::vector<Boundary> boundaries;
@@ -188,7 +188,7 @@ TEST_P(Golden, RunsOnTheSameFromEveryBlockBoundary) {
   Stepper(**interpreter, setup_).run([&](std::size_t answers) {
     boundaries.push_back({(*interpreter)->snapshot(), whole.lines().size(), answers});
   });
-  const std::size_t stride = boundaries.size() / kMostBoundaries + 1;
+  const std::size_t stride = boundaries.size() / kMaxBoundaries + 1;
   for (std::size_t i = 0; i < boundaries.size(); i += stride) {
     EventLog rest;
     auto resumed = dialect_->make(setup_, source, rest);

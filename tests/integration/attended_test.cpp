@@ -2,8 +2,8 @@
 
 #include "tests/integration/line_shop.hpp"
 #include "tests/integration/system.hpp"
-#include "tests/support/host_line.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/host_line.hpp"
+#include "tests/support/line/pty.hpp"
 
 /// A real gateway at the end of a line, as it is unless told otherwise: people may be at the
 /// machine.

@@ -98,7 +98,7 @@ TEST_F(BadInput, JsonNestedTenThousandDeep) {
 TEST_F(BadInput, AnOrderForAMachineThatDoesNotExist) {
   expect_error(client->post("/api/v1/runs", {{"machine", "lathe-9"}, {"program", "O1"}}), 404,
                "lathe-9");
-  expect_error(client->post("/api/v1/runs/no-such-run/orders", {{"action", "hold"}}), 404,
+  expect_error(client->post("/api/v1/runs/no-such-run/commands", {{"action", "hold"}}), 404,
                "no-such-run");
 }
 

@@ -1,4 +1,4 @@
-// `dnc` as its users type it: what it prints, what it exits with, what it leaves behind.
+// `dnc` as its users type it: what it prints, what it exits with, what it leaves after.
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <csignal>

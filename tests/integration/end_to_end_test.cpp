@@ -79,17 +79,17 @@ TEST_F(EndToEnd, HoldStopsMotionAndResumeGoesOn) {
   start({.speed = "1x", .server_arguments = {}, .gateway_arguments = {}});
   system->push("O0300", report_program(60, 9));
   const std::string id = system->start_run("O0300");
-  const auto order = [&](const char* action) {
-    const auto reply = system->rest().post("/api/v1/runs/" + id + "/orders", {{"action", action}});
+  const auto command = [&](const char* action) {
+    const auto reply = system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
     EXPECT_EQ(reply.status, 200) << reply.body;
   };
   const auto execution = [&] {
     return system->rest().get("/api/v1/machines/lathe-1").json()["status"].value("execution", "");
   };
-  order("hold");
+  command("hold");
   EXPECT_TRUE(test_support::eventually([&] { return execution() == "FEED_HOLD"; })) << execution();
   const auto held_at = system->run(id).value("executed", 0u);
-  order("resume");
+  command("resume");
   const auto run = system->wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
   EXPECT_GT(run.value("executed", 0u), held_at);
@@ -100,11 +100,11 @@ TEST_F(EndToEnd, AnAbortedRunSaysHowFarItCame) {
   system->push("O0300", report_program(4000, 4));
   const std::string id = system->start_run("O0300");
   ASSERT_TRUE(test_support::eventually([&] { return system->run(id).value("executed", 0u) > 5; }));
-  EXPECT_EQ(system->rest().post("/api/v1/runs/" + id + "/orders", {{"action", "abort"}}).status,
+  EXPECT_EQ(system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", "abort"}}).status,
             200);
   const auto run = system->wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "aborted") << run.dump();
-  EXPECT_EQ(run.value("executed", 0u), system->witness().blocks_done);
+  EXPECT_EQ(run.value("executed", 0u), system->execution_probe().blocks_done);
 }
 
 TEST_F(EndToEnd, AProgramAlarmEndsTheRunWithItsCode) {

@@ -60,7 +60,7 @@ class Kill : public testing::Test {
   }
 
   /// A run cut off by killing the gateway: completed, or interrupted exactly where the machine was.
-  void expect_right_ending(const std::string& id, const System::Witness& truth) {
+  void expect_right_ending(const std::string& id, const System::ExecutionProbe& truth) {
     const auto run = system->wait_ended(id);
     const auto lines = system->report_lines(id);
     expect_lines_in_order(lines, id);
@@ -89,7 +89,7 @@ TEST_F(Kill, TheGatewayAtRandomMoments) {
     const std::string id = system->start_run("O0300");
     wait_a_random_time(run_ms);
     system->gateway().kill();
-    const auto truth = system->witness();
+    const auto truth = system->execution_probe();
     system->start_gateway();
     expect_right_ending(id, truth);
     system->wait_connected();
@@ -106,7 +106,7 @@ TEST_F(Kill, BothAtRandomMoments) {
     wait_a_random_time(5);
     system->server().kill();
     system->gateway().kill();
-    const auto truth = system->witness();
+    const auto truth = system->execution_probe();
     system->start_server();
     system->start_gateway();
     expect_right_ending(id, truth);

@@ -2,8 +2,8 @@
 
 #include "protocol/base/digest.hpp"
 #include "tests/integration/line_shop.hpp"
-#include "tests/support/host_line.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/host_line.hpp"
+#include "tests/support/line/pty.hpp"
 
 /// The same small job in every protocol that a line speaks: a host feeds, the control runs and
 /// prints.

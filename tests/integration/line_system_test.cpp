@@ -5,9 +5,9 @@
 #include "protocol/base/digest.hpp"
 #include "tests/integration/line_shop.hpp"
 #include "tests/integration/system.hpp"
-#include "tests/support/host_line.hpp"
+#include "tests/support/line/host_line.hpp"
 #include "tests/support/program_generator.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/pty.hpp"
 
 /// End to end: a real server feeds a real gateway, which plays a control at the other end of a
 /// line; what the program prints comes back over the line into the report.
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& i) { return std::string(i.param.name); });
 
 /// A control that asks when it is switched on, before anybody has ordered anything.
-TEST(LineSystemOrders, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
+TEST(LineSystemCommands, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
   const std::vector<std::vector<std::string>> lines{
       {"flow=dc_codes", "start_char=%", "end_char=%", "control=plain"},
       {"flow=xmodem", "control=plain"}};
@@ -210,9 +210,9 @@ TEST(LineSystemPanel, TextWaitsForTheReleaseOfTheEmergencyStop) {
   system.start_gateway();
   system.wait_connected();
   const auto press = [&](bool is_on) {
-    const nlohmann::json order{
+    const nlohmann::json command{
         {"action", "switch"}, {"name", "emergency_stop"}, {"value", is_on ? 1 : 0}};
-    const auto reply = system.rest().post("/api/v1/machines/lathe-1/orders", order);
+    const auto reply = system.rest().post("/api/v1/machines/lathe-1/commands", command);
     EXPECT_EQ(reply.status, 200) << reply.body;
     EXPECT_TRUE(
         eventually([&] { return status(system).value("emergency_stop", !is_on) == is_on; }));

@@ -4,10 +4,10 @@
 
 #include "protocol/base/digest.hpp"
 #include "tests/integration/line_shop.hpp"
-#include "tests/support/device_server.hpp"
-#include "tests/support/host_line.hpp"
+#include "tests/support/line/device_server.hpp"
+#include "tests/support/line/host_line.hpp"
 #include "tests/support/program_generator.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/pty.hpp"
 
 /// A drip feed over a line: a host in the test's hands, a real gateway in the place of a Centurion.
 namespace dripline::integration {
@@ -107,7 +107,7 @@ TEST(Line, RunsOneProgramAfterTheOther) {
   for (std::size_t run = 1; run <= 3; ++run) {
     host.send(printing(static_cast<int>(run)) + "%\n");
     ASSERT_TRUE(shop.wait_ended(run));
-    // What is behind the end of a program is not the beginning of the next: it has to be quiet.
+    // What is after the end of a program is not the beginning of the next: it has to be quiet.
     std::this_thread::sleep_for(700ms);
   }
   const auto endings = shop.endings();
@@ -115,7 +115,7 @@ TEST(Line, RunsOneProgramAfterTheOther) {
   for (const auto& ending : endings) EXPECT_EQ(ending.outcome, dds::RunOutcome::Completed);
 }
 
-TEST(Line, StopsBehindTheLastCompleteBlockWhenTheCableIsPulled) {
+TEST(Line, StopsAfterTheLastCompleteBlockWhenTheCableIsPulled) {
   PtyCable cable;
   LineShop shop({.address = cable.control(), .settings = kSettings});
   HostLine host(cable.host(), host_settings());
@@ -146,7 +146,7 @@ TEST(Line, TakesTheNextProgramWhenTheHostsPortIsBack) {
   EXPECT_EQ(host.failures().size(), 1U);
   cable.plug_in();
   ASSERT_TRUE(eventually([&] { return host.is_open(); }));
-  host.send("X[1\n");  // the operator's reset: what is left of the block can not be
+  host.send("X[1\n");  // the operator's reset: what is left of the block cannot be
   ASSERT_TRUE(shop.wait_ended(1));
   std::this_thread::sleep_for(700ms);
   host.send(printing(5));

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "tests/support/child_process.hpp"
-#include "tests/support/host_line.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/host_line.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 /// XMODEM against Debian's lrzsz as a real peer, both directions, over a pty cable.

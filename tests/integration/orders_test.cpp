@@ -45,27 +45,27 @@ TEST_P(Clocks, ThatDifferByAnHourNeitherStopNorHinderAnything) {
   EXPECT_NE(machine()["notices"].dump().find("the gateway's clock is"), std::string::npos);
 
   const std::string id = system.start_run("O0100");
-  const auto order = [&](const json& body) {
-    const auto reply = system.rest().post("/api/v1/runs/" + id + "/orders", body);
+  const auto command = [&](const json& body) {
+    const auto reply = system.rest().post("/api/v1/runs/" + id + "/commands", body);
     EXPECT_EQ(reply.status, 200) << body.dump() << reply.body;
   };
   const auto comes_to = [&](const std::string& execution) {
     return eventually([&] { return machine()["status"].value("execution", "") == execution; });
   };
   EXPECT_TRUE(comes_to("ACTIVE"));
-  order({{"action", "feed_override"}, {"value", 0}});
-  order({{"action", "feed_override"}, {"value", 1}});
-  order({{"action", "hold"}});
+  command({{"action", "feed_override"}, {"value", 0}});
+  command({{"action", "feed_override"}, {"value", 1}});
+  command({{"action", "hold"}});
   EXPECT_TRUE(comes_to("FEED_HOLD"));
-  order({{"action", "resume"}});
+  command({{"action", "resume"}});
   EXPECT_TRUE(comes_to("ACTIVE"));
-  order({{"action", "abort"}});
+  command({{"action", "abort"}});
   const json ended = system.wait_ended(id);
   EXPECT_EQ(ended.value("state", ""), "aborted");
   EXPECT_LE(ended.value("created", ""), ended.value("started", ""));
   EXPECT_LE(ended.value("started", ""), ended.value("ended", ""));
   const auto pressed =
-      system.rest().post("/api/v1/machines/lathe-1/orders",
+      system.rest().post("/api/v1/machines/lathe-1/commands",
                          {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
   EXPECT_EQ(pressed.status, 200) << pressed.body;
   EXPECT_TRUE(eventually([&] { return machine()["status"].value("emergency_stop", false); }));
@@ -77,7 +77,7 @@ TEST_P(Clocks, ThatDifferByAnHourNeitherStopNorHinderAnything) {
   EXPECT_EQ(warnings, 1) << "once, when it begins";
 }
 INSTANTIATE_TEST_SUITE_P(, Clocks, testing::Values(3600, -3600),
-                         [](const auto& i) { return i.param > 0 ? "Ahead" : "Behind"; });
+                         [](const auto& i) { return i.param > 0 ? "Ahead" : "After"; });
 
 class Database : public testing::Test {
  protected:

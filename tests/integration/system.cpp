@@ -112,8 +112,8 @@ std::vector<std::string> System::gateway_command(const std::string& machine,
                                    options_.speed,
                                    "--log",
                                    folder() / (state + ".log"),
-                                   "--witness",
-                                   folder() / (state + ".witness")};
+                                   "--execution_probe",
+                                   folder() / (state + ".execution_probe")};
   append_network(command);
   command.insert(command.end(), options_.gateway_arguments.begin(),
                  options_.gateway_arguments.end());
@@ -192,12 +192,12 @@ std::vector<std::string> System::report_lines(const std::string& id) const {
   return lines;
 }
 
-System::Witness System::witness() const {
-  const std::string bytes = read_file(folder() / "gateway.witness");
-  Witness witness;
-  static_assert(std::is_trivially_copyable_v<Witness>);
-  if (bytes.size() >= sizeof witness) std::memcpy(&witness, bytes.data(), sizeof witness);
-  return witness;
+System::ExecutionProbe System::execution_probe() const {
+  const std::string bytes = read_file(folder() / "gateway.execution_probe");
+  ExecutionProbe execution_probe;
+  static_assert(std::is_trivially_copyable_v<ExecutionProbe>);
+  if (bytes.size() >= sizeof execution_probe) std::memcpy(&execution_probe, bytes.data(), sizeof execution_probe);
+  return execution_probe;
 }
 
 }  // namespace dripline::integration

@@ -57,13 +57,13 @@ class System {
   std::vector<std::string> report_lines(const std::string& id) const;
 
   /// What the simulated machine truly did in its last run, from a file that only its lowest level
-  /// writes. An effect on disk and a count in memory can not change at one instant, so the truth
+  /// writes. An effect on disk and a count in memory cannot change at one instant, so the truth
   /// lies between done and begun.
-  struct Witness {
+  struct ExecutionProbe {
     std::uint64_t blocks_done = 0, outputs_done = 0;
     std::uint64_t blocks_begun = 0, outputs_begun = 0;
   };
-  Witness witness() const;
+  ExecutionProbe execution_probe() const;
 
  private:
   void append_network(std::vector<std::string>& command) const;

@@ -13,17 +13,17 @@ protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage: protocol/base storage
 gateway/interpreter: protocol/base gateway/interpreter
-gateway/graphics: protocol/base gateway/interpreter gateway/graphics
+clients/tools/graphics: protocol/base gateway/interpreter clients/tools/graphics
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
 server/library: protocol/base storage gateway/interpreter server/library
-server/feeds: protocol storage gateway/interpreter server/library server/feeds
-server/serial: protocol storage gateway/interpreter server/library server/feeds server/serial
-server/api: protocol storage gateway/interpreter server/library server/feeds server/serial server/api
+server/machines: protocol storage gateway/interpreter server/library server/machines
+server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
+server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/api
 server/app: protocol storage server
-clients: protocol/base protocol/wire protocol/serial gateway/interpreter gateway/graphics clients
+clients: protocol/base protocol/wire protocol/serial gateway/interpreter clients/tools/graphics clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do

@@ -115,7 +115,7 @@ void EventLog::on_prompt(const Prompt& event) {
 void EventLog::on_stop(const Stop& event) {
   add("stop", event.origin, fmt::format(" {}", static_cast<int>(event.kind)));
 }
-void EventLog::on_panel_lock(const PanelLock& event) {
+void EventLog::on_override_inhibit(const OverrideInhibit& event) {
   add("lock", event.origin,
       fmt::format(" {:d}{:d}{:d} {} {:d}", event.feed_override, event.spindle_override,
                   event.single_block, static_cast<int>(event.hold), event.is_tapping));

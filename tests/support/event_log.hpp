@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::interpreter {
 
@@ -33,7 +33,7 @@ class EventLog final : public EventSink {
   void on_message(const Message& event) override;
   void on_prompt(const Prompt& event) override;
   void on_stop(const Stop& event) override;
-  void on_panel_lock(const PanelLock& event) override;
+  void on_override_inhibit(const OverrideInhibit& event) override;
   void on_warning(const Warning& event) override;
   void on_alarm(const Alarm& event) override;
   void on_end(const End& event) override;

@@ -17,10 +17,10 @@ struct WrittenMessages {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<dds::RecordAck> acks;
-  std::vector<dds::Order> orders;
+  std::vector<dds::Command> commands;
   std::vector<dds::BlockData> blocks;
   std::atomic<int> refusals{0};                     ///< so many writes of blocks fail with Timeout
-  std::function<void(const dds::Order&)> on_order;  ///< plays the gateway, on the writer's thread
+  std::function<void(const dds::Command&)> on_command;  ///< plays the gateway, on the writer's thread
 
   /// Waits until `holds` is true, at most some seconds. The lock is held while it is asked.
   bool wait(const std::function<bool()>& holds) {
@@ -37,9 +37,9 @@ class FakeServerEndpoint final : public dds::ServerEndpoint {
   Result<void> write(const dds::RecordAck& message) override {
     return keep(written_->acks, message);
   }
-  Result<void> write(const dds::Order& message) override {
-    auto kept = keep(written_->orders, message);
-    if (written_->on_order) written_->on_order(message);
+  Result<void> write(const dds::Command& message) override {
+    auto kept = keep(written_->commands, message);
+    if (written_->on_command) written_->on_command(message);
     return kept;
   }
   Result<void> write(const dds::BlockData& message) override {

@@ -37,7 +37,7 @@ std::string end_story(const LineEnd& end) {
   std::string story = fmt::format("receptions {} sends {} received '{}'\n", end.receptions,
                                   end.sends, end.received);
   for (const Error& error : end.failures) story += "  failed: " + error.what + '\n';
-  for (const Error& error : end.troubles) story += "  trouble: " + error.what + '\n';
+  for (const Error& error : end.faults) story += "  trouble: " + error.what + '\n';
   return story;
 }
 
@@ -60,8 +60,8 @@ std::string FaultRun::story() const {
 }
 
 bool FaultRun::is_said() const {
-  return !sender->failures.empty() || !sender->troubles.empty() || !receiver->failures.empty() ||
-         !receiver->troubles.empty();
+  return !sender->failures.empty() || !sender->faults.empty() || !receiver->failures.empty() ||
+         !receiver->faults.empty();
 }
 
 bool FaultRun::has_ended() const {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tests/support/line_simulator.hpp"
+#include "tests/support/line/line_simulator.hpp"
 
 /// Seeded transfers over a bad line, and what must hold of each whatever happens.
 namespace dripline::test_support {

@@ -7,7 +7,7 @@
 namespace dripline::test_support {
 
 /// A plain HTTP client for tests, independent of our own client library, so that a shared mistake
-/// can not hide.
+/// cannot hide.
 class RestClient {
  public:
   struct Reply {

@@ -5,7 +5,7 @@
 namespace dripline::test_support {
 
 /// A new empty folder below the system's temporary folder, removed with everything in it at the end
-/// of scope. DRIPLINE_KEEP=1 keeps it, for looking at what a failed test left behind.
+/// of scope. DRIPLINE_KEEP=1 keeps it, for looking at what a failed test left after.
 class TemporaryFolder {
  public:
   TemporaryFolder();

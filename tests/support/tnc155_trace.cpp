@@ -2,14 +2,14 @@
 
 #include <optional>
 
-#include "gateway/interpreter/memory_source.hpp"
-#include "gateway/interpreter/trace/offline_run.hpp"
-#include "gateway/interpreter/trace/trace_writer.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "clients/tools/offline/offline_run.hpp"
+#include "clients/tools/offline/trace_writer.hpp"
 
 namespace dripline::interpreter {
 namespace {
 
-constexpr std::uint64_t kMostBlocks = 20'000;
+constexpr std::uint64_t kMaxBlocks = 20'000;
 
 /// Two programs that may be called, one of each form; the second leaves other modes in force.
 std::optional<std::string> called_program(std::string_view name) {
@@ -51,7 +51,7 @@ std::string tnc155_trace(std::string_view text) {
   {
     TraceWriter writer([&](std::string_view lines) { written += lines; });
     const auto setup = parse_setup("[control]\nprogram_start = \"any\"\n");
-    const auto outcome = run_offline(dialect, *setup, source, writer, {kMostBlocks});
+    const auto outcome = run_offline(dialect, *setup, source, writer, {kMaxBlocks});
     writer.flush();
     if (!outcome) trace = "...";
   }

@@ -42,13 +42,13 @@ std::vector<AxisWord> axis_words(std::string_view text, std::size_t begin, std::
     std::size_t number = at + 1;
     if (long_names && number < end && kSecond.find(text[number]) != kSecond.npos) ++number;
     if (number < end && (text[number] == '+' || text[number] == '-')) ++number;
-    std::size_t behind = number;
+    std::size_t after = number;
     bool has_digit = false;
-    for (; behind < end && (is_digit(text[behind]) || text[behind] == '.'); ++behind)
-      has_digit |= is_digit(text[behind]);
-    if (!has_digit || behind - number > 9) continue;
+    for (; after < end && (is_digit(text[after]) || text[after] == '.'); ++after)
+      has_digit |= is_digit(text[after]);
+    if (!has_digit || after - number > 9) continue;
     const std::size_t digit = text.find_first_of("0123456789", number);
-    words.push_back({at, digit, behind});
+    words.push_back({at, digit, after});
   }
   return words;
 }
@@ -78,11 +78,11 @@ class Steps {
 
   /// One more block; its questions answered. False: the run is over.
   bool next() {
-    constexpr int kMostSteps = 10'000;
+    constexpr int kMaxSteps = 10'000;
     has_asked_ = false;
     first_line_ = log_.lines().size();
     const std::uint64_t before = interpreter_->blocks();
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
       switch (interpreter_->step(1)) {
         case StepState::Ran:
           if (interpreter_->blocks() != before) return true;
@@ -137,16 +137,16 @@ class Search {
 
   /// Of a control that stores the program before it runs: the whole run must be another.
   std::optional<std::string> find_in_stored_program(std::uint64_t max_blocks) {
-    constexpr std::size_t kMostWords = 16;
+    constexpr std::size_t kMaxWords = 16;
     const auto events = run_whole(text_, max_blocks);
     if (events.empty() || events.back().starts_with("alarm ")) return std::nullopt;
-    // a title in front is left out, and what stands behind the end
+    // a title in front is left out, and what stands after the end
     const std::size_t first = text_.find_first_not_of(" \t\r\n");
     const bool has_title = first != text_.npos && text_[first] == '%';
     const std::size_t begin = has_title ? text_.find(';') : 0;
     const std::size_t end = std::min(text_.find_first_of("%\x1A", begin), text_.size());
     auto words = axis_words(text_, begin, end, true);
-    if (words.size() > kMostWords) words.resize(kMostWords);
+    if (words.size() > kMaxWords) words.resize(kMaxWords);
     for (const AxisWord& word : words) {
       const auto line =
           1 +

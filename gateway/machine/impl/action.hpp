@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/machine/impl/lock.hpp"
 #include "gateway/machine/impl/path.hpp"
 #include "gateway/machine/impl/text_ring.hpp"

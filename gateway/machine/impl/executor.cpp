@@ -79,7 +79,7 @@ bool Executor::may_start() const {
   return !is_aborting_ && (!is_held_ || delays_hold(queue_.front().lock));
 }
 
-/// Axes that have to come to rest cross into the next moves, and moves that can not be held are
+/// Axes that have to come to rest cross into the next moves, and moves that cannot be held are
 /// made to their end, whatever the budget.
 bool Executor::goes_on_regardless() const {
   if (speed_ > 0) return is_held_ || is_aborting_;
@@ -200,7 +200,7 @@ void Executor::finish_probe() {
 
 // -- the plan ---------------------------------------------------------------------------------
 
-/// More was queued: the move being made may leave faster than it had to when nothing was behind it.
+/// More was queued: the move being made may leave faster than it had to when nothing was after it.
 void Executor::look_ahead_again() {
   if (!motion_.is_active() || &motion_.move() == &probe_move_) return;
   const double before = motion_.move().exit_square;
@@ -250,7 +250,7 @@ void Executor::show(const Move& move) {
     shown_.motion = MotionKind::Line;
   else
     shown_.motion =
-        move.path.circle.sweep > 0 ? MotionKind::CounterClockwise : MotionKind::Clockwise;
+        move.path.circle.sweep > 0 ? MotionKind::Counterclockwise : MotionKind::Clockwise;
 }
 
 MachineStatus Executor::status() const {
@@ -266,7 +266,7 @@ MachineStatus Executor::status() const {
   status.position = to_position(now, axes_);
   status.target = to_position(motion_.is_active() ? motion_.move().path.to : at_, axes_);
   status.feed_per_minute = is_moving() ? speed() * 60 : 0;
-  status.spindle_rpm = spindle_.is_counter_clockwise() ? -turn : turn;
+  status.spindle_rpm = spindle_.is_counterclockwise() ? -turn : turn;
   status.origin = origin_;
   status.executed = executed_;
   status.buffered = Seconds{buffered()};

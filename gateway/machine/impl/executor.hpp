@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/geometry/workpiece.hpp"
+#include "gateway/interpreter/core/geometry/workpiece.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/machine/impl/intake.hpp"
 #include "gateway/machine/impl/motion.hpp"
@@ -91,7 +91,7 @@ class Executor {
   bool is_held_ = false, is_aborting_ = false;
   bool is_emergency_ = false;               ///< the abort is an emergency stop's: nothing turns on
   Lock lock_;                               ///< of the action begun last
-  bool hold_waits_ = false;                 ///< for the end of moves that can not be held
+  bool hold_waits_ = false;                 ///< for the end of moves that cannot be held
   bool skips_tap_ = false;                  ///< this tapping cycle is not done by handwheel
   double handwheel_seconds_ = 0;            ///< that its turns have still to pass
   MachineState stop_ = MachineState::Idle;  ///< Idle: no reason to stand

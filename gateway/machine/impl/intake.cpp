@@ -68,7 +68,7 @@ void Intake::add_move(const Origin& origin, const MoveTask& task) {
     queue_.drop_back();
     return alarm(origin, refusal->id, std::move(refusal->text));
   }
-  if (move.pace == Pace::Thread) action->lock.hold = interpreter::HoldRule::Later;
+  if (move.pace == Pace::Thread) action->lock.hold = interpreter::FeedHoldInhibit::Later;
   queue_.set_seconds(*action, move.path.length / std::min(move.speed, move.ceiling));
   end_ = task.path.to;
 }

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::impl {
 
-/// What of the panel an action takes no notice of: the program's PanelLock before it.
+/// What of the panel an action takes no notice of: the program's OverrideInhibit before it.
 struct Lock {
-  interpreter::HoldRule hold = interpreter::HoldRule::AtOnce;
+  interpreter::FeedHoldInhibit hold = interpreter::FeedHoldInhibit::AtOnce;
   bool feed_override = false, spindle_override = false, single_block = false;
   bool is_tapping = false;
 
@@ -22,7 +22,7 @@ struct Lock {
   }
 };
 
-inline Lock lock_of(const interpreter::PanelLock& event) {
+inline Lock lock_of(const interpreter::OverrideInhibit& event) {
   return {.hold = event.hold,
           .feed_override = event.feed_override,
           .spindle_override = event.spindle_override,

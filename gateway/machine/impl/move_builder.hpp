@@ -29,7 +29,7 @@ class MoveBuilder {
  public:
   explicit MoveBuilder(const MachineLimits& limits) : limits_(limits) {}
 
-  /// Fills `move`; or says why it can not be made. `path.length` must be above 0.
+  /// Fills `move`; or says why it cannot be made. `path.length` must be above 0.
   std::optional<Refusal> build(const MoveTask& task, const SpindleModel& spindle, Move& move);
   /// Whatever comes next starts from standstill.
   void forget_direction() { has_direction_ = false; }

@@ -7,12 +7,12 @@
 /// the program keeps them off.
 namespace dripline::machine::impl {
 
-using interpreter::HoldRule;
+using interpreter::FeedHoldInhibit;
 
 namespace {
 
 /// What turns that wait can amount to: nobody turns further ahead of a machine.
-constexpr double kMostHandwheelSeconds = 600;
+constexpr double kMaxHandwheelSeconds = 600;
 constexpr std::string_view kTapByHandwheel =
     "tapping cycles are not done in handwheel mode: this one is left out";
 
@@ -34,7 +34,7 @@ bool Executor::is_driven_by_hand() const {
 
 void Executor::turn_handwheel(double seconds) {
   if (!panel_.handwheel || is_over()) return;
-  handwheel_seconds_ = std::clamp(handwheel_seconds_ + seconds, 0.0, kMostHandwheelSeconds);
+  handwheel_seconds_ = std::clamp(handwheel_seconds_ + seconds, 0.0, kMaxHandwheelSeconds);
 }
 
 bool Executor::is_moving() const {
@@ -43,7 +43,7 @@ bool Executor::is_moving() const {
 
 /// With a hold asked for: whether an action under `lock` is made all the same.
 bool Executor::delays_hold(const Lock& lock) const {
-  return hold_waits_ && lock.hold != HoldRule::AtOnce;
+  return hold_waits_ && lock.hold != FeedHoldInhibit::AtOnce;
 }
 
 void Executor::enter(const Action& action) {
@@ -52,9 +52,9 @@ void Executor::enter(const Action& action) {
       lock.is_tapping && lock_.is_tapping && action.origin.block == origin_.block;
   origin_ = action.origin;
   lock_ = lock;
-  if (lock.hold == HoldRule::AtOnce) hold_waits_ = false;
+  if (lock.hold == FeedHoldInhibit::AtOnce) hold_waits_ = false;
   // Too fast to come to rest before it.
-  if (lock.hold == HoldRule::Later && is_held_ && speed_ > 0) hold_waits_ = true;
+  if (lock.hold == FeedHoldInhibit::Later && is_held_ && speed_ > 0) hold_waits_ = true;
   if (is_same_tap) return;
   skips_tap_ = lock.is_tapping && panel_.handwheel;
   if (skips_tap_) sink_.on_message({origin_, kTapByHandwheel});
@@ -103,7 +103,7 @@ void Executor::press_emergency_stop() {
 void Executor::hold() {
   if (is_held_ || is_over()) return;
   is_held_ = true;
-  hold_waits_ = lock_.hold == HoldRule::Later;
+  hold_waits_ = lock_.hold == FeedHoldInhibit::Later;
   plan_motion_again();
 }
 

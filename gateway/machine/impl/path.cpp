@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/interpreter/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::machine::impl {
 
@@ -154,7 +154,7 @@ Path arc_path(const Coordinates& from, const interpreter::Arc& arc) {
   circle.radius_change = end_radius - radius;
   circle.start = start;
   const double sweep = arc.sweep.radians();
-  const double as_said = arc.turn == interpreter::Turn::CounterClockwise ? sweep : -sweep;
+  const double as_said = arc.turn == interpreter::Turn::Counterclockwise ? sweep : -sweep;
   // Some lathe manuals draw X downwards and so name the turns the other way round.
   const bool other = miss(start, -as_said, end) + 1e-6 < miss(start, as_said, end);
   circle.sweep = other ? -as_said : as_said;

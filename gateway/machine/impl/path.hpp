@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::machine::impl {
 
@@ -14,7 +14,7 @@ void take_over(Coordinates& point, const interpreter::Position& position);
 interpreter::Position to_position(const Coordinates& point, const interpreter::Position& axes_of);
 
 /// The part of a path that is no straight line: a circle in the plane of two axes, seen as polar
-/// coordinates around its centre. The radius may change evenly along the way (rounded programs end
+/// coordinates around its center. The radius may change evenly along the way (rounded programs end
 /// a hair off the circle); all other axes move evenly with the angle.
 struct Circle {
   std::size_t first = 0, second = 1;  ///< axis numbers

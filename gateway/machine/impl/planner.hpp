@@ -4,11 +4,11 @@
 
 namespace dripline::machine::impl {
 
-/// Look-ahead: the highest speed at the end of each queued move from which everything behind it can
+/// Look-ahead: the highest speed at the end of each queued move from which everything after it can
 /// still be obeyed (corners, slower moves, standstills, the end of what is queued).
 ///
 /// One pass from the back of a window to the front. An exit speed that some corner or feed decides,
-/// and not the window's end, is final: more moves can not change it. So a move is looked at a few
+/// and not the window's end, is final: more moves cannot change it. So a move is looked at a few
 /// times at most however long the queue is, and the result does not depend on when it was planned.
 class Planner {
  public:

@@ -84,7 +84,7 @@ void Executor::report_text(const Origin& origin, const Text& text) {
   }
 }
 
-/// Ends everything: nothing queued behind it happens.
+/// Ends everything: nothing queued after it happens.
 void Executor::report_alarm(const Origin& origin) {
   const interpreter::Alarm alarm{origin, std::move(*queue_.alarm)};
   is_held_ = false;

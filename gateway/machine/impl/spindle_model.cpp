@@ -9,7 +9,7 @@ using interpreter::SpindleState;
 
 bool SpindleModel::is_turning() const {
   return spindle_.state == SpindleState::Clockwise ||
-         spindle_.state == SpindleState::CounterClockwise;
+         spindle_.state == SpindleState::Counterclockwise;
 }
 
 double SpindleModel::ceiling() const {
@@ -35,7 +35,7 @@ double SpindleModel::mean_rpm(double x0, double x1) const {
   }
   if (!(spindle_.surface_speed->mm() > 0) || ceiling() <= 0) return limits_.assumed_rpm;
   // Minutes a revolution takes: proportional to the radius, but not below the shortest. Their mean
-  // over the way, by the integral from the centre to either end.
+  // over the way, by the integral from the center to either end.
   const double slope = 2 * Angle::kPi / spindle_.surface_speed->mm();
   const double shortest = 1 / ceiling();
   const double bend = shortest / slope;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/event.hpp"
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/machine/machine_limits.hpp"
 
 namespace dripline::machine::impl {
@@ -22,8 +22,8 @@ class SpindleModel {
   double mean_rpm(double x0, double x1) const;
   /// The highest speed there can be now, any override.
   double ceiling() const;
-  bool is_counter_clockwise() const {
-    return spindle_.state == interpreter::SpindleState::CounterClockwise;
+  bool is_counterclockwise() const {
+    return spindle_.state == interpreter::SpindleState::Counterclockwise;
   }
 
  private:

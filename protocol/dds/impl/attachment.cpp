@@ -47,10 +47,10 @@ Result<ServerTopics> ServerTopics::create(const Domain& domain) {
   if (auto r = open_topic<Announce>(topics.announce, domain); !r) return fail(r.error());
   if (auto r = open_topic<Status>(topics.status, domain); !r) return fail(r.error());
   if (auto r = open_topic<Record>(topics.record, domain); !r) return fail(r.error());
-  if (auto r = open_topic<OrderResult>(topics.order_result, domain); !r) return fail(r.error());
+  if (auto r = open_topic<CommandResult>(topics.command_result, domain); !r) return fail(r.error());
   if (auto r = open_topic<BlockRequest>(topics.block_request, domain); !r) return fail(r.error());
   if (auto r = open_topic<RecordAck>(topics.record_ack, domain); !r) return fail(r.error());
-  if (auto r = open_topic<Order>(topics.order, domain); !r) return fail(r.error());
+  if (auto r = open_topic<Command>(topics.command, domain); !r) return fail(r.error());
   if (auto r = open_topic<BlockData>(topics.block_data, domain); !r) return fail(r.error());
   return topics;
 }
@@ -78,11 +78,11 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
     return open_writer(target, a->publisher, topic, on_matched);
   };
   if (auto r = writer(a->ack, topics.record_ack); !r) return fail(r.error());
-  if (auto r = writer(a->order, topics.order); !r) return fail(r.error());
+  if (auto r = writer(a->command, topics.command); !r) return fail(r.error());
   if (auto r = writer(a->block, topics.block_data); !r) return fail(r.error());
   if (auto r = reader(a->status, topics.status, handlers.on_status); !r) return fail(r.error());
   if (auto r = reader(a->record, topics.record, handlers.on_record); !r) return fail(r.error());
-  if (auto r = reader(a->order_result, topics.order_result, handlers.on_order_result); !r) {
+  if (auto r = reader(a->command_result, topics.command_result, handlers.on_command_result); !r) {
     return fail(r.error());
   }
   if (auto r = reader(a->request, topics.block_request, handlers.on_request); !r) {
@@ -95,24 +95,24 @@ void Attachment::believe(const std::string& participant) {
   gateway = participant;
   status->set_peer(participant);
   record->set_peer(participant);
-  order_result->set_peer(participant);
+  command_result->set_peer(participant);
   request->set_peer(participant);
 }
 
 void Attachment::settle() {
   status->settle();
   record->settle();
-  order_result->settle();
+  command_result->settle();
   request->settle();
 }
 
 bool Attachment::is_matched_with(const std::string& participant) const {
   return matched_with_writer(ack->get()).contains(participant) &&
-         matched_with_writer(order->get()).contains(participant) &&
+         matched_with_writer(command->get()).contains(participant) &&
          matched_with_writer(block->get()).contains(participant) &&
          matched_with_reader(status->get()).contains(participant) &&
          matched_with_reader(record->get()).contains(participant) &&
-         matched_with_reader(order_result->get()).contains(participant) &&
+         matched_with_reader(command_result->get()).contains(participant) &&
          matched_with_reader(request->get()).contains(participant);
 }
 

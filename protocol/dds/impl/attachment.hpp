@@ -18,7 +18,7 @@ struct Arrived {
 
 /// The topics of the server, created once for all machines.
 struct ServerTopics {
-  Entity announce, status, record, order_result, block_request, record_ack, order, block_data;
+  Entity announce, status, record, command_result, block_request, record_ack, command, block_data;
   static Result<ServerTopics> create(const Domain& domain);
 };
 
@@ -28,11 +28,11 @@ struct ServerTopics {
 struct Attachment {
   Entity publisher, subscriber;
   std::unique_ptr<Writer<RecordAck>> ack;
-  std::unique_ptr<Writer<Order>> order;
+  std::unique_ptr<Writer<Command>> command;
   std::unique_ptr<Writer<BlockData>> block;
   std::unique_ptr<PeerReader<Status>> status;
   std::unique_ptr<PeerReader<Record>> record;
-  std::unique_ptr<PeerReader<OrderResult>> order_result;
+  std::unique_ptr<PeerReader<CommandResult>> command_result;
   std::unique_ptr<PeerReader<BlockRequest>> request;
 
   bool is_ready = false;           ///< on_announce was called, on_lost not since

@@ -35,7 +35,7 @@ class Cell {
 
   /// As ServerEndpoint::write, for a machine of this cell.
   Result<void> write(const RecordAck& message) { return write_to(message, &Attachment::ack); }
-  Result<void> write(const Order& message) { return write_to(message, &Attachment::order); }
+  Result<void> write(const Command& message) { return write_to(message, &Attachment::command); }
   Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
 
  private:

@@ -130,7 +130,7 @@ Result<void> check(const RecordAck& m) {
   return Verdict("record_ack").machine(m.machine).result();
 }
 
-Result<void> check(const Order& m) {
+Result<void> check(const Command& m) {
   Verdict verdict("order");
   verdict.machine(m.machine)
       .id("id", m.id)
@@ -139,9 +139,9 @@ Result<void> check(const Order& m) {
       .word("control", m.control)
       .number("value", m.value)
       .that(m.revision.empty() || parse_digest(m.revision), "revision", "is not a SHA-256")
-      .that(m.setup.size() <= kMaxOrderSetup, "setup", "is too long")
+      .that(m.setup.size() <= kMaxCommandSetup, "setup", "is too long")
       .that(is_sendable_text(m.setup), "setup", "is not UTF-8 text");
-  if (m.action == OrderAction::Start) {
+  if (m.action == CommandAction::Start) {
     verdict.id("run", m.run)
         .that(!m.program.empty(), "program", "is empty")
         .that(!m.revision.empty(), "revision", "is empty");
@@ -149,8 +149,8 @@ Result<void> check(const Order& m) {
   return verdict.result();
 }
 
-Result<void> check(const OrderResult& m) {
-  return Verdict("order_result").machine(m.machine).id("id", m.id).result();
+Result<void> check(const CommandResult& m) {
+  return Verdict("command_result").machine(m.machine).id("id", m.id).result();
 }
 
 Result<void> check(const BlockRequest& m) {

@@ -11,8 +11,8 @@ Result<void> check(const Announce& message);
 Result<void> check(const Status& message);
 Result<void> check(const Record& message);
 Result<void> check(const RecordAck& message);
-Result<void> check(const Order& message);
-Result<void> check(const OrderResult& message);
+Result<void> check(const Command& message);
+Result<void> check(const CommandResult& message);
 Result<void> check(const BlockRequest& message);
 Result<void> check(const BlockData& message);
 

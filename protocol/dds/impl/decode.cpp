@@ -16,7 +16,7 @@ UtcTime time_point(std::int64_t microseconds) {
   return UtcTime{std::chrono::microseconds{microseconds}};
 }
 
-/// Takes members over and remembers the first that can not be.
+/// Takes members over and remembers the first that cannot be.
 class Members {
  public:
   template <std::size_t N>
@@ -192,13 +192,13 @@ Result<RecordAck> decode(const dripline_idl_RecordAck& s) {
   return members.finish(RecordAck{members.text(s.machine, "machine"), s.epoch, s.number});
 }
 
-Result<Order> decode(const dripline_idl_Order& s) {
+Result<Command> decode(const dripline_idl_Command& s) {
   Members members;
-  Order m;
+  Command m;
   m.machine = members.text(s.machine, "machine");
   m.id = members.text(s.id, "id");
   m.expires = time_point(s.expires_us);
-  m.action = members.enumerator(s.action, OrderAction::Refuse, "action");
+  m.action = members.enumerator(s.action, CommandAction::Refuse, "action");
   m.run = members.text(s.run, "run");
   m.program = members.text(s.program, "program");
   m.revision = members.text(s.revision, "revision");
@@ -210,7 +210,7 @@ Result<Order> decode(const dripline_idl_Order& s) {
   m.server = s.server;
   m.number = s.number;
   m.deadline = std::chrono::microseconds{s.deadline_us};
-  if (const auto setup = as_bytes(s.setup); setup.size() <= kMaxOrderSetup) {
+  if (const auto setup = as_bytes(s.setup); setup.size() <= kMaxCommandSetup) {
     m.setup.assign(reinterpret_cast<const char*>(setup.data()), setup.size());
   } else {
     members.blame("setup", "is too long");
@@ -218,9 +218,9 @@ Result<Order> decode(const dripline_idl_Order& s) {
   return members.finish(std::move(m));
 }
 
-Result<OrderResult> decode(const dripline_idl_OrderResult& s) {
+Result<CommandResult> decode(const dripline_idl_CommandResult& s) {
   Members members;
-  OrderResult m;
+  CommandResult m;
   m.machine = members.text(s.machine, "machine");
   m.id = members.text(s.id, "id");
   m.accepted = s.accepted;

@@ -12,8 +12,8 @@ Result<Announce> decode(const dripline_idl_Announce& sample);
 Result<Status> decode(const dripline_idl_Status& sample);
 Result<Record> decode(const dripline_idl_Record& sample);
 Result<RecordAck> decode(const dripline_idl_RecordAck& sample);
-Result<Order> decode(const dripline_idl_Order& sample);
-Result<OrderResult> decode(const dripline_idl_OrderResult& sample);
+Result<Command> decode(const dripline_idl_Command& sample);
+Result<CommandResult> decode(const dripline_idl_CommandResult& sample);
 Result<BlockRequest> decode(const dripline_idl_BlockRequest& sample);
 Result<BlockData> decode(const dripline_idl_BlockData& sample);
 

@@ -199,7 +199,7 @@ Result<void> encode(const RecordAck& m, dripline_idl_RecordAck& s) {
   return Texts().exact(s.machine, m.machine, "machine").result();
 }
 
-Result<void> encode(const Order& m, dripline_idl_Order& s) {
+Result<void> encode(const Command& m, dripline_idl_Command& s) {
   if (auto checked = check(m); !checked) return checked;
   s = {};
   s.expires_us = microseconds(m.expires);
@@ -224,7 +224,7 @@ Result<void> encode(const Order& m, dripline_idl_Order& s) {
       .result();
 }
 
-Result<void> encode(const OrderResult& m, dripline_idl_OrderResult& s) {
+Result<void> encode(const CommandResult& m, dripline_idl_CommandResult& s) {
   if (auto checked = check(m); !checked) return checked;
   s = {};
   s.accepted = m.accepted;

@@ -14,8 +14,8 @@ Result<void> encode(const Announce& message, dripline_idl_Announce& sample);
 Result<void> encode(const Status& message, dripline_idl_Status& sample);
 Result<void> encode(const Record& message, dripline_idl_Record& sample);
 Result<void> encode(const RecordAck& message, dripline_idl_RecordAck& sample);
-Result<void> encode(const Order& message, dripline_idl_Order& sample);
-Result<void> encode(const OrderResult& message, dripline_idl_OrderResult& sample);
+Result<void> encode(const Command& message, dripline_idl_Command& sample);
+Result<void> encode(const CommandResult& message, dripline_idl_CommandResult& sample);
 Result<void> encode(const BlockRequest& message, dripline_idl_BlockRequest& sample);
 Result<void> encode(const BlockData& message, dripline_idl_BlockData& sample);
 

@@ -20,7 +20,7 @@ void Pacer::handed_over(std::size_t count, wire::LineTime now) {
 
 wire::LineTime Pacer::next(wire::LineTime now, std::optional<std::size_t> unsent) const {
   const std::size_t held = reckoned(now);
-  // The driver is behind our reckoning: look again when a character should have left.
+  // The driver is after our reckoning: look again when a character should have left.
   if (unsent && *unsent >= kWindow && *unsent > held) return now + time_;
   if (held < kWindow) return now;
   return empty_at_ - time_ * static_cast<long>(held - 1);

@@ -100,7 +100,7 @@ std::string owner_of(const fs::path& device, const fs::path& folder) {
 Result<PortLock> PortLock::take(int descriptor, const fs::path& device, const fs::path& folder) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK)
-      return fail(Errc::Io, "{}: can not be locked: {}", device.string(), std::strerror(errno));
+      return fail(Errc::Io, "{}: cannot be locked: {}", device.string(), std::strerror(errno));
     return fail(Errc::Busy, "{} is in use by {}", device.string(), owner_of(device, folder));
   }
   const fs::path file = lock_file(device, folder);

@@ -9,7 +9,7 @@ namespace dripline::serial {
 
 /// One process per tty: an flock on the open device, which ends with the process, TIOCEXCL, and the
 /// lock file that other serial programs know (LCK..NAME, with pid and name in it). Where the folder
-/// of lock files can not be written, it does without.
+/// of lock files cannot be written, it does without.
 class PortLock {
  public:
   static constexpr const char* kFolder = "/run/lock";

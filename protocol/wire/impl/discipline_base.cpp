@@ -41,9 +41,9 @@ std::size_t DisciplineBase::room() const {
 }
 
 Result<void> DisciplineBase::offer(std::string_view text, bool is_last, LineTime now) {
-  if (!is_sending()) return fail(Errc::ModalConflict, "nothing is being sent on this line");
+  if (!is_sending()) return fail(Errc::Conflict, "nothing is being sent on this line");
   if (is_last_offered_) {
-    return fail(Errc::ModalConflict, "the last text of this transfer was offered before");
+    return fail(Errc::Conflict, "the last text of this transfer was offered before");
   }
   if (text.size() > room()) {
     return fail(Errc::LimitExceeded, "{} characters offered, there is room for {}", text.size(),

@@ -41,7 +41,7 @@ class DisciplineBase : public Discipline {
   // Events
   void emit(Event event);
   void emit_text(std::string_view text);  ///< joined to the text before it
-  void emit_trouble(Error error) { emit(LineTrouble{std::move(error)}); }
+  void emit_fault(Error error) { emit(LineError{std::move(error)}); }
 
   /// Whether DSR goes off that was seen on (a cable without DSR never shows it on): the other end
   /// was switched off, or its cable was pulled. Asked before input_ is replaced.

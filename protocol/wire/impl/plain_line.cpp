@@ -40,7 +40,7 @@ bool PlainLine::take_dc(char dc, LineTime now) {
     return true;
   }
   if (dc == kDc1 && !has_started_ && std::exchange(is_release_due_, false)) {
-    emit_trouble({Errc::ModalConflict,
+    emit_fault({Errc::Conflict,
                   "DC1 came for the program that was broken off, and starts nothing: reset the "
                   "control and start again"});
     return true;
@@ -55,7 +55,7 @@ bool PlainLine::take_dc(char dc, LineTime now) {
 
 void PlainLine::fault(LineFault fault, LineTime now) {
   if (!reception_.is_open) {
-    emit_trouble({Errc::Corrupt, std::string(fault_text(fault)) + " on the line"});
+    emit_fault({Errc::Corrupt, std::string(fault_text(fault)) + " on the line"});
     return;
   }
   reception_.heard = now;
@@ -111,7 +111,7 @@ Result<void> PlainLine::request(const TransferRequest& request, LineTime now) {
 
 Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   if (!std::exchange(is_asked_, false)) {
-    return fail(Errc::ModalConflict, "the other end asked for nothing");
+    return fail(Errc::Conflict, "the other end asked for nothing");
   }
   is_stopped_ = waits_for_dc1();  // the DC1 that asked is used up
   return {};

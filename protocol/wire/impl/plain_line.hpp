@@ -46,7 +46,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
   bool may_send() const { return !is_stopped_ && (settings_.flow != Flow::RtsCts || input_.cts); }
   std::optional<LineTime> hold_deadline() const;
   std::optional<std::byte> next_character();
-  void pause_behind(std::size_t characters, bool ends_block, LineTime now);
+  void pause_after(std::size_t characters, bool ends_block, LineTime now);
   void skip_said();
   void finish_sending(LineTime now);
   void set_stopped(bool is_stopped, LineTime now);
@@ -72,7 +72,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
 
   // TextSink
   void text(std::string_view text) override { emit_text(text); }
-  void trouble(Error error) override { emit_trouble(std::move(error)); }
+  void trouble(Error error) override { emit_fault(std::move(error)); }
   void next_program(std::string name) override;
 
   // DisciplineBase

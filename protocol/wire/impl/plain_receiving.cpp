@@ -5,10 +5,10 @@ namespace dripline::wire {
 
 namespace {
 
-/// A sender that goes on behind our DC3 has not heard it: it is said again every so many
+/// A sender that goes on after our DC3 has not heard it: it is said again every so many
 /// characters.
 constexpr std::size_t kStopAgain = 16;
-/// A sender that stays silent behind our DC1 may not have heard it.
+/// A sender that stays silent after our DC1 may not have heard it.
 constexpr LineTime kReleaseAgain = std::chrono::seconds(1);
 
 }  // namespace
@@ -62,7 +62,7 @@ void PlainLine::end_reception(LineTime /*now*/) {
 /// What a host hears while it feeds is no program: the feed goes on.
 void PlainLine::fail_reception(Error error, LineTime now) {
   if (role_ == Role::Host && is_sending()) {
-    emit_trouble(std::move(error));
+    emit_fault(std::move(error));
     end_reception(now);
     return;
   }
@@ -74,7 +74,7 @@ void PlainLine::take_data(std::byte character, LineTime now) {
   if (!reception_.is_open) {
     // A control only listens when its operator has said so. Leaders and line ends begin nothing.
     if (role_ != Role::Host || !reader_.begins(character)) return;
-    if (is_dc_codes()) emit_trouble({Errc::Corrupt, "text came without DC2 before it"});
+    if (is_dc_codes()) emit_fault({Errc::Corrupt, "text came without DC2 before it"});
     open_reception("", now);
   }
   release_again_.reset();
@@ -125,7 +125,7 @@ void PlainLine::punch_on(LineTime now) {
     reception_.is_punch = true;
     return;
   }
-  if (reader_.has_begun()) emit_trouble({Errc::Corrupt, "DC2 came again inside a program"});
+  if (reader_.has_begun()) emit_fault({Errc::Corrupt, "DC2 came again inside a program"});
 }
 
 /// A program has its end character before DC4; what a control prints has neither mark.

@@ -32,7 +32,7 @@ std::size_t PlainLine::transmit(std::span<std::byte> room, LineTime now) {
     if (!character) break;
     room[count++] = *character;
     has_started_ = true;
-    pause_behind(count, writer_.ends_block(), now);
+    pause_after(count, writer_.ends_block(), now);
   }
   if (is_sending() && !may_send()) skip_said();
   // What the control does not want to hear any more (it stopped us at the end character) is not
@@ -42,7 +42,7 @@ std::size_t PlainLine::transmit(std::span<std::byte> room, LineTime now) {
   return count;
 }
 
-/// Text behind its end character has nothing more to say: what is left of it needs no line.
+/// Text after its end character has nothing more to say: what is left of it needs no line.
 void PlainLine::skip_said() {
   while (writer_.is_end_said() && writer_.wants_text()) {
     count_sent(std::exchange(text_under_way_, 0));
@@ -80,7 +80,7 @@ std::optional<std::byte> PlainLine::next_character() {
 
 /// The pause begins when the character has left the line, which is `characters` character times
 /// after now.
-void PlainLine::pause_behind(std::size_t characters, bool ends_block, LineTime now) {
+void PlainLine::pause_after(std::size_t characters, bool ends_block, LineTime now) {
   LineTime pause = settings_.character_delay;
   if (ends_block) pause += settings_.line_delay;
   if (pause <= LineTime::zero()) return;

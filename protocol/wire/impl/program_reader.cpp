@@ -63,7 +63,7 @@ Result<void> ProgramReader::read_fault(LineFault fault) {
 
 /// The start or the end character.
 Result<bool> ProgramReader::read_mark(char character) {
-  if (place_ == Place::BehindMark && character == mark_ && is_printable(character)) {
+  if (place_ == Place::AfterMark && character == mark_ && is_printable(character)) {
     sink_.trouble(Error{Errc::Corrupt, fmt::format("'{}' came twice", character)});
     return false;
   }
@@ -71,7 +71,7 @@ Result<bool> ProgramReader::read_mark(char character) {
   if (is_at_start && (is_printable(character) || character != end_character_)) {
     has_mark_ = true;
     mark_ = character;
-    if (is_printable(character)) place_ = Place::BehindMark;
+    if (is_printable(character)) place_ = Place::AfterMark;
     return false;
   }
   if (character != end_character_) {
@@ -87,7 +87,7 @@ Result<bool> ProgramReader::read_mark(char character) {
 }
 
 Result<bool> ProgramReader::read_text(char character) {
-  if (place_ == Place::BehindMark) {
+  if (place_ == Place::AfterMark) {
     place_ = Place::Before;
     if (character == '\n') return false;
     begin_text();

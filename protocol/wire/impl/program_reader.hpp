@@ -32,7 +32,7 @@ class ProgramReader {
   bool begins(std::byte character) const;
 
  private:
-  enum class Place : std::uint8_t { Before, BehindMark, Text };
+  enum class Place : std::uint8_t { Before, AfterMark, Text };
   Result<bool> read_text(char character);
   Result<bool> read_mark(char character);
   void begin_text();

@@ -6,7 +6,7 @@ namespace dripline::wire {
 namespace {
 
 constexpr std::size_t kLongestBlock = 255;
-constexpr char kSubstitute = 0x1a;  // DOS COPY sends it behind a file
+constexpr char kSubstitute = 0x1a;  // DOS COPY sends it after a file
 constexpr std::string_view kCharacters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 +-.;%():/";  // '/' occurs in titles
 constexpr std::string_view kMoreInComments = ",'\"!#$&*<=>?@[]_";

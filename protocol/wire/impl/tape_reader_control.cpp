@@ -47,7 +47,7 @@ class TapeReaderControl final : public DisciplineBase {
     if (!is_receiving()) return;
     if (!block_.empty()) return read_error("the tape ends inside a block", now);
     if (search_) return stop_with({Errc::NotFound, not_found()}, now);
-    emit_trouble({Errc::Timeout, "end of tape without M02, M30 or rewind stop"});
+    emit_fault({Errc::Timeout, "end of tape without M02, M30 or rewind stop"});
     end_program(TapeEnd::Stop, now);
   }
 
@@ -157,10 +157,10 @@ class TapeReaderControl final : public DisciplineBase {
   /// The head of a tape is a rewind stop and an end of block, nothing between them.
   void say_head() {
     if (is_head_text_ && !head_.empty()) {
-      emit_trouble(
+      emit_fault(
           {Errc::Corrupt, fmt::format("no end of block before '{}', which was skipped", head_)});
     } else {
-      emit_trouble({Errc::Corrupt, "no rewind stop just before the first end of block"});
+      emit_fault({Errc::Corrupt, "no rewind stop just before the first end of block"});
     }
   }
 
@@ -181,10 +181,10 @@ class TapeReaderControl final : public DisciplineBase {
     // Skipped as the control does, and said: one hole lost makes a blank of EIA's minus, 0, 1, 2,
     // 4, 8 and end of block.
     if (meaning.kind == RowKind::Blank && settings_.code == CharacterCode::Eia && !block_.empty()) {
-      emit_trouble({Errc::Corrupt, fmt::format("row {}: blank tape behind '{}'", row_, block_)});
+      emit_fault({Errc::Corrupt, fmt::format("row {}: blank tape after '{}'", row_, block_)});
     }
     auto decoded = decoder_.decode(static_cast<std::byte>(row));
-    if (decoded.trouble) emit_trouble(std::move(*decoded.trouble));
+    if (decoded.trouble) emit_fault(std::move(*decoded.trouble));
     if (!decoded.text) return;
     if (*decoded.text == '\n') return end_block(now);
     if (block_.size() >= kMaxTapeBlock) {
@@ -195,7 +195,7 @@ class TapeReaderControl final : public DisciplineBase {
 
   /// Read forwards, the rewind stop ends the program.
   void end_of_tape(LineTime now) {
-    if (!has_block_) {  // at the head, behind an end of block in the leader
+    if (!has_block_) {  // at the head, after an end of block in the leader
       is_hunting_ = is_stop_last_ = is_head_text_ = true;
       head_.clear();
       return;

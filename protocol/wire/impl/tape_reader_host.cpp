@@ -87,7 +87,7 @@ class TapeReaderHost final : public DisciplineBase {
     return fail(Errc::Unsupported, "a tape reader asks for nothing");
   }
   Result<void> refuse(std::string_view, LineTime) override {
-    if (!is_asked_) return fail(Errc::ModalConflict, "the control has asked for nothing");
+    if (!is_asked_) return fail(Errc::Conflict, "the control has asked for nothing");
     is_asked_ = false;
     return {};
   }
@@ -152,7 +152,7 @@ class TapeReaderHost final : public DisciplineBase {
     return is_sending() && stage_ == Stage::Trailer && refill(now);
   }
 
-  /// Behind the last row of the text comes the trailer, and behind that nothing.
+  /// After the last row of the text comes the trailer, and after that nothing.
   void end_tape(LineTime now) {
     if (stage_ == Stage::Text && is_text_taken()) {
       stage_ = Stage::Trailer;

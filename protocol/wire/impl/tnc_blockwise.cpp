@@ -65,7 +65,7 @@ void TncBlockwise::on_block_answer(bool is_good, LineTime now) {
   is_garbled_ = false;
   if (!is_good) {
     const auto text = block_.substr(1, block_.find(settings_.heidenhain.etb) - 1);
-    emit_trouble(
+    emit_fault(
         {Errc::Corrupt, fmt::format("the other end refused the block '{}'", text_of(text))});
     if (may_try_again()) return resend_block(now);
     return give_up({Errc::Corrupt, fmt::format("a block was refused {} times", tries_ + 1)}, now);
@@ -91,7 +91,7 @@ void TncBlockwise::on_block(const TncFrame& frame, LineTime now) {
     return;
   }
   if (is_good) return take_block(frame.text, now);
-  emit_trouble({Errc::Corrupt, fmt::format("a block came {}", frame.text)});
+  emit_fault({Errc::Corrupt, fmt::format("a block came {}", frame.text)});
   if (!may_try_again()) {
     return give_up({Errc::Corrupt, fmt::format("a block came wrong {} times", tries_ + 1)}, now);
   }
@@ -102,7 +102,7 @@ void TncBlockwise::on_block(const TncFrame& frame, LineTime now) {
 void TncBlockwise::take_block(const std::string& text, LineTime now) {
   begin_tries();
   if (has_received_ && text == last_line_ && is_numbered(text)) {
-    emit_trouble({Errc::Corrupt, fmt::format("the block '{}' came twice", text)});
+    emit_fault({Errc::Corrupt, fmt::format("the block '{}' came twice", text)});
   } else {
     if (!has_received_) first_line_ = text;
     has_received_ = true;
@@ -186,7 +186,7 @@ void TncBlockwise::put_out(std::string characters, std::size_t tail) {
   out_tail_ = tail;
 }
 
-/// The other end answers when it has the BCC, while the DC1 behind it is still on its way.
+/// The other end answers when it has the BCC, while the DC1 after it is still on its way.
 bool TncBlockwise::is_out_heard(LineTime now) {
   if (is_out_empty()) return true;
   if (out_.size() - out_at_ > out_tail_) return false;
@@ -239,7 +239,7 @@ Result<void> TncBlockwise::check_text(std::string_view text, std::size_t line) {
     const bool is_text = c >= ' ' && c < 0x7F && c != tnc.etb && c != tnc.stx && c != tnc.soh;
     if (!is_text) {
       return fail(Errc::Syntax,
-                  "line {}, column {}: character 0x{:02X} can not stand in a TNC block", line,
+                  "line {}, column {}: character 0x{:02X} cannot stand in a TNC block", line,
                   column_ + 1, static_cast<unsigned>(static_cast<unsigned char>(c)));
     }
     if (++column_ > kMaxTncLine) {

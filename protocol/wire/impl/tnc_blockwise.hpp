@@ -58,7 +58,7 @@ class TncBlockwise : public DisciplineBase {
   void send_next(LineTime now);
   void resend_block(LineTime now);
   bool has_block_out() const { return !block_.empty(); }
-  /// The last `tail` characters stand behind what is answered (DC1).
+  /// The last `tail` characters stand after what is answered (DC1).
   void put_out(std::string characters, std::size_t tail = 0);
   /// Whether the other end can have heard what it answers; then the tail counts as sent, and goes
   /// before whatever comes next.

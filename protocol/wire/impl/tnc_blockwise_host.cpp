@@ -20,7 +20,7 @@ bool is_same_program(std::string_view one, std::string_view other) {
 /// The device at a control: answers its headings.
 ///
 ///     idle     heading E: SendProgram, heading A: TakeProgram; broken: NAK
-///     sending  ACK and blocks; behind the last one ETX, the control's EOT
+///     sending  ACK and blocks; after the last one ETX, the control's EOT
 ///     receiving  ACK for each block until ETX, EOT
 class TncBlockwiseHost final : public TncBlockwise {
  public:
@@ -51,12 +51,12 @@ class TncBlockwiseHost final : public TncBlockwise {
   }
 
   Result<void> request(const TransferRequest&, LineTime) override {
-    return fail(Errc::Unsupported, "a TNC asks its host; the host can not ask it");
+    return fail(Errc::Unsupported, "a TNC asks its host; the host cannot ask it");
   }
 
   /// Without a reason: there is no program left, which ends a list of programs.
   Result<void> refuse(std::string_view reason, LineTime) override {
-    if (!pending_) return fail(Errc::ModalConflict, "the control has asked for nothing");
+    if (!pending_) return fail(Errc::Conflict, "the control has asked for nothing");
     pending_.reset();
     if (reason.empty()) {
       queue_control(settings_.heidenhain.eot);
@@ -99,7 +99,7 @@ class TncBlockwiseHost final : public TncBlockwise {
   void begin_armed(const TransferRequest& heading, LineTime now) {
     const bool is_wanted = (heading.kind == TransferRequest::Kind::SendProgram) == is_sending();
     if (is_wanted && is_same_program(armed_, heading.name)) return accept(now);
-    emit_trouble({Errc::NotFound, fmt::format("the control asked for '{}', ready is program '{}'",
+    emit_fault({Errc::NotFound, fmt::format("the control asked for '{}', ready is program '{}'",
                                               heading_, armed_)});
     refuse_heading(fmt::format("{} NOT READY", heading.name));
   }
@@ -130,7 +130,7 @@ class TncBlockwiseHost final : public TncBlockwise {
   }
 
   void refuse_broken(std::string text) {
-    emit_trouble({Errc::Corrupt, std::move(text)});
+    emit_fault({Errc::Corrupt, std::move(text)});
     if (++broken_ <= settings_.retries) queue_control(settings_.heidenhain.nak);
   }
 
@@ -171,7 +171,7 @@ class TncBlockwiseHost final : public TncBlockwise {
       return fail_transfer({Errc::Timeout, "the control did not ask for the program in time"}, now);
     }
     if (wait_ == Wait::AfterEnd) {
-      emit_trouble({Errc::Timeout, "no EOT behind ETX"});
+      emit_fault({Errc::Timeout, "no EOT after ETX"});
       return end_receiving(now);
     }
     if (wait_ == Wait::EndAnswer && may_try_again()) return put_out(std::string(1, etx()));

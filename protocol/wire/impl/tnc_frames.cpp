@@ -21,8 +21,8 @@ void strip_line_end(std::string& text) {
 /// The blank that a sender puts before ETB to keep the check character printable.
 void strip_filler(std::string& text, char check, bool is_used) {
   if (text.empty() || text.back() != ' ') return;
-  const bool is_behind_line_end = text.size() > 1 && text[text.size() - 2] == '\n';
-  if (is_behind_line_end || (is_used && (check ^ ' ') < ' ')) text.pop_back();
+  const bool is_after_line_end = text.size() > 1 && text[text.size() - 2] == '\n';
+  if (is_after_line_end || (is_used && (check ^ ' ') < ' ')) text.pop_back();
 }
 
 }  // namespace

@@ -45,14 +45,14 @@ Result<void> TncStandard::begin_receive(std::string_view name, LineTime) {
 }
 
 Result<void> TncStandard::request(const TransferRequest& request, LineTime now) {
-  if (is_host()) return fail(Errc::Unsupported, "a TNC asks its host; the host can not ask it");
+  if (is_host()) return fail(Errc::Unsupported, "a TNC asks its host; the host cannot ask it");
   using enum TransferRequest::Kind;
   if (request.kind == TakeProgram) return begin_send(request.name, now);
   return begin_receive(request.kind == Directory ? "" : request.name, now);
 }
 
 Result<void> TncStandard::refuse(std::string_view, LineTime) {
-  if (!is_asked_) return fail(Errc::ModalConflict, "the control has asked for nothing");
+  if (!is_asked_) return fail(Errc::Conflict, "the control has asked for nothing");
   is_asked_ = false;
   queue_control(settings_.heidenhain.eot);
   return {};
@@ -153,7 +153,7 @@ void TncStandard::tick(LineTime now) {
   if (!is_receiving()) return;
   if (!line_.empty()) end_line(now);
   if (!is_receiving()) return;
-  emit_trouble({Errc::Timeout, "no ETX behind the program"});
+  emit_fault({Errc::Timeout, "no ETX after the program"});
   end_program(now);
 }
 
@@ -226,7 +226,7 @@ Result<void> TncStandard::check_text(std::string_view text, std::size_t line) {
       ++line;
       column = 0;
     } else if (c != '\r' && (c < ' ' || c == 0x7F)) {
-      return fail(Errc::Syntax, "line {}: character 0x{:02X} can not be sent to a TNC", line,
+      return fail(Errc::Syntax, "line {}: character 0x{:02X} cannot be sent to a TNC", line,
                   static_cast<unsigned>(static_cast<unsigned char>(c)));
     }
   }
@@ -293,7 +293,7 @@ void TncStandard::on_character(char c, LineTime now) {
     is_asked_ = false;  // it sends now
     begin_transfer(Phase::Receiving, "");
     if (spoiled_ && now - *spoiled_ < settings_.idle_end) {
-      emit_trouble({Errc::Corrupt, "a character before the first one was spoiled"});
+      emit_fault({Errc::Corrupt, "a character before the first one was spoiled"});
     }
     spoiled_.reset();
     if (!is_ready_) hold(true);
@@ -308,7 +308,7 @@ void TncStandard::fault(LineFault fault, LineTime now) {
   static constexpr std::string_view kWords[] = {"parity", "framing", "overrun", "break"};
   if (phase_ == Phase::Idle) spoiled_ = now;
   if (!is_receiving()) return;
-  emit_trouble({Errc::Corrupt, fmt::format("{} error behind '{}'",
+  emit_fault({Errc::Corrupt, fmt::format("{} error after '{}'",
                                            kWords[static_cast<std::size_t>(fault)], line_)});
   if (!has_received_ && line_.empty()) return;  // most likely a blank of the leader
   restart_silence(now);
@@ -359,8 +359,8 @@ void TncStandard::take_line(const std::string& line, LineTime now) {
 
 void TncStandard::check_number(const TncLine& read) {
   if (read.number && number_ && *read.number != *number_ + 1) {
-    emit_trouble(
-        {Errc::Corrupt, fmt::format("block {} came behind block {}", *read.number, *number_)});
+    emit_fault(
+        {Errc::Corrupt, fmt::format("block {} came after block {}", *read.number, *number_)});
   }
   if (read.number) number_ = read.number;
 }

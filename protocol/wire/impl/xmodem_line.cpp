@@ -63,11 +63,11 @@ void XmodemLine::fault(LineFault /*fault*/, LineTime now) {
   if (step_ == Step::InBlock) {
     reader_.damage();
     take_block(std::byte{0}, now);
-  } else if (step_ == Step::AwaitBlock || step_ == Step::BehindBlock || step_ == Step::BehindEot ||
+  } else if (step_ == Step::AwaitBlock || step_ == Step::AfterBlock || step_ == Step::AfterEot ||
              step_ == Step::Purge) {
     purge(now);
   }
-  // An answer that can not be read is no answer.
+  // An answer that cannot be read is no answer.
 }
 
 void XmodemLine::cancel() {
@@ -89,7 +89,7 @@ Result<void> XmodemLine::request(const TransferRequest& request, LineTime now) {
 
 Result<void> XmodemLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   if (!std::exchange(is_asked_, false)) {
-    return fail(Errc::ModalConflict, "the other end asked for nothing");
+    return fail(Errc::Conflict, "the other end asked for nothing");
   }
   drop_request();
   cancel();

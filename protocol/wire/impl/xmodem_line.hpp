@@ -40,8 +40,8 @@ class XmodemLine final : public DisciplineBase {
     Ask,         ///< for the first block
     AwaitBlock,  ///< the next one, EOT or CAN
     InBlock,
-    BehindBlock,  ///< a good one; one character more and it was not (a character came twice)
-    BehindEot,    ///< silence proves that it was one
+    AfterBlock,  ///< a good one; one character more and it was not (a character came twice)
+    AfterEot,    ///< silence proves that it was one
     Purge,        ///< nonsense came: silence, then NAK
     Withhold,     ///< a good block, but no room: ACK later
   };

@@ -10,9 +10,9 @@ constexpr LineTime kCrcAskingPeriod = std::chrono::seconds(3);
 constexpr unsigned kCrcAsks = 4;  ///< then the checksum is asked for
 /// Asking period where the settings name no limit.
 constexpr LineTime kAskingPeriod = std::chrono::seconds(10);
-/// Silence inside a block, behind nonsense, or behind an EOT.
+/// Silence inside a block, after nonsense, or after an EOT.
 constexpr LineTime kSilence = std::chrono::seconds(1);
-constexpr int kSilenceBehindBlock = 2;  ///< character times
+constexpr int kSilenceAfterBlock = 2;  ///< character times
 constexpr LineTime kLongestNonsense = std::chrono::seconds(60);
 
 }  // namespace
@@ -52,7 +52,7 @@ void XmodemLine::ask(LineTime now) {
 
 void XmodemLine::take_block_start(char character, LineTime now) {
   if (step_ == Step::Withhold) return;
-  if (step_ == Step::Purge || step_ == Step::BehindEot || step_ == Step::BehindBlock) {
+  if (step_ == Step::Purge || step_ == Step::AfterEot || step_ == Step::AfterBlock) {
     return purge(now);
   }
   if (character == kSoh || (character == kStx && check_ == Check::Crc)) {
@@ -68,7 +68,7 @@ void XmodemLine::take_block_start(char character, LineTime now) {
       was_received_ = true;
       return end_transfer(now);
     }
-    step_ = Step::BehindEot;
+    step_ = Step::AfterEot;
     deadline_ = now + kSilence;
     return;
   }
@@ -83,8 +83,8 @@ void XmodemLine::take_block(std::byte character, LineTime now) {
 void XmodemLine::block_complete(LineTime now) {
   was_can_ = false;
   if (!reader_.is_good()) return purge(now);
-  step_ = Step::BehindBlock;
-  deadline_ = now + kSilenceBehindBlock * character_time(settings_);
+  step_ = Step::AfterBlock;
+  deadline_ = now + kSilenceAfterBlock * character_time(settings_);
 }
 
 void XmodemLine::judge_block(LineTime now) {
@@ -164,9 +164,9 @@ void XmodemLine::tick(LineTime now) {
       return say_end(now);
     case Step::Ask:
       return ask(now);
-    case Step::BehindBlock:
+    case Step::AfterBlock:
       return judge_block(now);
-    case Step::BehindEot:
+    case Step::AfterEot:
       was_eot_refused_ = true;
       return ask_again(now);
     case Step::AwaitBlock:

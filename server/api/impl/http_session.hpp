@@ -11,7 +11,7 @@
 #include "server/api/impl/body_memory.hpp"
 #include "server/api/impl/command_threads.hpp"
 #include "server/api/impl/connection_table.hpp"
-#include "server/feeds/worker_pool.hpp"
+#include "server/machines/worker_pool.hpp"
 
 namespace dripline::api {
 
@@ -36,7 +36,7 @@ struct HttpShared {
   std::map<ConnectionTable::Id, std::weak_ptr<HttpSession>> sessions;
   bool is_stopping = false;
   boost::asio::io_context io{1};  ///< after what its coroutines give back to
-  feeds::WorkerPool pool;
+  machines::WorkerPool pool;
   CommandThreads commands;
 };
 

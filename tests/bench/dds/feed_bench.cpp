@@ -163,7 +163,7 @@ pid_t start_server(char* self, char* domain) {
   char* const argv[] = {self, option, domain, nullptr};
   pid_t pid = 0;
   if (posix_spawn(&pid, "/proc/self/exe", nullptr, nullptr, argv, environ) != 0) {
-    give_up("can not start the server");
+    give_up("cannot start the server");
   }
   return pid;
 }

@@ -70,7 +70,7 @@ void measure_requests(std::uint16_t port) {
   figure("small requests, 8 connections", static_cast<double>(served) / took.count(), "requests/s");
 }
 
-/// Every stream reads every event; the publisher waits when the slowest is far behind.
+/// Every stream reads every event; the publisher waits when the slowest is far after.
 void measure_events(std::uint16_t port, api::EventHub& hub) {
   std::vector<pollfd> streams;
   std::vector<std::uint64_t> heard(kStreams, 0);

@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "gateway/interpreter/compensation/compensator.hpp"
-#include "gateway/interpreter/memory_source.hpp"
-#include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "clients/tools/offline/offline_run.hpp"
 
 /// What the compensation stage costs a block: moves through it while it is off, and while it
 /// offsets a pocket of lines and arcs. The difference of the times per block is its price.
@@ -50,7 +50,7 @@ class Pocket {
                          .center_first = Length::mm(center.first),
                          .center_second = Length::mm(center.second),
                          .plane = Plane::XY,
-                         .turn = Turn::CounterClockwise,
+                         .turn = Turn::Counterclockwise,
                          .sweep = Angle::degrees(90),
                          .feed = feed_});
     compensator_.on_block_end(origin_);
@@ -73,7 +73,7 @@ void measure(benchmark::State& state, bool is_on) {
     Pocket pocket(compensator);
     pocket.start();
     for (int i = 0; i < kLaps; ++i) pocket.lap();
-    if (compensator.fault()) state.SkipWithError("the pocket can not be cut");
+    if (compensator.fault()) state.SkipWithError("the pocket cannot be cut");
   }
   benchmark::DoNotOptimize(sink.sum);
   state.counters["blocks_per_second"] =
@@ -115,7 +115,7 @@ void measure_program(benchmark::State& state, const std::string& text) {
   for (auto _ : state) {
     MemorySource source(text);
     const auto outcome = run_offline(control, *setup, source, sink);
-    if (!outcome || outcome->alarm) state.SkipWithError("the pocket can not be cut");
+    if (!outcome || outcome->alarm) state.SkipWithError("the pocket cannot be cut");
   }
   benchmark::DoNotOptimize(sink.sum);
   state.counters["blocks_per_second"] =

@@ -48,7 +48,7 @@ void queue_block(interpreter::EventSink& events, Shape shape, const Origin& orig
                      .center_first = Length::mm(-0.2 * n + 0.1),
                      .center_second = Length::mm(20),
                      .plane = interpreter::Plane::ZX,
-                     .turn = interpreter::Turn::CounterClockwise,
+                     .turn = interpreter::Turn::Counterclockwise,
                      .sweep = Angle::degrees(180),
                      .feed = feed});
       break;

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "protocol/serial/line_driver.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/unit/protocol/serial/toy_discipline.hpp"
 
 /// A drip feed through a line against that line's own rate. The peer on the pty takes characters as

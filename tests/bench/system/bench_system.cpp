@@ -68,7 +68,7 @@ TEST_F(Bench, AVeryLargeProgram) {
 
   const auto start = Clock::now();
   const std::string id = system.start_run("O0200");
-  EXPECT_TRUE(eventually([&] { return system.witness().blocks_done > 0; }));
+  EXPECT_TRUE(eventually([&] { return system.execution_probe().blocks_done > 0; }));
   figure("first block executed after start", seconds_since(start), "s");
   const auto run = system.wait_ended(id, kLimit);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();

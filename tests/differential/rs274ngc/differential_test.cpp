@@ -38,7 +38,7 @@ std::string read_file(const fs::path& path) {
   return text.str();
 }
 
-/// The README's list: with an arc behind it the peer makes a move that its corners have eaten up,
+/// The README's list: with an arc after it the peer makes a move that its corners have eaten up,
 /// backwards or nearly all around; we refuse it.
 bool is_listed(const Behaviour& ours, const Behaviour& peer) {
   if (!ours.complaint.starts_with("NGC0282") || ours.moves.size() >= peer.moves.size())

@@ -192,7 +192,7 @@ void Maker::tool_rows() {
   known_position();
 }
 
-/// Of curves the peer prints no points: where they end shows in the move behind them.
+/// Of curves the peer prints no points: where they end shows in the move after them.
 void Maker::splines() {
   known_position();
   const auto some = [&] { return text_of(between(-20'000, 20'000)); };

@@ -88,7 +88,7 @@ class CallReader {
     move.to = machine(at_);
     moves.push_back(move);
   }
-  /// first end, second end, first centre, second centre, turns, end along the third, A, B, C
+  /// first end, second end, first center, second center, turns, end along the third, A, B, C
   void arc(const std::vector<double>& values) {
     constexpr std::array<std::array<std::size_t, 3>, 3> kAxes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
     const auto [first, second, third] = kAxes[static_cast<std::size_t>(plane_)];

@@ -6,12 +6,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;
-  const auto order = api::decode_order({reinterpret_cast<const char*>(data), size});
-  if (!order) return order.error().what.empty() ? (std::abort(), 0) : 0;
-  if (!std::isfinite(order->value) || order->value < 0 || order->value > api::kMaxOverride) {
+  const auto command = api::decode_command({reinterpret_cast<const char*>(data), size});
+  if (!command) return command.error().what.empty() ? (std::abort(), 0) : 0;
+  if (!std::isfinite(command->value) || command->value < 0 || command->value > api::kMaxOverride) {
     std::abort();
   }
-  if (order->action == dds::OrderAction::Start || order->argument.size() > 255) std::abort();
-  if (order->argument.find('\0') != std::string::npos) std::abort();
+  if (command->action == dds::CommandAction::Start || command->argument.size() > 255) std::abort();
+  if (command->argument.find('\0') != std::string::npos) std::abort();
   return 0;
 }

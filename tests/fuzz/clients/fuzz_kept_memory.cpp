@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "clients/cli/kept_memory.hpp"
+#include "clients/cli/server/kept_memory.hpp"
 #include "server/library/kept_memory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -52,11 +52,11 @@ class SampleReader {
         s.device, s.text);
   }
   void read(dripline_idl_RecordAck& s) { all(s.machine, s.epoch, s.number); }
-  void read(dripline_idl_Order& s) {
+  void read(dripline_idl_Command& s) {
     all(s.machine, s.id, s.expires_us, s.action, s.run, s.program, s.revision, s.size, s.control,
         s.argument, s.value, s.session, s.server, s.number, s.deadline_us);
   }
-  void read(dripline_idl_OrderResult& s) { all(s.machine, s.id, s.accepted, s.reason); }
+  void read(dripline_idl_CommandResult& s) { all(s.machine, s.id, s.accepted, s.reason); }
   void read(dripline_idl_BlockRequest& s) {
     all(s.machine, s.session, s.run, s.program, s.offset, s.length);
   }

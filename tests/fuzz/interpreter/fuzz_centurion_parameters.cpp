@@ -1,11 +1,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/centurion/parameter_text.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
 #include "protocol/base/invariant.hpp"
 
 /// The parameters of a Centurion as text, and the map of their numbers. Up to the first zero byte:
-/// the map; behind it the text. What is taken is written again without an error of form.
+/// the map; after it the text. What is taken is written again without an error of form.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;
   using namespace dripline::interpreter::centurion;

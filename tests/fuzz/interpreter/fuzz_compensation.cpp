@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "gateway/interpreter/compensation/compensator.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 /// Any contour on a coarse grid, where corners coincide, touch and turn back all the time: what
 /// comes out is finite, blocks end once and in order, and a state goes through its bytes unchanged.
@@ -88,9 +88,9 @@ class Program {
   void round(PlaneVector along) {
     const double size = length(along);
     if (size > 100) {
-      compensator.go_round_corner(origin_, feed_);
+      compensator.round_outside_corner(origin_, feed_);
     } else if (size > 0) {
-      compensator.go_round_corner(origin_, feed_, (1 / size) * along);
+      compensator.round_outside_corner(origin_, feed_, (1 / size) * along);
     }
   }
   void straight(double x, double y, bool is_rapid) {
@@ -116,7 +116,7 @@ class Program {
                         .center_first = Length::mm(center.first),
                         .center_second = Length::mm(center.second),
                         .plane = Plane::XY,
-                        .turn = sweep > Angle{} ? Turn::CounterClockwise : Turn::Clockwise,
+                        .turn = sweep > Angle{} ? Turn::Counterclockwise : Turn::Clockwise,
                         .sweep = sweep > Angle{} ? sweep : -sweep,
                         .feed = feed_});
   }

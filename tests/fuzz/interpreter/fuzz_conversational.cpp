@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/centurion/conversational/post.hpp"
-#include "gateway/interpreter/centurion/conversational/reader.hpp"
+#include "clients/tools/conversational/post.hpp"
+#include "clients/tools/conversational/reader.hpp"
 
 namespace dripline::conversational {
 namespace {

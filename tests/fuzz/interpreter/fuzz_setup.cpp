@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -1,8 +1,8 @@
 #include <cstdint>
 
-#include "gateway/interpreter/tnc155/block_words.hpp"
-#include "gateway/interpreter/tnc155/cut_program.hpp"
-#include "gateway/interpreter/tnc155/program_keeping.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/block_words.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/cut_program.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 
 /// Any text is edited word by word or refused: a word that gets the value it has leaves its block
 /// as the control writes it, unless it is refused.

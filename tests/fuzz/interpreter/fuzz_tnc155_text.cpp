@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <string>
 
-#include "gateway/interpreter/memory_source.hpp"
-#include "gateway/interpreter/tnc155/conversion.hpp"
-#include "gateway/interpreter/tnc155/program_memory.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/dialects/tnc155/conversion/conversion.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
 #include "tests/support/tnc155_trace.hpp"
 
 namespace {

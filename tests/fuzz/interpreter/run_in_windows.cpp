@@ -9,12 +9,12 @@
 namespace dripline::interpreter {
 namespace {
 
-constexpr std::uint64_t kMostBlocks = 2'000;
-constexpr std::uint64_t kMostCheckedBlocks = 100;
+constexpr std::uint64_t kMaxBlocks = 2'000;
+constexpr std::uint64_t kMaxCheckedBlocks = 100;
 /// Some blocks do much: hole cycles with repeats.
-constexpr std::size_t kMostEvents = 50'000;
+constexpr std::size_t kMaxEvents = 50'000;
 /// NotYet at each fetch and one more byte a fetch: a few steps for each byte of each block.
-constexpr std::uint64_t kMostIdleSteps = 100'000;
+constexpr std::uint64_t kMaxIdleSteps = 100'000;
 
 class PiecesSource final : public ProgramSource {
  public:
@@ -60,9 +60,9 @@ std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view
   auto interpreter = dialect.make(setup, source, log);
   if (!interpreter) __builtin_trap();
   Interpreter& run = **interpreter;
-  for (std::uint64_t idle = 0; run.blocks() < kMostBlocks && log.lines().size() < kMostEvents;
+  for (std::uint64_t idle = 0; run.blocks() < kMaxBlocks && log.lines().size() < kMaxEvents;
        ++idle) {
-    if (idle > kMostIdleSteps) __builtin_trap();
+    if (idle > kMaxIdleSteps) __builtin_trap();
     const std::uint64_t before = run.blocks();
     const StepState state = run.step(1);
     if (state == StepState::Ended || state == StepState::Alarmed) break;
@@ -77,7 +77,7 @@ std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view
 }
 
 void expect_no_vanished_word(const Dialect& dialect, std::string_view text, const Setup& setup) {
-  const auto found = find_vanished_word(dialect, text, setup, kMostCheckedBlocks);
+  const auto found = find_vanished_word(dialect, text, setup, kMaxCheckedBlocks);
   if (!found) return;
   std::fprintf(stderr, "does nothing: %s\n", found->c_str());
   __builtin_trap();

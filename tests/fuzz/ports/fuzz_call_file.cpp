@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "server/serial/intake.hpp"
-#include "server/serial/rule_reader.hpp"
+#include "server/ports/programs/inbound_splitter.hpp"
+#include "server/ports/requests/rule_reader.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "protocol/wire/tape_image.hpp"
-#include "protocol/wire/tape_listing.hpp"
+#include "clients/tools/lines/tape_listing.hpp"
 
 namespace {
 

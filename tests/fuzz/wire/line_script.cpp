@@ -16,7 +16,7 @@ void require(bool is_true, const char* what) {
   std::abort();
 }
 
-/// The script's bytes, one decision after the other; zeros behind its end.
+/// The script's bytes, one decision after the other; zeros after its end.
 class Script {
  public:
   explicit Script(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -160,7 +160,7 @@ class Player {
       log_ += "|" + std::to_string(event.index());
       if (const auto* failed = std::get_if<wire::TransferFailed>(&event))
         log_ += failed->error.what;
-      if (const auto* trouble = std::get_if<wire::LineTrouble>(&event)) log_ += trouble->error.what;
+      if (const auto* trouble = std::get_if<wire::LineError>(&event)) log_ += trouble->error.what;
       if (const auto* asked = std::get_if<wire::TransferRequest>(&event)) log_ += asked->name;
     }
   }

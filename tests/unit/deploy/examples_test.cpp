@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "gateway/interpreter/trace/offline_run.hpp"
-#include "tests/unit/gateway/conversational/posted_run.hpp"
+#include "clients/tools/offline/offline_run.hpp"
+#include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
 /// The examples of deploy/examples do what they say.
 namespace dripline::conversational {

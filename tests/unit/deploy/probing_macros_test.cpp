@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/memory_source.hpp"
-#include "gateway/interpreter/trace/offline_run.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "clients/tools/offline/offline_run.hpp"
 
 /// The probing macros of deploy/macros on a simulated control and workpiece. The simulated probe
-/// has no ball: a surface stands where the centre of the ball would be when it touches.
+/// has no ball: a surface stands where the center of the ball would be when it touches.
 namespace dripline::interpreter {
 namespace {
 
@@ -51,7 +51,7 @@ struct Value {
   int is_out = 0;
 };
 
-double number_behind(const std::string& line, std::string_view word) {
+double number_after(const std::string& line, std::string_view word) {
   const auto at = line.find(word);
   if (at == std::string::npos) return 1e9;
   std::string digits;
@@ -63,9 +63,9 @@ double number_behind(const std::string& line, std::string_view word) {
 }
 
 Value value_of(const std::string& line) {
-  return {line.substr(0, 1),          static_cast<int>(number_behind(line, line.substr(0, 1))),
-          number_behind(line, "NOM"), number_behind(line, "ACT"),
-          number_behind(line, "DEV"), static_cast<int>(number_behind(line, "OUT"))};
+  return {line.substr(0, 1),          static_cast<int>(number_after(line, line.substr(0, 1))),
+          number_after(line, "NOM"), number_after(line, "ACT"),
+          number_after(line, "DEV"), static_cast<int>(number_after(line, "OUT"))};
 }
 
 struct Shop {
@@ -139,7 +139,7 @@ TEST(ProbingMacros, SurfaceAlongZNeedsNoBall) {
   expect_value(report.lines[1], {"Z", 1, -7.5, -7.4567, 0, 0});
 }
 
-TEST(ProbingMacros, BoreIsFoundOffItsNominalCentre) {
+TEST(ProbingMacros, BoreIsFoundOffItsNominalCenter) {
   const Report report =
       run({cylinder(80.018, 44.973, 40.031 / 2 - kBall), "{ X = 80.0, Y = 45.0, Z = 10.0 }"},
           "G65P9712D40.Z-8.S12.H.02");
@@ -149,7 +149,7 @@ TEST(ProbingMacros, BoreIsFoundOffItsNominalCentre) {
   expect_value(report.lines[1], {"X", 12, 80, 80.018, 0, 0});
   expect_value(report.lines[2], {"Y", 12, 45, 44.973, 0, 1});
   expect_value(report.lines[3], {"D", 12, 40, 40.031, 0, 1});
-  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 80.018, kMicrometre) << "in the centre";
+  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 80.018, kMicrometre) << "in the center";
   EXPECT_NEAR(report.at.linear(Axis::Z).mm(), 10, kMicrometre);
 }
 

@@ -43,7 +43,7 @@ TEST_F(HeldRevision, AloneInItsProgramIsListedAndSaysWhatToDo) {
   EXPECT_TRUE(listed->at(0).latest.is_held);
   const auto latest = store_->revision("O0012", std::nullopt);
   ASSERT_FALSE(latest);
-  EXPECT_EQ(latest.error().code, Errc::ModalConflict);
+  EXPECT_EQ(latest.error().code, Errc::Conflict);
   EXPECT_EQ(latest.error().what,
             "program O0012 came from a machine and waits for acceptance: accept its revision 1 "
             "first");
@@ -58,7 +58,7 @@ TEST_F(HeldRevision, DoesNotRunBeforeItIsAccepted) {
   run.content = held->content;
   const auto refused = store_->create_run(run);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
   EXPECT_NE(refused.error().what.find("p.nc revision 2"), std::string::npos);
   EXPECT_NE(refused.error().what.find("accept"), std::string::npos);
   EXPECT_FALSE(store_->run("r1"));
@@ -106,7 +106,7 @@ TEST_F(HeldRevision, RejectedIsHiddenForEverAndItsNumberIsNotUsedAgain) {
   EXPECT_EQ(store_->audit_entries({})->at(0).action, "program.reject");
   EXPECT_EQ(receive("p.nc", "G00 X1.1\n")->number, 3u);
   const auto in_force = store_->reject_revision("p.nc", 1, "boss");
-  EXPECT_EQ(in_force.error().code, Errc::ModalConflict);
+  EXPECT_EQ(in_force.error().code, Errc::Conflict);
   EXPECT_TRUE(store_->revision("p.nc", 1));
 }
 

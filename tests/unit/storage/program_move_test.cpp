@@ -77,11 +77,11 @@ TEST_F(ProgramMoveTest, ARenameKeepsRevisionsAndRuns) {
 TEST_F(ProgramMoveTest, RefusesANameThatExists) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O2", "G0 X2\n"));
-  expect_refused(copy("O1", "O2"), Errc::ModalConflict,
+  expect_refused(copy("O1", "O2"), Errc::Conflict,
                  "program O2 exists already, with 1 revision");
-  expect_refused(rename("O1", "O2"), Errc::ModalConflict, "program O2 exists already");
-  expect_refused(copy("O1", "O1"), Errc::ModalConflict, "O1 can not be copied to itself");
-  expect_refused(rename("O1", "O1"), Errc::ModalConflict, "O1 can not be renamed to itself");
+  expect_refused(rename("O1", "O2"), Errc::Conflict, "program O2 exists already");
+  expect_refused(copy("O1", "O1"), Errc::Conflict, "O1 cannot be copied to itself");
+  expect_refused(rename("O1", "O1"), Errc::Conflict, "O1 cannot be renamed to itself");
   expect_refused(copy("O1", "../O3"), Errc::Syntax, "../O3");
   expect_refused(rename("O1", ""), Errc::Syntax, "name");
   expect_refused(copy("O9", "O3"), Errc::NotFound, "O9");
@@ -100,9 +100,9 @@ TEST_F(ProgramMoveTest, RefusesToRenameWhatARunUses) {
 
 TEST_F(ProgramMoveTest, RefusesWhatWaitsForAcceptance) {
   ASSERT_TRUE(receive("O1", "G0 X1\n"));
-  expect_refused(copy("O1", "O2"), Errc::ModalConflict, "waits for acceptance");
-  expect_refused(copy("O1", "O2", 1), Errc::ModalConflict, "revision 1 waits for acceptance");
-  expect_refused(rename("O1", "O2"), Errc::ModalConflict, "revision 1");
+  expect_refused(copy("O1", "O2"), Errc::Conflict, "waits for acceptance");
+  expect_refused(copy("O1", "O2", 1), Errc::Conflict, "revision 1 waits for acceptance");
+  expect_refused(rename("O1", "O2"), Errc::Conflict, "revision 1");
   ASSERT_TRUE(store_->accept_revision("O1", 1, "cam"));
   EXPECT_TRUE(copy("O1", "O2"));
   EXPECT_TRUE(rename("O1", "O3"));
@@ -112,7 +112,7 @@ TEST_F(ProgramMoveTest, LeavesTheNameOfARemovedProgramToItsRuns) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O2", "G0 X2\n"));
   ASSERT_TRUE(store_->remove_program("O2"));
-  expect_refused(rename("O1", "O2"), Errc::ModalConflict, "O2 was removed");
+  expect_refused(rename("O1", "O2"), Errc::Conflict, "O2 was removed");
   const auto made = copy("O1", "O2");
   ASSERT_TRUE(made) << made.error().what;
   EXPECT_EQ(made->number, 2u) << "as a program that is pushed again";

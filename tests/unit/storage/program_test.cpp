@@ -66,7 +66,7 @@ TEST_F(ProgramTest, PushedAgainAfterRemovalGoesOnWithItsNumbers) {
   EXPECT_FALSE(store_->revision("p.nc", 1));
 }
 
-TEST_F(ProgramTest, CanNotBeRemovedUnderARun) {
+TEST_F(ProgramTest, CannotBeRemovedUnderARun) {
   const Run run = make_run("r1");
   ASSERT_TRUE(store_->create_run(run));
   const auto refused = store_->remove_program("p.nc");

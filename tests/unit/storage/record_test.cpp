@@ -123,7 +123,7 @@ TEST_F(RecordTest, SentAgainAreStoredOnce) {
   EXPECT_EQ(numbers(), "1 2 3 4 5 6 7 8 ");
 }
 
-TEST_F(RecordTest, BehindAGapAreLeftOut) {
+TEST_F(RecordTest, AfterAGapAreLeftOut) {
   EXPECT_EQ(store_->store_records(make_batch(2, 4)), 0u) << "number 1 is missing";
   EXPECT_EQ(numbers(), "");
   RecordBatch batch = make_batch(1, 6);
@@ -256,7 +256,7 @@ TEST_F(RecordTest, DoNotChangeARunThatHasEnded) {
   EXPECT_EQ(store_->run("r1")->reason, "no answer in time");
 }
 
-TEST_F(RecordTest, EndingBehindAGapWaitsForItsRecord) {
+TEST_F(RecordTest, EndingAfterAGapWaitsForItsRecord) {
   ASSERT_TRUE(store_->create_run(make_run("r1")));
   RecordBatch batch = make_batch(2, 3);
   batch.records[1].kind = "run_ended";

@@ -52,10 +52,10 @@ TEST_F(RunTest, NeedsAKnownMachineRevisionAndItsVeryContent) {
   EXPECT_EQ(store_->create_run(run).error().code, Errc::NotFound);
   run.revision = 1;
   run.content = sha256("other");
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::ModalConflict);
+  EXPECT_EQ(store_->create_run(run).error().code, Errc::Conflict);
   run.content = run_.content;
   run.id = "r1";
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::ModalConflict);
+  EXPECT_EQ(store_->create_run(run).error().code, Errc::Conflict);
   EXPECT_EQ(store_->runs({}, {})->size(), 1u);
 }
 
@@ -70,7 +70,7 @@ TEST_F(RunTest, GoesFromOrderedToActiveToAnEnd) {
   ASSERT_TRUE(store_->set_run_state("r1", RunState::Active, ""));
   EXPECT_EQ(store_->run("r1")->started, clock_.now());
   ASSERT_TRUE(store_->set_run_state("r1", RunState::Active, "")) << "again is no error";
-  EXPECT_EQ(store_->set_run_state("r1", RunState::Ordered, "").error().code, Errc::ModalConflict);
+  EXPECT_EQ(store_->set_run_state("r1", RunState::Ordered, "").error().code, Errc::Conflict);
   clock_.advance(std::chrono::seconds(1));
   ASSERT_TRUE(store_->set_run_state("r1", RunState::Interrupted, "power"));
   EXPECT_EQ(store_->run("r1")->ended, clock_.now());
@@ -90,7 +90,7 @@ TEST_F(RunTest, NeverLeavesAFinalState) {
     for (const RunState other : {RunState::Ordered, RunState::Active, RunState::Completed,
                                  RunState::Aborted, RunState::Refused}) {
       if (other == end) continue;
-      EXPECT_EQ(store_->set_run_state(id, other, "x").error().code, Errc::ModalConflict)
+      EXPECT_EQ(store_->set_run_state(id, other, "x").error().code, Errc::Conflict)
           << to_string(end) << " to " << to_string(other);
     }
     EXPECT_EQ(store_->run(id)->state, end);
@@ -125,7 +125,7 @@ TEST_F(RunTest, CountersOfAnEndedRunStay) {
 TEST_F(RunTest, CountersOfAnotherMachineAreRefused) {
   const auto refused = store_->update_counters("m2", "r1", {1000, 50, 40}, 41, 400);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, Errc::ModalConflict);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
   EXPECT_EQ(refused.error().what, "run r1 is machine m1's, not m2's");
   EXPECT_EQ(store_->run("r1")->counters.sent, 0u);
 }

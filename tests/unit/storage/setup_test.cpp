@@ -49,7 +49,7 @@ TEST_F(SetupTest, DoesNotGoOverANewerOne) {
   ASSERT_EQ(save("a = 2", "mill-3", 1)->number, 2u);
   const auto late = save("a = 3", "mill-3", 1);
   ASSERT_FALSE(late);
-  EXPECT_EQ(late.error().code, Errc::ModalConflict);
+  EXPECT_EQ(late.error().code, Errc::Conflict);
   EXPECT_EQ(late.error().what,
             "machine mill-3: this setup was made from 1, and 2 is the newest by now; nothing was "
             "stored");

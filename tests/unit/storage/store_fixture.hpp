@@ -55,7 +55,7 @@ class StoreTest : public testing::Test {
   Run make_run(const std::string& id);
   /// Reads one number straight from the file.
   std::int64_t query(const std::string& sql);
-  /// Changes the file behind the store's back; the store is closed while that happens.
+  /// Changes the file after the store's back; the store is closed while that happens.
   void damage(const std::string& sql);
 
   TemporaryDirectory directory_;

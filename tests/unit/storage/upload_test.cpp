@@ -86,7 +86,7 @@ TEST_F(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
     const auto refused =
         store_->append_upload(id, static_cast<std::uint64_t>(offset), bytes_of(piece));
     ASSERT_FALSE(refused) << offset;
-    EXPECT_EQ(refused.error().code, Errc::ModalConflict) << refused.error().what;
+    EXPECT_EQ(refused.error().code, Errc::Conflict) << refused.error().what;
   }
   EXPECT_EQ(store_->upload(id)->received, 500u);
 }

@@ -10,7 +10,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RemoteEnable;
 using dds::RunOutcome;
 using dds::WaitsFor;
@@ -18,15 +18,15 @@ using namespace std::chrono_literals;
 
 struct ConsentCase {
   const char* name;
-  dds::Order order;
+  dds::Command command;
   bool needs;
 };
-dds::Order order_of(OrderAction action, double value = 0, const char* argument = "") {
-  dds::Order order;
-  order.action = action;
-  order.value = value;
-  order.argument = argument;
-  return order;
+dds::Command order_of(CommandAction action, double value = 0, const char* argument = "") {
+  dds::Command command;
+  command.action = action;
+  command.value = value;
+  command.argument = argument;
+  return command;
 }
 
 class NeedsConsent : public testing::TestWithParam<ConsentCase> {};
@@ -37,32 +37,32 @@ TEST_P(NeedsConsent, IsJudged) {
   panel.single_block = panel.optional_stop = panel.block_skip = true;
   panel.handwheel = panel.emergency_stop = true;
   panel.feed_override = panel.rapid_override = panel.spindle_override = 0.5;
-  EXPECT_EQ(needs_consent(GetParam().order, panel), GetParam().needs);
+  EXPECT_EQ(needs_consent(GetParam().command, panel), GetParam().needs);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , NeedsConsent,
     testing::Values(
-        ConsentCase{"hold", order_of(OrderAction::Hold), false},
-        ConsentCase{"abort", order_of(OrderAction::Abort), false},
-        ConsentCase{"start_waits", order_of(OrderAction::Start), false},
-        ConsentCase{"resume", order_of(OrderAction::Resume), true},
-        ConsentCase{"answer", order_of(OrderAction::Answer), true},
-        ConsentCase{"handwheel", order_of(OrderAction::Handwheel, 1), true},
-        ConsentCase{"press_stop", order_of(OrderAction::Switch, 1, "emergency_stop"), false},
-        ConsentCase{"release_stop", order_of(OrderAction::Switch, 0, "emergency_stop"), true},
-        ConsentCase{"single_block_on", order_of(OrderAction::Switch, 1, "single_block"), false},
-        ConsentCase{"single_block_off", order_of(OrderAction::Switch, 0, "single_block"), true},
-        ConsentCase{"optional_stop_off", order_of(OrderAction::Switch, 0, "optional_stop"), true},
-        ConsentCase{"handwheel_off", order_of(OrderAction::Switch, 0, "handwheel"), true},
-        ConsentCase{"block_skip_at_next_start", order_of(OrderAction::Switch, 0, "block_skip"),
+        ConsentCase{"hold", order_of(CommandAction::Hold), false},
+        ConsentCase{"abort", order_of(CommandAction::Abort), false},
+        ConsentCase{"start_waits", order_of(CommandAction::Start), false},
+        ConsentCase{"resume", order_of(CommandAction::Resume), true},
+        ConsentCase{"answer", order_of(CommandAction::Answer), true},
+        ConsentCase{"handwheel", order_of(CommandAction::Handwheel, 1), true},
+        ConsentCase{"press_stop", order_of(CommandAction::Switch, 1, "emergency_stop"), false},
+        ConsentCase{"release_stop", order_of(CommandAction::Switch, 0, "emergency_stop"), true},
+        ConsentCase{"single_block_on", order_of(CommandAction::Switch, 1, "single_block"), false},
+        ConsentCase{"single_block_off", order_of(CommandAction::Switch, 0, "single_block"), true},
+        ConsentCase{"optional_stop_off", order_of(CommandAction::Switch, 0, "optional_stop"), true},
+        ConsentCase{"handwheel_off", order_of(CommandAction::Switch, 0, "handwheel"), true},
+        ConsentCase{"block_skip_at_next_start", order_of(CommandAction::Switch, 0, "block_skip"),
                     false},
-        ConsentCase{"slower", order_of(OrderAction::FeedOverride, 0.4), false},
-        ConsentCase{"same", order_of(OrderAction::FeedOverride, 0.5), false},
-        ConsentCase{"faster", order_of(OrderAction::FeedOverride, 0.6), true},
-        ConsentCase{"faster_rapid", order_of(OrderAction::RapidOverride, 0.6), true},
-        ConsentCase{"faster_spindle", order_of(OrderAction::SpindleOverride, 0.6), true},
-        ConsentCase{"no_number", order_of(OrderAction::FeedOverride, std::nan("")), true}),
+        ConsentCase{"slower", order_of(CommandAction::FeedOverride, 0.4), false},
+        ConsentCase{"same", order_of(CommandAction::FeedOverride, 0.5), false},
+        ConsentCase{"faster", order_of(CommandAction::FeedOverride, 0.6), true},
+        ConsentCase{"faster_rapid", order_of(CommandAction::RapidOverride, 0.6), true},
+        ConsentCase{"faster_spindle", order_of(CommandAction::SpindleOverride, 0.6), true},
+        ConsentCase{"no_number", order_of(CommandAction::FeedOverride, std::nan("")), true}),
     [](const auto& i) { return std::string{i.param.name}; });
 
 class AttendedMachine : public testing::Test {
@@ -74,11 +74,11 @@ class AttendedMachine : public testing::Test {
   bool reaches(WaitsFor waits_for) {
     return shop_.run_until([&] { return shop_.status && shop_.status->waits_for == waits_for; });
   }
-  dds::OrderResult give(OrderAction action, double value = 0, const char* argument = "") {
-    dds::Order order = shop_.order(action);
-    order.value = value;
-    order.argument = argument;
-    return shop_.send(order);
+  dds::CommandResult give(CommandAction action, double value = 0, const char* argument = "") {
+    dds::Command command = shop_.command(action);
+    command.value = value;
+    command.argument = argument;
+    return shop_.send(command);
   }
   Shop shop_{"1x"};
 };
@@ -90,7 +90,7 @@ TEST_F(AttendedMachine, WaitsForCycleStartAtTheMachine) {
   EXPECT_EQ(shop_.status->message, kAwaitsCycleStart);
   EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::NotGiven);
   EXPECT_EQ(shop_.status->run, "run-1");
-  EXPECT_EQ(give(OrderAction::Resume).reason, kNoConsent);
+  EXPECT_EQ(give(CommandAction::Resume).reason, kNoConsent);
   shop_.run_until([] { return false; });
   EXPECT_TRUE(shop_.lines().empty()) << "nothing of the program happens";
   EXPECT_EQ(shop_.status->position[0], 0);
@@ -108,7 +108,7 @@ TEST_F(AttendedMachine, RunsToItsEndByItsPanelAlone) {
   ASSERT_TRUE(
       shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
   EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
-  EXPECT_EQ(give(OrderAction::Resume).reason, kNoConsent);
+  EXPECT_EQ(give(CommandAction::Resume).reason, kNoConsent);
   EXPECT_EQ(shop_.panel("cycle-start"), "ok");
   EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
   EXPECT_EQ(shop_.panel("cycle-start"), "refused no run is active");
@@ -120,7 +120,7 @@ TEST_F(AttendedMachine, IsStartedFromAfarWithTheRemoteEnable) {
   ASSERT_TRUE(
       shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
   EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::Given);
-  EXPECT_TRUE(give(OrderAction::Resume).accepted);
+  EXPECT_TRUE(give(CommandAction::Resume).accepted);
   EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
 
   EXPECT_EQ(shop_.panel("remote-enable off"), "ok");
@@ -135,17 +135,17 @@ TEST_F(AttendedMachine, IsNotMovedByTheEnableItself) {
   shop_.run_until([] { return false; });
   EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
   EXPECT_EQ(shop_.status->position[0], 0);
-  EXPECT_TRUE(give(OrderAction::Resume).accepted);
+  EXPECT_TRUE(give(CommandAction::Resume).accepted);
   ASSERT_TRUE(shop_.run_until([&] { return shop_.status->position[0] != 0; }));
 }
 
 TEST_F(AttendedMachine, CanAlwaysBeStopped) {
   ASSERT_TRUE(shop_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_TRUE(give(OrderAction::Hold).accepted);
-  EXPECT_TRUE(give(OrderAction::FeedOverride, 0.5).accepted);
-  EXPECT_EQ(give(OrderAction::FeedOverride, 0.6).reason, kNoConsent);
-  EXPECT_TRUE(give(OrderAction::Abort).accepted);
+  EXPECT_TRUE(give(CommandAction::Hold).accepted);
+  EXPECT_TRUE(give(CommandAction::FeedOverride, 0.5).accepted);
+  EXPECT_EQ(give(CommandAction::FeedOverride, 0.6).reason, kNoConsent);
+  EXPECT_TRUE(give(CommandAction::Abort).accepted);
   EXPECT_EQ(shop_.ended().outcome, RunOutcome::Aborted);
   EXPECT_EQ(shop_.count(dds::RecordKind::Output), 0U);
 }
@@ -162,8 +162,8 @@ TEST_F(AttendedMachine, GivesUpARunThatNobodyBegins) {
 
 TEST_F(AttendedMachine, LosesTheEnableWithTheEmergencyStop) {
   EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
-  ASSERT_TRUE(give(OrderAction::Switch, 1, "emergency_stop").accepted);
-  EXPECT_EQ(give(OrderAction::Switch, 0, "emergency_stop").reason, kNoConsent);
+  ASSERT_TRUE(give(CommandAction::Switch, 1, "emergency_stop").accepted);
+  EXPECT_EQ(give(CommandAction::Switch, 0, "emergency_stop").reason, kNoConsent);
   EXPECT_EQ(shop_.panel("remote-enable on"),
             "refused the emergency stop is pressed: release it first");
   EXPECT_EQ(shop_.panel("emergency-stop off"), "ok");
@@ -193,7 +193,7 @@ TEST_F(AttendedMachine, AnswersItsProgramAtThePanel) {
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
   EXPECT_EQ(shop_.panel("cycle-start"), "ok");
   ASSERT_TRUE(reaches(WaitsFor::Answer));
-  EXPECT_EQ(give(OrderAction::Answer, 0, "5").reason, kNoConsent);
+  EXPECT_EQ(give(CommandAction::Answer, 0, "5").reason, kNoConsent);
   EXPECT_EQ(shop_.panel("answer 7"), "ok");
   EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
   EXPECT_EQ(shop_.lines(), std::vector<std::string>{"7"});
@@ -212,7 +212,7 @@ TEST(UnattendedMachine, IsStartedFromAfarAndSaysSo) {
 TEST(UnattendedMachine, KeepsAnEmergencyStopOfItsPanelUntilItIsReleasedThere) {
   Shop shop;
   EXPECT_EQ(shop.panel("emergency-stop"), "ok");
-  dds::Order release = shop.order(OrderAction::Switch);
+  dds::Command release = shop.command(CommandAction::Switch);
   release.argument = "emergency_stop";
   EXPECT_EQ(shop.send(release).reason,
             "the emergency stop was pressed at the machine's panel: release it there");

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "gateway/interpreter/centurion/dialect.hpp"
-#include "gateway/interpreter/fanuc/dialect.hpp"
-#include "gateway/interpreter/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "storage/sqlite/database.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
@@ -32,9 +32,9 @@ class MemoryShop : public Shop {
   dds::RunEndText run(const std::string& text, const std::string& setup_toml = "") {
     const std::string name = "P" + std::to_string(++programs_);
     push(name, text);
-    dds::Order order = start_order(name);
-    order.setup = setup_toml;
-    const auto result = send(order);
+    dds::Command command = start_command(name);
+    command.setup = setup_toml;
+    const auto result = send(command);
     EXPECT_TRUE(result.accepted) << result.reason;
     return ended();
   }
@@ -111,7 +111,7 @@ TEST(CenturionMemory, IsThatOfTheBlocksThatWereExecuted) {
   shop.push("O1", kSlow);
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->position[0] > 100; }));
-  ASSERT_TRUE(shop.send(shop.order(dds::OrderAction::Abort)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
   EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
   EXPECT_NE(shop.printed(kPrintP10).at(0).find('1'), std::string::npos);
@@ -170,16 +170,16 @@ class CenturionStart : public testing::Test {
 
   CenturionStart() { shop.push("O1", kCount); }
   dds::RunEndText run_from(const std::string& place) {
-    dds::Order order = shop.start_order("O1");
-    order.argument = place;
-    const auto result = shop.send(order);
+    dds::Command command = shop.start_command("O1");
+    command.argument = place;
+    const auto result = shop.send(command);
     EXPECT_TRUE(result.accepted) << result.reason;
     // The approach stops for the operator.
     EXPECT_TRUE(shop.run_until([&] {
       return shop.status &&
              (shop.status->run.empty() || shop.status->execution == dds::Execution::ProgramStopped);
     }));
-    if (!shop.status->run.empty()) (void)shop.send(shop.order(dds::OrderAction::Resume));
+    if (!shop.status->run.empty()) (void)shop.send(shop.command(dds::CommandAction::Resume));
     return shop.ended();
   }
   std::string kept() {
@@ -223,9 +223,9 @@ TEST_F(CenturionStart, KnowsTheMemoryOfTheBeginAfterARestart) {
 TEST_F(CenturionStart, KnowsNoMemoryOfTheBeginOfAnotherProgram) {
   run_whole();
   EXPECT_EQ(kept(), "01 01");  // another program has begun since
-  dds::Order order = shop.start_order("O1");
-  order.argument = "N40 memory=begin";
-  const auto result = shop.send(order);
+  dds::Command command = shop.start_command("O1");
+  command.argument = "N40 memory=begin";
+  const auto result = shop.send(command);
   EXPECT_FALSE(result.accepted);
   EXPECT_NE(result.reason.find("last run that began at its first block"), std::string::npos)
       << result.reason;
@@ -235,12 +235,12 @@ TEST_F(CenturionStart, KnowsNoMemoryOfTheBeginOfAnotherProgram) {
 TEST_F(CenturionStart, ChangesNothingBeforeItsFirstBlockIsExecuted) {
   run_whole();
   for (const char* place : {"N40 memory=begin", "N40 memory=now"}) {
-    dds::Order order = shop.start_order("O1");
-    order.argument = place;
-    ASSERT_TRUE(shop.send(order).accepted);
+    dds::Command command = shop.start_command("O1");
+    command.argument = place;
+    ASSERT_TRUE(shop.send(command).accepted);
     ASSERT_TRUE(shop.run_until(
         [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-    ASSERT_TRUE(shop.send(shop.order(dds::OrderAction::Abort)).accepted);
+    ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
     EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
     run_whole();  // the begin of the next start
   }
@@ -248,12 +248,12 @@ TEST_F(CenturionStart, ChangesNothingBeforeItsFirstBlockIsExecuted) {
 }
 
 TEST_F(CenturionStart, TakesNothingThatItDoesNotKnow) {
-  dds::Order order = shop.start_order("O1");
-  order.argument = "N30 speed=9";
-  EXPECT_FALSE(shop.send(order).accepted);
+  dds::Command command = shop.start_command("O1");
+  command.argument = "N30 speed=9";
+  EXPECT_FALSE(shop.send(command).accepted);
 }
 
-/// A row that was changed behind the gateway's back, and a file that is gone.
+/// A row that was changed after the gateway's back, and a file that is gone.
 class DamagedMemory : public testing::Test {
  protected:
   void SetUp() override { shop.run(kChange); }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// The emergency stop at the panel of every machine, whatever its control. Row: HD-195.
@@ -8,18 +8,18 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RecordKind;
 using dds::RunOutcome;
 
 constexpr const char* kPressed =
     "the emergency stop is pressed: release it first (switch emergency_stop off)";
 
-dds::OrderResult set_emergency_stop(Shop& shop, bool is_pressed) {
-  dds::Order order = shop.order(OrderAction::Switch);
-  order.argument = "emergency_stop";
-  order.value = is_pressed ? 1 : 0;
-  return shop.send(order);
+dds::CommandResult set_emergency_stop(Shop& shop, bool is_pressed) {
+  dds::Command command = shop.command(CommandAction::Switch);
+  command.argument = "emergency_stop";
+  command.value = is_pressed ? 1 : 0;
+  return shop.send(command);
 }
 
 /// A run in motion, and the switch pressed.
@@ -39,14 +39,14 @@ TEST(EmergencyStop, StopsARunForGoodOnceItIsReleased) {
   EXPECT_EQ(shop.status->run, "run-1") << "the run waits for the switch";
   EXPECT_EQ(shop.count(RecordKind::RunEnded), 0U);
   const double stands_at = shop.status->position[0];
-  EXPECT_EQ(shop.send(shop.order(OrderAction::Resume)).reason, kPressed);
+  EXPECT_EQ(shop.send(shop.command(CommandAction::Resume)).reason, kPressed);
 
   ASSERT_TRUE(set_emergency_stop(shop, false).accepted);
   const auto end = shop.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Aborted);
   EXPECT_EQ(end.reason, "EMERGENCY STOP");
   EXPECT_EQ(end.executed, 0U);
-  EXPECT_FALSE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  EXPECT_FALSE(shop.send(shop.command(CommandAction::Resume)).accepted);
   EXPECT_EQ(shop.status->position[0], stands_at);
 }
 
@@ -97,7 +97,7 @@ TEST(EmergencyStop, OfAnAbortedRunLeavesTheNextOnesReasonAlone) {
   ASSERT_TRUE(set_emergency_stop(shop, false).accepted);
   shop.ended();
   ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   EXPECT_EQ(shop.ended().reason, "aborted by order");
 }
 

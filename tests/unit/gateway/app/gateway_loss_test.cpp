@@ -8,7 +8,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RecordKind;
 using dds::RunOutcome;
 using std::chrono::milliseconds;
@@ -48,7 +48,7 @@ TEST(Gateway, ARunCutOffEndsOnceAsInterruptedAtTheRightBlock) {
     int turn = 0;
     shop.run_until([&] { return ++turn > turns; });
     shop.restart_gateway();
-    const auto truth = shop.witness();
+    const auto truth = shop.execution_probe();
     const auto end = shop.ended();
     EXPECT_EQ(end.outcome, RunOutcome::Interrupted) << turns;
     EXPECT_EQ(end.executed, truth.blocks_done) << turns;
@@ -69,7 +69,7 @@ TEST(Gateway, AnOrderlyStopEndsTheRunAsInterrupted) {
   const auto end = dds::decode_run_end(shop.records.back().text).value();
   EXPECT_EQ(end.outcome, RunOutcome::Interrupted);
   EXPECT_EQ(end.reason, "stopped");
-  EXPECT_EQ(end.executed, shop.witness().blocks_done);
+  EXPECT_EQ(end.executed, shop.execution_probe().blocks_done);
 }
 
 TEST(Gateway, AFullDiskHoldsTheMachineAndLosesNothing) {
@@ -86,7 +86,7 @@ TEST(Gateway, AFullDiskHoldsTheMachineAndLosesNothing) {
                              milliseconds(1)));
   shop.connect(false);
   ASSERT_TRUE(shop.run_until(
-      [&] { return shop.status->message.find("reports can not be kept") != std::string::npos; }));
+      [&] { return shop.status->message.find("reports cannot be kept") != std::string::npos; }));
   const std::uint64_t held_at = shop.status->executed;
   EXPECT_LT(held_at, 201u);
   shop.connect(true);

@@ -9,7 +9,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RecordKind;
 using dds::RunOutcome;
 using std::chrono::milliseconds;
@@ -32,8 +32,8 @@ TEST(Gateway, RunsAProgramAndReportsIt) {
     EXPECT_EQ(lines[static_cast<std::size_t>(i)], "LINE " + std::to_string(i));
   EXPECT_EQ(shop.records.front().kind, RecordKind::RunStarted);
   EXPECT_EQ(shop.records.back().kind, RecordKind::RunEnded);
-  EXPECT_EQ(shop.witness().blocks_done, 401u);
-  EXPECT_EQ(shop.witness().outputs_done, 100u);
+  EXPECT_EQ(shop.execution_probe().blocks_done, 401u);
+  EXPECT_EQ(shop.execution_probe().outputs_done, 100u);
 }
 
 TEST(Gateway, ShowsARunningAndThenACompletedStatus) {
@@ -79,13 +79,13 @@ TEST(Gateway, RealTimeMotionTakesItsTime) {
   EXPECT_LT(shop.clock.steady - before, milliseconds(4000));
 }
 
-TEST(Gateway, RefusesWhatItCanNotRun) {
+TEST(Gateway, RefusesWhatItCannotRun) {
   Shop shop("1x");
   shop.push("O1", "X100\nX0\nEND\n");
   const auto refusal = [&](auto change) {
-    dds::Order order = shop.start_order("O1");
-    change(order);
-    const auto result = shop.send(order);
+    dds::Command command = shop.start_command("O1");
+    change(command);
+    const auto result = shop.send(command);
     EXPECT_FALSE(result.accepted);
     return result.reason;
   };
@@ -104,15 +104,15 @@ TEST(Gateway, RefusesWhatItCanNotRun) {
 TEST(Gateway, TheSameOrderGetsTheSameAnswerEvenAfterARestart) {
   Shop shop;
   shop.push("O1", "END\n");
-  const dds::Order start = shop.start_order("O1");
+  const dds::Command start = shop.start_command("O1");
   EXPECT_TRUE(shop.send(start).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
   const std::size_t stored = shop.records.size();
   shop.clock.steady += std::chrono::seconds(10);  // expired by now, and still known
   EXPECT_TRUE(shop.send(start).accepted);
   shop.restart_gateway();
-  dds::Order again = shop.order(OrderAction::Start);  // another order for the same run
-  dds::Order repeated = start;
+  dds::Command again = shop.command(CommandAction::Start);  // another order for the same run
+  dds::Command repeated = start;
   repeated.session = again.session;
   EXPECT_TRUE(shop.send(repeated).accepted);
   repeated.id = again.id;
@@ -127,18 +127,18 @@ TEST(Gateway, HoldsResumesAndAborts) {
   shop.push("O1", "X400\nX0\nEND\n");
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
-  EXPECT_TRUE(shop.send(shop.order(OrderAction::Hold)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Hold)).accepted);
   ASSERT_TRUE(shop.run_until([&] {
     return shop.status->execution == Execution::FeedHold && shop.status->feed_mm_per_min == 0;
   }));
-  EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
-  EXPECT_FALSE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
+  EXPECT_FALSE(shop.send(shop.command(CommandAction::Resume)).accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
-  EXPECT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   const auto end = shop.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Aborted);
   EXPECT_EQ(end.executed, 0u);
-  EXPECT_FALSE(shop.send(shop.order(OrderAction::Hold)).accepted);
+  EXPECT_FALSE(shop.send(shop.command(CommandAction::Hold)).accepted);
 }
 
 TEST(Gateway, InterpretsNothingMoreAfterAnAbort) {
@@ -149,7 +149,7 @@ TEST(Gateway, InterpretsNothingMoreAfterAnAbort) {
   ASSERT_TRUE(shop.start("O1").accepted);
   constexpr std::uint64_t kFull = machine::Machine::kQueuedActions;
   ASSERT_TRUE(shop.run_until([&] { return shop.status->accepted > kFull; }));
-  EXPECT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   EXPECT_LT(shop.ended().accepted, kFull + 1000);
 }
 
@@ -168,7 +168,7 @@ TEST(Gateway, OrdersForAnotherRunAreRefused) {
   Shop shop("1x");
   shop.push("O1", "X400\nEND\n");
   ASSERT_TRUE(shop.start("O1").accepted);
-  dds::Order hold = shop.order(OrderAction::Hold);
+  dds::Command hold = shop.command(CommandAction::Hold);
   hold.run = "run-77";
   EXPECT_FALSE(shop.send(hold).accepted);
 }
@@ -176,26 +176,26 @@ TEST(Gateway, OrdersForAnotherRunAreRefused) {
 /// Row: TK-30.
 TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
   Shop shop("1x");
-  const auto change = [&](OrderAction action, double value, const std::string& name = "") {
-    dds::Order order = shop.order(action);
-    order.value = value;
-    order.argument = name;
-    return shop.send(order).accepted;
+  const auto change = [&](CommandAction action, double value, const std::string& name = "") {
+    dds::Command command = shop.command(action);
+    command.value = value;
+    command.argument = name;
+    return shop.send(command).accepted;
   };
-  EXPECT_TRUE(change(OrderAction::FeedOverride, 0.5));
-  EXPECT_FALSE(change(OrderAction::FeedOverride, 3));
-  EXPECT_FALSE(change(OrderAction::FeedOverride, 0.52)) << "between the knob's positions";
-  EXPECT_FALSE(change(OrderAction::RapidOverride, std::nan("")));
-  EXPECT_TRUE(change(OrderAction::Switch, 1, "single_block"));
-  EXPECT_FALSE(change(OrderAction::Switch, 1, "turbo"));
-  EXPECT_FALSE(change(OrderAction::Switch, 2, "optional_stop"));
+  EXPECT_TRUE(change(CommandAction::FeedOverride, 0.5));
+  EXPECT_FALSE(change(CommandAction::FeedOverride, 3));
+  EXPECT_FALSE(change(CommandAction::FeedOverride, 0.52)) << "between the knob's positions";
+  EXPECT_FALSE(change(CommandAction::RapidOverride, std::nan("")));
+  EXPECT_TRUE(change(CommandAction::Switch, 1, "single_block"));
+  EXPECT_FALSE(change(CommandAction::Switch, 1, "turbo"));
+  EXPECT_FALSE(change(CommandAction::Switch, 2, "optional_stop"));
   ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->single_block; }));
   EXPECT_EQ(shop.status->feed_override, 0.5);
 }
 
 TEST(Gateway, StopsBetweenBlocksInSingleBlock) {
   Shop shop;
-  dds::Order single = shop.order(OrderAction::Switch);
+  dds::Command single = shop.command(CommandAction::Switch);
   single.argument = "single_block";
   single.value = 1;
   ASSERT_TRUE(shop.send(single).accepted);
@@ -205,7 +205,7 @@ TEST(Gateway, StopsBetweenBlocksInSingleBlock) {
     ASSERT_TRUE(shop.run_until([&] {
       return shop.status->execution == Execution::Interrupted && shop.status->executed == block;
     })) << block;
-    EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+    EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   }
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
 }
@@ -218,7 +218,7 @@ TEST(Gateway, WaitsAtAProgramStopUntilResumed) {
   EXPECT_TRUE(shop.run_until([&] { return shop.count(RecordKind::Stop) == 1; }));
   EXPECT_EQ(shop.status->message, "program stop");
   EXPECT_TRUE(shop.lines().empty());
-  EXPECT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
   EXPECT_EQ(shop.lines(), std::vector<std::string>{"A"});
 }
@@ -231,9 +231,9 @@ TEST(Gateway, AsksTheSetupFirstAndThenTheOperator) {
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "asks: SECOND"; }));
   EXPECT_EQ(shop.status->execution, Execution::Waiting);
-  EXPECT_EQ(shop.send(shop.order(OrderAction::Resume)).reason,
+  EXPECT_EQ(shop.send(shop.command(CommandAction::Resume)).reason,
             "the program waits for an answer to: SECOND");
-  dds::Order answer = shop.order(OrderAction::Answer);
+  dds::Command answer = shop.command(CommandAction::Answer);
   answer.argument = "7";
   EXPECT_TRUE(shop.send(answer).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
@@ -245,19 +245,19 @@ TEST(Gateway, KnowsWhatTheServerSentWithTheStart) {
   shop.push("O1", "TOOLS\nEND\n");
   ASSERT_TRUE(shop.start("O1").accepted);
   (void)shop.ended();
-  auto order = shop.start_order("O1");
-  order.setup = "[[tool]]\nnumber = 4\n[[tool]]\nnumber = 5\n";
-  ASSERT_TRUE(shop.send(order).accepted);
+  auto command = shop.start_command("O1");
+  command.setup = "[[tool]]\nnumber = 4\n[[tool]]\nnumber = 5\n";
+  ASSERT_TRUE(shop.send(command).accepted);
   (void)shop.ended();
   EXPECT_EQ(shop.lines(), (std::vector<std::string>{"0", "2"}));
 }
 
-TEST(Gateway, RefusesAStartWithASetupItCanNotRead) {
+TEST(Gateway, RefusesAStartWithASetupItCannotRead) {
   Shop shop;
   shop.push("O1", "END\n");
-  auto order = shop.start_order("O1");
-  order.setup = "[[tool]]\nnumber = 4\ncolour = 1\n";
-  const auto result = shop.send(order);
+  auto command = shop.start_command("O1");
+  command.setup = "[[tool]]\nnumber = 4\ncolour = 1\n";
+  const auto result = shop.send(command);
   EXPECT_FALSE(result.accepted);
   EXPECT_NE(result.reason.find("colour"), std::string::npos) << result.reason;
   EXPECT_NE(result.reason.find("server's setup"), std::string::npos) << result.reason;

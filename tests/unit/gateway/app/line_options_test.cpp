@@ -3,7 +3,7 @@
 #include "gateway/app/options.hpp"
 #include "gateway/app/setup_line.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "gateway/interpreter/setup.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "gateway/interpreter/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// What the operator of a Centurion lathe does at the panel while a program runs.
@@ -9,7 +9,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RunOutcome;
 
 constexpr double kInch = 25.4;
@@ -25,8 +25,8 @@ class LatheShop : public Shop {
   explicit LatheShop(const std::string& setup_toml = "", const std::string& speed = "1x")
       : Shop(interpreter::kCenturionDialect, setup_of(setup_toml), speed) {}
 
-  dds::OrderResult give(OrderAction action, double value, const std::string& argument = "") {
-    dds::Order asked = order(action);
+  dds::CommandResult give(CommandAction action, double value, const std::string& argument = "") {
+    dds::Command asked = command(action);
     asked.value = value;
     asked.argument = argument;
     return send(asked);
@@ -39,35 +39,35 @@ class LatheShop : public Shop {
 TEST(Panel, OverridesHaveThePositionsOfTheControlsSwitches) {
   LatheShop shop;
   for (const double percent : {0, 10, 90, 130, 175})
-    EXPECT_TRUE(shop.give(OrderAction::SpindleOverride, percent / 100).accepted) << percent;
+    EXPECT_TRUE(shop.give(CommandAction::SpindleOverride, percent / 100).accepted) << percent;
   for (const double percent : {5, 140, 150, 180})
-    EXPECT_FALSE(shop.give(OrderAction::SpindleOverride, percent / 100).accepted) << percent;
-  EXPECT_EQ(shop.give(OrderAction::SpindleOverride, 1.4).reason,
+    EXPECT_FALSE(shop.give(CommandAction::SpindleOverride, percent / 100).accepted) << percent;
+  EXPECT_EQ(shop.give(CommandAction::SpindleOverride, 1.4).reason,
             "140 %: this control's switch has the positions 0 10 20 30 40 50 60 70 80 90 100 110 "
             "120 130 175 %");
-  EXPECT_TRUE(shop.give(OrderAction::FeedOverride, 1.5).accepted);
-  EXPECT_FALSE(shop.give(OrderAction::FeedOverride, 1.6).accepted);
-  EXPECT_FALSE(shop.give(OrderAction::FeedOverride, 0.75).accepted);
+  EXPECT_TRUE(shop.give(CommandAction::FeedOverride, 1.5).accepted);
+  EXPECT_FALSE(shop.give(CommandAction::FeedOverride, 1.6).accepted);
+  EXPECT_FALSE(shop.give(CommandAction::FeedOverride, 0.75).accepted);
 }
 
 TEST(Panel, OverridesOfOtherControlsKeepTheirRange) {
   Shop shop;
-  dds::Order order = shop.order(OrderAction::SpindleOverride);
-  order.value = 1.3;
-  EXPECT_EQ(shop.send(order).reason, "130 %: expected 50 to 120 %");
-  order = shop.order(OrderAction::SpindleOverride);
-  order.value = 1.2;
-  EXPECT_TRUE(shop.send(order).accepted);
+  dds::Command command = shop.command(CommandAction::SpindleOverride);
+  command.value = 1.3;
+  EXPECT_EQ(shop.send(command).reason, "130 %: expected 50 to 120 %");
+  command = shop.command(CommandAction::SpindleOverride);
+  command.value = 1.2;
+  EXPECT_TRUE(shop.send(command).accepted);
 }
 
 /// CEN-217.
 TEST(Panel, TablesOfTheSetupTakeThePlaceOfTheUsualOnes) {
   LatheShop shop("[control]\nfeed_overrides = [0, 33, 199]\nspindle_overrides = [100, 255]\n");
-  EXPECT_TRUE(shop.give(OrderAction::FeedOverride, 1.99).accepted);
-  EXPECT_TRUE(shop.give(OrderAction::FeedOverride, 0.33).accepted);
-  EXPECT_FALSE(shop.give(OrderAction::FeedOverride, 0.5).accepted);
-  EXPECT_TRUE(shop.give(OrderAction::SpindleOverride, 2.55).accepted);
-  EXPECT_FALSE(shop.give(OrderAction::SpindleOverride, 1.1).accepted);
+  EXPECT_TRUE(shop.give(CommandAction::FeedOverride, 1.99).accepted);
+  EXPECT_TRUE(shop.give(CommandAction::FeedOverride, 0.33).accepted);
+  EXPECT_FALSE(shop.give(CommandAction::FeedOverride, 0.5).accepted);
+  EXPECT_TRUE(shop.give(CommandAction::SpindleOverride, 2.55).accepted);
+  EXPECT_FALSE(shop.give(CommandAction::SpindleOverride, 1.1).accepted);
 }
 
 /// CEN-224: 400 pulses pass .01 minute, so a click of 10 pulses at 100 % passes 15 ms: at 20 inches
@@ -75,23 +75,23 @@ TEST(Panel, TablesOfTheSetupTakeThePlaceOfTheUsualOnes) {
 TEST(Handwheel, DrivesAProgramByClicks) {
   LatheShop shop("[control]\ncranking_minutes = 0.01\n");
   shop.push("O1", "O1\nG20 G98 F20\nG1 Z-4\nM30\n");
-  EXPECT_FALSE(shop.give(OrderAction::Handwheel, 10).accepted) << "no run";
-  ASSERT_TRUE(shop.give(OrderAction::Switch, 1, "handwheel").accepted);
+  EXPECT_FALSE(shop.give(CommandAction::Handwheel, 10).accepted) << "no run";
+  ASSERT_TRUE(shop.give(CommandAction::Switch, 1, "handwheel").accepted);
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "driven by the handwheel"; }));
   EXPECT_EQ(shop.z(), 0);
-  EXPECT_FALSE(shop.give(OrderAction::Handwheel, -5).accepted) << "forward only";
-  EXPECT_FALSE(shop.give(OrderAction::Handwheel, 0.5).accepted);
-  ASSERT_TRUE(shop.give(OrderAction::Handwheel, 200).accepted);  // 3 seconds, 1 inch
+  EXPECT_FALSE(shop.give(CommandAction::Handwheel, -5).accepted) << "forward only";
+  EXPECT_FALSE(shop.give(CommandAction::Handwheel, 0.5).accepted);
+  ASSERT_TRUE(shop.give(CommandAction::Handwheel, 200).accepted);  // 3 seconds, 1 inch
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -0.99; }));
   (void)shop.run_until([&] { return shop.status->feed_mm_per_min == 0; });
   EXPECT_NEAR(shop.z(), -1, 0.002) << "the ramp up costs v^2/2a = 0.0014";
-  ASSERT_TRUE(shop.give(OrderAction::FeedOverride, 0.5).accepted);  // 5 pulses a click
-  ASSERT_TRUE(shop.give(OrderAction::Handwheel, 200).accepted);
+  ASSERT_TRUE(shop.give(CommandAction::FeedOverride, 0.5).accepted);  // 5 pulses a click
+  ASSERT_TRUE(shop.give(CommandAction::Handwheel, 200).accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -1.49; }));
   (void)shop.run_until([&] { return shop.status->feed_mm_per_min == 0; });
   EXPECT_NEAR(shop.z(), -1.5, 0.002);
-  ASSERT_TRUE(shop.give(OrderAction::Switch, 0, "handwheel").accepted);
+  ASSERT_TRUE(shop.give(CommandAction::Switch, 0, "handwheel").accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
 }
 
@@ -99,21 +99,21 @@ TEST(Handwheel, IsRefusedWhereItDrivesNothing) {
   LatheShop lathe;
   lathe.push("O1", "O1\nG20 G98 F20\nG1 Z-4\nM30\n");
   ASSERT_TRUE(lathe.start("O1").accepted);
-  EXPECT_FALSE(lathe.give(OrderAction::Handwheel, 10).accepted) << "not in handwheel mode";
+  EXPECT_FALSE(lathe.give(CommandAction::Handwheel, 10).accepted) << "not in handwheel mode";
   Shop toy;
-  dds::Order order = toy.order(OrderAction::Switch);
-  order.argument = "handwheel";
-  order.value = 1;
-  EXPECT_EQ(toy.send(order).reason, "a handwheel drives no program of control toy");
+  dds::Command command = toy.command(CommandAction::Switch);
+  command.argument = "handwheel";
+  command.value = 1;
+  EXPECT_EQ(toy.send(command).reason, "a handwheel drives no program of control toy");
 }
 
-/// CEN-137: the lamp is lit in the hole, the machine stands behind the way out of it.
+/// CEN-137: the lamp is lit in the hole, the machine stands after the way out of it.
 TEST(Hold, WaitsForATapToBeOutOfItsHole) {
   LatheShop shop;
   shop.push("O1", "O1\nG20 G97 G99 S600 M3\nG0 Z1\nG84 F.1 R.5 Z-.5 G38\nG1 F.1 Z0\nM30\n");
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -0.2; }));
-  ASSERT_TRUE(shop.give(OrderAction::Hold, 0).accepted);
+  ASSERT_TRUE(shop.give(CommandAction::Hold, 0).accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.status->execution == Execution::FeedHold; }));
   ASSERT_TRUE(shop.run_until([&] { return shop.z() > 0.99 && shop.status->feed_mm_per_min == 0; }));
   EXPECT_NEAR(shop.z(), 1, 0.001) << "back at the level where the cycle began";
@@ -123,11 +123,11 @@ TEST(Hold, WaitsForATapToBeOutOfItsHole) {
 TEST(Hold, HasNoEffectInTappingModeUntilItEnds) {
   LatheShop shop;
   shop.push("O1", "O1\nG20 G98 F60\nG63\nG1 Z-1\nX1\nG64\nZ-2\nM30\n");
-  ASSERT_TRUE(shop.give(OrderAction::FeedOverride, 0.1).accepted);
+  ASSERT_TRUE(shop.give(CommandAction::FeedOverride, 0.1).accepted);
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -0.3; }));
   EXPECT_NEAR(shop.status->feed_mm_per_min, 60 * kInch, 1e-3) << "not a tenth of it";
-  ASSERT_TRUE(shop.give(OrderAction::Hold, 0).accepted);
+  ASSERT_TRUE(shop.give(CommandAction::Hold, 0).accepted);
   ASSERT_TRUE(
       shop.run_until([&] { return shop.x() > 0.499 && shop.status->feed_mm_per_min == 0; }));
   EXPECT_NEAR(shop.x(), 0.5, 1e-6);
@@ -141,14 +141,14 @@ TEST(Resume, BeginsWhereTheToolStands) {
   shop.push("O1", "O1\nG20 G98 F60\nP140=.1\nN10 G0 X2 Z.1\nN20 G1 Z-1\nN30 X6\nM30\n");
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -0.999 && shop.x() > 1.5; }));
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Abort)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
   (void)shop.run_until([&] { return shop.status->execution == Execution::Stopped; });
   const double halted_x = shop.x();
   ASSERT_GT(halted_x, 1.5);
   ASSERT_LT(halted_x, 2.9);
 
-  dds::Order again = shop.start_order("O1");
+  dds::Command again = shop.start_command("O1");
   again.argument = "N30";
   ASSERT_TRUE(shop.send(again).accepted);
   double farthest_x = 0;
@@ -159,7 +159,7 @@ TEST(Resume, BeginsWhereTheToolStands) {
   EXPECT_NEAR(farthest_x, halted_x, 1e-6) << "not from the setup's start at X radius 4";
   EXPECT_NEAR(shop.x(), 1, 1e-9);
   EXPECT_NEAR(shop.z(), 0.1, 1e-9);
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   ASSERT_TRUE(shop.run_until([&] { return shop.z() < -0.999; }));
   EXPECT_LT(shop.x(), 1.2) << "Z first";
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// A program that was interrupted and is started again in its middle, at the gateway.
@@ -9,7 +9,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RunOutcome;
 using testing::HasSubstr;
 
@@ -23,10 +23,10 @@ class RestartShop : public Shop {
  public:
   RestartShop() : Shop(interpreter::kTnc155Dialect, {}, "max") {}
 
-  dds::OrderResult start_from(const std::string& program, const std::string& from) {
-    dds::Order order = start_order(program);
-    order.argument = from;
-    return send(order);
+  dds::CommandResult start_from(const std::string& program, const std::string& from) {
+    dds::Command command = start_command(program);
+    command.argument = from;
+    return send(command);
   }
   /// Stopped, and the status reports it with this.
   bool stops(const std::string& message) {
@@ -39,7 +39,7 @@ class RestartShop : public Shop {
   void interrupt(const std::string& program) {
     ASSERT_TRUE(start(program).accepted);
     ASSERT_TRUE(stops("program stop"));
-    ASSERT_TRUE(send(order(OrderAction::Abort)).accepted);
+    ASSERT_TRUE(send(command(CommandAction::Abort)).accepted);
     ASSERT_EQ(ended().outcome, RunOutcome::Aborted);
   }
   std::array<double, 9> position() const { return status->position; }
@@ -73,11 +73,11 @@ TEST(TncRestart, RebuildsToolShiftAndSpindle) {
                                               "R+5.000, S 1000 M05, datum shift X+100.000"));
   EXPECT_EQ(shop.status->modes->tool, 1);
   EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Off);
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   ASSERT_TRUE(shop.stops("program stop"));
   EXPECT_NEAR(shop.position()[0], 105, 1e-6) << "X0 of the shifted datum, and the radius";
   EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Clockwise);
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
   EXPECT_NEAR(shop.position()[0], 170, 1e-6);
 }
@@ -93,7 +93,7 @@ TEST(TncRestart, LooksAtWhereTheMachineIs) {
   ASSERT_TRUE(shop.stops("operator stop"));
   EXPECT_THAT(shop.status->message,
               HasSubstr("the program is at Z+50.000, the machine at Z-5.000"));
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   const auto end = shop.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
   EXPECT_THAT(end.reason, HasSubstr("Z is at -5.000 and the program has it at 50.000 here"));

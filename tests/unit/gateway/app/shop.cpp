@@ -14,10 +14,10 @@ struct Shop::Process {
   Process(const std::filesystem::path& folder, std::uint64_t outbox_bytes)
       : outbox(report::Outbox::open(folder / "outbox.sqlite", {.max_bytes = outbox_bytes}).value()),
         journal(report::RunJournal::open(folder / "run.journal").value()),
-        witness(Witness::open(folder / "witness").value()) {}
+        execution_probe(ExecutionProbe::open(folder / "execution_probe").value()) {}
   report::Outbox outbox;
   report::RunJournal journal;
-  Witness witness;
+  ExecutionProbe execution_probe;
 };
 
 Shop::Shop(const std::string& speed) : Shop(toy_control(), {}, speed) {}
@@ -39,7 +39,7 @@ void Shop::restart_gateway() {
   process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
   requests_.clear();
   Gateway::Parts parts{options_,          control_,          setup, *this, process_->outbox,
-                       process_->journal, process_->witness, clock, 0};
+                       process_->journal, process_->execution_probe, clock, 0};
   parts.session = static_cast<std::uint64_t>(++sessions_);
   gateway = std::make_unique<Gateway>(std::move(parts));
   if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);
@@ -79,20 +79,20 @@ std::chrono::microseconds Shop::steady_time() const {
   return std::chrono::duration_cast<std::chrono::microseconds>(clock.steady.time_since_epoch());
 }
 
-dds::Order Shop::order(dds::OrderAction action) {
-  dds::Order order;
-  order.machine = "lathe-1";
-  order.id = "order-" + std::to_string(++orders_);
-  order.session = static_cast<std::uint64_t>(sessions_);
-  order.server = 1;
-  order.number = static_cast<std::uint64_t>(orders_);
-  order.deadline = steady_time() + std::chrono::seconds(5);
-  order.action = action;
-  return order;
+dds::Command Shop::command(dds::CommandAction action) {
+  dds::Command command;
+  command.machine = "lathe-1";
+  command.id = "order-" + std::to_string(++commands_);
+  command.session = static_cast<std::uint64_t>(sessions_);
+  command.server = 1;
+  command.number = static_cast<std::uint64_t>(commands_);
+  command.deadline = steady_time() + std::chrono::seconds(5);
+  command.action = action;
+  return command;
 }
 
-dds::Order Shop::start_order(const std::string& program) {
-  dds::Order start = order(dds::OrderAction::Start);
+dds::Command Shop::start_command(const std::string& program) {
+  dds::Command start = command(dds::CommandAction::Start);
   start.run = "run-" + std::to_string(++runs_);
   start.program = program;
   start.revision = sha256(programs.at(program)).hex();
@@ -102,11 +102,11 @@ dds::Order Shop::start_order(const std::string& program) {
   return start;
 }
 
-dds::OrderResult Shop::send(const dds::Order& order) {
-  results.erase(order.id);
-  gateway->receive(order, clock.steady);
-  run_until([&] { return results.count(order.id) > 0; }, milliseconds(1));
-  return results.at(order.id);
+dds::CommandResult Shop::send(const dds::Command& command) {
+  results.erase(command.id);
+  gateway->receive(command, clock.steady);
+  run_until([&] { return results.count(command.id) > 0; }, milliseconds(1));
+  return results.at(command.id);
 }
 
 dds::RunEndText Shop::ended() {
@@ -131,9 +131,9 @@ std::size_t Shop::count(dds::RecordKind kind) const {
   return found;
 }
 
-Witness::Counts Shop::witness() const {
-  std::ifstream file(folder() / "witness", std::ios::binary);
-  Witness::Counts counts;
+ExecutionProbe::Counts Shop::execution_probe() const {
+  std::ifstream file(folder() / "execution_probe", std::ios::binary);
+  ExecutionProbe::Counts counts;
   file.read(reinterpret_cast<char*>(&counts), sizeof counts);
   return counts;
 }
@@ -150,7 +150,7 @@ Result<void> Shop::write(const dds::Record& message) {
   if (is_up && message.number == records.size() + 1) records.push_back(message);
   return {};
 }
-Result<void> Shop::write(const dds::OrderResult& message) {
+Result<void> Shop::write(const dds::CommandResult& message) {
   results[message.id] = message;
   return {};
 }

@@ -46,12 +46,12 @@ class Shop : public dds::GatewayEndpoint {
                  std::chrono::milliseconds step = std::chrono::milliseconds(10));
 
   void push(const std::string& program, const std::string& text) { programs[program] = text; }
-  dds::Order order(dds::OrderAction action);
+  dds::Command command(dds::CommandAction action);
   std::chrono::microseconds steady_time() const;
-  dds::Order start_order(const std::string& program);
+  dds::Command start_command(const std::string& program);
   /// Sends it and returns its result.
-  dds::OrderResult send(const dds::Order& order);
-  dds::OrderResult start(const std::string& program) { return send(start_order(program)); }
+  dds::CommandResult send(const dds::Command& command);
+  dds::CommandResult start(const std::string& program) { return send(start_command(program)); }
   /// Runs until the run has ended, and says how.
   dds::RunEndText ended();
   std::vector<std::string> lines() const;
@@ -60,7 +60,7 @@ class Shop : public dds::GatewayEndpoint {
   Result<void> write(const dds::Announce& message) override;
   Result<void> write(const dds::Status& message) override;
   Result<void> write(const dds::Record& message) override;
-  Result<void> write(const dds::OrderResult& message) override;
+  Result<void> write(const dds::CommandResult& message) override;
   Result<void> write(const dds::BlockRequest& message) override;
   bool is_connected() const override { return is_up; }
   dds::Rejected rejected() const override { return {}; }
@@ -71,12 +71,12 @@ class Shop : public dds::GatewayEndpoint {
   std::vector<dds::Record> records;  ///< stored once each, in order
   std::vector<dds::Announce> announced;
   std::optional<dds::Status> status;
-  std::map<std::string, dds::OrderResult> results;
+  std::map<std::string, dds::CommandResult> results;
   std::uint64_t outbox_bytes = 4ULL << 30;
   interpreter::Setup setup;
   std::unique_ptr<Gateway> gateway;
   std::filesystem::path folder() const { return folder_.path(); }
-  Witness::Counts witness() const;
+  ExecutionProbe::Counts execution_probe() const;
 
  private:
   struct Process;
@@ -89,10 +89,10 @@ class Shop : public dds::GatewayEndpoint {
   std::unique_ptr<Process> process_;
   std::vector<dds::BlockRequest> requests_;
   std::string program_;
-  int orders_ = 0, runs_ = 0, sessions_ = 0;
+  int commands_ = 0, runs_ = 0, sessions_ = 0;
 };
 
-/// A program of so many lines of output, each behind so many moves.
+/// A program of so many lines of output, each after so many moves.
 std::string with_reports(int lines, int moves);
 
 }  // namespace dripline::gateway

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// The position displays and the coordinates of a control's status window.

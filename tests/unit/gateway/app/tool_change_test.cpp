@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/centurion/dialect.hpp"
-#include "gateway/interpreter/fanuc/dialect.hpp"
-#include "gateway/interpreter/rs274ngc/dialect.hpp"
-#include "gateway/interpreter/tnc155/dialect.hpp"
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 /// Where tools are changed by hand the machine waits, and the operator is told which tool.
@@ -11,7 +11,7 @@ namespace dripline::gateway {
 namespace {
 
 using dds::Execution;
-using dds::OrderAction;
+using dds::CommandAction;
 using dds::RunOutcome;
 
 interpreter::Setup setup_of(const std::string& toml) {
@@ -48,7 +48,7 @@ TEST_P(ToolChangeAtTheGateway, WaitsWithoutAChanger) {
   for (int turn = 0; turn < 50; ++turn) shop.run_until([&] { return true; });
   EXPECT_EQ(shop.status->position[0], there) << "it waits for as long as it takes";
   EXPECT_EQ(shop.count(dds::RecordKind::RunEnded), 0U);
-  ASSERT_TRUE(shop.send(shop.order(OrderAction::Resume)).accepted);
+  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
   EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
   EXPECT_NE(shop.status->position[0], there);
 }

@@ -123,7 +123,7 @@ const Dialect& toy_control() {
                  EventSink& sink) -> Result<std::unique_ptr<Interpreter>> {
         return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(setup, source, sink));
       },
-      .feed_dial = {.step = 0.05, .most = 2, .fastest = std::nullopt}};
+      .feed_override_switch = {.step = 0.05, .most = 2, .fastest = std::nullopt}};
   return toy;
 }
 

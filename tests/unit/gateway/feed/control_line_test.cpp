@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "tests/support/child_process.hpp"
-#include "tests/support/host_line.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/host_line.hpp"
+#include "tests/support/line/pty.hpp"
 
 namespace dripline::feed {
 namespace {
@@ -166,7 +166,7 @@ TEST(ControlLine, FailsTheProgramWhenTheLineIsLost) {
   EXPECT_FALSE(control->is_open());
 }
 
-TEST(ControlLine, FailsAProgramWhoseHostCanNotBeHeld) {
+TEST(ControlLine, FailsAProgramWhoseHostCannotBeHeld) {
   PtyCable cable;
   wire::LineSettings deaf = fast();
   deaf.flow = wire::Flow::None;

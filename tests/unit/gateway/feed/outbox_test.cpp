@@ -146,16 +146,16 @@ TEST_F(OutboxTest, EveryEpochFitsASignedNumber) {
 TEST_F(OutboxTest, RemembersHowOrdersWereAnswered) {
   {
     Outbox outbox = open();
-    outbox.add_order_result("order-1", false, "busy");
-    outbox.add_order_result("order-1", true, "");  // the first answer stands
+    outbox.add_command_result("order-1", false, "busy");
+    outbox.add_command_result("order-1", true, "");  // the first answer stands
     ASSERT_TRUE(outbox.commit());
   }
   Outbox outbox = open();
-  const auto answer = outbox.order_result("order-1").value();
+  const auto answer = outbox.command_result("order-1").value();
   ASSERT_TRUE(answer.has_value());
   EXPECT_FALSE(answer->is_accepted);
   EXPECT_EQ(answer->reason, "busy");
-  EXPECT_FALSE(outbox.order_result("order-2").value().has_value());
+  EXPECT_FALSE(outbox.command_result("order-2").value().has_value());
 }
 
 TEST_F(OutboxTest, ANewEpochNumbersTheRestFromOne) {

@@ -221,7 +221,7 @@ TEST_F(PullFeedTest, ForeignAnswersAreIgnored) {
     other.program = "O0002";
     feed.on_data(other, now);
     other = data;
-    other.offset = 2;  // would end behind the end
+    other.offset = 2;  // would end after the end
     feed.on_data(other, now);
   }
   EXPECT_EQ(feed.sent(), 0u);

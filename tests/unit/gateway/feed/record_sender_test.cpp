@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Stores each number once and in order, as a server does, behind a link that loses and doubles.
+/// Stores each number once and in order, as a server does, after a link that loses and doubles.
 struct LossyServer {
   std::vector<std::string> stored;
   std::uint64_t epoch = 0;

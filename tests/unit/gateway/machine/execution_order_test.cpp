@@ -79,7 +79,7 @@ TEST(Execution, EverythingIsToldInTheOrderOfTheProgram) {
   EXPECT_EQ(test.machine.state(), MachineState::Completed);
 }
 
-TEST(Execution, AlarmEndsEverythingBehindIt) {
+TEST(Execution, AlarmEndsEverythingAfterIt) {
   TestMachine test;
   test.program.line(0, 10, 1200);
   const Origin& origin = test.program.begin_block();

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/panel_lock.hpp"
+#include "gateway/interpreter/core/override_inhibit.hpp"
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
 /// A program driven by the handwheel. Row: CEN-224.
@@ -18,9 +18,9 @@ void tap(TestMachine& test) {
   const Origin origin = test.program.begin_block();
   interpreter::EventSink& events = test.machine.events();
   const Feed feed = Feed::per_minute(Length::mm(1200));
-  events.on_panel_lock(interpreter::tapping_lock(origin));
+  events.on_override_inhibit(interpreter::tapping_lock(origin));
   events.on_line({origin, Program::at(0, -20), feed});
-  events.on_spindle({origin, interpreter::SpindleState::CounterClockwise, 500, {}, {}});
+  events.on_spindle({origin, interpreter::SpindleState::Counterclockwise, 500, {}, {}});
   events.on_line({origin, Program::at(0, 10), feed});
   test.program.unlock();
   test.program.end_block();

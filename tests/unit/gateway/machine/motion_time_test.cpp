@@ -121,7 +121,7 @@ TEST(FeedPerRevolution, WithASpindleAtRestIsAnAlarmBeforeMoving) {
   EXPECT_TRUE(test.recorder.lines[0].starts_with("alarm MCH0004"));
 }
 
-TEST(SurfaceSpeed, TurnsFasterTowardsTheCentreUpToItsLimit) {
+TEST(SurfaceSpeed, TurnsFasterTowardsTheCenterUpToItsLimit) {
   TestMachine test;
   test.machine.begin(Program::at(50, 0));
   test.program.surface_speed(100'000, 1000);
@@ -162,7 +162,7 @@ TEST(ThreadMove, IgnoresTheFeedOverride) {
   EXPECT_NEAR(test.run_all(), trapezoid(20, 15, 1000), kExact);
 }
 
-TEST(ThreadMove, ThatTheAxesCanNotFollowIsAnAlarm) {
+TEST(ThreadMove, ThatTheAxesCannotFollowIsAnAlarm) {
   TestMachine test;
   test.program.spindle(3000);
   test.program.thread(0, -20, 6);

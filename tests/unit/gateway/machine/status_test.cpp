@@ -18,7 +18,7 @@ TEST(MachineStatus, NamesTheMoveThatIsMade) {
   test.machine.advance_all(1);
   EXPECT_EQ(test.machine.status().motion, MotionKind::None);
   for (const MotionKind expected :
-       {MotionKind::Rapid, MotionKind::Line, MotionKind::CounterClockwise, MotionKind::Clockwise,
+       {MotionKind::Rapid, MotionKind::Line, MotionKind::Counterclockwise, MotionKind::Clockwise,
         MotionKind::Thread}) {
     test.machine.advance_all(1);
     EXPECT_EQ(test.machine.status().motion, expected);

@@ -97,7 +97,7 @@ class Program {
     end_block();
   }
   void arc(double x, double z, double center_z, double center_x, double sweep, double feed,
-           interpreter::Turn turn = interpreter::Turn::CounterClockwise) {
+           interpreter::Turn turn = interpreter::Turn::Counterclockwise) {
     begin_block();
     sink_.on_arc({.origin = origin_,
                   .to = at(x, z),
@@ -115,9 +115,9 @@ class Program {
     end_block();
   }
   /// No block of its own.
-  void lock(interpreter::PanelLock lock) {
+  void lock(interpreter::OverrideInhibit lock) {
     lock.origin = origin_;
-    sink_.on_panel_lock(lock);
+    sink_.on_override_inhibit(lock);
   }
   void unlock() { lock({}); }
   void turns(double revolutions) {

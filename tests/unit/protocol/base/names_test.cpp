@@ -10,7 +10,7 @@ TEST(ProgramName, AcceptsWhatShopsCallTheirPrograms) {
     EXPECT_TRUE(check_program_name(name)) << name;
 }
 
-TEST(ProgramName, CanNotLeaveItsFolder) {
+TEST(ProgramName, CannotLeaveItsFolder) {
   for (const char* name :
        {"../etc/passwd", "..", ".hidden", "a/b", "a\\b", "a\nb", " a", "a ", "", "x\xff"}) {
     EXPECT_FALSE(check_program_name(name)) << name;

@@ -68,7 +68,7 @@ TEST(DomainConfiguration, AnAddressSelectsTheInterfaceByAddress) {
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 0), "address=\"192.168.1.5\""));
 }
 
-TEST(DomainConfiguration, OptionsCanNotBreakOutOfTheirPlace) {
+TEST(DomainConfiguration, OptionsCannotBreakOutOfTheirPlace) {
   NetworkOptions options;
   options.tag = "</Tag>&\"";
   EXPECT_TRUE(contains(*domain_configuration(options, Role::Server, 0),

@@ -77,9 +77,9 @@ int play_gateway(const dds::NetworkOptions& options, std::uint64_t session) {
   Answers answers;
   std::unique_ptr<dds::GatewayEndpoint> gateway;
   dds::GatewayHandlers handlers;
-  handlers.on_order = [&](dds::Order m) {
+  handlers.on_command = [&](dds::Command m) {
     answers.post([&gateway, m] {
-      must(gateway->write(dds::OrderResult{m.machine, m.id, true, ""}));
+      must(gateway->write(dds::CommandResult{m.machine, m.id, true, ""}));
     });
   };
   auto opened = dds::GatewayEndpoint::open(options, "lathe-1", std::move(handlers));

@@ -178,27 +178,27 @@ TEST(Decode, RefusesTextThatIsNotUtf8) {
 }
 
 TEST(Decode, RefusesAStartWithoutAProgram) {
-  Order order;
-  order.machine = "lathe-1";
-  order.id = "1";
-  auto sample = sample_of(order);
+  Command command;
+  command.machine = "lathe-1";
+  command.id = "1";
+  auto sample = sample_of(command);
   ASSERT_TRUE(decode(sample));
-  sample.action = static_cast<std::uint8_t>(OrderAction::Start);
+  sample.action = static_cast<std::uint8_t>(CommandAction::Start);
   EXPECT_FALSE(decode(sample));
 }
 
 TEST(Decode, KeepsTheSetupOfAStart) {
-  Order order;
-  order.machine = "lathe-1";
-  order.id = "1";
-  order.setup = "# Drehl\xC3\xA4nge\n[[tool]]\nnumber = 1\n";
-  const auto sample = sample_of(order);
-  EXPECT_EQ(decode(sample)->setup, order.setup);
-  order.setup = "\xC3(";
-  SampleOf<Order> refused;
-  EXPECT_FALSE(encode(order, refused));
-  order.setup.assign(kMaxOrderSetup + 1, ' ');
-  EXPECT_FALSE(encode(order, refused));
+  Command command;
+  command.machine = "lathe-1";
+  command.id = "1";
+  command.setup = "# Drehl\xC3\xA4nge\n[[tool]]\nnumber = 1\n";
+  const auto sample = sample_of(command);
+  EXPECT_EQ(decode(sample)->setup, command.setup);
+  command.setup = "\xC3(";
+  SampleOf<Command> refused;
+  EXPECT_FALSE(encode(command, refused));
+  command.setup.assign(kMaxCommandSetup + 1, ' ');
+  EXPECT_FALSE(encode(command, refused));
 }
 
 TEST(Encode, RefusesWhatDoesNotFitInsteadOfCuttingIt) {

@@ -59,7 +59,7 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
                              .flood = true,
                              .mist = true,
                              .tool_axis = 2,
-                             .spindle = SpindleState::CounterClockwise};
+                             .spindle = SpindleState::Counterclockwise};
   status.coordinates =
       Coordinates{.target = {1, 2, 3, 4, 5, 6, 7, 8, 9},
                   .lag = std::array<double, 9>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
@@ -87,25 +87,25 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
   ASSERT_TRUE(server->endpoint->write(ack));
   EXPECT_EQ(gateway->acks.take(), ack);
 
-  Order order;
-  order.machine = "lathe-1";
-  order.id = "order-1";
-  order.expires = at(1'700'000'005'000'000);
-  order.action = OrderAction::Start;
-  order.run = "run-1";
-  order.program = "part 7.nc";
-  order.revision = std::string(64, 'a');
-  order.size = 1000;
-  order.control = "centurion";
-  order.argument = "ja";
-  order.value = 0.5;
-  order.server = 4711;
-  order.number = 12;
-  order.deadline = 86'000'000us;
-  ASSERT_TRUE(server->endpoint->write(order));
-  EXPECT_EQ(gateway->orders.take(), order);
+  Command command;
+  command.machine = "lathe-1";
+  command.id = "order-1";
+  command.expires = at(1'700'000'005'000'000);
+  command.action = CommandAction::Start;
+  command.run = "run-1";
+  command.program = "part 7.nc";
+  command.revision = std::string(64, 'a');
+  command.size = 1000;
+  command.control = "centurion";
+  command.argument = "ja";
+  command.value = 0.5;
+  command.server = 4711;
+  command.number = 12;
+  command.deadline = 86'000'000us;
+  ASSERT_TRUE(server->endpoint->write(command));
+  EXPECT_EQ(gateway->commands.take(), command);
 
-  const OrderResult result{"lathe-1", "order-1", false, "ein anderes Programm läuft"};
+  const CommandResult result{"lathe-1", "order-1", false, "ein anderes Programm läuft"};
   ASSERT_TRUE(gateway->endpoint->write(result));
   EXPECT_EQ(server->results.take(), result);
 

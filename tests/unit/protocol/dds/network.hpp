@@ -60,7 +60,7 @@ struct TestServer {
   Inbox<bool> rivals;
   Inbox<Status> statuses;
   Inbox<Record> records;
-  Inbox<OrderResult> results;
+  Inbox<CommandResult> results;
   Inbox<BlockRequest> requests;
   std::unique_ptr<ServerEndpoint> endpoint;  // last: its callbacks use the inboxes
 
@@ -70,20 +70,20 @@ struct TestServer {
             .on_rival = [this](std::string, bool is_there) { rivals.put(is_there); },
             .on_status = [this](Status m) { statuses.put(std::move(m)); },
             .on_record = [this](Record m) { records.put(std::move(m)); },
-            .on_order_result = [this](OrderResult m) { results.put(std::move(m)); },
+            .on_command_result = [this](CommandResult m) { results.put(std::move(m)); },
             .on_request = [this](BlockRequest m) { requests.put(std::move(m)); }};
   }
 };
 
 struct TestGateway {
-  Inbox<Order> orders;
+  Inbox<Command> commands;
   Inbox<RecordAck> acks;
   Inbox<BlockData> blocks;
   Inbox<bool> server;
   std::unique_ptr<GatewayEndpoint> endpoint;
 
   GatewayHandlers handlers() {
-    return {.on_order = [this](Order m) { orders.put(std::move(m)); },
+    return {.on_command = [this](Command m) { commands.put(std::move(m)); },
             .on_ack = [this](RecordAck m) { acks.put(std::move(m)); },
             .on_block = [this](BlockData m) { blocks.put(std::move(m)); },
             .on_server = [this](bool is_connected) { server.put(is_connected); }};

@@ -27,7 +27,7 @@ class PeerProcess {
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     if (posix_spawn(&pid_, path.c_str(), &actions, nullptr, argv.data(), environ) != 0) {
-      throw std::runtime_error("can not start " + path);
+      throw std::runtime_error("cannot start " + path);
     }
     posix_spawn_file_actions_destroy(&actions);
     close(input[0]);
@@ -70,10 +70,10 @@ class Process : public Network {
                                  std::to_string(options_.lease_ms), std::to_string(session)});
   }
   static void expect_answer(TestServer& server, const std::string& id) {
-    Order order;
-    order.machine = "lathe-1";
-    order.id = id;
-    ASSERT_TRUE(server.endpoint->write(order));
+    Command command;
+    command.machine = "lathe-1";
+    command.id = id;
+    ASSERT_TRUE(server.endpoint->write(command));
     const auto result = server.results.take();
     ASSERT_TRUE(result);
     EXPECT_EQ(result->id, id);

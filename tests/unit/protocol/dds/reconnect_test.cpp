@@ -79,17 +79,17 @@ TEST_F(Reconnect, ANewServerIsNotHandedOldRecordsOrOrders) {
   ASSERT_TRUE(server->announces.take());
   ASSERT_TRUE(gateway->endpoint->write(record("lathe-1", 1)));
   ASSERT_TRUE(server->records.take());
-  Order order;
-  order.machine = "lathe-1";
-  order.id = "order-1";
-  ASSERT_TRUE(server->endpoint->write(order));
-  ASSERT_TRUE(gateway->orders.take());
+  Command command;
+  command.machine = "lathe-1";
+  command.id = "order-1";
+  ASSERT_TRUE(server->endpoint->write(command));
+  ASSERT_TRUE(gateway->commands.take());
   gateway.reset();
   gateway = open_gateway("lathe-1", 2);
   ASSERT_EQ(gateway->server.take(), true);
   ASSERT_EQ(server->announces.take(), announce("lathe-1", 2));  // the first one is gone by now
   expect_working(*server, *gateway, 2);
-  EXPECT_EQ(gateway->orders.size(), 0U);
+  EXPECT_EQ(gateway->commands.size(), 0U);
   EXPECT_EQ(server->records.size(), 0U);
 }
 

@@ -94,7 +94,7 @@ TEST_F(Rejection, TheServerDropsAndCountsWhatFailsItsCheckOrComesFromOthers) {
 TEST_F(Rejection, AServersWordIsTakenFromNobodyElse) {
   auto server = open_server();
   Rogue<Status> status;
-  Rogue<OrderResult> result;
+  Rogue<CommandResult> result;
   Rogue<BlockRequest> request;
   auto gateway = open_gateway("lathe-1");
   ASSERT_TRUE(server->announces.take());
@@ -128,33 +128,33 @@ TEST_F(Rejection, TheGatewayTakesOrdersTextAndAcksFromItsServerOnly) {
   ASSERT_FALSE(own.empty());
   aim_at(own.front());
 
-  Order start;
+  Command start;
   start.machine = "lathe-1";
   start.id = "forged";
-  start.action = OrderAction::Start;
+  start.action = CommandAction::Start;
   start.run = "run-1";
   start.program = "O1";
   start.revision = std::string(64, 'a');
-  Rogue<Order> orders;
-  orders.open(options, Role::Gateway, "lathe-1");
-  write_until_refused(orders, start, *gateway->endpoint);
-  Order hold = start;
-  hold.action = OrderAction::Hold;
-  write_until_refused(orders, hold, *gateway->endpoint);
+  Rogue<Command> commands;
+  commands.open(options, Role::Gateway, "lathe-1");
+  write_until_refused(commands, start, *gateway->endpoint);
+  Command hold = start;
+  hold.action = CommandAction::Hold;
+  write_until_refused(commands, hold, *gateway->endpoint);
   Rogue<BlockData> blocks;
   blocks.open(options, Role::Gateway, "lathe-1");
   write_until_refused(blocks, block_data("lathe-1", 0, 10), *gateway->endpoint);
   Rogue<RecordAck> acks;
   acks.open(options, Role::Gateway, "lathe-1");
   write_until_refused(acks, RecordAck{"lathe-1", 7, 1}, *gateway->endpoint);
-  EXPECT_EQ(gateway->orders.size(), 0U);
+  EXPECT_EQ(gateway->commands.size(), 0U);
   EXPECT_EQ(gateway->blocks.size(), 0U);
   EXPECT_EQ(gateway->acks.size(), 0U);
 
   start.id = "from the server";
   std::ranges::replace(start.id, ' ', '-');
   ASSERT_TRUE(server->endpoint->write(start));
-  EXPECT_EQ(gateway->orders.take(), start);
+  EXPECT_EQ(gateway->commands.take(), start);
 }
 
 TEST_F(Rejection, AGatewayWithoutAServerDropsEverything) {

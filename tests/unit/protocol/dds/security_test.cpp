@@ -145,7 +145,7 @@ TEST_F(Security, AGatewayOfAForeignAuthorityIsShutOut) {
   expect_shut_out(*server, *stranger);
 }
 
-TEST_F(Security, ACertifiedGatewayCanNotPlayAnotherMachine) {
+TEST_F(Security, ACertifiedGatewayCannotPlayAnotherMachine) {
   auto server = open_secure_server();
   options_.security = authority_->certify("gw1", "machine.lathe-1");
   EXPECT_FALSE(GatewayEndpoint::open(options_, "lathe-3", {}));

@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "tests/support/child_process.hpp"
-#include "tests/support/faulty_channel.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/faulty_channel.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/unit/protocol/serial/line_fixture.hpp"
 
 namespace dripline::serial {
@@ -170,8 +170,8 @@ TEST(LineDriver, HandsFaultsToTheDiscipline) {
   const auto line = start_faulty(log, pty, {.parity = 0.05}, std::make_shared<ChannelControl>());
   ASSERT_TRUE(log.wait_open());
   pty.write(std::string(2000, 'X'));
-  ASSERT_TRUE(log.wait([&] { return log.received.size() + log.troubles.size() == 2000; }));
-  EXPECT_GT(log.troubles.size(), 20U);
+  ASSERT_TRUE(log.wait([&] { return log.received.size() + log.faults.size() == 2000; }));
+  EXPECT_GT(log.faults.size(), 20U);
 }
 
 TEST(LineDriver, PassesModemLinesOnBothWays) {

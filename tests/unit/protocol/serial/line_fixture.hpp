@@ -21,7 +21,7 @@ struct LineLog {
   std::string received;
   std::vector<Passed> traffic;
   std::vector<std::string> channel;  ///< "open", or why not
-  std::vector<Error> failures, troubles;
+  std::vector<Error> failures, faults;
   int ended = 0, room_calls = 0;
   std::string to_send;  ///< offered whenever there is room
 
@@ -55,8 +55,8 @@ struct LineLog {
                       received += text->text;
                     if (auto* failed = std::get_if<wire::TransferFailed>(&event))
                       failures.push_back(failed->error);
-                    if (auto* trouble = std::get_if<wire::LineTrouble>(&event))
-                      troubles.push_back(trouble->error);
+                    if (auto* trouble = std::get_if<wire::LineError>(&event))
+                      faults.push_back(trouble->error);
                     if (std::holds_alternative<wire::TransferEnded>(event)) ++ended;
                   });
                 },

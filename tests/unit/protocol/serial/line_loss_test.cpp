@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/child_process.hpp"
-#include "tests/support/faulty_channel.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/faulty_channel.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/unit/protocol/serial/line_fixture.hpp"
 #include "tests/unit/protocol/serial/tcp_peer.hpp"
 

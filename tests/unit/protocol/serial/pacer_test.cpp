@@ -38,7 +38,7 @@ TEST(Pacer, KeepsTheRateWhenItsOwnerIsLateByLessThanACharacter) {
   EXPECT_LT(now, 1002 * kT);
 }
 
-TEST(Pacer, NeverCatchesUpWhatTheLineCanNot) {
+TEST(Pacer, NeverCatchesUpWhatTheLineCannot) {
   Pacer pacer(kT);
   pacer.handed_over(2, 0us);
   EXPECT_EQ(pacer.allowance(50 * kT, std::nullopt), 2U);

@@ -5,7 +5,7 @@
 
 #include "protocol/serial/channel.hpp"
 #include "tests/support/child_process.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/pty.hpp"
 #include "tests/unit/protocol/serial/tcp_peer.hpp"
 
 /// RFC 2217 against Debian's ser2net as a real peer, with a pty as its port.

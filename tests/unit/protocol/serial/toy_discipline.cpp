@@ -20,7 +20,7 @@ void ToyDiscipline::receive(std::span<const std::byte> bytes, LineTime) {
 
 void ToyDiscipline::fault(LineFault fault, LineTime) {
   events_.emplace_back(
-      LineTrouble{Error{Errc::Corrupt, fmt::format("fault {}", static_cast<int>(fault))}});
+      LineError{Error{Errc::Corrupt, fmt::format("fault {}", static_cast<int>(fault))}});
 }
 
 void ToyDiscipline::lines(InputLines lines, LineTime) {

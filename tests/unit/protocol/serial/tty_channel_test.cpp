@@ -8,7 +8,7 @@
 #include "protocol/serial/channel.hpp"
 #include "protocol/serial/impl/port_lock.hpp"
 #include "tests/support/child_process.hpp"
-#include "tests/support/pty.hpp"
+#include "tests/support/line/pty.hpp"
 
 namespace dripline::serial {
 namespace {

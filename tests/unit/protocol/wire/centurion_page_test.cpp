@@ -1,4 +1,4 @@
-#include "protocol/wire/centurion_page.hpp"
+#include "clients/tools/lines/centurion_page.hpp"
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(CenturionPage, SaysHowThePageMustStandForALine) {  // CEN-197, CEN-198, CEN
   EXPECT_TRUE(page_of_line(lf, PagePort::Primary)->lf_becomes_cr);
 }
 
-TEST(CenturionPage, NamesWhatTheControlCanNotDo) {  // CEN-197
+TEST(CenturionPage, NamesWhatTheControlCannotDo) {  // CEN-197
   const auto error = [](const std::string& key, const std::string& value) {
     LineSettings line = (*find_template("centurion"))->settings;
     EXPECT_TRUE(set_value(line, key, value));

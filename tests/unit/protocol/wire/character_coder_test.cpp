@@ -87,7 +87,7 @@ TEST(CharacterDecoder, LeavesOutBlanksDeletesAndControlCharacters) {
   EXPECT_EQ(decoded(Iso, bytes(std::string_view("\0\xFF\x11\xB1\x87\x8D\n", 7))), "1\n");
 }
 
-TEST(CharacterDecoder, PutsAQuestionMarkWhereItCanNotRead) {
+TEST(CharacterDecoder, PutsAQuestionMarkWhereItCannotRead) {
   CharacterDecoder decoder(Iso);
   ASSERT_EQ(decoder.decode(std::byte{0x47}).text, 'G');
   const auto wrong = decoder.decode(std::byte{0x31});

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/line_events.hpp"
+#include "tests/support/line/line_events.hpp"
 
 /// What particular controls do on a plain line: Fanuc, ProtoTRAK Plus, Centurion.
 namespace dripline::wire {
@@ -180,7 +180,7 @@ TEST(DcCodes, WaitsForTheOperatorWithoutALimitUnlessToldTo) {
   EXPECT_THAT(limited.events(), HasSubstr("failed timeout: no DC1 came to start for 700 ms"));
 }
 
-TEST(DcCodes, AStopBehindTheTextsOwnEndCharacterEndsTheTransfer) {
+TEST(DcCodes, AStopAfterTheTextsOwnEndCharacterEndsTheTransfer) {
   TestedLine host(template_with("fanuc", {{"trailer", "5"}}), Role::Host);
   host.hear("\x11");
   ASSERT_TRUE(host.line->begin_send("", host.now));
@@ -297,7 +297,7 @@ TEST(DcCodes, ControlPunchesBetweenDc2AndDc4) {
   EXPECT_EQ(control.say(), "\x12%\nO7\nM30\n%\x14");
 }
 
-TEST(DcCodes, ControlGoesOnListeningBehindWhatItPunches) {
+TEST(DcCodes, ControlGoesOnListeningAfterWhatItPunches) {
   TestedLine control = receiving("fanuc");
   ASSERT_TRUE(control.line->begin_send("", control.now));
   ASSERT_TRUE(control.offer("X1\n"));
@@ -577,14 +577,14 @@ TEST(CenturionDnc, FastTakesNoUnits) {
   }
 }
 
-TEST(CenturionDnc, CanNotContinueOverALine) {
+TEST(CenturionDnc, CannotContinueOverALine) {
   TestedLine control(template_with("centurion", {{"dnc_mode", "continue"}}), Role::Control);
   const auto begun = control.line->begin_receive("", control.now);
   ASSERT_FALSE(begun);
   EXPECT_EQ(begun.error().code, Errc::Unsupported);
 }
 
-TEST(CenturionDnc, CanNotBeLinkedWhileARunGoesOn) {  // CEN-208
+TEST(CenturionDnc, CannotBeLinkedWhileARunGoesOn) {  // CEN-208
   TestedLine control = receiving("centurion", {{"dnc_mode", "run"}});
   const auto again = control.line->begin_receive("", control.now);
   ASSERT_FALSE(again);

@@ -1,4 +1,4 @@
-#include "protocol/wire/line_diagnosis.hpp"
+#include "clients/tools/lines/line_diagnosis.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

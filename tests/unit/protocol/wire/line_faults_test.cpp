@@ -123,7 +123,7 @@ TEST_P(UncheckedLine, SaysWhatItSeesAndNeverHangs) {
       ASSERT_TRUE(run.is_exact()) << run.story();
       ASSERT_FALSE(run.is_said()) << run.story();
     }
-    const bool has_heard = run.receiver->troubles.size() + run.receiver->failures.size() > 0;
+    const bool has_heard = run.receiver->faults.size() + run.receiver->failures.size() > 0;
     if (run.forward.reported > 0) {
       ASSERT_TRUE(has_heard) << run.story();
     }

@@ -1,4 +1,4 @@
-#include "protocol/wire/line_replay.hpp"
+#include "clients/tools/lines/line_replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

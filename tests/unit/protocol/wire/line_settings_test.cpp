@@ -165,7 +165,7 @@ TEST(LineTemplates, AreTheControlsUsualLines) {
   }
 }
 
-TEST(LineTemplates, PaceWhatCanNotBeHeld) {
+TEST(LineTemplates, PaceWhatCannotBeHeld) {
   const auto found = find_template("prototrak");
   ASSERT_TRUE(found);
   EXPECT_GT((*found)->settings.line_delay.count(), 0);

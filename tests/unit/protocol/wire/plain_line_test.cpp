@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/line_events.hpp"
+#include "tests/support/line/line_events.hpp"
 
 /// Plain text held by XON/XOFF, RTS/CTS or pauses, seen from one end.
 namespace dripline::wire {
@@ -60,7 +60,7 @@ TEST(PlainSending, EndsTheLastBlockBeforeAPrintableEndCharacter) {
   EXPECT_EQ(host.say(), "M30\n%");
 }
 
-TEST(PlainSending, RefusesTextBehindItsEndCharacterNamingTheLine) {
+TEST(PlainSending, RefusesTextAfterItsEndCharacterNamingTheLine) {
   TestedLine host(settings_with({{"end_char", "%"}}), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("G1\n(50", false));
@@ -222,7 +222,7 @@ TEST(PlainSending, UsesUpTheDc1ThatWasRefused) {
   EXPECT_EQ(host.say(), "AB\r\n");
 }
 
-TEST(PlainSending, PausesBehindBlocksAndCharacters) {
+TEST(PlainSending, PausesAfterBlocksAndCharacters) {
   TestedLine host(
       settings_with(
           {{"flow", "none"}, {"line_delay_ms", "100"}, {"char_delay_us", "2000"}, {"eob", "lf"}}),
@@ -234,7 +234,7 @@ TEST(PlainSending, PausesBehindBlocksAndCharacters) {
   host.pass(character + milliseconds(2));
   EXPECT_EQ(host.say_now(), "\n");
   host.pass(character + milliseconds(101));
-  EXPECT_EQ(host.say_now(), "") << "the pause behind a block is 102 ms";
+  EXPECT_EQ(host.say_now(), "") << "the pause after a block is 102 ms";
   host.pass(milliseconds(1));
   EXPECT_EQ(host.say_now(), "B");
 }
@@ -271,7 +271,7 @@ TEST(PlainReceiving, SaysThatTheStartCharacterIsMissing) {
   EXPECT_THAT(host.events(), HasSubstr("trouble corrupt: the start character before the program"));
 }
 
-TEST(PlainReceiving, KeepsATitleBehindTheStartCharacter) {
+TEST(PlainReceiving, KeepsATitleAfterTheStartCharacter) {
   TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}}), Role::Host);
   host.hear("%:PART 7\r\nO1\r\n%\r\n");
   EXPECT_EQ(host.events(), "receiving\ntext \"%:PART 7\\nO1\\n\"\nreceived\n");
@@ -376,7 +376,7 @@ TEST(PlainReceiving, GoesOnWhileTheHostFeeds) {
   EXPECT_EQ(host.events(), "sending\nreceiving\ntext \"LINE 1\\n\"\nreceived\nsent\n");
 }
 
-TEST(PlainSettings, RefuseMarksThatTheLineCanNotCarry) {
+TEST(PlainSettings, RefuseMarksThatTheLineCannotCarry) {
   const auto refused =
       [](std::initializer_list<std::pair<std::string_view, std::string_view>> set) {
         const auto made = make_discipline(settings_with(set), Role::Host);

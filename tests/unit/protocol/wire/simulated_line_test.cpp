@@ -46,7 +46,7 @@ TEST(SimulatedLine, IsUsedWithoutAGap) {
   EXPECT_EQ(line.now(), characters * character_time(settings));
 }
 
-TEST(SimulatedLine, HoldsAtMostTwoCharactersBehindDc3) {
+TEST(SimulatedLine, HoldsAtMostTwoCharactersAfterDc3) {
   LineSettings settings = line_of("plain");
   LineSimulator line = simulated(settings);
   line.control().hold_rate = 0.05;

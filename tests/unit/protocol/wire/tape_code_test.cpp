@@ -66,7 +66,7 @@ TEST(TapeCode, DeletesEverythingButTheEndOfBlockOfEia) {
   EXPECT_EQ(delete_row(Eia), 0x7F);
 }
 
-TEST(TapeCode, HasNoEiaRowForWhatEiaCanNotSay) {
+TEST(TapeCode, HasNoEiaRowForWhatEiaCannotSay) {
   for (const char c : std::string_view("()#:;=*$'\"<>?@![]a")) {
     EXPECT_FALSE(encode_row(Eia, c)) << c;
   }
@@ -110,7 +110,7 @@ TEST_P(DetectTapeCode, FindsTheCodeAndTheFirstBlock) {
 INSTANTIATE_TEST_SUITE_P(
     , DetectTapeCode,
     testing::Values(Tape{"eia", Eia, "", 1}, Tape{"iso", Iso, "", 1}, Tape{"ascii", Ascii, "", 1},
-                    Tape{"eia_behind_blanks", Eia, std::string(200, '\0'), 201},
+                    Tape{"eia_after_blanks", Eia, std::string(200, '\0'), 201},
                     Tape{"eia_title_with_line_feeds", Eia, "\x7E\x0A\x0A\x8D\x7E", 6},
                     Tape{"iso_title_with_track_eight", Iso, "\xFE\x80\x80\x92\xFE", 6}),
     [](const auto& tested) { return std::string(tested.param.name); });

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "protocol/wire/tape_listing.hpp"
+#include "clients/tools/lines/tape_listing.hpp"
 #include "protocol/wire/tape_title.hpp"
 
 namespace dripline::wire {
@@ -92,7 +92,7 @@ TEST_P(BothCodes, LeavesOutDeletedRowsInTheMiddleOfAWord) {
   EXPECT_EQ(tape.summary.deletes, 3U);
 }
 
-TEST_P(BothCodes, FindsAFlippedHoleBehindTheFirstEndOfBlockAndNotBefore) {
+TEST_P(BothCodes, FindsAFlippedHoleAfterTheFirstEndOfBlockAndNotBefore) {
   TapeForm form;
   form.code = GetParam();
   form.leader = 0;
@@ -112,11 +112,11 @@ TEST_P(BothCodes, FindsAFlippedHoleBehindTheFirstEndOfBlockAndNotBefore) {
 INSTANTIATE_TEST_SUITE_P(, BothCodes, testing::Values(Eia, Iso),
                          [](const auto& tested) { return std::string(code_name(tested.param)); });
 
-TEST(TapeImage, EndsAtTheClosingRewindStopAndReadsOnBehindTheNextEndOfBlock) {
+TEST(TapeImage, EndsAtTheClosingRewindStopAndReadsOnAfterTheNextEndOfBlock) {
   TapeForm form;
   form.leader = 0;
   auto rows = punched(form, "N1M2\n%\n%\nN5M30\n%");
-  rows.insert(rows.end(), {std::byte{0x01}, std::byte{0x02}});  // junk behind the trailer
+  rows.insert(rows.end(), {std::byte{0x01}, std::byte{0x02}});  // junk after the trailer
   const auto tape = read({Iso}, std::span(rows).first(rows.size() - 2));
   EXPECT_EQ(tape.text, "%\nN1M2\n%\n%\nN5M30\n%\n") << tape.error;
 }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/wire/tape_code.hpp"
-#include "tests/support/line_simulator.hpp"
+#include "tests/support/line/line_simulator.hpp"
 
 namespace dripline::wire {
 namespace {
@@ -154,7 +154,7 @@ TEST(TapeReaderControl, ChecksNoParityBeforeTheFirstEndOfBlock) {
   EXPECT_EQ(text, "%\nN1M2\n");
 }
 
-TEST(TapeReaderHost, NamesWhatEiaCanNotSay) {
+TEST(TapeReaderHost, NamesWhatEiaCannotSay) {
   auto host = make_discipline(settings_of(CharacterCode::Eia), Role::Host).value();
   ASSERT_TRUE(host->begin_send("", {}));
   const auto refused = host->offer("N1\nN2 (ROUGH)\n", true, {});

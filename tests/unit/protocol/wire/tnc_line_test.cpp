@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/wire/impl/tnc_frames.hpp"
-#include "tests/support/line_simulator.hpp"
+#include "tests/support/line/line_simulator.hpp"
 
 namespace dripline::wire {
 namespace {
@@ -278,7 +278,7 @@ TEST(TncBlockwise, TakesNoSecondAckForTheNextBlock) {
   EXPECT_EQ(accepted, 7U);
 }
 
-/// A host that answers at once is heard while the DC1 behind the BCC is still to leave.
+/// A host that answers at once is heard while the DC1 after the BCC is still to leave.
 TEST(TncBlockwise, TakesAnAnswerThatOvertakesTheDc1BehindTheBlock) {
   const auto control = make_discipline(settings_of(Flow::HeidenhainBcc), Role::Control).value();
   const auto sent = [&](std::size_t most) {
@@ -318,12 +318,12 @@ TEST(TncBlockwise, TakesARepeatedBlockOnce) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(room.data()), count), "\x06\x06\x06\x04");
 }
 
-TEST(TncBlockwise, NamesTheCharacterThatCanNotStandInABlock) {
+TEST(TncBlockwise, NamesTheCharacterThatCannotStandInABlock) {
   auto host = make_discipline(settings_of(Flow::HeidenhainBcc), Role::Host).value();
   ASSERT_TRUE(host->begin_send("7", {}));
   const auto refused = host->offer("0 BEGIN PGM 7 MM\n1 L X\t4\n", true, {});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().what, "line 2, column 6: character 0x09 can not stand in a TNC block");
+  EXPECT_EQ(refused.error().what, "line 2, column 6: character 0x09 cannot stand in a TNC block");
 }
 
 TEST(TncBlockwise, RefusesControlCharactersThatExcludeEachOther) {
@@ -412,14 +412,14 @@ TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
   hear("0 BEGIN PGM 3 MM\r\n2 L X");
   host->fault(LineFault::Parity, {});
   hear("4\r\n3 END PGM 3 MM\r\n\x03");
-  std::string text, troubles;
+  std::string text, faults;
   for (const auto& event : host->take_events()) {
     if (const auto* got = std::get_if<TextReceived>(&event)) text += got->text;
-    if (const auto* trouble = std::get_if<LineTrouble>(&event))
-      troubles += trouble->error.what + "|";
+    if (const auto* trouble = std::get_if<LineError>(&event))
+      faults += trouble->error.what + "|";
   }
   EXPECT_EQ(text, "0 BEGIN PGM 3 MM\n2 L X?4\n3 END PGM 3 MM\n");
-  EXPECT_EQ(troubles, "parity error behind '2 L X'|block 2 came behind block 0|");
+  EXPECT_EQ(faults, "parity error after '2 L X'|block 2 came after block 0|");
 }
 
 // Rows: HD-219 (DC1 and DC3).

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/line_simulator.hpp"
+#include "tests/support/line/line_simulator.hpp"
 
 namespace dripline::wire {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "protocol/wire/impl/xmodem_block.hpp"
-#include "tests/support/line_events.hpp"
+#include "tests/support/line/line_events.hpp"
 
 /// XMODEM, checksum and CRC, sender and receiver, each from one end.
 namespace dripline::wire {

@@ -124,7 +124,7 @@ TEST_F(DatabaseTest, ErrorsNameCodeAndSql) {
   ASSERT_TRUE(database.prepare(kInsert)->bind(1, "x", std::nullopt).run());
   const auto twice = database.prepare(kInsert)->bind(1, "x", std::nullopt).run();
   ASSERT_FALSE(twice);
-  EXPECT_EQ(twice.error().code, Errc::ModalConflict);
+  EXPECT_EQ(twice.error().code, Errc::Conflict);
   EXPECT_NE(twice.error().what.find("1555"), std::string::npos) << twice.error().what;
 }
 

@@ -1,0 +1,140 @@
+#include "clients/cli/offline/edited_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "clients/cli/offline/offline_program.hpp"
+#include "clients/lib/byte_source.hpp"
+#include "clients/lib/output_file.hpp"
+#include "clients/lib/pull.hpp"
+#include "clients/lib/push.hpp"
+
+namespace dripline::cli {
+namespace {
+
+/// What is edited is held in memory, several times.
+constexpr std::uint64_t kMaxBytes = 64 * 1024 * 1024;
+
+/// Text in memory as the source of a push.
+class TextSource final : public client::ByteSource {
+ public:
+  explicit TextSource(const std::string& text) : text_(text) {}
+  std::uint64_t size() const override { return text_.size(); }
+  Result<void> read(std::uint64_t offset, std::span<char> into) override {
+    if (offset > text_.size() || into.size() > text_.size() - offset) {
+      return fail(Errc::Io, "bytes {} to {} of a text of {}", offset, offset + into.size(),
+                  text_.size());
+    }
+    std::copy_n(text_.data() + offset, into.size(), into.data());
+    return {};
+  }
+
+ private:
+  const std::string& text_;
+};
+
+Error too_long(const std::string& name, std::uint64_t size) {
+  return {Errc::LimitExceeded,
+          fmt::format("{} has {} bytes: at most {} can be edited", name, size, kMaxBytes)};
+}
+
+}  // namespace
+
+EditedText::EditedText(Context& context, Place place)
+    : context_(context), place_(std::move(place)) {
+  is_open_ = place_.file.empty() ? pull() : read_file();
+}
+
+const std::string& EditedText::name() const {
+  return place_.file.empty() ? place_.program : place_.file;
+}
+
+bool EditedText::use_control(const std::string& control) {
+  control_ = control;
+  if (control.empty()) return true;
+  const auto dialect = interpreter::find_dialect(control);
+  if (!dialect) return context_.status = complain(dialect.error()), false;
+  keeping_ = (*dialect)->keeping;
+  return true;
+}
+
+bool EditedText::read_file() {
+  auto file = MappedFile::open(place_.file);
+  if (!file) return context_.status = complain(file.error()), false;
+  if (file->text().size() > kMaxBytes) {
+    return context_.status = complain(too_long(place_.file, file->text().size())), false;
+  }
+  text_ = file->text();
+  if (!place_.control.empty()) return use_control(place_.control);
+  const std::string name = std::filesystem::path(place_.file).filename().string();
+  const auto candidates = interpreter::detect_dialect(text_, name);
+  return use_control(candidates.size() == 1 ? std::string(candidates.front()->name) : "");
+}
+
+bool EditedText::pull() {
+  auto client = context_.connect();
+  if (!client) return false;
+  const auto history = client->program(place_.program);
+  if (!history) return context_.status = complain(history.error()), false;
+  const auto& program = history->program;
+  if (program.held) {
+    return context_.status = complain(Error{
+               Errc::NotFound, fmt::format("{} has no revision in force: what is there waits for "
+                                           "acceptance",
+                                           place_.program)}),
+           false;
+  }
+  if (program.size > kMaxBytes) {
+    return context_.status = complain(too_long(place_.program, program.size)), false;
+  }
+  client::PullOptions options{place_.program, program.revision, retry_policy(), {}};
+  const auto pulled = client::pull_program(*client, options, [this](std::string_view bytes) {
+    text_ += bytes;
+    return Result<void>{};
+  });
+  if (!pulled) return context_.status = complain(pulled.error()), false;
+  revision_ = pulled->revision;
+  return use_control(place_.control.empty() ? program.control : place_.control);
+}
+
+int EditedText::save(const std::string& text, std::string& written) {
+  const bool to_file = !place_.file.empty() || !place_.output.empty();
+  return to_file ? save_file(text, written) : push(text, written);
+}
+
+int EditedText::save_file(const std::string& text, std::string& written) const {
+  written = place_.output.empty() ? place_.file : place_.output;
+  auto output = client::OutputFile::create(written);
+  if (!output) return complain(output.error());
+  if (auto done = output->write(text); !done) return complain(done.error());
+  if (auto done = output->commit(); !done) return complain(done.error());
+  return kExitOk;
+}
+
+/// Somebody may have stored another revision since ours was fetched: that one is not overruled.
+int EditedText::push(const std::string& text, std::string& written) {
+  auto client = context_.connect();
+  if (!client) return context_.status;
+  const auto now = client->program(place_.program);
+  if (!now) return complain(now.error());
+  if (now->program.revision != revision_) {
+    complain(Error{Errc::Conflict,
+                   fmt::format("{} has revision {} by now, the edit is of revision {}; nothing was "
+                               "stored",
+                               place_.program, now->program.revision, revision_)});
+    return kExitNo;
+  }
+  TextSource source(text);
+  client::PushOptions options{{.program = place_.program,
+                               .control = control_,
+                               .comment = place_.comment,
+                               .overrides_protection = place_.overrides_protection},
+                              retry_policy(),
+                              {}};
+  const auto pushed = push_program(*client, source, options);
+  if (!pushed) return complain(pushed.error());
+  written = fmt::format("{} revision {}", place_.program, pushed->revision);
+  return kExitOk;
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "clients/cli/context.hpp"
+#include "gateway/interpreter/core/program_storage.hpp"
+
+namespace dripline::cli {
+
+/// A program that is edited: a file, or the newest revision of a program on the server. Nothing is
+/// written before `save`.
+class EditedText {
+ public:
+  struct Place {
+    std::string file;     ///< empty: `program`
+    std::string program;  ///< on the server
+    std::string control;  ///< empty: found out from the text, or as the server has it
+    std::string output;   ///< file to write; empty: where it came from
+    std::string comment;  ///< of the new revision
+    bool overrides_protection = false;
+  };
+
+  /// On failure it has complained, and context.status says so: `is_open` is false then.
+  EditedText(Context& context, Place place);
+
+  bool is_open() const { return is_open_; }
+  const std::string& text() const { return text_; }
+  /// How its control edits; nullptr: a program is its lines.
+  const interpreter::ProgramStorage* keeping() const { return keeping_; }
+  /// FILE, or the program's name.
+  const std::string& name() const;
+  /// Writes atomically, or stores a new revision; gives the exit status. `written` says where to.
+  int save(const std::string& text, std::string& written);
+
+ private:
+  bool read_file();
+  bool pull();
+  bool use_control(const std::string& control);
+  int save_file(const std::string& text, std::string& written) const;
+  int push(const std::string& text, std::string& written);
+
+  Context& context_;
+  Place place_;
+  std::string text_;
+  std::uint64_t revision_ = 0;
+  std::string control_;
+  const interpreter::ProgramStorage* keeping_ = nullptr;
+  bool is_open_ = false;
+};
+
+}  // namespace dripline::cli

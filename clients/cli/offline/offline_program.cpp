@@ -1,0 +1,144 @@
+#include "clients/cli/offline/offline_program.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <filesystem>
+#include <span>
+
+#include "clients/cli/server/program_folder.hpp"
+#include "protocol/wire/tape_image.hpp"
+
+namespace dripline::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using interpreter::Dialect;
+
+constexpr std::size_t kHead = 64 * 1024;
+constexpr std::size_t kTapeHead = 64 * 1024;
+constexpr std::size_t kMaxSetup = 16 * 1024 * 1024;
+
+std::string names_of(const std::vector<const Dialect*>& dialects) {
+  std::string names;
+  for (const auto* dialect : dialects) {
+    if (!names.empty()) names += ", ";
+    names += dialect->name;
+  }
+  return names;
+}
+
+std::vector<const Dialect*> all_dialects() {
+  std::vector<const Dialect*> all;
+  for (const auto& dialect : interpreter::dialects()) all.push_back(&dialect);
+  return all;
+}
+
+Result<const Dialect*> choose_dialect(const OfflineCommand& command, std::string_view text) {
+  if (!command.control.empty()) return interpreter::find_dialect(command.control);
+  const std::string name = fs::path(command.file).filename().string();
+  const auto candidates = interpreter::detect_dialect(text.substr(0, kHead), name);
+  if (candidates.size() == 1) return candidates.front();
+  if (candidates.empty()) {
+    return fail(Errc::NotFound,
+                "the control of {} cannot be told from its text; expected --control with one of: "
+                "{}",
+                command.file, names_of(all_dialects()));
+  }
+  return fail(Errc::NotFound,
+              "{} could be for several controls; expected --control with one of: {}", command.file,
+              names_of(candidates));
+}
+
+Result<interpreter::Setup> read_setup(const std::string& path, const Dialect& dialect) {
+  if (path.empty()) return interpreter::Setup{};
+  auto file = MappedFile::open(path);
+  if (!file) return fail(file.error());
+  if (file->text().size() > kMaxSetup) {
+    return fail(Errc::LimitExceeded, "setup file {} has {} bytes, expected at most {}", path,
+                file->text().size(), kMaxSetup);
+  }
+  auto setup = interpreter::parse_setup(file->text(), dialect.units);
+  if (!setup) return fail(setup.error().code, "setup file {}: {}", path, setup.error().what);
+  return setup;
+}
+
+/// Program text has neither blank rows nor an eighth hole in its first rows.
+bool looks_like_tape(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, kTapeHead);
+  return std::any_of(head.begin(), head.end(),
+                     [](char c) { return c == '\0' || static_cast<unsigned char>(c) >= 0x80; });
+}
+
+/// The text of a tape image; nothing when the file is no tape. Errors: Corrupt, with the row.
+Result<std::unique_ptr<const std::string>> read_tape(const std::string& path,
+                                                     std::string_view bytes) {
+  if (!looks_like_tape(bytes)) return std::unique_ptr<const std::string>();
+  const auto rows = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  const auto code = wire::detect_code(rows);
+  if (!code || code->code == wire::CharacterCode::Ascii) {
+    return std::unique_ptr<const std::string>();  // whatever it is, its control will say so
+  }
+  wire::TapeReader reader({.code = code->code});
+  auto text = std::make_unique<std::string>();
+  auto done = reader.read(rows, *text);
+  if (done) done = reader.finish(*text);
+  if (!done) {
+    return fail(done.error().code, "{} ({} tape): {}", path, wire::code_name(code->code),
+                done.error().what);
+  }
+  return std::unique_ptr<const std::string>(std::move(text));
+}
+
+/// The folder of called programs.
+std::string library_folder(const OfflineCommand& command, const interpreter::Setup& setup) {
+  const fs::path own = fs::path(command.file).parent_path();
+  if (!setup.library_path) return own.string();
+  return (fs::path(command.setup).parent_path() / *setup.library_path).string();
+}
+
+}  // namespace
+
+Result<OfflineProgram> OfflineProgram::open(const OfflineCommand& command) {
+  auto file = MappedFile::open(command.file);
+  if (!file) return fail(file.error());
+  auto tape = read_tape(command.file, file->text());
+  if (!tape) return fail(tape.error());
+  const std::string_view text = *tape ? std::string_view(**tape) : file->text();
+  auto dialect = choose_dialect(command, text);
+  if (!dialect) return fail(dialect.error());
+  auto setup = read_setup(command.setup, **dialect);
+  if (!setup) return fail(setup.error());
+  OfflineProgram program(std::move(*file), **dialect);
+  program.path_ = command.file;
+  program.tape_text_ = std::move(*tape);
+  program.setup_ = std::move(*setup);
+  program.library_ = library_folder(command, program.setup_);
+  return program;
+}
+
+interpreter::MemorySource OfflineProgram::source() const {
+  return interpreter::MemorySource(text(), [folder = library_](std::string_view name) {
+    return load_called_program(folder, name);
+  });
+}
+
+std::string OfflineProgram::file_of(const interpreter::MemorySource& source,
+                                    interpreter::ProgramIndex program) const {
+  const std::string name(source.name_of(program));
+  if (name.empty()) return path_;
+  return find_called_program(library_, name).value_or(name);
+}
+
+std::string OfflineProgram::place_of(const interpreter::MemorySource& source,
+                                     interpreter::ProgramIndex program, std::uint64_t line) const {
+  std::string place = fmt::format("line {}", line);
+  if (program != interpreter::kMainProgram) place += " of " + file_of(source, program);
+  return place;
+}
+
+std::string OfflineProgram::alarm_place(const interpreter::MemorySource& source,
+                                        const interpreter::OfflineOutcome& outcome) const {
+  return place_of(source, outcome.alarm_program, outcome.alarm->line);
+}
+
+}  // namespace dripline::cli

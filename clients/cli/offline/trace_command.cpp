@@ -1,0 +1,71 @@
+#include <csignal>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/offline/offline_options.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/tools/offline/offline_run.hpp"
+#include "clients/tools/offline/trace_writer.hpp"
+
+namespace dripline::cli {
+namespace {
+
+int trace(const OfflineCommand& command) {
+  auto program = OfflineProgram::open(command);
+  if (!program) return complain(program.error());
+  std::signal(SIGPIPE, SIG_DFL);  // `dnc trace FILE | head` ends with head
+  StandardOutput output;
+  interpreter::TraceWriter writer(
+      [&output](std::string_view text) { (void)output.write(text).has_value(); },
+      program->setup().start);
+  auto source = program->source();
+  const auto outcome =
+      interpreter::run_offline(program->dialect(), program->setup(), source, writer);
+  writer.flush();
+  if (output.error()) return output.complain();
+  if (!outcome) return complain_offline(outcome.error());
+  return outcome->ended ? kExitOk : kExitNo;
+}
+
+/// The program in the form the control knows it in, where that is not its text.
+int print_listing(const OfflineCommand& command) {
+  auto program = OfflineProgram::open(command);
+  if (!program) return complain(program.error());
+  const interpreter::Dialect& dialect = program->dialect();
+  if (dialect.list == nullptr) {
+    return complain(Error{Errc::Unsupported, std::string(dialect.name) +
+                                                 " keeps programs as their text; "
+                                                 "it has no listing of its own"});
+  }
+  const auto list = dialect.list(program->text());
+  if (!list) {
+    complain(list.error());
+    return kExitNo;
+  }
+  StandardOutput output;
+  (void)output.write(*list).has_value();
+  return output.error() ? output.complain() : kExitOk;
+}
+
+}  // namespace
+
+void add_trace_command(CLI::App& app, Context& context) {
+  auto* command =
+      app.add_subcommand("trace", "Print what a program on disk does, one JSON object a line");
+  auto options = std::make_shared<OfflineCommand>();
+  add_offline_options(*command, *options);
+  auto events = std::make_shared<bool>(false);
+  command->add_flag("--events,--listing", *events,
+                    "The program in the control's own form instead: the events that a "
+                    "prototrak-plus stores, the planning sheet of a tektronix-1704");
+  command->footer(
+      "No server is needed. Positions are in the program's units. Called programs come from the "
+      "setup's\nlibrary, or from FILE's folder.\n\nExit status: 0 the end was reached, 1 an alarm "
+      "(the last object), 2 usage, unreadable file, unknown control.\n\nExample:\n  dnc trace "
+      "--control centurion --setup lathe.toml shaft.nc");
+  command->callback([&context, options, events] {
+    context.status = *events ? print_listing(*options) : trace(*options);
+  });
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,250 @@
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/port/port_file.hpp"
+#include "clients/cli/port/port_listing.hpp"
+#include "clients/cli/port/port_monitor.hpp"
+#include "clients/cli/port/port_parameters.hpp"
+#include "clients/cli/port/port_text.hpp"
+#include "clients/cli/port/port_trial.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct PortCommand {
+  client::PortRequest port;
+  std::optional<std::string> machine, address, line_template, rules_file;
+  bool is_disabled = false, has_no_rules = false;
+  std::vector<std::string> settings;
+};
+
+client::PortRequest request_of(const client::Port& port) {
+  return {port.name,  port.machine,  port.address, port.line_template,
+          port.rules, port.settings, port.enabled};
+}
+
+/// What was given changes `port`, the rest stays. Errors: a setting, or the file of rules.
+Result<void> apply(client::PortRequest& port, const PortCommand& command) {
+  if (command.machine) port.machine = *command.machine;
+  if (command.address) port.address = *command.address;
+  if (command.line_template) port.line_template = *command.line_template;
+  if (command.has_no_rules) port.rules.clear();
+  if (command.rules_file) {
+    auto rules = read_small_file(*command.rules_file, kMaxRulesFile);
+    if (!rules) return fail(rules.error());
+    port.rules = *std::move(rules);
+  }
+  for (const auto& setting : command.settings) {
+    if (auto applied = apply_setting(port.settings, setting); !applied) return applied;
+  }
+  return {};
+}
+
+int save(Context& context, client::Client& client, const client::PortRequest& request) {
+  auto port = client.save_port(request);
+  if (!port) return complain(port.error());
+  if (context.wants_json) {
+    context.print(json_text(*port));
+  } else {
+    context.print(fmt::format("Port {} of {} at {}: {}, {}\n", port->name, port->machine,
+                              port->address, line_text(port->effective), state_text(*port)));
+  }
+  return kExitOk;
+}
+
+int add(Context& context, PortCommand command) {
+  command.port.enabled = !command.is_disabled;
+  if (auto applied = apply(command.port, command); !applied) return complain(applied.error());
+  auto client = context.connect();
+  if (!client) return context.status;
+  if (client->port(command.port.name)) {
+    return complain(client::Failure{client::Failure::Kind::Refused, Errc::Busy,
+                                    fmt::format("port {} is there already; dnc port set changes "
+                                                "it",
+                                                command.port.name)});
+  }
+  return save(context, *client, command.port);
+}
+
+int change(Context& context, const PortCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto known = client->port(command.port.name);
+  if (!known) return complain(known.error());
+  auto port = request_of(*known);
+  if (auto applied = apply(port, command); !applied) return complain(applied.error());
+  return save(context, *client, port);
+}
+
+int set_enabled(Context& context, const std::string& name, bool is_enabled) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto known = client->port(name);
+  if (!known) return complain(known.error());
+  auto port = request_of(*known);
+  port.enabled = is_enabled;
+  return save(context, *client, port);
+}
+int enable(Context& context, const std::string& name) {
+  return set_enabled(context, name, true);
+}
+int disable(Context& context, const std::string& name) {
+  return set_enabled(context, name, false);
+}
+
+int remove(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto removed = client->remove_port(name);
+  if (!removed) return complain(removed.error());
+  context.print(fmt::format("Removed port {}; its line is closed.\n", name));
+  return kExitOk;
+}
+
+/// Everything in the file is looked at before the first port is touched.
+int apply_file(Context& context, const std::string& path) {
+  const auto ports = read_port_file(path);
+  if (!ports) return complain(ports.error());
+  auto client = context.connect();
+  if (!client) return context.status;
+  for (const auto& port : *ports) {
+    if (const int status = save(context, *client, port); status != kExitOk) return status;
+  }
+  return kExitOk;
+}
+
+std::shared_ptr<PortCommand> add_port_options(CLI::App& command, Context& context) {
+  auto options = std::make_shared<PortCommand>();
+  command.add_option("NAME", options->port.name, "The port")->required();
+  command.add_option("--machine", options->machine, "The machine at the line's other end");
+  command.add_option("--address", options->address,
+                     "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT");
+  command.add_option("--template", options->line_template,
+                     "A control's usual line, see dnc port templates");
+  command.add_option("--rules", options->rules_file,
+                     "TOML file that says what a text from the control means");
+  command.add_option("SETTING", options->settings,
+                     "KEY=VALUE over the template's, or a line such as 9600e72");
+  add_json_flag(command, context);
+  return options;
+}
+
+void add_add(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("add", "Set up the serial line to a machine");
+  auto options = add_port_options(*command, context);
+  command->get_option("--machine")->required();
+  command->get_option("--address")->required();
+  command->add_flag("--disabled", options->is_disabled, "Set it up, but leave the line closed");
+  command->footer(
+      "Examples:\n  dnc port add line-3 --machine mill-3 --address /dev/ttyUSB0 --template tnc155\n"
+      "  dnc port add line-4 --machine mill-4 --address rfc2217://10.0.0.9:4001 \\\n"
+      "      --template centurion 19200e72 line_delay_ms=20");
+  command->callback([&context, options] { context.status = add(context, *options); });
+}
+
+void add_set(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("set", "Change a port; what is not named stays");
+  auto options = add_port_options(*command, context);
+  command->add_flag("--no-rules", options->has_no_rules, "Take its rules away");
+  command->footer(
+      "KEY= takes a setting of the port away, so that its template's holds again. An open line is "
+      "closed\nand opened anew.\n\nExample:\n  dnc port set line-3 baud=4800 eob=");
+  command->callback([&context, options] { context.status = change(context, *options); });
+}
+
+using NamedAction = int (*)(Context&, const std::string&);
+CLI::App* add_by_name(CLI::App& group, Context& context, const char* verb, const char* help,
+                      NamedAction action) {
+  auto* command = group.add_subcommand(verb, help);
+  auto name = std::make_shared<std::string>();
+  command->add_option("NAME", *name, "The port")->required();
+  command->callback([&context, name, action] { context.status = action(context, *name); });
+  return command;
+}
+
+void add_templates(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("templates", "Lines of known controls, or one in full");
+  auto name = std::make_shared<std::string>();
+  command->add_option("NAME", *name, "The template (default: list them)");
+  add_json_flag(*command, context);
+  command->callback([&context, name] { context.status = list_templates(context, *name); });
+}
+
+void add_apply(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("apply", "Set up the ports of a TOML file");
+  auto path = std::make_shared<std::string>();
+  command->add_option("FILE", *path, "With a [[port]] for each")->required();
+  add_json_flag(*command, context);
+  command->footer(
+      "Ports of the same name are replaced, others stay. deploy/examples/ports.toml shows every "
+      "key.");
+  command->callback([&context, path] { context.status = apply_file(context, *path); });
+}
+
+void add_test_rules(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("test-rules", "Which rule a text meets, and why");
+  auto names = std::make_shared<std::pair<std::string, std::string>>();
+  command->add_option("NAME", names->first, "The port")->required();
+  command->add_option("FILE", names->second, "What the control would send")->required();
+  add_json_flag(*command, context);
+  command->footer("Nothing is done: no program is sent or stored.");
+  command->callback(
+      [&context, names] { context.status = test_rules(context, names->first, names->second); });
+}
+
+void add_monitor(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("monitor", "Watch a line until Ctrl-C");
+  auto options = std::make_shared<MonitorCommand>();
+  command->add_option("NAME", options->name, "The port")->required();
+  command->add_flag("--hex", options->is_hex, "Bytes in hexadecimal");
+  command->add_flag("--json", context.wants_json, "One JSON object a line");
+  command->footer(
+      "Each line: time, direction (→ to the control, ← from it, ! an error, ~ modem lines, = how "
+      "the\nline stands), and the characters; <DC3> and its like are control characters. Watching "
+      "changes\nnothing on the line.");
+  command->callback([&context, options] { context.status = monitor_port(context, *options); });
+}
+
+void add_recording(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("recording", "What passed over a line in the last minutes");
+  auto options = std::make_shared<RecordingCommand>();
+  command->add_option("NAME", options->name, "The port")->required();
+  command->add_option("-o,--output", options->output,
+                      "Save it as JSON lines, - for standard output");
+  command->add_flag("--hex", options->is_hex, "Bytes in hexadecimal");
+  add_json_flag(*command, context);
+  command->callback([&context, options] { context.status = show_recording(context, *options); });
+}
+
+}  // namespace
+
+void add_port_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("port", "Serial lines to machines");
+  group->require_subcommand(1);
+  add_add(*group, context);
+  add_set(*group, context);
+  auto* list = group->add_subcommand("list", "All ports and how their lines stand");
+  add_json_flag(*list, context);
+  list->callback([&context] { context.status = list_ports(context); });
+  add_json_flag(*add_by_name(*group, context, "show", "One port", show_port), context);
+  add_by_name(*group, context, "remove", "Close a line and forget the port", remove);
+  add_json_flag(*add_by_name(*group, context, "enable", "Open the line", enable), context);
+  add_json_flag(*add_by_name(*group, context, "disable", "Close the line, keep the port", disable),
+                context);
+  add_templates(*group, context);
+  add_apply(*group, context);
+  add_json_flag(
+      *add_by_name(*group, context, "test", "Look at a line without a program", test_port),
+      context);
+  add_test_rules(*group, context);
+  add_monitor(*group, context);
+  add_recording(*group, context);
+  add_port_transfer_commands(*group, context);
+  add_port_doctor_command(*group, context);
+  add_port_replay_command(*group, context);
+  add_port_page_command(*group, context);
+  add_port_parameters_command(*group, context);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,129 @@
+#include "clients/cli/port/port_listing.hpp"
+
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/port/port_text.hpp"
+#include "clients/cli/text/value_text.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
+#include "protocol/base/clock.hpp"
+
+namespace dripline::cli {
+namespace {
+
+void add_row(Table& table, const client::Port& port, const std::string& now) {
+  table.add({port.name, port.machine, port.address, line_text(port.effective),
+             Cell(short_state(port), style_of_state(port)), wait_text(port, now),
+             short_id(port.run), bytes_text(port.sent), bytes_text(port.received),
+             Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad)});
+}
+
+void print_template(Context& context, const client::PortTemplates& all,
+                    const client::PortTemplate& one) {
+  Details details;
+  details.add("template", one.name);
+  details.add("for", one.title);
+  details.add("control", one.control);
+  context.print(details);
+  Table table({{"SETTING"}, {"VALUE"}, {"WHAT IT DECIDES"}, {"MAY BE"}});
+  for (const auto& row : all.settings) {
+    const auto value = one.settings.find(row.key);
+    const std::string text = value == one.settings.end() ? "" : value->second;
+    // What differs from a plain line is what makes the template.
+    table.add(
+        {row.key, Cell(text, text == row.preset ? Style::Plain : Style::Good), row.text, row.type});
+  }
+  context.print("\n");
+  context.print(table);
+}
+
+/// What the machine's newest setup says of it; a setup is often not there.
+std::optional<int> baud_rate_of_control(client::Client& client, const std::string& machine) {
+  const auto setup = client.setup(machine, std::nullopt);
+  if (!setup) return std::nullopt;
+  const auto data = interpreter::parse_control_data(setup->text);
+  if (!data) return std::nullopt;
+  const auto settings = interpreter::tnc155::read_mod_settings(data->control);
+  return settings ? settings->baud_rate : std::nullopt;
+}
+
+int complain_unknown(const client::PortTemplates& all, const std::string& name) {
+  std::string known;
+  for (const auto& one : all.templates) known += (known.empty() ? "" : ", ") + one.name;
+  return complain(
+      client::Failure{client::Failure::Kind::Refused, Errc::NotFound,
+                      fmt::format("template '{}' is not known; known are: {}", name, known)});
+}
+
+}  // namespace
+
+int list_ports(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto ports = client->ports();
+  if (!ports) return complain(ports.error());
+  if (context.wants_json) {
+    context.print(json_list_text("ports", *ports));
+    return kExitOk;
+  }
+  if (ports->empty()) {
+    context.print("No serial port is set up; dnc port add --help says how.\n");
+    return kExitOk;
+  }
+  Table table({{"NAME"},
+               {"MACHINE"},
+               {"ADDRESS"},
+               {"LINE"},
+               {"STATE"},
+               {"WAITS FOR"},
+               {"RUN"},
+               {"SENT", Align::Right},
+               {"RECEIVED", Align::Right},
+               {"TROUBLE"}});
+  const std::string now = to_iso8601(SystemClock().now());
+  for (const auto& port : *ports) add_row(table, port, now);
+  context.print(table);
+  return kExitOk;
+}
+
+int show_port(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto port = client->port(name);
+  if (!port) return complain(port.error());
+  const auto control_rate = baud_rate_of_control(*client, port->machine);
+  if (context.wants_json) {
+    auto json = client::to_json_value(*port);
+    if (control_rate) json["control_baud_rate"] = *control_rate;
+    context.print(json_text(json));
+    return kExitOk;
+  }
+  context.print(port_details(*port));
+  const std::string warning = baud_warning(*port, control_rate);
+  if (!warning.empty()) context.print(styled(warning, Style::Bad, context.has_colour()) + "\n");
+  return kExitOk;
+}
+
+int list_templates(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto all = client->port_templates();
+  if (!all) return complain(all.error());
+  if (context.wants_json) {
+    context.print(json_text(*all));
+    return kExitOk;
+  }
+  if (!name.empty()) {
+    for (const auto& one : all->templates) {
+      if (one.name == name) return print_template(context, *all, one), kExitOk;
+    }
+    return complain_unknown(*all, name);
+  }
+  Table table({{"NAME"}, {"LINE"}, {"CONTROL"}, {"FOR"}});
+  for (const auto& one : all->templates) {
+    table.add({one.name, line_text(one.settings), one.control, one.title});
+  }
+  context.print(table);
+  context.print("\ndnc port templates NAME shows every setting and what it decides.\n");
+  return kExitOk;
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,125 @@
+#include "clients/cli/port/port_text.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+/// A line that is not there: tried for the first time, or in vain.
+std::string closed_text(const client::Port& port) {
+  return port.trouble.empty() ? "opening" : "closed";
+}
+
+std::string value_of(const client::Settings& settings, const std::string& key) {
+  const auto found = settings.find(key);
+  return found == settings.end() ? "?" : found->second;
+}
+
+/// What the port changes of its template: "baud=4800 eob=lf".
+std::string own_settings_text(const client::Settings& settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", key, value);
+  }
+  return text;
+}
+
+std::string transfer_text(const std::optional<client::Transfer>& transfer) {
+  if (!transfer) return {};
+  std::string text = transfer->state + ":";
+  for (const auto& program : transfer->programs) text += " " + program;
+  return text + fmt::format(", {} of {}", bytes_text(transfer->sent), bytes_text(transfer->size));
+}
+
+std::string rules_text(const std::string& rules) {
+  if (rules.empty()) return "none: programs are kept, lines are reported";
+  const auto lines = std::count(rules.begin(), rules.end(), '\n') + (rules.back() != '\n' ? 1 : 0);
+  return fmt::format("{} lines; dnc port test-rules NAME FILE tries them", lines);
+}
+
+}  // namespace
+
+std::string line_text(const client::Settings& effective) {
+  return value_of(effective, "line") + " " + value_of(effective, "flow");
+}
+
+std::string state_text(const client::Port& port) {
+  if (!port.enabled) return "disabled";
+  if (!port.open) return closed_text(port);
+  std::string text = port.line.phase == "idle" ? "open" : port.line.phase;
+  if (port.line.stopped) text += ", stopped by the control";
+  if (port.line.stopping) text += ", holding the control";
+  if (!port.line.waiting_for.empty()) text += ", waits for " + port.line.waiting_for;
+  if (port.line.without_limit) text += " without limit";
+  if (!port.waiting_since.empty()) text += " since " + time_text(port.waiting_since);
+  return text;
+}
+
+std::string request_text(const std::optional<client::Port::Request>& request) {
+  if (!request) return {};
+  return fmt::format("the control asked for {} at {}; {}",
+                     request->program.empty() ? "a program" : "program " + request->program,
+                     time_text(request->since),
+                     request->answer.empty() ? "no run waits" : "refused: " + request->answer);
+}
+
+std::string short_state(const client::Port& port) {
+  if (!port.enabled) return "disabled";
+  if (!port.open) return closed_text(port);
+  std::string text = port.line.phase == "idle" ? "open" : port.line.phase;
+  if (port.line.stopped) text += ", stopped";
+  if (port.line.stopping) text += ", holding";
+  return text;
+}
+
+std::string wait_text(const client::Port& port, std::string_view now) {
+  if (!port.open) return {};
+  if (port.line.waiting_for.empty()) {
+    if (!port.request) return {};
+    return port.request->answer.empty() ? "asked: no run waits" : "asked: refused";
+  }
+  std::string text = port.line.waiting_for;
+  if (!port.waiting_since.empty()) {
+    text += " for " + duration_text(seconds_between(port.waiting_since, now));
+  }
+  return text + (port.line.without_limit ? ", no limit" : "");
+}
+
+Style style_of_state(const client::Port& port) {
+  if (!port.enabled) return Style::Faint;
+  if (!port.open) return port.trouble.empty() ? Style::Busy : Style::Bad;
+  const bool is_held = port.line.stopped || !port.line.waiting_for.empty();
+  return is_held ? Style::Busy : Style::Good;
+}
+
+std::string baud_warning(const client::Port& port, std::optional<int> control_rate) {
+  const auto line = port.effective.find("baud");
+  if (!control_rate || line == port.effective.end()) return {};
+  if (line->second == std::to_string(*control_rate)) return {};
+  return fmt::format("The setup of {} says {} baud at the control, and the line has {}.",
+                     port.machine, *control_rate, line->second);
+}
+
+Details port_details(const client::Port& port) {
+  Details details;
+  details.add("port", port.name);
+  details.add("machine", port.machine);
+  details.add("address", port.address);
+  details.add("template", port.line_template);
+  details.add("own settings", own_settings_text(port.settings));
+  details.add("line", line_text(port.effective));
+  details.add("state", Cell(state_text(port), style_of_state(port)));
+  details.add("trouble", Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad));
+  details.add("run", port.run);
+  details.add("request", request_text(port.request));
+  details.add("transfer", transfer_text(port.transfer));
+  details.add("sent", bytes_text(port.sent));
+  details.add("received", bytes_text(port.received));
+  details.add("rules", rules_text(port.rules));
+  return details;
+}
+
+}  // namespace dripline::cli

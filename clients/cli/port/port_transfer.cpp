@@ -1,0 +1,163 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/interrupt.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/value_text.hpp"
+#include "clients/lib/api_json.hpp"
+
+/// `dnc port send`, `receive` and `stop`: programs into a control's memory and out of it.
+namespace dripline::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{300};
+
+struct SendCommand {
+  std::string port;
+  std::vector<std::string> programs;
+  bool is_left = false;  ///< alone, once it is under way
+};
+
+struct ReceiveCommand {
+  std::string port;
+  bool is_left = false;
+};
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const auto& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+int say_transfer(Context& context, const client::Transfer& transfer) {
+  if (context.wants_json) {
+    context.print(json_text(transfer));
+  } else if (transfer.state == "sending") {
+    context.print(
+        fmt::format("Sending {}: {}.\n", joined(transfer.programs), bytes_text(transfer.size)));
+  } else if (transfer.state == "completed") {
+    context.print(
+        fmt::format("Sent {}: {}.\n", joined(transfer.programs), bytes_text(transfer.size)));
+  } else {
+    context.print(fmt::format("Not all was sent, {} of {}: {}: {}\n", bytes_text(transfer.sent),
+                              bytes_text(transfer.size), transfer.state, transfer.reason));
+  }
+  return transfer.state == "sending" || transfer.state == "completed" ? kExitOk : kExitNo;
+}
+
+int send(Context& context, const SendCommand& command) {
+  catch_interrupts();
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto begun = client->send_programs(command.port, command.programs);
+  if (!begun) return complain(begun.error());
+  if (command.is_left) return say_transfer(context, *begun);
+  while (wait_unless_interrupted(kLook)) {
+    auto port = client->port(command.port);
+    if (!port) return complain(port.error());
+    if (!port->transfer || port->transfer->id != begun->id) {
+      return complain(client::Failure{client::Failure::Kind::Refused, Errc::NotFound,
+                                      "the transfer is over, and another one began since"});
+    }
+    if (port->transfer->state != "sending") return say_transfer(context, *port->transfer);
+  }
+  fmt::print(stderr, "dnc: the transfer goes on; dnc port stop {} ends it\n", command.port);
+  return kExitInterrupted;
+}
+
+/// What was noted on the line, with its time in front so that texts differ.
+std::vector<std::string> notes_of(client::Client& client, const std::string& port) {
+  std::string lines;
+  const auto fetched = client.recording(port, [&](std::string_view piece) {
+    lines += piece;
+    return true;
+  });
+  std::vector<std::string> notes;
+  for (std::size_t at = 0; fetched && at < lines.size();) {
+    const auto end = std::min(lines.find('\n', at), lines.size());
+    if (auto json = client::parse_json(lines.substr(at, end - at))) {
+      const auto traffic = client::from_json<client::Traffic>(*json);
+      if (traffic && traffic->what == "note") {
+        notes.push_back(time_text(traffic->time) + "  " + traffic->text);
+      }
+    }
+    at = end + 1;
+  }
+  return notes;
+}
+
+int receive(Context& context, const ReceiveCommand& command) {
+  catch_interrupts();
+  auto client = context.connect();
+  if (!client) return context.status;
+  const auto before = notes_of(*client, command.port);
+  if (auto begun = client->receive_program(command.port); !begun) return complain(begun.error());
+  context.print(fmt::format("Asking the control on {} for a program, for about two minutes.\n",
+                            command.port));
+  if (command.is_left) return kExitOk;
+  while (wait_unless_interrupted(kLook)) {
+    auto port = client->port(command.port);
+    if (!port) return complain(port.error());
+    if (port->line.phase == "receiving") continue;
+    const auto notes = notes_of(*client, command.port);
+    for (std::size_t i = std::min(before.size(), notes.size()); i < notes.size(); ++i) {
+      context.print(printable(notes[i]) + "\n");
+    }
+    return kExitOk;
+  }
+  fmt::print(stderr, "dnc: the line still asks; dnc port stop {} ends it\n", command.port);
+  return kExitInterrupted;
+}
+
+int stop(Context& context, const std::string& port) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  if (auto stopped = client->stop_transfer(port); !stopped) return complain(stopped.error());
+  context.print(fmt::format("The transfer on {} is ended.\n", port));
+  return kExitOk;
+}
+
+void add_send(CLI::App& group, Context& context) {
+  auto* command =
+      group.add_subcommand("send", "Send programs to the control's memory, as one text");
+  auto options = std::make_shared<SendCommand>();
+  command->add_option("PORT", options->port, "The port")->required();
+  command->add_option("PROGRAM", options->programs, "Its name, or NAME@REVISION")->required();
+  command->add_flag("--no-wait", options->is_left, "Do not wait for the end");
+  add_json_flag(*command, context);
+  command->footer(
+      "The control must be ready to receive. One program goes as it stands. Several go one after "
+      "the\nother, each from its O line (or with one made from its name), framed once as the "
+      "line's "
+      "settings\nsay: a control that splits at O numbers has them as single programs then. It is "
+      "no "
+      "run.\n\nExample:\n  dnc port send line-2 O0100 O0200 O0300@4");
+  command->callback([&context, options] { context.status = send(context, *options); });
+}
+
+void add_receive(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("receive", "Ask the control for a program (XMODEM)");
+  auto options = std::make_shared<ReceiveCommand>();
+  command->add_option("PORT", options->port, "The port")->required();
+  command->add_flag("--no-wait", options->is_left, "Do not wait for it");
+  command->footer(
+      "Over XMODEM the receiver begins: this makes the server ask while the operator starts to "
+      "send. "
+      "What\ncomes is a held revision, one for each O number where the port extracts programs. All "
+      "other lines\ntake what their control sends at any time.");
+  command->callback([&context, options] { context.status = receive(context, *options); });
+}
+
+}  // namespace
+
+void add_port_transfer_commands(CLI::App& group, Context& context) {
+  add_send(group, context);
+  add_receive(group, context);
+  auto* command = group.add_subcommand("stop", "End what a line sends or receives without a run");
+  auto name = std::make_shared<std::string>();
+  command->add_option("PORT", *name, "The port")->required();
+  command->callback([&context, name] { context.status = stop(context, *name); });
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/cli/text/table.hpp"
+#include "clients/lib/api_types.hpp"
+
+/// Machines and runs in words, shared by listings and watches.
+namespace dripline::cli {
+
+Style style_of_execution(const std::string& execution);
+Style style_of_state(const std::string& state);
+bool has_ended(const client::Run& run);
+
+/// "X 12.500 Z -3.000"
+std::string position_text(const client::MachineStatus& status);
+/// "line 1234 N1200", as far as known.
+std::string place_text(const client::MachineStatus& status);
+/// How much of the program's text the machine has executed, 0 to 1.
+double fraction_executed(const client::MachineStatus& status);
+/// One line of what the machine does now.
+std::string status_line(const client::Machine& machine);
+/// What it executes; of a machine that is not connected only the last that was heard.
+Cell execution_cell(const client::Machine& machine);
+/// "1 block", "2 blocks"
+std::string count_text(std::uint64_t count, std::string_view thing);
+Details machine_details(const client::Machine& machine);
+
+/// How the run stands, as lines that fit a terminal of 80 columns; `status` is the machine's when
+/// it speaks of this run, or null. When the run waits for an operator, the last says what to type.
+std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
+/// The same as one line.
+std::string run_line(const client::Run& run, const client::MachineStatus* status);
+/// What it waits for and what an operator types next; empty while it waits for nobody.
+std::string waiting_line(const client::Run& run, const client::MachineStatus& status);
+/// A record of the run for people: "alarm  line 3  MCH0004 a feed per revolution ...".
+std::string record_line(const client::Record& record);
+/// How the run ended, in one line.
+std::string outcome_line(const client::Run& run);
+
+}  // namespace dripline::cli

@@ -1,0 +1,275 @@
+#include <unistd.h>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/server/program_transfer.hpp"
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct RevisionCommand {
+  std::string program;
+  std::uint64_t revision = 0;
+};
+
+struct MoveCommand {
+  std::string from, to;
+  std::optional<std::uint64_t> revision;
+};
+
+Cell held_cell(std::uint64_t held) {
+  return held == 0 ? Cell("") : Cell(std::to_string(held), Style::Busy);
+}
+
+/// What becomes of a revision: only one that is not held can be run.
+Cell standing_cell(const client::Program& program, const client::Revision& revision) {
+  if (revision.held) return {"held", Style::Busy};
+  if (revision.revision == program.revision) return {"latest", Style::Good};
+  return "";
+}
+
+int list_programs(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto programs = fetch_all(0, [&](client::Page page) { return client->programs(page); });
+  if (!programs) return complain(programs.error());
+  if (context.wants_json) {
+    context.print(json_list_text("programs", *programs));
+    return kExitOk;
+  }
+  Table table({{"NAME"},
+               {"REV", Align::Right},
+               {"HELD", Align::Right},
+               {"SIZE", Align::Right},
+               {"TITLE"},
+               {"CONTROL"},
+               {"CREATED"},
+               {"AUTHOR"},
+               {"COMMENT"}});
+  std::uint64_t held = 0;
+  for (const auto& program : *programs) {
+    table.add({program.name, program.held ? Cell("-") : Cell(std::to_string(program.revision)),
+               held_cell(program.held_revisions), bytes_text(program.size), program.title,
+               program.control, time_text(program.created), program.author, program.comment});
+    held += program.held_revisions;
+  }
+  if (table.empty()) context.print("The library is empty; dnc program push FILE fills it.\n");
+  if (!table.empty()) context.print(table);
+  if (held > 0) {
+    context.print(fmt::format(
+        "\n{} for acceptance: dnc program show NAME lists, dnc program accept NAME REV decides.\n",
+        held == 1 ? "1 revision from a machine waits"
+                  : fmt::format("{} revisions from machines wait", held)));
+  }
+  return kExitOk;
+}
+
+int show_program(Context& context, const std::string& name) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto history = client->program(name);
+  if (!history) return complain(history.error());
+  if (context.wants_json) {
+    context.print(json_text(*history));
+    return kExitOk;
+  }
+  const auto& program = history->program;
+  Details details;
+  details.add("program", program.name);
+  details.add("title", program.title);
+  details.add("control", program.control);
+  details.add("latest", program.held ? Cell("none: what is here waits for acceptance", Style::Busy)
+                                     : Cell(fmt::format("revision {}, {}", program.revision,
+                                                        bytes_text(program.size))));
+  details.add("sha256", program.sha256);
+  context.print(details);
+  Table table({{"REV", Align::Right},
+               {"STATE"},
+               {"SIZE", Align::Right},
+               {"SHA-256"},
+               {"CONTROL"},
+               {"CREATED"},
+               {"AUTHOR"},
+               {"COMMENT"}});
+  for (const auto& revision : history->revisions) {
+    table.add({std::to_string(revision.revision), standing_cell(program, revision),
+               bytes_text(revision.size), short_id(revision.sha256), revision.control,
+               time_text(revision.created), revision.author, revision.comment});
+  }
+  context.print("\n");
+  context.print(table);
+  return kExitOk;
+}
+
+struct RemoveCommand {
+  std::string name;
+  bool overrides_protection = false;
+};
+
+int remove_program(Context& context, const RemoveCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto removed = client->remove_program(command.name, command.overrides_protection);
+  if (!removed) return complain(removed.error());
+  context.print(
+      fmt::format("Removed {} from the library; its runs and reports stay.\n", command.name));
+  return kExitOk;
+}
+
+int copy_program(Context& context, const MoveCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto copy = client->copy_program(command.from, command.to, command.revision);
+  if (!copy) return complain(copy.error());
+  context.print(fmt::format("{} revision {}: {}, {}\n", copy->program, copy->revision,
+                            copy->comment, bytes_text(copy->size)));
+  return kExitOk;
+}
+
+int rename_program(Context& context, const MoveCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto renamed = client->rename_program(command.from, command.to);
+  if (!renamed) return complain(renamed.error());
+  const auto count = renamed->revisions.size();
+  context.print(fmt::format("{} is now {}, with {} revision{}; its runs and reports go with it.\n",
+                            command.from, renamed->program.name, count, count == 1 ? "" : "s"));
+  return kExitOk;
+}
+
+int accept_revision(Context& context, const RevisionCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto accepted = client->accept_revision(command.program, command.revision);
+  if (!accepted) return complain(accepted.error());
+  context.print(fmt::format("Accepted {} revision {}: {}, sha256 {}\n", accepted->program,
+                            accepted->revision, bytes_text(accepted->size),
+                            short_id(accepted->sha256)));
+  return kExitOk;
+}
+
+int reject_revision(Context& context, const RevisionCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto rejected = client->reject_revision(command.program, command.revision);
+  if (!rejected) return complain(rejected.error());
+  context.print(fmt::format("Rejected {} revision {}; it is hidden and will never run.\n",
+                            command.program, command.revision));
+  return kExitOk;
+}
+
+void add_judgement(CLI::App& group, Context& context, const char* verb, const char* help,
+                   int (*action)(Context&, const RevisionCommand&)) {
+  auto* command = group.add_subcommand(verb, help);
+  auto options = std::make_shared<RevisionCommand>();
+  command->add_option("NAME", options->program, "The program")->required();
+  command->add_option("REV", options->revision, "Its revision")->required();
+  command->footer(
+      "A program that an operator punched out at a control is stored as a held revision: it is "
+      "listed\nand can be pulled, but no run takes it before it is accepted. The decision stands "
+      "in "
+      "the audit\ntrail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o punched.nc\n  dnc "
+      "program accept O0200 3");
+  command->callback([&context, options, action] { context.status = action(context, *options); });
+}
+
+void add_push(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("push", "Store FILE as a program, or as its next revision");
+  auto options = std::make_shared<PushCommand>();
+  command->add_option("FILE", options->file, "The NC program")->required();
+  command->add_option("--name", options->name, "Name in the library (default: FILE's name)");
+  command->add_option(
+      "--control", options->control,
+      "The control it is written for, e.g. centurion (default: the server finds out)");
+  command->add_option("--comment", options->comment, "What changed; kept with the revision");
+  command->add_flag("--force", options->overrides_protection,
+                    "Also where the program there is protected against change (tnc155: P, G50)");
+  add_json_flag(*command, context);
+  command->footer(
+      "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
+      "breaks,\nit goes on where the server stopped receiving. The same content again makes no new "
+      "revision.\n\nExample:\n  dnc program push shaft.nc --name O0200 --control centurion "
+      "--comment \"deeper groove\"");
+  command->callback([&context, options] { context.status = push(context, *options); });
+}
+
+void add_pull(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("pull", "Fetch a program's content");
+  auto options = std::make_shared<PullCommand>();
+  command->add_option("NAME", options->name, "The program")->required();
+  command->add_option("-o,--output", options->output,
+                      "File to write, - for standard output (default: NAME here)");
+  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command->footer(
+      "FILE appears only when all of it is there and its SHA-256 is right. On standard output the "
+      "bytes\ncome first and the check last: look at the exit status.\n\nExample:\n  dnc program "
+      "pull O0200 --revision 3 -o shaft.nc");
+  command->callback([&context, options] { context.status = pull(context, *options); });
+}
+
+void add_show(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("show", "One program and all its revisions");
+  auto name = std::make_shared<std::string>();
+  command->add_option("NAME", *name, "The program")->required();
+  add_json_flag(*command, context);
+  command->callback([&context, name] { context.status = show_program(context, *name); });
+}
+
+void add_remove(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("remove", "Take a program out of the library");
+  auto options = std::make_shared<RemoveCommand>();
+  command->add_option("NAME", options->name, "The program")->required();
+  command->add_flag("--force", options->overrides_protection,
+                    "Also a program that is protected against erasing (tnc155: P, G50)");
+  command->callback([&context, options] { context.status = remove_program(context, *options); });
+}
+
+void add_copy(CLI::App& group, Context& context) {
+  auto* command =
+      group.add_subcommand("copy", "Make a new program of another one's latest revision");
+  auto options = std::make_shared<MoveCommand>();
+  command->add_option("NAME", options->from, "The program")->required();
+  command->add_option("NEW", options->to, "Name of the copy; no program may have it")->required();
+  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command->footer(
+      "The copy begins with that revision as its first; what it is a copy of stands in its comment "
+      "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
+  command->callback([&context, options] { context.status = copy_program(context, *options); });
+}
+
+void add_rename(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("rename", "Give a program another name");
+  auto options = std::make_shared<MoveCommand>();
+  command->add_option("NAME", options->from, "The program")->required();
+  command->add_option("NEW", options->to, "Its new name; no program may have it")->required();
+  command->footer(
+      "All its revisions, runs and reports go with it. It is refused while a run uses the program "
+      "or a\nrevision from a machine waits for acceptance. The text stays as it is: an O number in "
+      "it too.\n\nExample:\n  dnc program rename O0200 O0210");
+  command->callback([&context, options] { context.status = rename_program(context, *options); });
+}
+
+}  // namespace
+
+void add_program_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("program", "Programs in the server's library");
+  group->require_subcommand(1);
+  add_push(*group, context);
+  add_pull(*group, context);
+  auto* list = group->add_subcommand("list", "All programs with their latest revision");
+  add_json_flag(*list, context);
+  list->callback([&context] { context.status = list_programs(context); });
+  add_show(*group, context);
+  add_judgement(*group, context, "accept", "Put a held revision in force", accept_revision);
+  add_judgement(*group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_remove(*group, context);
+  add_copy(*group, context);
+  add_rename(*group, context);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,233 @@
+#include <unistd.h>
+#include <cstdio>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/server/machine_text.hpp"
+#include "clients/cli/server/run_reference.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/text/terminal.hpp"
+#include "clients/cli/text/value_text.hpp"
+#include "clients/cli/text/visible_text.hpp"
+#include "clients/lib/output_file.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct ListCommand {
+  client::ReportQuery query;
+  std::uint64_t limit = 20;
+};
+
+struct ExportCommand {
+  std::string run, format, output;
+};
+
+/// What machines printed outside any run; of `machine` only when it is named.
+client::Reply<std::vector<client::MachineReport>> machine_reports(client::Client& client,
+                                                                  const std::string& machine) {
+  auto reports = client.machine_reports();
+  if (reports && !machine.empty()) {
+    std::erase_if(*reports, [&](const auto& report) { return report.machine != machine; });
+  }
+  return reports;
+}
+
+Table table_of(const std::vector<client::Report>& reports) {
+  Table table({{"RUN"},
+               {"MACHINE"},
+               {"PROGRAM"},
+               {"REV", Align::Right},
+               {"STATE"},
+               {"LINES", Align::Right},
+               {"STARTED"},
+               {"ENDED"}});
+  for (const auto& report : reports) {
+    table.add({short_id(report.run), report.machine, report.program,
+               std::to_string(report.revision), Cell(report.state, style_of_state(report.state)),
+               std::to_string(report.lines), time_text(report.started), time_text(report.ended)});
+  }
+  return table;
+}
+
+Table table_of(const std::vector<client::MachineReport>& reports) {
+  Table table({{"MACHINE"}, {"LINES OUTSIDE RUNS", Align::Right}, {"FIRST"}, {"LAST"}});
+  for (const auto& report : reports) {
+    table.add({report.machine, std::to_string(report.lines), time_text(report.first),
+               time_text(report.last)});
+  }
+  return table;
+}
+
+template <class T>
+nlohmann::ordered_json json_array(const std::vector<T>& list) {
+  auto array = nlohmann::ordered_json::array();
+  for (const auto& item : list) array.push_back(client::to_json_value(item));
+  return array;
+}
+
+int list(Context& context, const ListCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto reports = fetch_all(command.limit, [&](client::Page page) {
+    client::ReportQuery query = command.query;
+    query.page = page;
+    return client->reports(query);
+  });
+  if (!reports) return complain(reports.error());
+  client::Reply<std::vector<client::MachineReport>> machines{};
+  if (command.query.program.empty()) machines = machine_reports(*client, command.query.machine);
+  if (!machines) return complain(machines.error());
+  if (context.wants_json) {
+    context.print(json_text(nlohmann::ordered_json{{"reports", json_array(*reports)},
+                                                   {"machine_reports", json_array(*machines)}}));
+    return kExitOk;
+  }
+  if (reports->empty()) {
+    context.print("No run has reported a line yet.\n");
+  } else {
+    context.print(table_of(*reports));
+  }
+  if (machines->empty()) return kExitOk;
+  context.print("\n");
+  context.print(table_of(*machines));
+  return kExitOk;
+}
+
+/// Whose lines are meant.
+struct ReportOf {
+  std::optional<client::Run> run;
+  std::string machine;  ///< what it printed outside runs; empty: the run's
+
+  std::string name() const {
+    return run ? "run " + short_id(run->id) : "machine " + machine + " outside runs";
+  }
+  client::Reply<void> write(client::Client& client, const std::string& format,
+                            const std::function<bool(std::string_view)>& sink) const {
+    return run ? client.export_report(run->id, format, sink)
+               : client.export_machine_report(machine, format, sink);
+  }
+};
+
+/// A run goes before a machine of that name. The error speaks of runs.
+client::Reply<ReportOf> find_report(client::Client& client, const std::string& reference) {
+  auto run = find_run(client, reference);
+  if (run) return ReportOf{.run = *std::move(run), .machine = {}};
+  if (run.error().kind != client::Failure::Kind::Refused) return client::failed(run.error());
+  if (auto machine = client.machine(reference)) {
+    return ReportOf{.run = {}, .machine = machine->name};
+  }
+  return client::failed(run.error());
+}
+
+enum class Controls { AsTheyAre, Visible };
+
+/// What a machine printed must not steer a terminal.
+int print_report(client::Client& client, const ReportOf& report, const std::string& format,
+                 Controls controls) {
+  StandardOutput output;
+  VisibleText visible;
+  auto printed = report.write(client, format, [&](std::string_view bytes) {
+    const bool is_raw = controls == Controls::AsTheyAre;
+    return output.write(is_raw ? bytes : visible.take(bytes)).has_value();
+  });
+  if (output.error()) return output.complain();
+  return printed ? kExitOk : complain(printed.error());
+}
+
+struct ShowCommand {
+  std::string run;
+  bool is_raw = false;
+};
+
+int show(Context& context, const ShowCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto report = find_report(*client, command.run);
+  if (!report) return complain(report.error());
+  const bool is_shown = terminal_of(STDOUT_FILENO).is_terminal && !command.is_raw;
+  const auto controls = is_shown ? Controls::Visible : Controls::AsTheyAre;
+  if (context.wants_json) return print_report(*client, *report, "json", controls);
+  if (const auto& run = report->run) {
+    context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
+                              short_id(run->id), run->program, run->revision, run->machine,
+                              run->state, count_text(run->outputs, "line")));
+  } else {
+    context.print(fmt::format("What machine {} printed outside any run\n\n", report->machine));
+  }
+  return print_report(*client, *report, "text", controls);
+}
+
+int export_to_file(client::Client& client, const ReportOf& report, const ExportCommand& command) {
+  auto file = client::OutputFile::create(command.output);
+  if (!file) return complain(file.error());
+  std::optional<Error> unwritten;
+  auto exported = report.write(client, command.format, [&](std::string_view bytes) {
+    if (auto written = file->write(bytes); !written) unwritten = written.error();
+    return !unwritten;
+  });
+  if (unwritten) return complain(*unwritten);
+  if (!exported) return complain(exported.error());
+  if (auto kept = file->commit(); !kept) return complain(kept.error());
+  fmt::print(stderr, "Wrote the report of {} to {}\n", report.name(), command.output);
+  return kExitOk;
+}
+
+int export_report(Context& context, const ExportCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto report = find_report(*client, command.run);
+  if (!report) return complain(report.error());
+  if (!command.output.empty() && command.output != "-") {
+    return export_to_file(*client, *report, command);
+  }
+  return print_report(*client, *report, command.format, Controls::AsTheyAre);
+}
+
+constexpr const char* kReportHelp =
+    "Run: its id, the beginning of it, or latest; or a machine: what it printed outside any run";
+
+void add_export(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("export", "Write a run's report lines for other programs");
+  auto options = std::make_shared<ExportCommand>();
+  options->format = "text";
+  command->add_option("RUN|MACHINE", options->run, kReportHelp)->required();
+  command->add_option("--format", options->format, "text, csv or json (default: text)")
+      ->check(CLI::IsMember({"text", "csv", "json"}));
+  command->add_option("-o,--output", options->output,
+                      "File to write, - for standard output (default: -)");
+  command->footer(
+      "text holds exactly the lines that the machine put out, in order; csv and json add time, "
+      "device\nand place.\n\nExample:\n  dnc report export latest --format csv -o profile.csv");
+  command->callback([&context, options] { context.status = export_report(context, *options); });
+}
+
+}  // namespace
+
+void add_report_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("report", "What machines wrote: DPRNT and other output lines");
+  group->require_subcommand(1);
+
+  auto* list_command = group->add_subcommand(
+      "list", "Runs that reported lines, newest first, and machines that printed outside runs");
+  auto options = std::make_shared<ListCommand>();
+  list_command->add_option("--machine", options->query.machine, "Only of this machine");
+  list_command->add_option("--program", options->query.program, "Only of this program");
+  list_command->add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
+  add_json_flag(*list_command, context);
+  list_command->callback([&context, options] { context.status = list(context, *options); });
+
+  auto shown = std::make_shared<ShowCommand>();
+  auto* show_command =
+      group->add_subcommand("show", "Print the report of a run, or a machine's own");
+  show_command->add_option("RUN|MACHINE", shown->run, kReportHelp)->required();
+  show_command->add_flag("--raw", shown->is_raw,
+                         "On a terminal, too, print control characters instead of \\x1b");
+  add_json_flag(*show_command, context);
+  show_command->callback([&context, shown] { context.status = show(context, *shown); });
+
+  add_export(*group, context);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,220 @@
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/server/machine_text.hpp"
+#include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/run_reference.hpp"
+#include "clients/cli/server/run_watch.hpp"
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct StartCommand {
+  client::RunRequest request;
+  bool follows = false, waits = false;
+};
+
+struct ListCommand {
+  client::RunQuery query;
+  std::uint64_t limit = 20;
+};
+
+int start(Context& context, const StartCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto run = client->start_run(command.request);
+  if (!run) return complain(run.error());
+  if (command.follows || command.waits) {
+    if (!context.wants_json && command.follows) {
+      context.print(fmt::format("Run {} started.\n", short_id(run->id)));
+      std::fflush(stdout);
+    }
+    const auto style = command.follows ? WatchStyle::Live : WatchStyle::Silent;
+    return watch_run(context, *client, *run, style);
+  }
+  if (context.wants_json) {
+    context.print(json_text(*run));
+  } else {
+    context.print(fmt::format("Run {} of {} revision {} started on {}.\n", run->id, run->program,
+                              run->revision, run->machine));
+  }
+  return kExitOk;
+}
+
+void add_row(Table& table, const client::Run& run) {
+  table.add(
+      {short_id(run.id), run.machine, run.program, std::to_string(run.revision),
+       Cell(run.state, style_of_state(run.state)), std::to_string(run.executed),
+       std::to_string(run.outputs), time_text(run.started.empty() ? run.created : run.started),
+       has_ended(run) ? duration_text(seconds_between(run.started, run.ended)) : "", run.reason});
+}
+
+int list(Context& context, const ListCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto runs = fetch_all(command.limit, [&](client::Page page) {
+    client::RunQuery query = command.query;
+    query.page = page;
+    return client->runs(query);
+  });
+  if (!runs) return complain(runs.error());
+  if (context.wants_json) {
+    context.print(json_list_text("runs", *runs));
+    return kExitOk;
+  }
+  if (runs->empty()) {
+    context.print("No such run; dnc run start MACHINE PROGRAM makes one.\n");
+    return kExitOk;
+  }
+  Table table({{"RUN"},
+               {"MACHINE"},
+               {"PROGRAM"},
+               {"REV", Align::Right},
+               {"STATE"},
+               {"BLOCKS", Align::Right},
+               {"REPORT LINES", Align::Right},
+               {"STARTED"},
+               {"TOOK", Align::Right},
+               {"REASON"}});
+  for (const auto& run : *runs) add_row(table, run);
+  context.print(table);
+  return kExitOk;
+}
+
+Details run_details(const client::Run& run) {
+  Details details;
+  details.add("run", run.id);
+  details.add("state", Cell(run.state, style_of_state(run.state)));
+  details.add("reason", run.reason);
+  details.add("machine", run.machine);
+  details.add("program", fmt::format("{} revision {}", run.program, run.revision));
+  details.add("setup", run.setup ? fmt::format("{} of the server", *run.setup) : "the gateway's");
+  details.add("control", run.control);
+  details.add("content", run.sha256);
+  details.add("verified", run.content_verified ? (*run.content_verified ? "yes" : "NO") : "");
+  details.add("sent", fmt::format("{} of {}", bytes_text(run.sent), bytes_text(run.size)));
+  details.add("accepted", fmt::format("{} blocks", run.accepted));
+  details.add("executed", fmt::format("{} blocks", run.executed));
+  details.add("last line", run.line ? std::to_string(*run.line) : "");
+  details.add("last N", run.sequence ? std::to_string(*run.sequence) : "");
+  details.add("report lines", std::to_string(run.outputs));
+  details.add("author", run.author);
+  details.add("created", time_text(run.created));
+  details.add("started", time_text(run.started));
+  details.add("ended", time_text(run.ended));
+  return details;
+}
+
+int show(Context& context, const std::string& reference) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto run = find_run(*client, reference);
+  if (!run) return complain(run.error());
+  if (context.wants_json) {
+    context.print(json_text(*run));
+  } else {
+    context.print(run_details(*run));
+  }
+  return kExitOk;
+}
+
+int watch(Context& context, const std::string& reference) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto run = find_run(*client, reference);
+  if (!run) return complain(run.error());
+  return watch_run(context, *client, *run, WatchStyle::Live);
+}
+
+void add_start(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("start", "Feed a program to a machine and execute it");
+  auto options = std::make_shared<StartCommand>();
+  command->add_option("MACHINE", options->request.machine, "The machine")->required();
+  command->add_option("PROGRAM", options->request.program, "The program in the library")
+      ->required();
+  command->add_option("--revision", options->request.revision,
+                      "Which revision (default: the latest)");
+  command->add_option(
+      "--from", options->request.from,
+      "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or after blocks "
+      "(+25)");
+  auto* send = command->add_flag_callback(
+      "--send-head", [options] { options->request.head = "send"; },
+      "On a serial line: send the words before the beginning that the rest relies on first (units, "
+      "feed, tool ...)");
+  command
+      ->add_flag_callback(
+          "--modes-set", [options] { options->request.head = "set"; },
+          "On a serial line: they are in force at the control, nothing is sent for them")
+      ->excludes(send);
+  command
+      ->add_option(
+          "--memory", options->request.memory,
+          "With --from at a gateway: look through the skipped part with the control's memory "
+          "(variables, offsets) as it was at the begin of the machine's last run of this "
+          "revision, or as it is now, so that the skipped part applies once more")
+      ->check(CLI::IsMember({"begin", "now"}));
+  command->add_option(
+      "--pass", options->request.pass,
+      "With --from at a gateway: which time the program comes to that block (loops, "
+      "subprograms)");
+  auto* follow = command->add_flag("--follow", options->follows, "Watch it to its end");
+  command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
+      ->excludes(follow);
+  add_json_flag(*command, context);
+  command->footer(
+      "On a serial line a run with --from is refused while the rest of the program relies on words "
+      "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
+      "send.\nAt a gateway the program is looked through: a start that would lose what the control "
+      "keeps, "
+      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass say "
+      "what is "
+      "meant.\n\n"
+      "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
+      "ends\nthe watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 "
+      "--follow");
+  command->callback([&context, options] { context.status = start(context, *options); });
+}
+
+void add_list(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("list", "Runs, newest first");
+  auto options = std::make_shared<ListCommand>();
+  command->add_option("--machine", options->query.machine, "Only of this machine");
+  command->add_option("--program", options->query.program, "Only of this program");
+  command->add_option("--state", options->query.state,
+                      "Only in this state: ordered, active, completed, aborted, alarmed, "
+                      "interrupted, refused");
+  command->add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
+  add_json_flag(*command, context);
+  command->callback([&context, options] { context.status = list(context, *options); });
+}
+
+}  // namespace
+
+void add_run_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("run", "Runs of programs on machines");
+  group->require_subcommand(1);
+  add_start(*group, context);
+  add_list(*group, context);
+
+  auto shown = std::make_shared<std::string>();
+  auto* show_command = group->add_subcommand("show", "Everything known of one run");
+  show_command->add_option("ID", *shown, kRunHelp)->required();
+  add_json_flag(*show_command, context);
+  show_command->callback([&context, shown] { context.status = show(context, *shown); });
+
+  add_run_control_commands(*group, context);
+
+  auto watched = std::make_shared<std::string>();
+  auto* watch_command = group->add_subcommand("watch", "Follow a run to its end");
+  watch_command->add_option("ID", *watched, kRunHelp)->required();
+  watch_command->add_flag("--json", context.wants_json,
+                          "Print each change as one JSON object a line");
+  watch_command->footer(
+      "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run goes on).");
+  watch_command->callback([&context, watched] { context.status = watch(context, *watched); });
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,163 @@
+#include "clients/cli/server/run_control.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "clients/cli/server/run_reference.hpp"
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+struct RunControlCommand {
+  std::string run;
+  std::string text, name, state;
+  std::optional<double> feed, rapid, spindle;  ///< per cent
+  int clicks = 1;
+};
+
+/// Gives the orders one after the other, as long as the machine takes them.
+int give(Context& context, const std::string& reference,
+         const std::vector<client::CommandRequest>& commands) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto run = find_run(*client, reference);
+  if (!run) return complain(run.error());
+  for (const auto& command : commands) {
+    auto given = client->command(run->id, command);
+    if (!given) return complain(given.error());
+    context.print(fmt::format("{} took {} (run {} of {})\n", run->machine, command_text(command),
+                              short_id(run->id), run->program));
+  }
+  return kExitOk;
+}
+
+client::CommandRequest plain(std::string action) {
+  return {std::move(action), {}, {}, {}};
+}
+
+void add_plain(CLI::App& group, Context& context, const std::string& action, const char* help) {
+  auto* command = group.add_subcommand(action, help);
+  auto run = std::make_shared<std::string>();
+  command->add_option("ID", *run, kRunHelp)->required();
+  command->callback(
+      [&context, run, action] { context.status = give(context, *run, {plain(action)}); });
+}
+
+void add_answer(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("answer", "Answer the question a run waits with");
+  auto options = std::make_shared<RunControlCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("TEXT", options->text, "What the operator would type")->required();
+  command->footer("Example:\n  dnc run answer latest 16.4856");
+  command->callback([&context, options] {
+    client::CommandRequest command = plain("answer");
+    command.text = options->text;
+    context.status = give(context, options->run, {command});
+  });
+}
+
+void add_switch(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
+  auto options = std::make_shared<RunControlCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("NAME", options->name, kSwitchHelp)->required();
+  command->add_option("STATE", options->state, "on or off")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}));
+  command->footer(
+      "emergency_stop brakes at once, turns spindle and coolant off and keeps the run from going "
+      "on; "
+      "when\nit is off again the run ends as aborted. It can be released by dnc machine switch "
+      "too.\n\nExample:\n  dnc run switch latest single_block on");
+  command->callback([&context, options] {
+    context.status =
+        give(context, options->run, {switch_command(options->name, options->state == "on")});
+  });
+}
+
+void add_handwheel(CLI::App& group, Context& context) {
+  constexpr int kMaxClicks = 1000;
+  auto* command = group.add_subcommand("handwheel", "Turn the handwheel that drives the program");
+  auto options = std::make_shared<RunControlCommand>();
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("CLICKS", options->clicks, "How far, forward")
+      ->required()
+      ->check(CLI::Range(1, kMaxClicks));
+  command->footer(
+      "In handwheel mode a program goes on only as far as the wheel is turned; the feed switch "
+      "says "
+      "how\nmuch a click is.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
+      "handwheel "
+      "latest 200");
+  command->callback([&context, options] {
+    client::CommandRequest command = plain("handwheel");
+    command.value = options->clicks;
+    context.status = give(context, options->run, {command});
+  });
+}
+
+int give_overrides(Context& context, const RunControlCommand& command) {
+  std::vector<client::CommandRequest> commands;
+  const auto add = [&](const char* action, const std::optional<double>& percent) {
+    if (!percent) return;
+    commands.push_back(plain(action));
+    commands.back().value = *percent / 100;
+  };
+  add("feed_override", command.feed);
+  add("rapid_override", command.rapid);
+  add("spindle_override", command.spindle);
+  if (!commands.empty()) return give(context, command.run, commands);
+  fmt::print(stderr, "dnc: run override changes nothing; expected --feed, --rapid or --spindle\n");
+  return kExitUsage;
+}
+
+void add_override(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand("override", "Set feed, rapid or spindle override");
+  auto options = std::make_shared<RunControlCommand>();
+  const CLI::Range percent(0.0, 1000.0);
+  command->add_option("ID", options->run, kRunHelp)->required();
+  command->add_option("--feed", options->feed, "Of the programmed feed, in per cent")
+      ->check(percent);
+  command->add_option("--rapid", options->rapid, "Of rapid traverse, in per cent")->check(percent);
+  command->add_option("--spindle", options->spindle, "Of the programmed speed, in per cent")
+      ->check(percent);
+  command->footer(
+      "The machine has its own limits and refuses what is beyond them.\n\nExample:\n  dnc run "
+      "override latest --feed 80 --rapid 25");
+  command->callback([&context, options] { context.status = give_overrides(context, *options); });
+}
+
+}  // namespace
+
+client::CommandRequest switch_command(std::string name, bool is_on) {
+  std::ranges::replace(name, '-', '_');
+  client::CommandRequest command = plain("switch");
+  command.name = std::move(name);
+  command.value = is_on ? 1 : 0;
+  return command;
+}
+
+std::string command_text(const client::CommandRequest& command) {
+  if (command.action == "switch") {
+    return fmt::format("{} {}", command.name.value_or(""), command.value == 1.0 ? "on" : "off");
+  }
+  if (command.action == "handwheel") return fmt::format("{:.0f} clicks", command.value.value_or(0));
+  std::string text = command.action;
+  std::ranges::replace(text, '_', ' ');
+  if (command.value) text += fmt::format(" {:.4g} %", *command.value * 100);
+  return text;
+}
+
+void add_run_control_commands(CLI::App& group, Context& context) {
+  add_plain(group, context, "hold", "Feed hold: stop moving, keep the place");
+  add_plain(group, context, "resume", "Go on after a hold, a stop or a single block");
+  add_plain(group, context, "abort", "End a run for good");
+  add_answer(group, context);
+  add_switch(group, context);
+  add_override(group, context);
+  add_handwheel(group, context);
+}
+
+}  // namespace dripline::cli

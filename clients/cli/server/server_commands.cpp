@@ -1,0 +1,55 @@
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/terminal.hpp"
+#include "clients/cli/text/value_text.hpp"
+
+namespace dripline::cli {
+namespace {
+
+void add_health(Details& details, const client::ServerInfo::Health& health) {
+  if (health.status.empty()) return;  // an older server
+  details.add("health", health.status);
+  for (const auto& reason : health.reasons) {
+    details.add("", fmt::format("{}: {} ({})", reason.subject, printable(reason.message),
+                                printable(reason.detail)));
+  }
+}
+
+int show_status(Context& context) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto server = client->server();
+  if (!server) return complain(server.error());
+  if (context.wants_json) {
+    context.print(json_text(*server));
+    return kExitOk;
+  }
+  Details details;
+  details.add("server", client->address().url);
+  details.add("name", server->name);
+  add_health(details, server->health);
+  details.add("version", server->version);
+  details.add("started", time_text(server->started));
+  details.add("up for", duration_text(server->uptime_s));
+  details.add("data", server->data_dir);
+  details.add("machines",
+              fmt::format("{}, {} connected", server->machines, server->machines_connected));
+  details.add("programs", std::to_string(server->programs));
+  details.add("runs active", std::to_string(server->runs_active));
+  details.add("DDS", fmt::format("domain {}, {} messages rejected", server->dds.domain,
+                                 server->dds.rejected));
+  context.print(details);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_server_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand("server", "The server itself");
+  group->require_subcommand(1);
+  auto* status = group->add_subcommand("status", "Version, uptime and what it looks after");
+  add_json_flag(*status, context);
+  status->callback([&context] { context.status = show_status(context); });
+}
+
+}  // namespace dripline::cli

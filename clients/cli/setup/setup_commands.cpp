@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+#include <memory>
+
+#include "clients/cli/commands.hpp"
+#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/port/port_file.hpp"
+#include "clients/cli/setup/setup_changes.hpp"
+#include "clients/cli/setup/setup_forms.hpp"
+#include "clients/cli/setup/setup_menu.hpp"
+#include "clients/cli/setup/setup_text.hpp"
+#include "clients/cli/text/standard_output.hpp"
+#include "clients/cli/offline/tnc_version.hpp"
+#include "clients/cli/text/value_text.hpp"
+#include "clients/lib/output_file.hpp"
+
+namespace dripline::cli {
+namespace {
+
+constexpr std::size_t kMaxSetupFile = 64 * 1024;
+
+struct SetupCommand {
+  std::string machine, file, comment, control, map;
+  std::optional<std::uint64_t> revision;
+  std::uint64_t limit = 20;
+  std::optional<std::uint64_t> base;
+  std::vector<std::string> holds;
+  bool wants_parameters = false;
+};
+
+int list(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setups = fetch_all(command.limit,
+                          [&](client::Page page) { return client->setups(command.machine, page); });
+  if (!setups) return complain(setups.error());
+  if (context.wants_json) {
+    context.print(json_list_text("setups", *setups));
+    return kExitOk;
+  }
+  if (setups->empty()) {
+    context.print(fmt::format("The server keeps no setup of {}; its gateway has its own.\n",
+                              command.machine));
+    return kExitOk;
+  }
+  Table table({{"REV", Align::Right}, {"SIZE", Align::Right}, {"SAVED"}, {"BY"}, {"COMMENT"}});
+  for (const auto& setup : *setups) {
+    table.add({std::to_string(setup.revision), bytes_text(setup.size), time_text(setup.created),
+               setup.author, setup.comment});
+  }
+  context.print(table);
+  return kExitOk;
+}
+
+int show(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  const auto menu = menu_of(*client, *setup, {command.control, command.holds});
+  if (!menu) return complain(menu.error());
+  if (context.wants_json) {
+    auto json = client::to_json_value(*setup);
+    if (*menu) add_menu(**menu, json);
+    context.print(json_text(json));
+    return kExitOk;
+  }
+  const auto text = setup_tables(*setup, context.has_colour());
+  if (!text) return complain(text.error());
+  context.print(*text);
+  if (*menu) context.print("\n" + menu_tables(**menu, context.has_colour()));
+  return kExitOk;
+}
+
+int push(Context& context, const SetupCommand& command) {
+  auto text = read_small_file(command.file, kMaxSetupFile);
+  if (!text) return complain(text.error());
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto saved =
+      client->save_setup({command.machine, *text, command.comment, command.control, command.base});
+  return saved ? report_saved(context, *saved) : complain(saved.error());
+}
+
+int put_out(const std::string& path, std::string_view text, const std::string& what) {
+  if (path.empty() || path == "-") {
+    StandardOutput output;
+    (void)output.write(text).has_value();
+    return output.error() ? output.complain() : kExitOk;
+  }
+  auto file = client::OutputFile::create(path);
+  if (!file) return complain(file.error());
+  if (auto written = file->write(text); !written) return complain(written.error());
+  if (auto kept = file->commit(); !kept) return complain(kept.error());
+  fmt::print(stderr, "Wrote {} to {}\n", what, path);
+  return kExitOk;
+}
+
+int pull(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  return put_out(command.file, setup->text,
+                 fmt::format("setup {} of {}", setup->revision, setup->machine));
+}
+
+/// Of the machine, unless the command names it; a TNC where neither says it.
+std::string control_of(client::Client& client, const SetupCommand& command) {
+  if (!command.control.empty()) return command.control;
+  const auto machine = client.machine(command.machine);
+  return machine && !machine->control.empty() ? machine->control : "tnc155";
+}
+
+/// The text of a parameter map; none was named: nothing.
+Result<std::string> map_of(const std::string& path) {
+  if (path.empty()) return std::string();
+  auto text = read_small_file(path, kMaxSetupFile);
+  if (text && text->empty()) return fail(Errc::Syntax, "{} is empty", path);
+  return text;
+}
+
+int export_form(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto setup = client->setup(command.machine, command.revision);
+  if (!setup) return complain(setup.error());
+  const auto map = map_of(command.map);
+  if (!map) return complain(map.error());
+  const std::string control = control_of(*client, command);
+  const auto text = command.wants_parameters ? machine_parameters_text(setup->text)
+                                             : control_form_of(setup->text, control, *map);
+  if (!text) return complain(text.error());
+  const bool is_ours = !command.wants_parameters && control == "centurion" && map->empty();
+  if (is_ours) {
+    fmt::print(stderr,
+               "dnc: numbers from P500 on are Dripline's own and not the control's: do not send "
+               "this to a Centurion. --map FILE gives it the control's\n");
+  }
+  return put_out(command.file, *text,
+                 fmt::format("setup {} of {} {}", setup->revision, setup->machine,
+                             is_ours ? "in Dripline's numbering" : "as its control takes it"));
+}
+
+struct ImportCommand {
+  std::string file, output, setup, map;
+};
+
+int import_form(const ImportCommand& command) {
+  const auto& [path, output, control, map_path] = command;
+  const auto text = read_small_file(path, kMaxSetupFile);
+  if (!text) return complain(text.error());
+  const auto version = tnc_version_of(control);
+  if (!version) return complain(version.error());
+  const auto map = map_of(map_path);
+  if (!map) return complain(map.error());
+  const auto setup = setup_of_control_form(*text, *version, *map);
+  if (!setup) return complain(Error{setup.error().code, path + ": " + setup.error().what});
+  return put_out(output, *setup, "a setup");
+}
+
+void add_import(CLI::App& group, Context& context) {
+  auto* command = group.add_subcommand(
+      "import", "Make a setup from what a control sent: TNC tools or MP, Centurion parameters");
+  auto options = std::make_shared<ImportCommand>();
+  command
+      ->add_option("FILE", options->file,
+                   "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
+      ->required();
+  command->add_option("--setup", options->setup,
+                      "TOML file whose [control] says the TNC's model and software: what that one "
+                      "has not is refused");
+  command->add_option("--map", options->map,
+                      "Of a Centurion: which of its numbers from P200 on is which of Dripline's "
+                      "(deploy/examples/centurion-parameters.map)");
+  command->add_option("-o,--output", options->output,
+                      "TOML file to write, - for standard output [-]");
+  command->footer(
+      "No server is needed. A Centurion's numbers of tables and pages are not known: without --map "
+      "only\nwhat dnc setup export has written, or P0 to P199, is taken.");
+  command->callback([&context, options] { context.status = import_form(*options); });
+}
+
+/// The old text becomes the newest revision: nothing is ever lost.
+int restore(Context& context, const SetupCommand& command) {
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto old = client->setup(command.machine, command.revision);
+  if (!old) return complain(old.error());
+  const std::string comment =
+      command.comment.empty() ? fmt::format("setup {} again", old->revision) : command.comment;
+  auto saved = client->save_setup({command.machine, old->text, comment, command.control});
+  return saved ? report_saved(context, *saved) : complain(saved.error());
+}
+
+using SetupAction = int (*)(Context&, const SetupCommand&);
+
+struct Verb {
+  CLI::App* command;
+  std::shared_ptr<SetupCommand> options;
+};
+Verb add_verb(CLI::App& group, Context& context, const char* name, const char* help,
+              SetupAction action) {
+  Verb verb{group.add_subcommand(name, help), std::make_shared<SetupCommand>()};
+  verb.command->add_option("MACHINE", verb.options->machine, "The machine")->required();
+  verb.command->callback(
+      [&context, options = verb.options, action] { context.status = action(context, *options); });
+  return verb;
+}
+
+void add_saving_options(Verb& verb, Context& context) {
+  verb.command->add_option("-m,--comment", verb.options->comment, "Why, for the list");
+  verb.command->add_option("--control", verb.options->control,
+                           "Of a machine that was never connected, e.g. tnc155");
+  add_json_flag(*verb.command, context);
+}
+
+}  // namespace
+
+void add_setup_commands(CLI::App& app, Context& context) {
+  auto* group = app.add_subcommand(
+      "setup", "What a machine's control knows: tool table, offsets, parameters");
+  group->require_subcommand(1);
+  group->footer(
+      "A setup is a TOML file with [[tool]], [[offset]], [[variable]] and [control]. The server "
+      "checks it\nfor the machine's control, keeps every version, and sends the newest with each "
+      "start of a program.");
+
+  auto listing = add_verb(*group, context, "list", "Versions of a setup, newest first", list);
+  listing.command->add_option("--limit", listing.options->limit,
+                              "At most this many, 0 for all [20]");
+  add_json_flag(*listing.command, context);
+
+  auto showing = add_verb(*group, context, "show", "The tables of a setup", show);
+  showing.command->add_option("-r,--revision", showing.options->revision, "This one [newest]");
+  showing.command->add_option("--control", showing.options->control,
+                              "Of a machine that was never connected, e.g. tnc155");
+  showing.command
+      ->add_option("--holds", showing.options->holds,
+                   "A TNC: programs of the server that its memory has, for its vacant blocks")
+      ->type_name("PROGRAM");
+  showing.command->footer(
+      "Of a TNC also its MOD functions in the control's order, and the user parameters.");
+  add_json_flag(*showing.command, context);
+
+  auto pushing = add_verb(*group, context, "push", "Make a file the machine's setup", push);
+  pushing.command->add_option("FILE", pushing.options->file, "TOML")->required();
+  pushing.command->add_option("--base", pushing.options->base,
+                              "Only if this is still the newest version, 0: none yet");
+  add_saving_options(pushing, context);
+  pushing.command->footer(
+      "Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
+
+  auto pulling = add_verb(*group, context, "pull", "Fetch a setup's text", pull);
+  pulling.command->add_option("-r,--revision", pulling.options->revision, "This one [newest]");
+  pulling.command->add_option("-o,--output", pulling.options->file,
+                              "File to write, - for standard output [-]");
+
+  auto exporting = add_verb(*group, context, "export",
+                            "As the control takes it: a TNC's tools (its program 0); a Centurion's "
+                            "parameters (G10), with --map in its own numbers",
+                            export_form);
+  exporting.command->add_option("--control", exporting.options->control,
+                                "tnc155 or centurion [the machine's]");
+  exporting.command->add_flag("--parameters", exporting.options->wants_parameters,
+                              "Of a TNC the machine parameters instead: MP0: ...");
+  exporting.command->add_option("--map", exporting.options->map,
+                                "Of a Centurion: its numbers, filled in by its builder "
+                                "(deploy/examples/centurion-parameters.map)");
+  exporting.command->footer(
+      "A Centurion's numbers from P500 on are not known. Without --map they are Dripline's own: a "
+      "backup\nfor dnc setup import, which overwrites other parameters on a real control. Never "
+      "send it to one.");
+  exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
+  exporting.command->add_option("-o,--output", exporting.options->file,
+                                "File to write, - for standard output [-]");
+  add_import(*group, context);
+
+  add_setup_changes(*group, context);
+
+  auto restoring = add_verb(*group, context, "restore", "Make an old version the newest", restore);
+  restoring.command->add_option("REVISION", restoring.options->revision, "Which")->required();
+  add_saving_options(restoring, context);
+}
+
+}  // namespace dripline::cli

@@ -1,0 +1,109 @@
+#include "clients/cli/setup/setup_forms.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+
+namespace dripline::cli {
+
+using interpreter::tnc155::ControlVersion;
+using interpreter::tnc155::Feature;
+
+namespace {
+
+/// Tools as the TOML of a setup, in millimetres.
+std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
+  std::string text = "units = \"mm\"\n";
+  for (const auto& tool : tools) {
+    text +=
+        fmt::format("\n[[tool]]\nnumber = {}\nlength = {:.12g}\nradius = {:.12g}\n", tool.number,
+                    tool.length.linear(interpreter::Axis::Z).mm(), tool.radius.mm());
+    if (tool.pocket) text += fmt::format("pocket = {}\n", *tool.pocket);
+    if (tool.is_special) text += "special = true\n";
+  }
+  return text;
+}
+
+std::string parameters_toml(const interpreter::tnc155::MachineParameters& parameters) {
+  std::string text = "[control.machine_parameters]\n";
+  for (const auto& [number, value] : parameters) {
+    text += fmt::format("MP{} = {:.12g}\n", number, value);
+  }
+  return text;
+}
+
+/// What a TNC sends of its memory: program 0, or its machine parameters (MP0: ...).
+Result<std::string> setup_of_memory_file(std::string_view text, const ControlVersion& tnc) {
+  const std::size_t begin = std::min(text.find_first_not_of(" \r\n\t\2"), text.size());
+  if (text.substr(begin).starts_with("MP")) {
+    const auto parameters = interpreter::tnc155::read_machine_parameters(text, tnc);
+    if (!parameters) return fail(parameters.error());
+    return parameters_toml(*parameters);
+  }
+  const auto tools = interpreter::tnc155::read_tool_store(text, tnc);
+  if (!tools) return fail(tools.error());
+  return tools_toml(*tools);
+}
+
+Result<void> check_tool_store(std::string_view toml) {
+  const auto data = interpreter::parse_control_data(toml);
+  if (!data) return fail(data.error());
+  const auto version = interpreter::tnc155::version_of(data->control);
+  if (!version) return fail(version.error());
+  if (version->has(Feature::ToolStore)) return {};
+  return fail(Errc::Unsupported, "{}", version->lacks(Feature::ToolStore));
+}
+
+}  // namespace
+
+Result<std::string> machine_parameters_text(std::string_view toml) {
+  const auto data = interpreter::parse_control_data(toml);
+  if (!data) return fail(data.error());
+  const auto parameters = interpreter::tnc155::all_machine_parameters(data->control);
+  if (!parameters) return fail(parameters.error());
+  if (parameters->empty()) {
+    return fail(Errc::NotFound,
+                "the setup has no [control.machine_parameters] and no user parameters");
+  }
+  return interpreter::tnc155::write_machine_parameters(*parameters);
+}
+
+Result<std::string> tool_store_of(std::string_view toml) {
+  const auto data = interpreter::parse_control_data(toml);
+  if (!data) return fail(data.error());
+  const auto sign = interpreter::tnc155::decimal_sign_of(data->control);
+  if (!sign) return fail(sign.error());
+  return interpreter::tnc155::write_tool_store(
+      data->tools, data->units.value_or(interpreter::Units::Millimetre), *sign);
+}
+
+Result<std::string> control_form_of(std::string_view toml, std::string_view control,
+                                    std::string_view map) {
+  if (control == "tnc155") {
+    if (auto has = check_tool_store(toml); !has) return fail(has.error());
+  }
+  if (control != "centurion") return tool_store_of(toml);
+  const auto data = interpreter::parse_control_data(toml, interpreter::Units::Inch);
+  if (!data) return fail(data.error());
+  if (map.empty()) return interpreter::centurion::write_parameter_text(*data);
+  const auto rows = interpreter::centurion::read_parameter_map(map);
+  if (!rows) return fail(rows.error().code, "map: {}", rows.error().what);
+  return interpreter::centurion::write_parameter_text(*data, &*rows);
+}
+
+Result<std::string> setup_of_control_form(std::string_view text, const ControlVersion& tnc,
+                                          std::string_view map) {
+  if (text.find("G10") != std::string_view::npos) {
+    if (map.empty()) return interpreter::centurion::setup_of_parameter_text(text);
+    const auto rows = interpreter::centurion::read_parameter_map(map);
+    if (!rows) return fail(rows.error().code, "map: {}", rows.error().what);
+    return interpreter::centurion::setup_of_parameter_text(text, &*rows);
+  }
+  return setup_of_memory_file(text, tnc);
+}
+
+}  // namespace dripline::cli

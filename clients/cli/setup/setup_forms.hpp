@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::cli {
+
+/// The machine parameters in a setup's text, as the control takes them. Errors: those of
+/// parse_control_data; Syntax, LimitExceeded, Unsupported (a parameter, one that the setup's model
+/// and software have not), NotFound (none is there).
+Result<std::string> machine_parameters_text(std::string_view toml);
+
+/// The tool store of a TNC 151/155 (its program 0) from a setup's text, in the setup's units.
+/// Errors: those of parse_control_data and write_tool_store.
+Result<std::string> tool_store_of(std::string_view toml);
+
+/// A setup as its control takes it over a line: the tool store of a TNC, or a Centurion's
+/// parameters as a program, in the control's numbers where `map` (the text of a parameter map)
+/// gives them; else in our own, marked as such. Errors: those of parse_control_data, of the form
+/// and of the map; Unsupported (a TNC without a tool store).
+Result<std::string> control_form_of(std::string_view toml, std::string_view control,
+                                    std::string_view map = {});
+
+/// The text of a setup from what a control sent: a Centurion's parameters (they hold a G10), else a
+/// TNC's tool store or machine parameters (MP0: ...), of which `tnc` must have all. `map` as above.
+/// Errors: Syntax, LimitExceeded, Unsupported; with the line.
+Result<std::string> setup_of_control_form(std::string_view text,
+                                          const interpreter::tnc155::ControlVersion& tnc,
+                                          std::string_view map = {});
+
+}  // namespace dripline::cli

@@ -1,0 +1,82 @@
+#include "clients/cli/text/terminal.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <cstdlib>
+
+namespace dripline::cli {
+namespace {
+
+bool is_continuation(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+bool colour_is_wanted() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return (no_color == nullptr || *no_color == '\0') &&
+         (term == nullptr || std::string_view(term) != "dumb");
+}
+
+std::string_view sequence(Style style) {
+  switch (style) {
+    case Style::Heading:
+      return "\x1b[1m";
+    case Style::Good:
+      return "\x1b[32m";
+    case Style::Bad:
+      return "\x1b[31m";
+    case Style::Busy:
+      return "\x1b[36m";
+    case Style::Faint:
+      return "\x1b[2m";
+    case Style::Plain:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+Terminal terminal_of(int descriptor) {
+  Terminal terminal;
+  terminal.is_terminal = ::isatty(descriptor) == 1;
+  terminal.has_colour = terminal.is_terminal && colour_is_wanted();
+  winsize size{};
+  if (terminal.is_terminal && ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    terminal.width = size.ws_col;
+  }
+  return terminal;
+}
+
+std::string styled(std::string_view text, Style style, bool has_colour) {
+  if (!has_colour || style == Style::Plain) return std::string(text);
+  return std::string(sequence(style)) + std::string(text) + "\x1b[0m";
+}
+
+std::size_t columns(std::string_view text) {
+  std::size_t count = 0;
+  for (const char c : text) count += is_continuation(c) ? 0 : 1;
+  return count;
+}
+
+std::string cut(std::string_view text, std::size_t width) {
+  if (columns(text) <= width) return std::string(text);
+  if (width == 0) return {};
+  std::size_t count = 0, end = 0;
+  for (; end < text.size(); ++end) {
+    if (!is_continuation(text[end]) && ++count == width) break;
+  }
+  return std::string(text.substr(0, end)) + "\u2026";
+}
+
+std::string printable(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) c = ' ';
+  }
+  return out;
+}
+
+}  // namespace dripline::cli

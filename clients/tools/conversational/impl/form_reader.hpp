@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "clients/tools/conversational/form.hpp"
+#include "clients/tools/conversational/impl/document.hpp"
+
+namespace dripline::conversational {
+
+/// Fills an event's fields from a file, checking each. The first error wins; after it nothing more
+/// is looked at.
+class FormReader : public Form {
+ public:
+  /// The file's event must outlive this.
+  FormReader(const FileEvent& event, UnitSystem units) : event_(event), units_(units) {}
+
+  void number(const Field& field, Entry& entry) override;
+  void whole(const Field& field, std::optional<int>& entry) override;
+  void text(const Field& field, std::string& entry) override;
+  void feedrate(const Field& field, Feedrate& entry) override;
+  void choice(const Field& field, std::span<const std::string_view> names,
+              std::size_t& index) override;
+  void demand(bool holds, std::string_view text) override;
+  void set_units(UnitSystem units) override { units_ = units; }
+
+  /// To be called when the walk is done: fields the event does not have are errors.
+  void finish();
+  UnitSystem units() const { return units_; }
+  const std::optional<std::string>& error() const { return error_; }
+
+ private:
+  /// What the file says, if it says anything; complains of fields that do not apply or are missing.
+  const FileValue* find(const Field& field);
+  Entry number_of(const Field& field, const FileValue& value);
+  Entry rounded(const Field& field, const TypedNumber& typed);
+  template <class... Args>
+  void complain(fmt::format_string<Args...> format, Args&&... args) {
+    if (!error_) error_ = fmt::format(format, std::forward<Args>(args)...);
+  }
+
+  const FileEvent& event_;
+  UnitSystem units_;
+  std::optional<std::string> error_;
+  std::vector<std::string_view> known_;
+};
+
+}  // namespace dripline::conversational

@@ -1,0 +1,176 @@
+#include "clients/tools/offline/check_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+
+/// Over the linear axes; a move of rotary axes alone counts its degrees as millimetres, which is
+/// how controls read the feed of such a move.
+Length distance(const Position& from, const Position& to) {
+  double linear = 0;
+  double rotary = 0;
+  for (const Axis axis : kAllAxes) {
+    const double delta = to.raw(axis) - from.raw(axis);
+    (is_rotary(axis) ? rotary : linear) += delta * delta;
+  }
+  return Length::mm(std::sqrt(linear > 0 ? linear : rotary));
+}
+
+}  // namespace
+
+CheckSummary::CheckSummary(const Position& start, CheckRates rates) : rates_(rates), last_(start) {}
+
+void CheckSummary::extend(Axis axis, double value) {
+  auto& extent = summary_.extents[static_cast<std::size_t>(axis)];
+  if (!extent) {
+    extent = AxisExtent{value, value};
+  } else {
+    extent->least = std::min(extent->least, value);
+    extent->most = std::max(extent->most, value);
+  }
+}
+
+void CheckSummary::move_to(const Position& to) {
+  ++summary_.moves;
+  for (const Axis axis : kAllAxes) {
+    if (to.has(axis)) extend(axis, to.raw(axis));
+  }
+  last_ = to;
+}
+
+double CheckSummary::spindle_speed() const {
+  double speed = spindle_.revolutions_per_minute;
+  if (spindle_.surface_speed) {
+    const Length around = 2 * Angle::kPi * abs(last_.linear(Axis::X));
+    speed = around > Length{} ? *spindle_.surface_speed / around : 0;
+    if (spindle_.max_revolutions && (speed == 0 || speed > *spindle_.max_revolutions)) {
+      speed = *spindle_.max_revolutions;
+    }
+  }
+  return speed > 0 ? speed : rates_.spindle_speed;
+}
+
+void CheckSummary::cut(Length length, const Feed& feed) {
+  summary_.feed_length += length;
+  double per_minute = 0;  // moves, or millimetres
+  double amount = length.mm();
+  switch (feed.per()) {
+    case Feed::Per::Minute:
+      per_minute = feed.length().mm();
+      break;
+    case Feed::Per::Revolution:
+      per_minute = feed.length().mm() * spindle_speed();
+      break;
+    case Feed::Per::Move:
+      per_minute = feed.moves_per_minute();
+      amount = 1;
+      break;
+  }
+  if (per_minute > 0) summary_.seconds += kSecondsPerMinute * amount / per_minute;
+}
+
+void CheckSummary::on_program(const ProgramHeader& header) {
+  summary_.control = header.control;
+  if (header.name) summary_.program = std::string(*header.name);
+  summary_.units = header.units;
+  summary_.x_is_diameter = header.x_is_diameter;
+}
+
+void CheckSummary::on_rapid(const Rapid& rapid) {
+  const Length length = distance(last_, rapid.to);
+  summary_.rapid_length += length;
+  if (rates_.rapid_per_minute > Length{}) {
+    summary_.seconds += kSecondsPerMinute * (length / rates_.rapid_per_minute);
+  }
+  move_to(rapid.to);
+}
+
+void CheckSummary::on_line(const Line& line) {
+  cut(distance(last_, line.to), line.feed);
+  move_to(line.to);
+}
+
+/// An arc reaches beyond its ends where it passes a quarter of its circle.
+void CheckSummary::extend_arc(const Arc& arc) {
+  const PlaneAxes axes = axes_of(arc.plane);
+  const double first = last_.raw(axes.first) - arc.center_first.mm();
+  const double second = last_.raw(axes.second) - arc.center_second.mm();
+  const double radius = std::hypot(first, second);
+  const double start = Angle::radians(std::atan2(second, first)).degrees();
+  const double sense = arc.turn == Turn::Counterclockwise ? 1 : -1;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    double turned = std::fmod(sense * (quarter * 90.0 - start), 360.0);
+    if (turned < 0) turned += 360;
+    if (turned > arc.sweep.degrees()) continue;
+    const double side = quarter < 2 ? radius : -radius;
+    if (quarter % 2 == 0) {
+      extend(axes.first, arc.center_first.mm() + side);
+    } else {
+      extend(axes.second, arc.center_second.mm() + side);
+    }
+  }
+}
+
+Length CheckSummary::length_of(const Arc& arc) const {
+  const PlaneAxes axes = axes_of(arc.plane);
+  const Length radius = hypot(last_.linear(axes.first) - arc.center_first,
+                              last_.linear(axes.second) - arc.center_second);
+  const Length rise = arc.to.linear(axes.normal) - last_.linear(axes.normal);
+  return hypot(radius * arc.sweep.radians(), rise);
+}
+
+void CheckSummary::on_arc(const Arc& arc) {
+  extend_arc(arc);
+  cut(length_of(arc), arc.feed);
+  move_to(arc.to);
+}
+
+void CheckSummary::on_thread(const Thread& thread) {
+  if (thread.arc) extend_arc(arc_of(thread));
+  const Length path = thread.arc ? length_of(arc_of(thread)) : distance(last_, thread.to);
+  cut(path, Feed::per_revolution(mean_lead(thread, path)));
+  move_to(thread.to);
+}
+
+void CheckSummary::on_dwell(const Dwell& dwell) {
+  summary_.seconds +=
+      dwell.revolutions ? kSecondsPerMinute * *dwell.revolutions / spindle_speed() : dwell.seconds;
+}
+
+void CheckSummary::on_spindle(const Spindle& spindle) {
+  spindle_ = spindle;
+}
+
+void CheckSummary::on_probe(const Probe& probe) {
+  if (!probe.result) return;
+  cut(distance(last_, probe.result->at), probe.feed);
+  move_to(probe.result->at);
+}
+
+void CheckSummary::on_warning(const Warning& warning) {
+  ++summary_.warning_count;
+  if (summary_.warnings.size() < Summary::kMaxWarnings) {
+    summary_.warnings.push_back(warning);
+  }
+}
+
+void CheckSummary::on_alarm(const Alarm& alarm) {
+  summary_.alarm = alarm;
+}
+
+void CheckSummary::on_end(const End& end) {
+  summary_.ended = true;
+  summary_.blocks = end.blocks;
+}
+
+void CheckSummary::on_block_end(const Origin& origin) {
+  summary_.blocks = std::max(summary_.blocks, origin.block);
+}
+
+}  // namespace dripline::interpreter

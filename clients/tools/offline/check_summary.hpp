@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::interpreter {
+
+struct CheckRates {
+  Length rapid_per_minute = Length::mm(10'000);
+  double spindle_speed =
+      1000;  ///< revolutions per minute, where the program needs one and has none
+};
+
+/// The smallest and largest coordinate an axis was moved to, on arcs between their ends as well.
+/// Millimetres or degrees, as Position::raw.
+struct AxisExtent {
+  double least = 0;
+  double most = 0;
+};
+
+/// What `dnc check` says about a program. Value type.
+struct Summary {
+  std::string control;
+  std::optional<std::string> program;
+  Units units = Units::Millimetre;  ///< of the header, for printing
+  bool x_is_diameter = false;       ///< extents hold radii all the same
+  std::uint64_t blocks = 0;
+  std::uint64_t moves = 0;
+  Length rapid_length;
+  Length feed_length;  ///< feeds, arcs, threads and probe moves
+  double seconds = 0;  ///< estimated, without acceleration, stops and tool changes
+  std::array<std::optional<AxisExtent>, kAxisCount> extents;  ///< by Axis; of axes that were moved
+  std::vector<Warning> warnings;                              ///< the first kMaxWarnings
+  std::uint64_t warning_count = 0;
+  std::optional<Alarm> alarm;
+  bool ended = false;
+
+  static constexpr std::size_t kMaxWarnings = 1000;
+};
+
+/// Adds up a program's events to a Summary. One thread; bounded memory.
+class CheckSummary final : public EventSink {
+ public:
+  /// `start`: where the machine stands before the first move (Setup::start).
+  explicit CheckSummary(const Position& start = {}, CheckRates rates = {});
+
+  const Summary& summary() const { return summary_; }
+
+  void on_program(const ProgramHeader&) override;
+  void on_rapid(const Rapid&) override;
+  void on_line(const Line&) override;
+  void on_arc(const Arc&) override;
+  void on_thread(const Thread&) override;
+  void on_dwell(const Dwell&) override;
+  void on_spindle(const Spindle&) override;
+  void on_probe(const Probe&) override;
+  void on_warning(const Warning&) override;
+  void on_alarm(const Alarm&) override;
+  void on_end(const End&) override;
+  void on_block_end(const Origin&) override;
+
+ private:
+  void move_to(const Position& to);
+  void cut(Length length, const Feed& feed);
+  void extend(Axis axis, double value);
+  void extend_arc(const Arc& arc);
+  Length length_of(const Arc& arc) const;
+  double spindle_speed() const;
+
+  Summary summary_;
+  CheckRates rates_;
+  Position last_;
+  Spindle spindle_;
+};
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,177 @@
+#include "clients/tools/offline/offline_run.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "clients/tools/offline/event_tee.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+/// Blocks between two looks at the limit.
+constexpr std::uint64_t kStride = 65'536;
+constexpr LocalTime kDefaultTime{2000, 1, 1, 0, 0, 0};
+
+class Diagnostics final : public EventSink {
+ public:
+  void on_block_end(const Origin& origin) override {
+    if (origin.program >= furthest_.size()) furthest_.resize(origin.program + std::size_t{1});
+    std::uint64_t& furthest = furthest_[origin.program];
+    if (origin.offset >= furthest) [[likely]] {
+      furthest = origin.offset + 1;
+    } else {
+      ++repeated;
+    }
+  }
+  void on_warning(const Warning&) override { ++warnings; }
+  void on_dwell(const Dwell& event) override { dwelt += event.seconds; }
+  void on_alarm(const Alarm& event) override {
+    alarm = event.diagnostic;
+    program = event.origin.program;
+  }
+
+  std::uint64_t warnings = 0;
+  std::optional<Diagnostic> alarm;
+  ProgramIndex program = kMainProgram;
+  std::uint64_t repeated = 0;  ///< blocks that had been executed before
+  double dwelt = 0;            ///< seconds
+
+ private:
+  std::vector<std::uint64_t> furthest_;  ///< by program: after the block that begins last
+};
+
+constexpr std::string_view kEndlessId = "OFF0001";
+
+/// The last event of a program that goes round and round.
+void tell_endless(const Interpreter& interpreter, std::uint64_t repeated, EventSink& sink) {
+  const Origin& origin = interpreter.origin();
+  sink.on_alarm({origin,
+                 {kEndlessId,
+                  fmt::format("the program repeats without end: stopped after {} blocks that had "
+                              "been executed before, the limit of an offline run",
+                              repeated),
+                  origin.line, 0}});
+}
+
+/// Later on the same day; a clock that is asked for its time does not go past midnight.
+LocalTime later(LocalTime time, std::int64_t seconds) {
+  constexpr std::int64_t kLast = 24 * 3600 - 1;
+  const std::int64_t now = time.hour * 3600 + time.minute * 60 + time.second;
+  const std::int64_t then = std::min(now + seconds, std::max(now, kLast));
+  time.hour = static_cast<int>(then / 3600);
+  time.minute = static_cast<int>(then / 60 % 60);
+  time.second = static_cast<int>(then % 60);
+  return time;
+}
+
+/// Gives the answers of a setup, in order.
+class SetupAnswers {
+ public:
+  SetupAnswers(const Setup& setup, std::vector<std::int64_t> pins, const Diagnostics& diagnostics)
+      : setup_(setup), pins_(std::move(pins)), diagnostics_(diagnostics) {}
+
+  Result<Answer> operator()(const ProbeQuestion& question, const Origin&) {
+    const Probe& probe = question.probe;
+    return Answer(setup_.workpiece.probe(probe.from, probe.to, probe.until));
+  }
+  Result<Answer> operator()(const PromptQuestion& question, const Origin& origin) {
+    if (used_ == setup_.answers.size()) {
+      return fail(Errc::NotFound,
+                  "line {}: the program asks \"{}\" and there is no answer left; the setup's "
+                  "`answers` hold {}",
+                  origin.line, question.text, setup_.answers.size());
+    }
+    return Answer(PromptAnswer{setup_.answers[used_++]});
+  }
+  Result<Answer> operator()(const InputQuestion& question, const Origin&) {
+    return Answer(std::find(pins_.begin(), pins_.end(), question.pin) != pins_.end());
+  }
+  Result<Answer> operator()(const TimeQuestion&, const Origin& origin) {
+    // A program that waits for its clock would wait for ever in a run that takes no time: dwells
+    // count, and a block that asks again takes a second.
+    const auto dwelt = static_cast<std::int64_t>(std::min(std::ceil(diagnostics_.dwelt), 1e6));
+    const bool is_new = asked_at_.insert({origin.program, origin.offset}).second;
+    if (!is_new && origin.block != asked_in_) ++waited_;
+    asked_in_ = origin.block;
+    return Answer(later(setup_.date_time.value_or(kDefaultTime), dwelt + waited_));
+  }
+
+ private:
+  const Setup& setup_;
+  std::vector<std::int64_t> pins_;
+  const Diagnostics& diagnostics_;
+  std::size_t used_ = 0;
+  std::set<std::pair<ProgramIndex, std::uint64_t>> asked_at_;  ///< blocks
+  std::uint64_t asked_in_ = 0;
+  std::int64_t waited_ = 0;  ///< seconds
+};
+
+Result<void> answer_question(Interpreter& interpreter, SetupAnswers& answers) {
+  const Origin origin = interpreter.origin();
+  const auto answer = std::visit([&](const auto& question) { return answers(question, origin); },
+                                 interpreter.question());
+  if (!answer) return fail(answer.error());
+  return interpreter.answer(*answer);
+}
+
+/// Steps until the program has ended or raised its alarm, or the gate has stopped it.
+Result<StepState> run(Interpreter& interpreter, SetupAnswers& answers, const OfflineLimits& limits,
+                      const StopGate& gate, EventSink& sink, const Diagnostics& diagnostics) {
+  const std::uint64_t stride = limits.stop ? 1 : kStride;
+  while (interpreter.blocks() < limits.max_blocks) {
+    const std::uint64_t left = limits.max_blocks - interpreter.blocks();
+    const StepState state = interpreter.step(std::min(left, stride));
+    if (gate.has_stopped()) return StepState::Ran;
+    const bool has_ended = state == StepState::Ended || state == StepState::Alarmed;
+    if (!has_ended && diagnostics.repeated > limits.max_repeated_blocks) {
+      tell_endless(interpreter, diagnostics.repeated, sink);
+      return StepState::Alarmed;
+    }
+    switch (state) {
+      case StepState::Ended:
+      case StepState::Alarmed:
+        return state;
+      case StepState::Ran:
+        break;
+      case StepState::NeedsText:
+        return fail(Errc::Io, "line {}: the text of the program is not all there",
+                    interpreter.origin().line);
+      case StepState::NeedsAnswer:
+        if (auto answered = answer_question(interpreter, answers); !answered) {
+          return fail(answered.error());
+        }
+        break;
+    }
+  }
+  return fail(Errc::LimitExceeded, "line {}: stopped after {} blocks, the limit of an offline run",
+              interpreter.origin().line, limits.max_blocks);
+}
+
+}  // namespace
+
+Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
+                                   ProgramSource& source, EventSink& sink, OfflineLimits limits) {
+  auto pins = setup.control.integers("pins");
+  if (!pins) return fail(pins.error());
+  Diagnostics diagnostics;
+  EventTee tee(sink, diagnostics);
+  StopGate gate(tee, limits.stop.value_or(StopPoint{}));
+  EventSink& first = limits.stop ? static_cast<EventSink&>(gate) : tee;
+  auto interpreter = dialect.make(setup, source, first);
+  if (!interpreter) return fail(interpreter.error());
+  SetupAnswers answers(setup, *std::move(pins), diagnostics);
+  const auto state = run(**interpreter, answers, limits, gate, tee, diagnostics);
+  if (!state) return fail(state.error());
+  return OfflineOutcome{.ended = *state == StepState::Ended,
+                        .has_stopped = gate.has_stopped(),
+                        .blocks = (*interpreter)->blocks(),
+                        .warnings = diagnostics.warnings,
+                        .alarm = diagnostics.alarm,
+                        .alarm_program = diagnostics.program};
+}
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/interpreter/registry.hpp"
+#include "clients/tools/offline/stop_point.hpp"
+
+namespace dripline::interpreter {
+
+struct OfflineLimits {
+  std::uint64_t max_blocks = 1'000'000'000;  ///< executed; a program that never ends is told so
+  /// Executed that had been executed before: a loop without end is legitimate at a machine, and
+  /// ends here with the alarm OFF0001.
+  std::uint64_t max_repeated_blocks = 10'000'000;
+  std::optional<StopPoint> stop = {};  ///< the run ends after that block
+};
+
+struct OfflineOutcome {
+  bool ended = false;        ///< the end of the program was reached; otherwise `alarm` says why not
+  bool has_stopped = false;  ///< or the run met the limits' stop point
+  std::uint64_t blocks = 0;
+  std::uint64_t warnings = 0;
+  std::optional<Diagnostic> alarm;
+  ProgramIndex alarm_program = kMainProgram;  ///< whose line the alarm names
+};
+
+/// Runs a program to its end as fast as it goes, and answers its questions from the setup: probes
+/// from `workpiece`, prompts from `answers` in order, input pins from the option `pins` (those that
+/// read 1), the clock from `date_time` (2000-01-01T00:00:00 when there is none). `source` must hold
+/// all of its text (MemorySource).
+/// Errors, after which the sink has had every event up to there: what `Dialect::make` says about
+/// the setup; NotFound: a prompt, and no answer is left; LimitExceeded: `limits`; Io: text is
+/// missing.
+Result<OfflineOutcome> run_offline(const Dialect& dialect, const Setup& setup,
+                                   ProgramSource& source, EventSink& sink,
+                                   OfflineLimits limits = {});
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,293 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "gateway/interpreter/core/diagnostic.hpp"
+#include "gateway/interpreter/core/origin.hpp"
+#include "protocol/base/units.hpp"
+
+/// What a program does, as plain structs, in execution order (spec: trace format).
+/// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's
+/// units; the writer of a trace converts back. string_views live until the sink's function returns.
+/// No event of an ordinary motion block allocates.
+namespace dripline::interpreter {
+
+enum class Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
+inline constexpr std::size_t kAxisCount = 9;
+inline constexpr std::array<Axis, kAxisCount> kAllAxes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B,
+                                                       Axis::C, Axis::U, Axis::V, Axis::W};
+char letter(Axis axis);
+/// The axis of a capital letter, or nullopt.
+std::optional<Axis> axis_of(char letter);
+inline bool is_rotary(Axis axis) {
+  return axis == Axis::A || axis == Axis::B || axis == Axis::C;
+}
+
+/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; the typed functions
+/// say which. `axes` are those that have moved since the start of the program or are part of this
+/// move.
+class Position {
+ public:
+  Length linear(Axis axis) const { return Length::mm(value_[index(axis)]); }
+  Angle rotary(Axis axis) const { return Angle::degrees(value_[index(axis)]); }
+  void set(Axis axis, Length value) {
+    value_[index(axis)] = value.mm();
+    axes_.set(index(axis));
+  }
+  void set(Axis axis, Angle value) {
+    value_[index(axis)] = value.degrees();
+    axes_.set(index(axis));
+  }
+  bool has(Axis axis) const { return axes_.test(index(axis)); }
+  /// Of a linear axis millimetres, of a rotary axis degrees: for loops over all axes.
+  double raw(Axis axis) const { return value_[index(axis)]; }
+  void set_raw(Axis axis, double value) {
+    value_[index(axis)] = value;
+    axes_.set(index(axis));
+  }
+  /// Marks every axis that `other` has; values stay.
+  void mark_all_of(const Position& other) { axes_ |= other.axes_; }
+  void mark(Axis axis) { axes_.set(index(axis)); }
+  /// No axis has moved any more; values stay.
+  void unmark_all() { axes_.reset(); }
+  /// Keeps the value, but the axis is not among `axes`: it has not moved.
+  void unmark(Axis axis) { axes_.reset(index(axis)); }
+  bool same_point(const Position& other) const { return value_ == other.value_; }
+  friend bool operator==(const Position&, const Position&) = default;
+
+ private:
+  static constexpr std::size_t index(Axis axis) { return static_cast<std::size_t>(axis); }
+  std::array<double, kAxisCount> value_{};
+  std::bitset<kAxisCount> axes_;
+};
+
+enum class Units : std::uint8_t { Inch, Millimetre };
+enum class Plane : std::uint8_t { XY, ZX, YZ };
+enum class Turn : std::uint8_t {
+  Clockwise,
+  Counterclockwise
+};  ///< seen from the positive third axis
+enum class SpindleState : std::uint8_t { Off, Clockwise, Counterclockwise, Oriented };
+enum class StopKind : std::uint8_t { Program, Optional, ToolChange, Operator };
+enum class ProbeUntil : std::uint8_t { Contact, Release };
+enum class OutputDevice : std::uint8_t { File, Port1, Port2, Screen, Printer };
+
+struct ProgramHeader {
+  std::string_view control;              ///< the dialect's name
+  std::optional<std::string_view> name;  ///< as the program calls itself, e.g. O0100
+  Units units = Units::Millimetre;
+  bool x_is_diameter = false;
+};
+
+struct UnitsChange {
+  Origin origin;
+  Units units;
+};
+struct Rapid {
+  Origin origin;
+  Position to;
+  bool rests = true;  ///< in position before the next move; false: the control blends it into it
+};
+struct Line {
+  Origin origin;
+  Position to;
+  Feed feed;
+  bool rests = false;  ///< the axes come to rest at its end (exact stop)
+};
+
+struct Arc {
+  Origin origin;
+  Position to;
+  Length center_first;   ///< along the plane's first axis (XY: X, ZX: Z, YZ: Y)
+  Length center_second;  ///< along its second axis (XY: Y, ZX: X, YZ: Z)
+  Plane plane = Plane::XY;
+  Turn turn = Turn::Clockwise;
+  Angle sweep;  ///< > 0; > 360 for several turns
+  Feed feed;
+  bool rests = false;  ///< as of a line
+};
+
+/// The arc that a circular thread is cut on; members as in Arc.
+struct ThreadArc {
+  Length center_first;
+  Length center_second;
+  Plane plane = Plane::XY;
+  Turn turn = Turn::Clockwise;
+  Angle sweep;
+};
+/// Feed synchronised to the spindle: the path advances by the lead with each turn.
+struct Thread {
+  Origin origin;
+  Position to;
+  Length lead;  ///< at the start of the move
+  std::optional<Angle> start_angle;
+  std::optional<ThreadArc> arc{};  ///< absent: a straight or tapered thread
+  Length lead_change{};            ///< added to the lead with each turn
+};
+/// The way of a circular thread, fed its lead with each turn; only with `arc`.
+Arc arc_of(const Thread& thread);
+/// The constant lead that takes as many turns over `path`.
+Length mean_lead(const Thread& thread, Length path);
+
+struct Dwell {
+  Origin origin;
+  double seconds = 0;
+  std::optional<double> revolutions;  ///< when given, counts instead of seconds
+};
+
+struct Spindle {
+  Origin origin;
+  SpindleState state = SpindleState::Off;
+  double revolutions_per_minute = 0;      ///< when `surface_speed` is absent
+  std::optional<Length> surface_speed;    ///< length per minute, constant surface speed
+  std::optional<double> max_revolutions;  ///< per minute, when limited
+};
+
+struct Coolant {
+  Origin origin;
+  bool flood = false;
+  bool mist = false;
+};
+/// What a control knows of a tool, where its programs or its memory say it.
+struct ToolShape {
+  Length length;  ///< as the control compensates it
+  Length radius;
+  friend bool operator==(const ToolShape&, const ToolShape&) = default;
+};
+struct ToolChange {
+  Origin origin;
+  int number = 0;
+  bool is_preselection = false;
+  std::optional<int> offset;
+  std::optional<ToolShape> shape = {};  ///< for graphics; not part of a trace
+};
+/// The block of material that a program says it cuts, its sides along the axes.
+struct Blank {
+  Origin origin;
+  Axis spindle_axis = Axis::Z;
+  Position min, max;  ///< X, Y and Z of two corners
+};
+struct Miscellaneous {
+  Origin origin;
+  int code = 0;
+};  ///< any other M function handed to the machine
+struct PinChange {
+  Origin origin;
+  Axis axis = Axis::X;
+  int output = 0;
+  bool state = false;
+  std::optional<double> pulse_ms;
+};
+
+/// `result` is absent while the question is open and present in the event that follows the answer.
+struct ProbeResult {
+  bool tripped = false;
+  Position at;
+};
+struct Probe {
+  Origin origin;
+  Position from;
+  Position to;
+  ProbeUntil until = ProbeUntil::Contact;
+  Feed feed;
+  std::optional<ProbeResult> result;
+};
+
+struct Output {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+  std::string_view text;
+};
+struct Open {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+  std::optional<std::string_view> name;
+};
+struct Close {
+  Origin origin;
+  OutputDevice device = OutputDevice::File;
+};
+struct Message {
+  Origin origin;
+  std::string_view text;
+};
+struct Prompt {
+  Origin origin;
+  std::string_view text;
+  std::string_view variable;
+  std::string_view answer;
+};
+struct Stop {
+  Origin origin;
+  StopKind kind = StopKind::Program;
+};
+
+/// When a feed hold acts.
+enum class FeedHoldInhibit : std::uint8_t {
+  AtOnce,
+  Later,     ///< after the moves it cannot stop, which are made first
+  LaterToo,  ///< one that was asked for before waits on; one asked for from here on acts at once
+};
+/// What of the operator's panel does not count from here on, until the next of these: while a
+/// thread is tapped, or where the program says so. A feed of a thread ignores feed override and
+/// feed hold without it. Not part of a trace.
+struct OverrideInhibit {
+  Origin origin;
+  bool feed_override = false;  ///< as if it stood at 100 %; that of rapid moves is not meant
+  bool spindle_override = false;
+  bool single_block = false;
+  FeedHoldInhibit hold = FeedHoldInhibit::AtOnce;
+  bool is_tapping = false;  ///< a tapping cycle that ends where it began
+};
+struct Warning {
+  Origin origin;
+  Diagnostic diagnostic;
+};
+struct Alarm {
+  Origin origin;
+  Diagnostic diagnostic;
+};
+struct End {
+  Origin origin;
+  std::uint64_t blocks = 0;
+  bool rewind = false;
+};
+
+/// Receives what the program does. Called from the thread that steps the interpreter; must not call
+/// back into it.
+class EventSink {
+ public:
+  virtual ~EventSink() = default;
+  virtual void on_program(const ProgramHeader&) {}
+  virtual void on_units(const UnitsChange&) {}
+  virtual void on_rapid(const Rapid&) {}
+  virtual void on_line(const Line&) {}
+  virtual void on_arc(const Arc&) {}
+  virtual void on_thread(const Thread&) {}
+  virtual void on_dwell(const Dwell&) {}
+  virtual void on_spindle(const Spindle&) {}
+  virtual void on_coolant(const Coolant&) {}
+  virtual void on_tool(const ToolChange&) {}
+  virtual void on_blank(const Blank&) {}
+  virtual void on_miscellaneous(const Miscellaneous&) {}
+  virtual void on_pin(const PinChange&) {}
+  virtual void on_probe(const Probe&) {}
+  virtual void on_output(const Output&) {}
+  virtual void on_open(const Open&) {}
+  virtual void on_close(const Close&) {}
+  virtual void on_message(const Message&) {}
+  virtual void on_prompt(const Prompt&) {}
+  virtual void on_stop(const Stop&) {}
+  virtual void on_override_inhibit(const OverrideInhibit&) {}
+  virtual void on_warning(const Warning&) {}
+  virtual void on_alarm(const Alarm&) {}
+  virtual void on_end(const End&) {}
+  /// The block is finished: every event it caused has been delivered. `blocks` counts from 1.
+  virtual void on_block_end(const Origin&) {}
+};
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::interpreter {
+
+/// A plane across one linear axis. Across Z the material is on the side of smaller Z; across the
+/// other axes it may be on either side.
+struct ProbePlane {
+  Axis axis = Axis::Z;
+  Length at;
+};
+/// An upright cylinder (boss or bore, so with material on either side) of unlimited height.
+struct ProbeCylinder {
+  Length center_x, center_y, radius;
+};
+/// A turned part's outline in radius: points (X radius, Z) joined by straight lines; solid on the
+/// side of smaller Z, where it goes on without end. Nothing is solid beyond its smallest and
+/// largest X.
+struct ProbeProfile {
+  struct Point {
+    Length x, z;
+  };
+  std::vector<Point> points;
+};
+
+/// The simulated workpiece a probe meets. Value type; pure.
+class Workpiece {
+ public:
+  using Surface = std::variant<ProbePlane, ProbeCylinder, ProbeProfile>;
+  void add(Surface surface) { surfaces_.push_back(std::move(surface)); }
+  bool empty() const { return surfaces_.empty(); }
+
+  /// Contact: where the straight move first meets a surface or goes into one it starts on; at its
+  /// start when it begins inside a profile. Release: where it first leaves the surface it starts on
+  /// or after. A surface with material on either side is met and left by any crossing. With no
+  /// such point the probe is not tripped and `at` is the end of the move. Positions within a
+  /// millionth of a millimetre of a surface are on it.
+  ProbeResult probe(const Position& from, const Position& to, ProbeUntil until) const;
+
+ private:
+  std::vector<Surface> surfaces_;
+};
+
+}  // namespace dripline::interpreter

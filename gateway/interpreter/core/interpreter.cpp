@@ -1,0 +1,41 @@
+#include "gateway/interpreter/core/interpreter.hpp"
+
+#include <array>
+
+namespace dripline::interpreter {
+namespace {
+
+/// Least significant byte first, so that a digest is the same on every machine.
+template <class Number>
+void add_number(Sha256& hash, Number number) {
+  std::array<std::byte, sizeof(Number)> bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<std::byte>((number >> (8 * i)) & 0xFF);
+  }
+  hash.update(bytes);
+}
+
+}  // namespace
+
+bool fits(const Question& question, const Answer& answer) {
+  if (std::holds_alternative<ProbeQuestion>(question)) {
+    return std::holds_alternative<ProbeResult>(answer);
+  }
+  if (std::holds_alternative<PromptQuestion>(question)) {
+    return std::holds_alternative<PromptAnswer>(answer);
+  }
+  if (std::holds_alternative<InputQuestion>(question)) return std::holds_alternative<bool>(answer);
+  return std::holds_alternative<LocalTime>(answer);
+}
+
+Digest Snapshot::digest() const {
+  Sha256 hash;
+  // The length keeps the name apart from what follows it.
+  add_number(hash, static_cast<std::uint64_t>(dialect.size()));
+  hash.update(dialect);
+  add_number(hash, version);
+  hash.update(bytes);
+  return hash.digest();
+}
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/geometry/workpiece.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/option.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::interpreter {
+
+struct Switches {
+  bool block_skip = false;
+  bool optional_stop = false;
+  bool single_block = false;
+  bool dry_run = false;
+  std::vector<Axis> mirror;
+};
+
+struct ToolRecord {
+  int number = 0;
+  Position length;  ///< mills: Z; lathes: X and Z
+  Position wear;
+  Length radius;
+  Length radius_wear;
+  int tip = 0;                ///< lathe tool type
+  std::optional<int> pocket;  ///< of the tool changer's magazine
+  bool is_special = false;    ///< takes its neighbours' pockets too, and keeps its own
+};
+
+struct OffsetRecord {
+  std::string name;
+  Position value;
+};
+struct VariableRecord {
+  std::string name;
+  double value = 0;
+};
+
+/// What a control knows before a program starts. All of it has defaults (spec: trace format, "The
+/// setup file").
+struct Setup {
+  Position start;
+  /// Where the machine stands when a program is taken up in its middle, if not at `start`.
+  std::optional<Position> stands;
+  std::optional<Units> units;
+  Switches switches;
+  std::optional<LocalTime> date_time;
+  std::vector<std::string> answers;
+  std::vector<ToolRecord> tools;
+  std::vector<OffsetRecord> offsets;
+  std::vector<VariableRecord> variables;
+  Workpiece workpiece;
+  Options control;
+  std::optional<std::string> library_path;  ///< folder of called programs; resolved by the caller
+};
+
+/// Reads a setup file's text; lengths are in the file's `units`, or in `units` when it names none
+/// (a dialect's own, see `Dialect::units`). Errors: Syntax, with the key and its line; an unknown
+/// key is an error.
+Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimetre);
+
+/// What a control keeps in its memory, as the server stores it: `units`, `tool`, `offset`,
+/// `variable` and `control` of a setup file, and nothing else. What describes the machine (start,
+/// probe, answers ...) stays with its gateway. Errors: as parse_setup.
+Result<Setup> parse_control_data(std::string_view toml, Units units = Units::Millimetre);
+/// `data` in the place of what `setup` has of it. Its options replace all of the options, when
+/// there are any.
+void use_control_data(Setup data, Setup& setup);
+
+}  // namespace dripline::interpreter

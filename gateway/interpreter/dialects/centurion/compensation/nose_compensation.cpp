@@ -1,0 +1,167 @@
+#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+#include <limits>
+
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+using compensation::Fault;
+using compensation::FaultKind;
+using compensation::Side;
+
+/// From the center of the nose to the point that is programmed, in nose radii (spec 9.5).
+struct TipDirection {
+  int z, x;
+};
+constexpr std::array<TipDirection, 10> kTips{
+    {{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0, 0}}};
+
+constexpr std::uint8_t kCompensationOff = 4;  ///< of the special flags
+
+NoseUse wanted_use(const Run& run) {
+  NoseUse use;
+  const bool is_disabled = (run.parameters.byte(kSpecialFlags) & kCompensationOff) != 0;
+  use.code = is_disabled ? std::uint8_t{0} : run.state.modes.compensation;
+  if (use.code == 0) return use;
+  const Transformation& how = run.state.transformation;
+  use.is_mirrored = how.mirrors_x != how.mirrors_z;
+  use.radius_mm = run.length(run.parameters.tool(run.state.tool.offset, ToolField::Radius)).mm();
+  use.tip = run.parameters.tool(run.state.tool.offset, ToolField::Type);
+  return use;
+}
+
+ErrorCode code_of(const Fault& fault) {
+  switch (fault.kind) {
+    case FaultKind::NoIntersection:
+      return fault.follows_arc && fault.leads_to_arc ? ErrorCode::CompensatedArcsApart
+                                                     : ErrorCode::CompensatedLineArcApart;
+    case FaultKind::ArcTooSmall:
+      return fault.follows_arc ? ErrorCode::SecondArcTooSmall : ErrorCode::ArcTooSmall;
+    case FaultKind::TooMuchBetween:
+      return ErrorCode::TooMuchBetween;
+    case FaultKind::Reversed:
+      return ErrorCode::ContourTooNarrow;
+    default:
+      return ErrorCode::CompensationNotStraight;
+  }
+}
+
+/// From the first G41, G42 or G65 on, all events pass the stage.
+void begin_use(Run& run) {
+  if (run.state.uses_compensator) return;
+  run.events();  // the header first
+  run.compensator.reset(run.blender.given());
+  // the stage learns its plane from a cutter
+  compensation::Cutter none;
+  none.plane = Plane::ZX;
+  run.compensator.turn_on(none);
+  run.compensator.turn_off();
+  run.state.uses_compensator = true;
+  run.choose_stages();
+}
+
+}  // namespace
+
+void carry_out(blending::CornerBlender& front, const PathCommand& command) {
+  switch (command.kind) {
+    case PathCommand::Kind::TurnOn:
+      return front.turn_on(command.cutter);
+    case PathCommand::Kind::TurnOff:
+      return front.turn_off();
+    case PathCommand::Kind::Leave:
+      return front.leave();
+    case PathCommand::Kind::SuppressOutput:
+      return front.suppress_output(true);
+    case PathCommand::Kind::Go:
+      return front.suppress_output(false);
+  }
+}
+
+compensation::Policy compensation_policy() {
+  compensation::Policy policy;
+  policy.outside = compensation::OutsideCorner::IntersectCurves;
+  policy.blocks_without_motion = std::numeric_limits<int>::max();
+  return policy;
+}
+
+compensation::Cutter nose_of(const Run& run, bool is_left) {
+  const int offset = run.state.tool.offset;
+  const Length radius = run.length(run.parameters.tool(offset, ToolField::Radius));
+  const double type = run.parameters.tool(offset, ToolField::Type);
+  const TipDirection tip = kTips[type >= 0 && type <= 9 ? static_cast<std::size_t>(type) : 0];
+  const double size = std::fabs(radius.mm());
+  compensation::Cutter cutter;
+  cutter.plane = Plane::ZX;
+  // a mirrored path has the tool on its other side
+  cutter.side = is_left != run.state.nose.is_mirrored ? Side::Left : Side::Right;
+  cutter.radius = radius;
+  cutter.tip_first = Length::mm(tip.z * size);
+  cutter.tip_second = Length::mm(tip.x * size);
+  return cutter;
+}
+
+bool update_compensation(Run& run) {
+  run.state.nose_is_stale = false;
+  const NoseUse use = wanted_use(run);
+  const Transformation& how = run.state.transformation;
+  if (use.code != 0 && how.scales && (how.factor.x < 0 || how.factor.z < 0)) {
+    return run.fail(ErrorCode::IllegalStatement, 0,
+                    "nose compensation with a scale factor below 0");
+  }
+  constexpr double kMaxRadius = 1e6;
+  if (!(std::fabs(use.radius_mm) <= kMaxRadius)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, 0,
+                    fmt::format("nose radius {} mm", use.radius_mm));
+  }
+  NoseUse& now = run.state.nose;
+  if (now == use) return true;
+  now = use;
+  if (use.code != 0) {
+    begin_use(run);
+    run.command({PathCommand::Kind::TurnOn, nose_of(run, use.code == 1)});
+  } else if (run.state.uses_compensator) {
+    run.command({PathCommand::Kind::TurnOff, {}});
+  }
+  return true;
+}
+
+void leave_compensation(Run& run) {
+  if (run.state.nose.code == 0) return;
+  run.command({PathCommand::Kind::Leave, {}});
+}
+
+void resume_compensation(Run& run) {
+  if (run.state.nose.code == 0) return;
+  run.command({PathCommand::Kind::TurnOn, nose_of(run, run.state.nose.code == 1)});
+}
+
+void suppress_output(Run& run, bool still) {
+  begin_use(run);
+  run.command({still ? PathCommand::Kind::SuppressOutput : PathCommand::Kind::Go, {}});
+}
+
+bool check_path(Run& run) {
+  if (const auto& misfit = run.transform.misfit()) {
+    run.origin.line = misfit->line;
+    return run.fail(ErrorCode::RadiusTooSmall, 0, "the scaled radius does not span the points");
+  }
+  if (const auto& stopped = run.guard.fault()) {
+    run.origin.line = stopped->origin.line;
+    return run.fail(stopped->code, 0, stopped->detail);
+  }
+  if (const auto& fault = run.blender.fault(); fault) {
+    run.origin.line = fault->origin.line;
+    return run.fail(code_of(*fault), 0, blending::describe(*fault, run.state.units));
+  }
+  const auto& fault = run.compensator.fault();
+  if (!fault) return true;
+  run.origin.line = fault->origin.line;
+  return run.fail(code_of(*fault), 0, compensation::describe(*fault));
+}
+
+}  // namespace dripline::interpreter::centurion

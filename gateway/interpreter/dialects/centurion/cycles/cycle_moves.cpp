@@ -1,0 +1,78 @@
+#include "gateway/interpreter/dialects/centurion/cycles/cycle_moves.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+Point machine_point(const Run& run, const Point& at) {
+  return {run.state.origin.x + at.x, run.state.origin.z + at.z};
+}
+
+/// An axis that stands still is not part of the move, however its coordinate was worked out.
+AxesNamed moved_axes(const Run& run, Point& to) {
+  constexpr double kSame = 1e-9;
+  const Point& from = run.state.position;
+  if (std::fabs(to.x - from.x) < kSame) to.x = from.x;
+  if (std::fabs(to.z - from.z) < kSame) to.z = from.z;
+  return {to.x != from.x, to.z != from.z};
+}
+
+}  // namespace
+
+Point cycle_position(const Run& run) {
+  return {run.state.position.x - run.state.origin.x, run.state.position.z - run.state.origin.z};
+}
+
+void cycle_rapid(Run& run, const Point& to) {
+  Point target = machine_point(run, to);
+  const AxesNamed axes = moved_axes(run, target);
+  rapid_to(run, target, axes);
+}
+
+void cycle_rapid_to_clearance(Run& run, const Point& to) {
+  cycle_rapid(run, to);
+  if (run.options.single_block) run.events().on_stop({run.origin, StopKind::Operator});
+}
+
+void cycle_feed(Run& run, const Point& to, Feed feed) {
+  Point target = machine_point(run, to);
+  const AxesNamed axes = moved_axes(run, target);
+  feed_to(run, target, axes, feed);
+}
+
+void cycle_dwell(Run& run, double seconds) {
+  if (seconds == 0) return;
+  run.state.dwell_seconds = seconds;
+  run.events().on_dwell({run.origin, seconds, {}});
+}
+
+bool check_cycle_length(Run& run, double moves) {
+  if (moves <= kMaxCycleMoves) return true;
+  return run.fail(ErrorCode::CycleTooLong, 0,
+                  fmt::format("{:.0f} moves, {:.0f} are possible", moves, kMaxCycleMoves));
+}
+
+bool check_cycle_spindle(Run& run) {
+  if (run.state.spindle.state != SpindleState::Off) return true;
+  switch (run.options.spindle_check) {
+    case SpindleCheck::Ignore:
+      return true;
+    case SpindleCheck::Alarm:
+      return run.fail(ErrorCode::SpindleNeeded, 0);
+    case SpindleCheck::Warn:
+      break;
+  }
+  const ErrorRow& row = error_row(ErrorCode::SpindleNeeded);
+  Warning warning{run.origin, {}};
+  warning.diagnostic.id = row.id;
+  warning.diagnostic.text = row.text;
+  warning.diagnostic.line = run.origin.line;
+  run.events().on_warning(warning);
+  return true;
+}
+
+}  // namespace dripline::interpreter::centurion

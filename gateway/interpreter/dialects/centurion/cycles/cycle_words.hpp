@@ -1,0 +1,40 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+/// The words of the drilling and grooving cycles, and what they leave after for the next cycle
+/// (spec 11.2): a word a block does not have is the one an earlier cycle had.
+namespace dripline::interpreter::centurion {
+
+/// P116-P148 as these cycles use them. Positions are work coordinates as programmed (X a diameter),
+/// whatever G91 made of the words; distances are true lengths.
+inline constexpr int kStepOver = 116;
+inline constexpr int kRelief = 118;
+inline constexpr int kGrooveEndZ = 123;
+inline constexpr int kGrooveEndX = 124;
+inline constexpr int kClearanceX = 139;
+inline constexpr int kClearanceZ = 140;
+inline constexpr int kFinalDepth = 141;
+inline constexpr int kInitialLevel = 142;
+inline constexpr int kPeckIncrement = 143;
+inline constexpr int kFirstDepth = 144;
+inline constexpr int kCycleFeed = 145;
+inline constexpr int kPeckup = 146;
+inline constexpr int kPeckClearance = 147;
+inline constexpr int kCycleDwell = 148;
+
+/// A position word: absolute, or under G91 measured from `from`. Stored, and given, as programmed.
+double cycle_position_word(Run& run, Address address, int parameter, double from);
+
+/// A word without a sign; a negative one is error 517.
+bool cycle_length_word(Run& run, Address address, int parameter, double& value);
+/// The same, and not 0.
+bool cycle_step_word(Run& run, Address address, int parameter, double& value);
+
+/// P: seconds to wait. Errors: 539.
+bool cycle_dwell_word(Run& run, double& seconds);
+
+/// F of this block, of an earlier cycle, or the feed in force. Errors: 519.
+bool cycle_feed_word(Run& run, Feed& feed);
+
+}  // namespace dripline::interpreter::centurion

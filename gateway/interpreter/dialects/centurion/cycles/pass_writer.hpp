@@ -1,0 +1,30 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// The moves of a cycle that follows a pattern; past compensation, which the pattern has been
+/// through.
+class PassWriter {
+ public:
+  explicit PassWriter(Run& run) : run_(run), cycle_(run.state.pattern) {}
+
+  const PlanePoint& tool() const { return cycle_.tool; }
+  void rapid(const PlanePoint& to);
+  void line(const PlanePoint& to, Feed feed);
+  void arc(const PlanePoint& to, const PlanePoint& center, bool is_clockwise, Feed feed);
+  /// A move of the pattern, shifted by `stock`. `feed` counts instead of its own, if given; speeds
+  /// are then left out.
+  void follow(const PatternMove& move, const PlanePoint& stock, std::optional<Feed> feed);
+
+ private:
+  bool leads_nowhere(const PlanePoint& to) const;
+  Position position_of(const PlanePoint& to);
+  void arrive(const PlanePoint& to);
+
+  Run& run_;
+  PatternCycle& cycle_;
+};
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+
+/// What the words and parameters of a thread say, shared by lines and cycles. Each reader keeps
+/// the value where programs find it (P101-P108, P123-P125) and gives false with an alarm.
+namespace dripline::interpreter::centurion {
+
+struct Lead {
+  double length = 0;            ///< of one turn, program units
+  std::optional<double> shift;  ///< degrees; absent without Q
+};
+bool read_lead(Run& run, Lead& lead);
+
+/// A word, or else what an earlier cycle left in parameter `number`.
+double word_or_parameter(Run& run, Address address, int number);
+
+/// The pull-out at the end of a thread: P103 long, P104 degrees from straight out (spec 10.5).
+struct ThreadChamfer {
+  double along = 0;  ///< before the end, towards the start
+  double out = 0;
+};
+bool read_chamfer(Run& run, ThreadChamfer& chamfer);
+
+/// One pass: in at rapid, along the thread, out, and back to where the cycle began.
+struct ThreadPass {
+  Point start;     ///< of the cycle
+  Point cut_from;  ///< where the thread begins
+  Point cut_to;    ///< where it ends without the pull-out
+};
+bool check_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer);
+void cut_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer, const Lead& lead);
+
+/// Both end words of a cycle are there.
+bool read_cycle_target(Run& run, Target& target);
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,223 @@
+#include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
+#include "gateway/interpreter/core/language/expression.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr int kLeadChange = 100;
+constexpr int kMethod = 105;
+constexpr int kHeight = 106;
+constexpr int kFirstCut = 107;
+constexpr int kNoseAngle = 108;
+constexpr int kEndPoint = 123;
+constexpr int kDiameter = 124;
+constexpr int kTaper = 125;
+constexpr int kMinimumCut = 130;
+constexpr int kFinishPasses = 131;
+constexpr int kMaxPasses = 400;  // five moves each: one block may cause 2000
+constexpr std::uint8_t kVariableLead = 34;
+
+/// What G76 is to cut; lengths in program units, all as radii.
+struct MultipleThread {
+  Point start;
+  Point root;  ///< end of the thread at its full depth
+  double taper = 0;
+  double height = 0;
+  double first_cut = 0;
+  double minimum_cut = 0;
+  double flank = 0;  ///< Z for each unit of depth left
+  bool equal_depths = false;
+  bool both_edges = false;
+  int finish_passes = 1;
+};
+
+void keep_end(Run& run, const Point& end, double taper) {
+  run.parameters[kEndPoint] = end.z - run.state.origin.z;
+  run.parameters[kDiameter] = (end.x - run.state.origin.x) * 2;
+  run.parameters[kTaper] = taper;
+}
+
+double taper_of(const Run& run) {
+  return run.block.words.has(Address::I) ? run.block.words[Address::I] : 0;
+}
+
+bool refuse_parameter(Run& run, const char* what, double value, const char* limit) {
+  return run.fail(ErrorCode::ParameterOutOfRange, motion_column(run),
+                  fmt::format("{} {} is not {}", what, value, limit));
+}
+
+bool read_method(Run& run, MultipleThread& thread) {
+  const double method = word_or_parameter(run, Address::P, kMethod);
+  if (method != 1 && method != 2 && method != 3 && method != 4) {
+    return refuse_parameter(run, "method P", method, "1, 2, 3 or 4");
+  }
+  thread.both_edges = method == 2 || method == 4;
+  thread.equal_depths = method >= 3;
+  const double angle = word_or_parameter(run, Address::A, kNoseAngle);
+  if (!(angle >= 0 && angle < 180)) return refuse_parameter(run, "nose angle A", angle, "0 to 180");
+  thread.flank = std::tan(angle / 2 * (Angle::kPi / 180));
+  return true;
+}
+
+bool read_depths(Run& run, MultipleThread& thread) {
+  thread.height = word_or_parameter(run, Address::K, kHeight);
+  if (!(thread.height > 0)) return refuse_parameter(run, "height K", thread.height, "above 0");
+  thread.first_cut = word_or_parameter(run, Address::D, kFirstCut);
+  if (!(thread.first_cut > 0)) {
+    return refuse_parameter(run, "first cut D", thread.first_cut, "above 0");
+  }
+  thread.minimum_cut = run.parameters[kMinimumCut];
+  if (!(thread.minimum_cut >= 0)) {
+    return refuse_parameter(run, "minimum cut P130 =", thread.minimum_cut, "0 or more");
+  }
+  const double passes = run.parameters[kFinishPasses];
+  if (!(passes >= 0 && passes <= kMaxPasses) || passes != std::trunc(passes)) {
+    return refuse_parameter(run, "finish passes P131 =", passes, "a whole number from 0 to 400");
+  }
+  thread.finish_passes = passes > 1 ? static_cast<int>(passes) : 1;
+  return true;
+}
+
+bool read_multiple_thread(Run& run, MultipleThread& thread) {
+  Target target;
+  if (!read_cycle_target(run, target)) return false;
+  thread.start = run.state.position;
+  thread.root = target.to;
+  thread.taper = taper_of(run);
+  if (thread.start.x == thread.root.x) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "the start X must be outside or inside of the root X");
+  }
+  keep_end(run, target.to, thread.taper);
+  return read_method(run, thread) && read_depths(run, thread);
+}
+
+/// The depth of a pass after one that was `before` deep.
+double next_depth(const MultipleThread& thread, int pass, double before) {
+  const double planned =
+      thread.first_cut * (thread.equal_depths ? pass : std::sqrt(static_cast<double>(pass)));
+  const double depth = std::fmax(planned, before + thread.minimum_cut);
+  constexpr double kNothingLeft = 1e-9;
+  return depth >= thread.height - kNothingLeft ? thread.height : depth;
+}
+
+/// Where the pass at `depth` runs. On one edge the tool slides down that flank and ends at the
+/// programmed Z; on both it changes flanks with each pass. A taper is that of the whole thread,
+/// wherever along it the pass begins.
+ThreadPass pass_at(const MultipleThread& thread, int pass, double depth) {
+  const double out = thread.start.x > thread.root.x ? 1 : -1;
+  const double direction = thread.root.z >= thread.start.z ? 1 : -1;
+  const double left = thread.height - depth;
+  const double flank = thread.both_edges && pass % 2 == 0 ? thread.flank : -thread.flank;
+  const double x = thread.root.x + out * left;
+  const double start_z = thread.start.z + direction * left * flank;
+  const double length = thread.root.z - thread.start.z;
+  const double taper =
+      length == 0 ? thread.taper : thread.taper * (thread.root.z - start_z) / length;
+  return {thread.start, {x + taper, start_z}, {x, thread.root.z}};
+}
+
+bool count_passes(Run& run, const MultipleThread& thread) {
+  int passes = thread.finish_passes - 1;
+  for (double depth = 0; depth < thread.height;) {
+    if (++passes > kMaxPasses) {
+      return run.fail(ErrorCode::CycleTooLong, 0,
+                      fmt::format("height K{} with first cut D{} takes more than {} passes",
+                                  thread.height, thread.first_cut, kMaxPasses));
+    }
+    depth = next_depth(thread, passes - thread.finish_passes + 1, depth);
+  }
+  return true;
+}
+
+Length path_of(const Run& run, const Target& target, const std::optional<ThreadArc>& arc) {
+  if (!arc) return run.length(distance(run.state.position, target.to));
+  const Length radius = hypot(run.length(target.to.z) - arc->center_first,
+                              run.length(target.to.x) - arc->center_second);
+  return radius * arc->sweep.radians();
+}
+
+}  // namespace
+
+bool takes_lead(const Run& run) {
+  const GAction action = run.action();
+  return run.block.parts.thread_code != 0 || action == GAction::SingleThread ||
+         action == GAction::MultipleThread;
+}
+
+void take_lead_change(Run& run) {
+  if (run.block.parts.thread_code != kVariableLead || !run.block.words.has(Address::K)) return;
+  if (run.state.modes.motion >= MotionMode::Clockwise) return;  // K is the center
+  run.parameters[kLeadChange] = run.block.words[Address::K];
+  run.block.words.drop(Address::K);
+}
+
+bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& arc) {
+  Lead lead;
+  if (!read_lead(run, lead)) return false;
+  if (!arc && target.to == run.state.position) return true;
+  Thread event;
+  event.origin = run.origin;
+  event.lead = run.length(lead.length);
+  event.arc = arc;
+  if (lead.shift) event.start_angle = Angle::degrees(*lead.shift);
+  if (run.block.parts.thread_code == kVariableLead) {
+    event.lead_change = run.length(run.parameters[kLeadChange]);
+    const double path = path_of(run, target, arc).mm();
+    if (event.lead.mm() * event.lead.mm() + 2 * event.lead_change.mm() * path <= 0) {
+      return refuse_parameter(run, "change of lead", run.parameters[kLeadChange],
+                              "so small that the lead stays above 0");
+    }
+  }
+  event.to = event_position(run, target.to, target.named);
+  if (arc) run.state.moved_axes = 3;
+  announce_back(run);
+  run.events().on_thread(event);
+  arrive(run, target.to);
+  return true;
+}
+
+bool cut_single_thread(Run& run) {
+  Target target;
+  Lead lead;
+  ThreadChamfer chamfer;
+  if (!read_cycle_target(run, target) || !read_lead(run, lead) || !read_chamfer(run, chamfer)) {
+    return false;
+  }
+  const Point start = run.state.position;
+  const double taper = taper_of(run);
+  const ThreadPass pass{start, {target.to.x + taper, start.z}, target.to};
+  if (!check_pass(run, pass, chamfer)) return false;
+  keep_end(run, target.to, taper);
+  cut_pass(run, pass, chamfer, lead);
+  return true;
+}
+
+bool cut_multiple_thread(Run& run) {
+  MultipleThread thread;
+  Lead lead;
+  ThreadChamfer chamfer;
+  if (!read_multiple_thread(run, thread) || !read_lead(run, lead) || !read_chamfer(run, chamfer) ||
+      !count_passes(run, thread) || !check_pass(run, pass_at(thread, 1, 0), chamfer) ||
+      !check_pass(run, pass_at(thread, 1, thread.height), chamfer)) {
+    return false;
+  }
+  double depth = 0;
+  for (int pass = 1; depth < thread.height; ++pass) {
+    depth = next_depth(thread, pass, depth);
+    cut_pass(run, pass_at(thread, pass, depth), chamfer, lead);
+  }
+  for (int pass = 1; pass < thread.finish_passes; ++pass) {
+    cut_pass(run, pass_at(thread, pass, thread.height), chamfer, lead);
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::centurion

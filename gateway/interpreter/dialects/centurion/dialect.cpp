@@ -1,0 +1,76 @@
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
+#include "gateway/interpreter/dialects/centurion/interpreter.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using namespace centurion;
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  auto options = read_options(setup);
+  if (!options) return fail(options.error());
+  ModalState state;
+  Parameters parameters;
+  if (auto loaded = load_memory(setup, state, parameters); !loaded) return fail(loaded.error());
+  return std::unique_ptr<Interpreter>(std::make_unique<CenturionInterpreter>(
+      std::move(*options), std::move(state), parameters, source, sink));
+}
+
+/// The text without blanks and comments, in capitals: marks are looked for in this.
+std::string squeeze(std::string_view head) {
+  std::string text;
+  bool in_comment = false;
+  for (const char c : head) {
+    if (c == '(') in_comment = true;
+    if (!in_comment && !is_blank(c)) text += kind_of(c) == CharKind::Letter ? upper(c) : c;
+    if (c == ')' || is_end_of_block(c)) in_comment = false;
+  }
+  return text;
+}
+
+/// `P12=` is this control's way to assign: parameters are letters here, not # or Q.
+bool assigns_parameter(std::string_view text) {
+  for (std::size_t at = text.find('P'); at != std::string_view::npos; at = text.find('P', at + 1)) {
+    std::size_t after = at + 1;
+    while (after < text.size() && is_digit(text[after])) ++after;
+    if (after > at + 1 && after < text.size() && text[after] == '=') return true;
+  }
+  return false;
+}
+
+int likelihood(std::string_view head, std::string_view) {
+  const std::string text = squeeze(head);
+  for (const std::string_view foreign : {"BEGINPGM", "#1=", "#100=", "TOOLCALL", "\nPROGRAM"}) {
+    if (text.find(foreign) != std::string::npos) return 0;
+  }
+  int points = 0;
+  if (text.find_first_of("GXZ") != std::string::npos) points += 10;
+  if (assigns_parameter(text)) points += 50;
+  for (const std::string_view mark : {"G93", "PB81", "PROBE1", "DPRNT[", "GOSUB", "XC", "ZC", "AB",
+                                      "IFP", "POPEN", "G501", "G550", "G569"}) {
+    if (text.find(mark) != std::string::npos) points += 25;
+  }
+  return std::min(points, 95);
+}
+
+}  // namespace
+
+const Dialect kCenturionDialect{"centurion",
+                                "Milltronics Centurion 5T/6T (lathe)",
+                                &likelihood,
+                                &make,
+                                Units::Inch,
+                                MachineKind::Lathe,
+                                {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
+                                true,  // M6 prompts and waits (manual 4, M06; spec 12.2)
+                                nullptr,
+                                &read_panel_tables};
+
+}  // namespace dripline::interpreter

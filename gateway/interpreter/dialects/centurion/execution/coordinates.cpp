@@ -1,0 +1,198 @@
+#include "gateway/interpreter/dialects/centurion/execution/coordinates.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+// Where programs find what they transformed by (spec 15.2); X is a diameter.
+constexpr int kMirrorPosition = 172;
+constexpr int kScalePosition = 180;
+constexpr int kScaleFactor = 188;
+constexpr int kRotatePosition = 196;
+constexpr int kRotateAngle = 198;
+
+Point position_of(const Run& run, int first) {
+  return {run.parameters[first + 1] / 2, run.parameters[first]};
+}
+
+void keep(Run& run, int first, Address address) {
+  if (run.block.words.has(address)) run.parameters[first] = run.block.words[address];
+}
+
+/// The machine stays where it is; so the program's position is another one.
+template <class Change>
+void transform(Run& run, Change change) {
+  ModalState& state = run.state;
+  const Point machine = machine_of(run, state.position);
+  const bool was_on = state.transformation.is_on();
+  change(state.transformation);
+  state.nose_is_stale = true;
+  if (!was_on && !state.transformation.is_on()) return;
+  state.position = programmed_of(run, machine);
+  state.previous = state.position;
+  if (state.transformation.rotates) state.moved_axes = 3;
+  run.stages_changed();
+}
+
+/// The present position gets the given coordinates, whatever is transformed; every G50 ends G52.
+void set_floating_zero(Run& run) {
+  const Words& words = run.block.words;
+  ModalState& state = run.state;
+  const Point machine = machine_of(run, state.position);
+  state.local_zero = {};
+  run.update_origin();
+  if (words.has(Address::X)) {
+    state.floating_zero.x += machine.x - state.origin.x - words[Address::X] / 2;
+  }
+  if (words.has(Address::Z)) {
+    state.floating_zero.z += machine.z - state.origin.z - words[Address::Z];
+  }
+  run.update_origin();
+}
+
+void set_local_zero(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has(Address::X)) run.state.local_zero.x = words[Address::X] / 2;
+  if (words.has(Address::Z)) run.state.local_zero.z = words[Address::Z];
+  run.update_origin();
+}
+
+/// The axes named are mirrored from now on, besides those that are already.
+bool set_mirror(Run& run) {
+  const Words& words = run.block.words;
+  if (!words.has_any(set_of(Address::X, Address::Z))) {
+    return run.fail(ErrorCode::IllegalStatement, 0, "G511 needs X or Z");
+  }
+  keep(run, kMirrorPosition, Address::Z);
+  keep(run, kMirrorPosition + 1, Address::X);
+  transform(run, [&](Transformation& how) {
+    how.mirrors_x |= words.has(Address::X);
+    how.mirrors_z |= words.has(Address::Z);
+    how.mirror = position_of(run, kMirrorPosition);
+  });
+  return true;
+}
+
+bool check_factor(Run& run, Address address) {
+  constexpr double kLeast = 0.0001;
+  constexpr double kMax = 999.9999;
+  const Words& words = run.block.words;
+  if (!words.has(address)) return true;
+  const double size = std::fabs(words[address]);
+  if (size >= kLeast && size <= kMax) return true;
+  return run.fail(ErrorCode::ParameterOutOfRange, words.column(address),
+                  fmt::format("scale factor {}", words[address]));
+}
+
+bool set_scaling(Run& run) {
+  for (const Address address : {Address::X, Address::Z, Address::P}) {
+    if (!check_factor(run, address)) return false;
+  }
+  const Words& words = run.block.words;
+  if (words.has(Address::P) && words.has_any(set_of(Address::X, Address::Z))) {
+    return run.fail(ErrorCode::IllegalStatement, words.column(Address::P),
+                    "P is the factor of all axes");
+  }
+  keep(run, kScalePosition, Address::K);
+  keep(run, kScalePosition + 1, Address::I);
+  for (const Address address : {Address::Z, Address::P}) keep(run, kScaleFactor, address);
+  for (const Address address : {Address::X, Address::P}) keep(run, kScaleFactor + 1, address);
+  transform(run, [&](Transformation& how) {
+    how.scales = true;
+    how.scale_center = position_of(run, kScalePosition);
+    how.factor = {run.parameters[kScaleFactor + 1], run.parameters[kScaleFactor]};
+  });
+  return true;
+}
+
+bool refuse_both(Run& run, Address one, Address other) {
+  return run.fail(ErrorCode::DuplicateAddress, run.block.words.column(other),
+                  fmt::format("{} and {} mean the same", to_string(one), to_string(other)));
+}
+
+/// X, Z and R may stand for I, K and AA. A center that is set while scaling is on is scaled, and
+/// stays where that leads.
+bool set_rotation(Run& run) {
+  struct Twin {
+    int parameter;
+    Address word, other;
+  };
+  constexpr Twin kTwins[] = {{kRotatePosition, Address::K, Address::Z},
+                             {kRotatePosition + 1, Address::I, Address::X},
+                             {kRotateAngle, Address::AA, Address::R}};
+  const Words& words = run.block.words;
+  for (const Twin& twin : kTwins) {
+    if (words.has(twin.word) && words.has(twin.other)) {
+      return refuse_both(run, twin.word, twin.other);
+    }
+    keep(run, twin.parameter, twin.word);
+    keep(run, twin.parameter, twin.other);
+  }
+  transform(run, [&](Transformation& how) {
+    Point center = position_of(run, kRotatePosition);
+    if (how.scales) {
+      const Point& fixed = how.scale_center;
+      center = {fixed.x + how.factor.x * (center.x - fixed.x),
+                fixed.z + how.factor.z * (center.z - fixed.z)};
+    }
+    how.rotates = true;
+    how.rotation_center = center;
+    how.degrees = run.parameters[kRotateAngle];
+  });
+  return true;
+}
+
+void forget(Run& run, int first, double value) {
+  run.parameters[first] = run.parameters[first + 1] = value;
+}
+
+}  // namespace
+
+bool set_coordinates(Run& run) {
+  switch (run.action()) {
+    case GAction::FloatingZero:
+      set_floating_zero(run);
+      return true;
+    case GAction::LocalZero:
+      set_local_zero(run);
+      return true;
+    case GAction::Mirror:
+      return set_mirror(run);
+    case GAction::Scaling:
+      return set_scaling(run);
+    case GAction::Rotation:
+      return set_rotation(run);
+    default:
+      return true;
+  }
+}
+
+void clear_floating_zero(Run& run) {
+  run.state.floating_zero = {};
+  run.update_origin();
+}
+
+void end_mirror(Run& run) {
+  transform(run, [](Transformation& how) { how.mirrors_x = how.mirrors_z = false; });
+}
+
+void end_scaling(Run& run) {
+  forget(run, kScalePosition, 0);
+  forget(run, kScaleFactor, 1);
+  transform(run, [](Transformation& how) {
+    how.scales = false;
+    how.factor = {1, 1};
+  });
+}
+
+void end_rotation(Run& run) {
+  forget(run, kRotatePosition, 0);
+  run.parameters[kRotateAngle] = 0;
+  transform(run, [](Transformation& how) { how.rotates = false; });
+}
+
+}  // namespace dripline::interpreter::centurion

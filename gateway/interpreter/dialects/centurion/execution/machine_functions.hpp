@@ -1,0 +1,39 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+/// M functions, spindle, coolant and tools (spec 9, 10, 12).
+namespace dripline::interpreter::centurion {
+
+/// The M codes of the block that act at `timing`, in numerical order, from `Parts::m_next` on: a
+/// wait for an input resumes there.
+bool apply_machine_functions(Run& run, MTiming timing);
+/// The program that stands for M6 has ended: the pending tool is in use, if it is not yet.
+void finish_tool_change(Run& run);
+
+/// The T word: asks for a tool, or for the offsets of the one in use (spec 9.1).
+void apply_tool(Run& run);
+/// Nose radius and type of the active offset, where programs read them (P261, P262).
+void refresh_tool(Run& run);
+
+/// A spindle event when the block's words changed how the turning spindle turns; M3 and M4 of the
+/// same block show it themselves.
+void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_speed);
+/// M41 to M43 of the block: the range counts for its own S.
+void apply_spindle_range(Run& run);
+/// Of the active spindle range (PB50).
+double max_revolutions(const Run& run);
+void spindle_to(Run& run, SpindleState state);
+void all_off(Run& run);
+/// Tool, spindle, coolant and locks as they are by now: for a machine that has seen nothing of the
+/// program.
+void show_machine_state(Run& run);
+
+/// What the path mode keeps the operator's hands off (G63).
+OverrideInhibit override_inhibit(const Run& run);
+
+/// The block's comment, for the operator; nothing when it has none (spec 3.1).
+void show_comment(Run& run);
+
+}  // namespace dripline::interpreter::centurion

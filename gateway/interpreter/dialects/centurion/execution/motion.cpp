@@ -1,0 +1,248 @@
+#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// Spec 3.3, the wider table: 99999.9999 inch, 99999.999 mm. X counts as a diameter.
+constexpr double kMaxInches = 99999.9999;
+constexpr double kMaxMillimetres = 99999.999;
+
+/// R and AB from a pole, which is the current point unless the block names one (spec 5.2).
+bool read_polar_target(Run& run, Target& target) {
+  const Words& words = run.block.words;
+  ModalState& state = run.state;
+  if (words.has_any(kEndWords)) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "a line has an end point or R and AB; a corner radius is written \",R\"");
+  }
+  if (words.has(Address::R)) {
+    if (words[Address::R] < 0) {
+      return run.fail(ErrorCode::NegativePolarRadius, words.column(Address::R));
+    }
+    state.retained.radius = words[Address::R];
+    state.retained.has_radius = true;
+  }
+  if (words.has(Address::AB)) state.retained.end_angle = words[Address::AB];
+  Point pole = state.position;
+  if (words.has(Address::XC)) pole.x = state.origin.x + words[Address::XC] / 2;
+  if (words.has(Address::ZC)) pole.z = state.origin.z + words[Address::ZC];
+  if (words.has(Address::I)) pole.x += words[Address::I];
+  if (words.has(Address::K)) pole.z += words[Address::K];
+  target.to = polar(pole, state.retained.radius, state.retained.end_angle);
+  target.named = kBothAxes;
+  return true;
+}
+
+bool refuse_two_of_one_axis(Run& run, Address incremental) {
+  return run.fail(ErrorCode::DuplicateAddress, run.block.words.column(incremental),
+                  fmt::format("{} and its axis in one block", to_string(incremental)));
+}
+
+/// G60, and G0 with an overrun: beyond the target and back to it, always from the same side, which
+/// is one of the machine (spec 7.3).
+void position_to(Run& run, const Target& target) {
+  const bool is_single = run.action() == GAction::SingleDirection;
+  const Point overrun = run.parameters.point(is_single ? kSingleOverrun : kRapidOverrun);
+  const Point from = machine_of(run, run.state.position);
+  const Point to = machine_of(run, target.to);
+  Point beyond = to;
+  if (to.x != from.x) beyond.x += overrun.x;
+  if (to.z != from.z) beyond.z += overrun.z;
+  if (beyond == to) return rapid_to(run, target.to, target.named);
+  machine_rapid_to(run, beyond, target.named);
+  rapid_to(run, target.to, target.named);
+}
+
+bool start_probe(Run& run, const Target& target) {
+  if (run.state.pattern.phase == PatternPhase::Reading) {
+    return run.fail(ErrorCode::IllegalStatement, motion_column(run),
+                    "a probe move in a pattern that is roughed");
+  }
+  if (run.state.modes.motion == MotionMode::Rapid) {
+    return run.fail(ErrorCode::NotSupported, motion_column(run), "a probe move under G0");
+  }
+  if (target.to == run.state.position) return true;
+  ProbeQuestion question;
+  question.probe.origin = run.origin;
+  const Point from = machine_of(run, run.state.position);
+  const Point to = machine_of(run, target.to);
+  question.probe.from = marked_position(run, from, from, target.named);
+  question.probe.to = marked_position(run, from, to, target.named);
+  question.probe.until = *run.block.parts.probe;
+  question.probe.feed = run.active_feed();
+  run.events();  // the header comes before anything the question brings about
+  return run.ask(question);
+}
+
+}  // namespace
+
+bool read_target(Run& run, Target& target) {
+  const ModalState& state = run.state;
+  return read_end_words(run, {state.position, state.origin, state.modes.is_incremental}, target);
+}
+
+bool read_end_words(Run& run, const EndFrame& frame, Target& target) {
+  const Words& words = run.block.words;
+  target.to = frame.from;
+  if (words.has(Address::X)) {
+    const double x = words[Address::X] * 0.5;
+    target.to.x = frame.is_incremental ? target.to.x + x : frame.zero.x + x;
+    target.named.x = true;
+  }
+  if (words.has(Address::Z)) {
+    const double z = words[Address::Z];
+    target.to.z = frame.is_incremental ? target.to.z + z : frame.zero.z + z;
+    target.named.z = true;
+  }
+  if (!words.has_any(set_of(Address::U, Address::W))) return check_target(run, target.to);
+  if (words.has(Address::U)) {
+    if (target.named.x) return refuse_two_of_one_axis(run, Address::U);
+    target.to.x += words[Address::U] * 0.5;
+    target.named.x = true;
+  }
+  if (words.has(Address::W)) {
+    if (target.named.z) return refuse_two_of_one_axis(run, Address::W);
+    target.to.z += words[Address::W];
+    target.named.z = true;
+  }
+  return check_target(run, target.to);
+}
+
+bool move(Run& run) {
+  const Words& words = run.block.words;
+  // AA means nothing to a line (spec 5.2); alone it moves nothing.
+  if (!words.has_any(kEndWords | kPolarWords)) return true;
+  run.ledger.take_all();
+  if (run.block.parts.thread_code != 0) [[unlikely]]
+    take_lead_change(run);
+  const MotionMode mode =
+      run.action() == GAction::SingleDirection ? MotionMode::Rapid : run.state.modes.motion;
+  if (mode >= MotionMode::Clockwise) return move_on_arc(run);
+  Target target;
+  if (words.has_any(kPolarWords)) [[unlikely]] {
+    if (words.has(Address::AA)) run.state.retained.start_angle = words[Address::AA];
+    if (!words.has_any((kEndWords | kPolarWords) & ~set_of(Address::AA))) return true;
+    if (words.has_any(kPolarWords & ~set_of(Address::AA))) {
+      if (!read_polar_target(run, target) || !check_target(run, target.to)) return false;
+    } else if (!read_target(run, target)) {
+      return false;
+    }
+  } else if (!read_target(run, target)) {
+    return false;
+  }
+  if (run.block.parts.probe) [[unlikely]] {
+    return check_feed(run) && start_probe(run, target);
+  }
+  if (run.block.parts.thread_code != 0) [[unlikely]]
+    return thread_to(run, target, std::nullopt);
+  if (mode == MotionMode::Rapid) {
+    position_to(run, target);
+    return true;
+  }
+  if (!check_feed(run)) return false;
+  if (target.to == run.state.position && !run.block.leads_back()) return true;
+  announce_line(run);
+  run.events().on_line(
+      {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});
+  arrive(run, target.to);
+  return true;
+}
+
+void finish_probe(Run& run, const ProbeResult& result) {
+  Probe probe = std::get<ProbeQuestion>(run.question).probe;
+  probe.origin = run.origin;
+  probe.result = result;
+  const double mm = run.state.mm_per_unit();
+  const Point at{result.at.linear(Axis::X).mm() / mm, result.at.linear(Axis::Z).mm() / mm};
+  const Point from = machine_of(run, run.state.position);
+  probe.result->at = marked_position(run, from, at, {probe.to.has(Axis::X), probe.to.has(Axis::Z)});
+  run.machine_events().on_probe(probe);
+  arrive(run, programmed_of(run, at));
+}
+
+void rapid_to(Run& run, const Point& to, AxesNamed named) {
+  if (to == run.state.position) return;
+  run.events().on_rapid({run.origin, event_position(run, to, named)});
+  arrive(run, to);
+}
+
+void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed) {
+  if (to == run.state.position) return;
+  run.events().on_line({run.origin, event_position(run, to, named), feed, run.rests()});
+  arrive(run, to);
+}
+
+void machine_rapid_to(Run& run, const Point& machine, AxesNamed named) {
+  const Point from = machine_of(run, run.state.position);
+  if (machine == from) return;
+  const Position at = marked_position(run, from, machine, named);
+  run.machine_events().on_rapid({run.origin, at});
+  arrive(run, programmed_of(run, machine));
+}
+
+void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
+  const Point from = machine_of(run, run.state.position);
+  if (machine == from) return;
+  const Position at = marked_position(run, from, machine, named);
+  run.machine_events().on_line({run.origin, at, run.active_feed(), run.rests()});
+  arrive(run, programmed_of(run, machine));
+}
+
+bool check_target(Run& run, const Point& to) {
+  const double most = run.state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
+  if (std::fabs(to.x) * 2 <= most && std::fabs(to.z) <= most) [[likely]]
+    return true;
+  return run.fail(ErrorCode::TooManyDigits, motion_column(run),
+                  fmt::format("X{} Z{} is beyond {}", to.x * 2, to.z, most));
+}
+
+bool check_feed(Run& run) {
+  if (run.state.active_feed() > 0) [[likely]]
+    return true;
+  return run.fail(ErrorCode::FeedOutOfRange, motion_column(run),
+                  run.state.modes.is_feed_per_revolution ? "no feed per revolution was given"
+                                                         : "no feed per minute was given");
+}
+
+Position event_position(Run& run, const Point& point, AxesNamed named) {
+  return marked_position(run, run.state.position, point, named);
+}
+
+Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named) {
+  ModalState& state = run.state;
+  if (point.x != from.x) state.moved_axes |= 1;
+  if (point.z != from.z) state.moved_axes |= 2;
+  Position position;
+  position.set(Axis::X, run.length(point.x));
+  position.set(Axis::Z, run.length(point.z));
+  if (!named.x && !(state.moved_axes & 1)) position.unmark(Axis::X);
+  if (!named.z && !(state.moved_axes & 2)) position.unmark(Axis::Z);
+  return position;
+}
+
+void arrive(Run& run, const Point& at) {
+  run.loops.note_progress();
+  run.state.previous = run.state.position;
+  run.state.position = at;
+}
+
+std::uint32_t motion_column(const Run& run) {
+  const Words& words = run.block.words;
+  std::uint32_t first = 0;
+  for (std::size_t i = 0; i < kAddressCount; ++i) {
+    const auto address = static_cast<Address>(i);
+    if (!words.has(address) || !((kEndWords | kPolarWords) & set_of(address))) continue;
+    if (first == 0 || words.column(address) < first) first = words.column(address);
+  }
+  return first;
+}
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+/// Moves (spec 5): where a block's words lead, and the events.
+namespace dripline::interpreter::centurion {
+
+/// Which axes a move names, whether they change or not.
+struct AxesNamed {
+  bool x = false;
+  bool z = false;
+};
+
+/// Moves as the active motion mode says, if the block names a place to go. A probe move asks.
+bool move(Run& run);
+/// The answer to a probe move's question.
+void finish_probe(Run& run, const ProbeResult& result);
+
+/// Where the words lead, from the position and the active zero (or the machine's).
+struct Target {
+  Point to;
+  AxesNamed named;
+};
+bool read_target(Run& run, Target& target);
+/// What X, Z, U and W count from.
+struct EndFrame {
+  Point from;
+  Point zero;
+  bool is_incremental = false;
+};
+bool read_end_words(Run& run, const EndFrame& frame, Target& target);
+
+/// G0 to `to`; nothing when already there.
+void rapid_to(Run& run, const Point& to, AxesNamed named);
+/// A straight feed to `to`; nothing when already there.
+/// To a place in machine coordinates: nothing is transformed.
+void machine_rapid_to(Run& run, const Point& machine, AxesNamed named);
+void machine_feed_to(Run& run, const Point& machine, AxesNamed named);
+void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
+
+/// G2, G3; in arc_words.cpp.
+bool move_on_arc(Run& run);
+
+// The parts that both files need.
+inline constexpr AxesNamed kBothAxes{true, true};
+bool check_target(Run& run, const Point& to);
+bool check_feed(Run& run);
+/// `point` as an event shows it; which axes count as moved is brought up to date.
+Position event_position(Run& run, const Point& point, AxesNamed named);
+/// The same with another point to have come from.
+Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named);
+void arrive(Run& run, const Point& at);
+std::uint32_t motion_column(const Run& run);
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::interpreter::centurion {
+
+struct Run;
+
+/// What has to be known of the part before a start in the middle (start_search.hpp), besides the
+/// state that it leaves. Of use only while the start is looked for.
+///
+/// The part is gone through with the memory as it is now. That is right for a parameter which it
+/// only reads, or sets before it reads it. One that it reads and sets afterwards (P10=P10+1, G10
+/// with P500=P500+1) has another number now than when that part was executed, and would count
+/// twice.
+struct StartNotes {
+  enum class Use : std::uint8_t {
+    None,
+    Read,  ///< as the program found it
+    Set,   ///< before it was read
+    Lost,  ///< read, then set
+  };
+  /// Of P0 to P999, then PB0 to PB639; empty while no start is looked for.
+  std::vector<Use> uses;
+
+  /// The block of the start, once the program has come to it; another place with the same number is
+  /// another block.
+  bool has_place = false;
+  ProgramIndex program = kMainProgram;
+  std::uint64_t offset = 0;
+  std::uint64_t arrivals = 0;
+  std::uint64_t arrival = 0;  ///< the last one's block, counted from 1
+
+  /// What the machine was not told: M functions of its own and outputs, each with its last line.
+  struct Withheld {
+    std::uint16_t code = 0;  ///< of M; or kOutput and more
+    bool state = true;       ///< of an output
+    std::uint64_t line = 0;
+  };
+  static constexpr std::uint16_t kOutputOfZ = 1000, kOutputOfX = 2000;
+  static constexpr std::size_t kMaxWithheld = 256;
+  std::vector<Withheld> withheld;
+
+  bool is_noting() const { return !uses.empty(); }
+  void begin() {
+    *this = StartNotes{};
+    uses.assign(kParameterCount + kByteCount, Use::None);
+  }
+  void end() { uses.clear(); }
+
+  void note_read(int parameter) {
+    if (is_noting()) read_cell(parameter);
+  }
+  void note_byte_read(int number) {
+    if (is_noting()) read_cell(kParameterCount + number);
+  }
+  void note_set(int parameter) {
+    if (is_noting()) set_cell(parameter);
+  }
+  void note_byte_set(int number) {
+    if (is_noting()) set_cell(kParameterCount + number);
+  }
+  void withhold(std::uint16_t code, bool state, std::uint64_t line);
+
+ private:
+  void read_cell(int cell);
+  void set_cell(int cell);
+};
+
+/// G11 has written a table. Once the program has moved, or set a zero, it has used it as well.
+void note_table_set(Run& run, int parameter);
+
+/// "P10, PB50"; empty: nothing is lost.
+std::string lost_memory_text(const Run& run);
+/// "M62 (line 4), output 3 of Z on (line 7)"; empty: the machine has missed nothing.
+std::string withheld_text(const StartNotes& notes);
+/// Where the start is as to loops and calls: "the subroutine called before line 12"; empty: at the
+/// level of the program itself.
+std::string open_flow_text(const Run& run);
+
+}  // namespace dripline::interpreter::centurion

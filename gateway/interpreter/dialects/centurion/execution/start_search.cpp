@@ -1,0 +1,246 @@
+#include "gateway/interpreter/dialects/centurion/execution/start_search.hpp"
+
+#include <fmt/core.h>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr std::uint8_t kHasX = 1;
+constexpr std::uint8_t kHasZ = 2;
+
+std::optional<StartAt::Kind> kind_of_letter(char letter) {
+  switch (letter) {
+    case 'N':
+      return StartAt::Kind::Block;
+    case 'T':
+      return StartAt::Kind::Tool;
+    case 'L':
+      return StartAt::Kind::Line;
+    case 'B':
+      return StartAt::Kind::Byte;
+    case '+':
+      return StartAt::Kind::Count;
+    default:
+      return std::nullopt;
+  }
+}
+
+Position place(const Point& millimetres) {
+  Position position;
+  position.set(Axis::X, Length::mm(millimetres.x));
+  position.set(Axis::Z, Length::mm(millimetres.z));
+  return position;
+}
+
+/// The last feed per minute; without one that of a revolution, where the program has set it and the
+/// spindle turns; else the number of the power-on feed, per minute.
+Feed approach_feed(const Run& run) {
+  const ModalState& state = run.state;
+  if (state.feed[0] > 0) return Feed::per_minute(run.length(state.feed[0]));
+  constexpr double kSame = 1e-9;
+  const Length per_revolution = run.length(state.feed[1]);
+  const Length power_on = Length::mm(run.options.power_on_feed_mm);
+  const bool is_programmed = std::fabs(per_revolution.mm() - power_on.mm()) > kSame;
+  const bool turns = state.spindle.state != SpindleState::Off;
+  if (is_programmed && turns && state.feed[1] > 0) return Feed::per_revolution(per_revolution);
+  return Feed::per_minute(power_on);
+}
+
+}  // namespace
+
+Result<StartAt> parse_start_at(std::string_view text) {
+  StartAt start;
+  start.text = text;
+  const auto kind = text.empty() ? std::nullopt : kind_of_letter(text.front());
+  const char* end = text.data() + text.size();
+  const auto read = kind ? std::from_chars(text.data() + 1, end, start.number)
+                         : std::from_chars_result{text.data(), std::errc::invalid_argument};
+  if (read.ec != std::errc{} || read.ptr != end) {
+    return fail(
+        Errc::Syntax,
+        "\"{}\" is no start: N120 (block), T3 (tool), L40 (line), B4096 (byte), +25 (blocks "
+        "to skip)",
+        text);
+  }
+  start.kind = *kind;
+  return start;
+}
+
+bool StartSearch::is_same_place(const Run& run) {
+  const StartNotes& notes = run.start;
+  return !notes.has_place ||
+         (run.origin.program == notes.program && run.origin.offset == notes.offset);
+}
+
+bool StartSearch::is_here(const Run& run, std::optional<std::uint32_t> sequence) const {
+  const bool is_main = run.state.at.program == kMainProgram;
+  if (!is_same_place(run)) return false;
+  switch (start_.kind) {
+    case StartAt::Kind::Block:
+      return sequence && *sequence == start_.number;
+    case StartAt::Kind::Line:
+      return is_main && run.origin.line >= start_.number;
+    case StartAt::Kind::Byte:
+      return is_main && run.origin.offset >= start_.number;
+    case StartAt::Kind::Count:
+      return run.state.blocks >= start_.number;
+    case StartAt::Kind::Tool:
+      return false;
+  }
+  return false;
+}
+
+bool StartSearch::is_tool(const Run& run, int tool) const {
+  return start_.kind == StartAt::Kind::Tool && static_cast<std::uint64_t>(tool) == start_.number &&
+         is_same_place(run);
+}
+
+bool StartSearch::asks_for_way_back(const Run& run) const {
+  return start_.kind != StartAt::Kind::Count && !run.options.start_pass;
+}
+
+bool StartSearch::arrive(Run& run) {
+  StartNotes& notes = run.start;
+  if (!std::exchange(notes.has_place, true)) {
+    notes.program = run.origin.program;
+    notes.offset = run.origin.offset;
+  }
+  if (std::exchange(notes.arrival, run.origin.block) == run.origin.block) return true;
+  ++notes.arrivals;
+  if (run.options.start_pass && notes.arrivals < *run.options.start_pass) return true;
+  return begin_here(run);
+}
+
+/// Why the state at this block is not the one that is meant, or not known.
+std::string StartSearch::refusal(const Run& run) const {
+  std::string text;
+  const auto add = [&text](const std::string& reason) {
+    if (!text.empty()) text += "; ";
+    text += reason;
+  };
+  if (run.state.pattern.phase != PatternPhase::None)
+    add("it is in the pattern of a cycle: start at the cycle's block");
+  if (asks_for_way_back(run)) {
+    std::string flow = open_flow_text(run);
+    if (way_back_) {
+      flow +=
+          fmt::format("{}line {}, which comes back over it", flow.empty() ? "" : ", ", *way_back_);
+    }
+    if (!flow.empty())
+      add(fmt::format("it is in {}: which time is meant (pass, start_pass)?", flow));
+  }
+  if (const std::string lost = lost_memory_text(run); !lost.empty() && !run.options.may_count_again)
+    add(fmt::format(
+        "the part before it reads {} and then sets it: is the memory meant as it was when "
+        "the program began, or as it is now, so that this counts once more (memory, "
+        "start_memory)?",
+        lost));
+  return text;
+}
+
+bool StartSearch::begin_here(Run& run) {
+  ModalState& state = run.state;
+  if (const std::string why = refusal(run); !why.empty())
+    return run.fail(ErrorCode::StartUndefined, 0, fmt::format("{}: {}", start_.text, why));
+  run.start.end();
+  run.settle_path();  // what still waits is part of what came before; the block's end looks at
+                      // faults
+  state.is_searching = false;
+  const std::string withheld = withheld_text(run.start);
+  if (!withheld.empty()) {
+    run.scratch = fmt::format("{}: not given out before it: {}", start_.text, withheld);
+    out().on_message({run.origin, run.scratch});
+  }
+  show_machine_state(run);
+  const Point from = state.searched_from;
+  Point to = state.searched_to;
+  if ((state.searched_axes & kHasX) == 0) to.x = from.x;
+  if ((state.searched_axes & kHasZ) == 0) to.z = from.z;
+  if (!(to == from)) {
+    approach(run, from, to);
+  } else if (!withheld.empty()) {
+    out().on_stop({run.origin, StopKind::Operator});
+  }
+  return true;
+}
+
+/// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after
+/// the operator has looked.
+void StartSearch::approach(Run& run, const Point& from, const Point& to) {
+  const ModalState& state = run.state;
+  const double clearance = run.length(state.origin.z + run.parameters[kClearanceZ]).mm();
+  Point at = from;
+  const auto rapid = [&](const Point& next) {
+    if (next == at) return;
+    at = next;
+    out().on_rapid({run.origin, place(at)});
+  };
+  if (from.z < clearance) {
+    rapid({from.x, clearance});
+    rapid({to.x, clearance});
+  } else {
+    rapid({to.x, from.z});
+    rapid({to.x, clearance});
+  }
+  out().on_stop({run.origin, StopKind::Operator});
+  if (at == to) return;
+  out().on_line({run.origin, place(to), approach_feed(run)});
+}
+
+bool StartSearch::begin_at_first(Run& run) {
+  if (run.start.arrivals > 0) {
+    return run.fail(ErrorCode::StartUndefined, 0,
+                    fmt::format("{}: the program comes to it {} times, not {}", start_.text,
+                                run.start.arrivals, run.options.start_pass.value_or(1)));
+  }
+  run.start.end();
+  run.state.is_searching = false;
+  run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
+  out().on_message({run.origin, run.scratch});
+  out().on_stop({run.origin, StopKind::Operator});  // nobody has asked for that
+  return true;
+}
+
+void StartSearch::on_miscellaneous(const Miscellaneous& event) {
+  if (is_open()) return out().on_miscellaneous(event);
+  notes_->withhold(static_cast<std::uint16_t>(event.code), true, event.origin.line);
+}
+
+/// A pulse leaves the output as it was.
+void StartSearch::on_pin(const PinChange& event) {
+  if (is_open()) return out().on_pin(event);
+  if (event.pulse_ms) return;
+  const int first = event.axis == Axis::X ? StartNotes::kOutputOfX : StartNotes::kOutputOfZ;
+  notes_->withhold(static_cast<std::uint16_t>(first + event.output), event.state,
+                   event.origin.line);
+}
+
+template <class Event>
+void StartSearch::move(void (EventSink::*deliver)(const Event&), const Event& event) {
+  if (!state_->is_searching) return (out().*deliver)(event);
+  state_->searched_to = {event.to.linear(Axis::X).mm(), event.to.linear(Axis::Z).mm()};
+  if (event.to.has(Axis::X)) state_->searched_axes |= kHasX;
+  if (event.to.has(Axis::Z)) state_->searched_axes |= kHasZ;
+}
+
+void StartSearch::on_rapid(const Rapid& event) {
+  move(&EventSink::on_rapid, event);
+}
+void StartSearch::on_line(const Line& event) {
+  move(&EventSink::on_line, event);
+}
+void StartSearch::on_arc(const Arc& event) {
+  move(&EventSink::on_arc, event);
+}
+void StartSearch::on_thread(const Thread& event) {
+  move(&EventSink::on_thread, event);
+}
+
+}  // namespace dripline::interpreter::centurion

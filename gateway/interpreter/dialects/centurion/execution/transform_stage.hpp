@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/dialects/centurion/execution/transformation.hpp"
+#include "gateway/interpreter/stages/event_filter.hpp"
+
+namespace dripline::interpreter::centurion {
+
+struct Run;
+
+/// Machine coordinates of a point of the program's coordinates, both in program units; the same
+/// while nothing is transformed.
+Point machine_of(const Run& run, const Point& programmed);
+Point programmed_of(const Run& run, const Point& machine);
+
+/// The first stage while anything is transformed. An arc begins at the run's position.
+class TransformStage final : public EventFilter {
+ public:
+  TransformStage(const Run& run, EventSink& next) : EventFilter(next), run_(run) {}
+
+  /// The radius that different factors left an arc is too small for its ends; it was not given on.
+  const std::optional<Origin>& misfit() const { return misfit_; }
+
+  void on_rapid(const Rapid& event) override;
+  void on_line(const Line& event) override;
+  void on_arc(const Arc& event) override;
+  void on_thread(const Thread& event) override;
+
+ private:
+  Position moved(const Position& to) const;
+  Point point_of(Length z, Length x) const;
+  bool transform(Arc& arc) const;
+  bool place_center(Arc& arc, const Point& start, const Point& end) const;
+
+  const Run& run_;
+  std::optional<Origin> misfit_;
+};
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,194 @@
+#include "gateway/interpreter/dialects/centurion/execution/travel_guard.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// A limit may be reached, and the edge of the zone touched.
+constexpr double kRounding = 1e-6;
+
+double angle_of(double z, double x) {
+  return std::atan2(x, z);
+}
+
+/// How far, in radians, the arc has gone when it comes to `angle`; from 0 to a full turn.
+double way_to(const Arc& arc, double start, double angle) {
+  double way = arc.turn == Turn::Counterclockwise ? angle - start : start - angle;
+  while (way < 0) way += 2 * Angle::kPi;
+  while (way >= 2 * Angle::kPi) way -= 2 * Angle::kPi;
+  return way;
+}
+
+}  // namespace
+
+TravelGuard::Spot TravelGuard::spot_of(const Position& position) {
+  return {position.linear(Axis::X).mm(), position.linear(Axis::Z).mm()};
+}
+
+void TravelGuard::place(const Position& at) {
+  at_ = spot_of(at);
+}
+
+bool TravelGuard::refuse(ErrorCode code, const Origin& origin, std::string detail) {
+  fault_ = TravelFault{code, origin, std::move(detail)};
+  return false;
+}
+
+bool TravelGuard::is_within_limits(const Origin& origin, const Spot& at) {
+  const auto is_outside = [](double value, double least, double most) {
+    return least < most && !(value >= least - kRounding && value <= most + kRounding);
+  };
+  if (is_outside(at.x, limits_.least_x, limits_.max_x)) {
+    return refuse(ErrorCode::TravelOfX, origin,
+                  fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.least_x,
+                              limits_.max_x));
+  }
+  if (is_outside(at.z, limits_.least_z, limits_.max_z)) {
+    return refuse(
+        ErrorCode::TravelOfZ, origin,
+        fmt::format("Z {:.4f} mm is not in {} to {}", at.z, limits_.least_z, limits_.max_z));
+  }
+  return true;
+}
+
+bool TravelGuard::is_in_zone(const Spot& at) const {
+  return at.x > zone_->least_x + kRounding && at.x < zone_->max_x - kRounding &&
+         at.z > zone_->least_z + kRounding && at.z < zone_->max_z - kRounding;
+}
+
+/// The part of the straight way that is inside, by cutting off what is beyond each edge.
+bool TravelGuard::crosses_zone(const Spot& to) const {
+  double enters = 0;
+  double leaves = 1;
+  const auto cut = [&](double from, double way, double least, double most) {
+    least += kRounding;
+    most -= kRounding;
+    if (least >= most) return false;  // no zone was ever set
+    if (way == 0) return from > least && from < most;
+    const double a = (least - from) / way;
+    const double b = (most - from) / way;
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+    return enters < leaves;
+  };
+  return cut(at_.x, to.x - at_.x, zone_->least_x, zone_->max_x) &&
+         cut(at_.z, to.z - at_.z, zone_->least_z, zone_->max_z);
+}
+
+bool TravelGuard::arc_crosses_zone(const Arc& arc) const {
+  const double z = arc.center_first.mm();
+  const double x = arc.center_second.mm();
+  const double radius = std::hypot(at_.x - x, at_.z - z);
+  const double start = angle_of(at_.z - z, at_.x - x);
+  // where the circle meets an edge, a little further on or back it is inside
+  const auto is_inside_at = [&](double angle) {
+    if (way_to(arc, start, angle) > arc.sweep.radians()) return false;
+    return is_in_zone({x + radius * std::sin(angle), z + radius * std::cos(angle)});
+  };
+  constexpr double kStep = 1e-5;
+  for (const double edge : {zone_->least_x, zone_->max_x}) {
+    const double height = (edge - x) / radius;
+    if (std::fabs(height) > 1) continue;
+    for (const double angle : {std::asin(height), Angle::kPi - std::asin(height)}) {
+      if (is_inside_at(angle + kStep) || is_inside_at(angle - kStep)) return true;
+    }
+  }
+  for (const double edge : {zone_->least_z, zone_->max_z}) {
+    const double width = (edge - z) / radius;
+    if (std::fabs(width) > 1) continue;
+    for (const double angle : {std::acos(width), -std::acos(width)}) {
+      if (is_inside_at(angle + kStep) || is_inside_at(angle - kStep)) return true;
+    }
+  }
+  return is_in_zone(spot_of(arc.to));
+}
+
+bool TravelGuard::allows_line(const Origin& origin, const Position& to) {
+  if (fault_) return false;
+  const Spot end = spot_of(to);
+  if (!is_within_limits(origin, end)) return false;
+  // what stands inside may get out
+  if (zone_ && !is_in_zone(at_) && crosses_zone(end)) {
+    return refuse(ErrorCode::SafeZone, origin,
+                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
+  }
+  at_ = end;
+  return true;
+}
+
+bool TravelGuard::allows_arc(const Arc& arc) {
+  if (fault_) return false;
+  const double z = arc.center_first.mm();
+  const double x = arc.center_second.mm();
+  const double radius = std::hypot(at_.x - x, at_.z - z);
+  const double start = angle_of(at_.z - z, at_.x - x);
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    const double angle = quadrant * Angle::kPi / 2;
+    if (way_to(arc, start, angle) > arc.sweep.radians()) continue;
+    const Spot extreme{x + radius * std::sin(angle), z + radius * std::cos(angle)};
+    if (!is_within_limits(arc.origin, extreme)) return false;
+  }
+  const Spot end = spot_of(arc.to);
+  if (!is_within_limits(arc.origin, end)) return false;
+  if (zone_ && !is_in_zone(at_) && arc_crosses_zone(arc)) {
+    return refuse(ErrorCode::SafeZone, arc.origin,
+                  fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
+  }
+  at_ = end;
+  return true;
+}
+
+Feed TravelGuard::followed(Feed feed, double most) const {
+  if (most <= 0 || feed.per() != Feed::Per::Minute || feed.length().mm() <= most) return feed;
+  return Feed::per_minute(Length::mm(most));
+}
+
+/// The path feed at which the first axis is at its maximum; 0 is none.
+double TravelGuard::max_on_line(const Position& to) const {
+  const Spot end = spot_of(to);
+  const double x = std::fabs(end.x - at_.x);
+  const double z = std::fabs(end.z - at_.z);
+  const double way = std::hypot(x, z);
+  double most = 0;
+  if (max_.x > 0 && x > 0) most = max_.x * way / x;
+  if (max_.z > 0 && z > 0) {
+    const double by_z = max_.z * way / z;
+    most = most > 0 ? std::min(most, by_z) : by_z;
+  }
+  return most;
+}
+
+void TravelGuard::on_rapid(const Rapid& event) {
+  if (!is_active_) return out().on_rapid(event);
+  if (allows_line(event.origin, event.to)) out().on_rapid(event);
+}
+void TravelGuard::on_line(const Line& event) {
+  if (!is_active_) return out().on_line(event);
+  Line line = event;
+  line.feed = followed(event.feed, max_on_line(event.to));
+  if (allows_line(event.origin, event.to)) out().on_line(line);
+}
+void TravelGuard::on_arc(const Arc& event) {
+  if (!is_active_) return out().on_arc(event);
+  const bool has_both = max_.x > 0 && max_.z > 0;
+  Arc arc = event;
+  arc.feed = followed(event.feed, has_both ? std::min(max_.x, max_.z) : max_.x + max_.z);
+  if (allows_arc(event)) out().on_arc(arc);
+}
+void TravelGuard::on_thread(const Thread& event) {
+  if (!is_active_) return out().on_thread(event);
+  const bool is_allowed =
+      event.arc ? allows_arc(arc_of(event)) : allows_line(event.origin, event.to);
+  if (is_allowed) out().on_thread(event);
+}
+void TravelGuard::on_probe(const Probe& event) {
+  if (!is_active_) return out().on_probe(event);
+  const Position& end = event.result ? event.result->at : event.to;
+  if (allows_line(event.origin, end)) out().on_probe(event);
+}
+
+}  // namespace dripline::interpreter::centurion

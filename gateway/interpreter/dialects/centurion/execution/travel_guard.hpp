@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
+#include "gateway/interpreter/stages/event_filter.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// A rectangle of the machine, millimetres, X a radius.
+struct TravelArea {
+  double least_x = 0, max_x = 0;
+  double least_z = 0, max_z = 0;
+};
+
+struct TravelFault {
+  ErrorCode code;
+  Origin origin;
+  std::string detail;
+};
+
+/// Of each axis, millimetres per minute; 0 is none.
+struct MaximumFeed {
+  double x = 0;
+  double z = 0;
+};
+
+/// The last stage before the sink: stops a move that leaves the software limits (401, 403) or
+/// enters the safe zone (413), before it is made. The whole path counts. Positions are those of
+/// events: tool lengths left out. A feed per minute that an axis cannot follow is lowered.
+class TravelGuard final : public EventFilter {
+ public:
+  explicit TravelGuard(EventSink& sink) : EventFilter(sink) {}
+
+  /// Without a limit, a zone or a maximum everything passes; `place` is due before that ends.
+  void set_active(bool active) { is_active_ = active; }
+  /// An axis whose least is not below its most is not limited.
+  void set_limits(const TravelArea& limits) { limits_ = limits; }
+  void set_maximum_feed(const MaximumFeed& most) { max_ = most; }
+  void set_zone(const std::optional<TravelArea>& zone) { zone_ = zone; }
+  bool has_zone() const { return zone_.has_value(); }
+  /// Where the machine stands; from there the next move goes.
+  void place(const Position& at);
+  /// Nothing more is given on, alarms excepted.
+  const std::optional<TravelFault>& fault() const { return fault_; }
+  void reset() { fault_.reset(); }
+
+  void on_rapid(const Rapid& event) override;
+  void on_line(const Line& event) override;
+  void on_arc(const Arc& event) override;
+  void on_thread(const Thread& event) override;
+  void on_probe(const Probe& event) override;
+
+ private:
+  struct Spot {
+    double x = 0, z = 0;
+  };
+  static Spot spot_of(const Position& position);
+  bool allows_line(const Origin& origin, const Position& to);
+  bool allows_arc(const Arc& arc);
+  bool is_within_limits(const Origin& origin, const Spot& at);
+  bool crosses_zone(const Spot& to) const;
+  bool is_in_zone(const Spot& at) const;
+  bool arc_crosses_zone(const Arc& arc) const;
+  Feed followed(Feed feed, double most) const;
+  double max_on_line(const Position& to) const;
+  bool refuse(ErrorCode code, const Origin& origin, std::string detail);
+
+  bool is_active_ = false;
+  TravelArea limits_;
+  std::optional<TravelArea> zone_;
+  MaximumFeed max_;
+  Spot at_;
+  std::optional<TravelFault> fault_;
+};
+
+}  // namespace dripline::interpreter::centurion

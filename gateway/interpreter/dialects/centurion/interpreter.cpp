@@ -1,0 +1,323 @@
+#include "gateway/interpreter/dialects/centurion/interpreter.hpp"
+
+#include "gateway/interpreter/dialects/centurion/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/execution.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/flow.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/snapshot.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/statements.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// What a block begins as. Copied from here, because one put together on the spot for every block
+/// is copied before its parts have reached the memory, and waits for them.
+const Block::Parts kFreshParts{};
+
+std::unique_ptr<DryRun> dry_run_of(const ControlOptions& options, EventSink& sink) {
+  if (!options.is_dry_run) return nullptr;
+  const Feed feed = Feed::per_minute(Length::mm(options.dry_run_feed_mm));
+  return std::make_unique<DryRun>(sink, feed, options.dry_run_turns_spindle);
+}
+std::unique_ptr<StartSearch> start_search_of(const ControlOptions& options, EventSink& sink) {
+  return options.start_at ? std::make_unique<StartSearch>(sink, *options.start_at) : nullptr;
+}
+EventSink& front_of(StartSearch* start, DryRun* dry_run, EventSink& sink) {
+  if (start != nullptr) return *start;
+  if (dry_run != nullptr) return *dry_run;
+  return sink;
+}
+
+}  // namespace
+
+CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState state,
+                                           Parameters parameters, ProgramSource& source,
+                                           EventSink& sink)
+    : dry_run_(dry_run_of(options, sink)),
+      start_(start_search_of(options, dry_run_ ? *dry_run_ : sink)),
+      run_(std::move(options), source, front_of(start_.get(), dry_run_.get(), sink)),
+      search_(run_.text),
+      memory_units_(state.units) {
+  run_.state = std::move(state);
+  run_.parameters = parameters;
+  run_.update_origin();
+  run_.blender.set_plane(Plane::ZX);
+  run_.blender.reset(run_.present_position());
+  if (start_) {
+    first_ = take_snapshot(run_);
+    start_->attach(run_.state, run_.start);
+    run_.state.is_searching = true;
+    run_.start.begin();
+  }
+}
+
+StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  run_.text.forget();  // its text was good only until the owner used the source
+  for (std::uint64_t left = max_blocks; left > 0;) {
+    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+      const JumpOutcome outcome = take_jump(run_, search_);
+      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
+      if (outcome == JumpOutcome::More) return StepState::Ran;
+      if (outcome == JumpOutcome::Failed) return paused();
+    }
+    if (has_pattern_pass(run_.state)) [[unlikely]] {
+      make_pattern_pass(run_);
+      run_.end_block();
+      if (run_.may_have_failed() && !check_path(run_)) return paused();
+      ++run_.state.blocks;
+      --left;
+      continue;
+    }
+    const BlockOutcome outcome = run_block();
+    if (outcome == BlockOutcome::Paused) [[unlikely]]
+      return paused();
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
+      if (!run_.state.is_searching) return StepState::Ended;
+      if (!begin_at_first()) return paused();
+    }
+    if (outcome == BlockOutcome::More) [[unlikely]]
+      return StepState::Ran;
+    if (outcome == BlockOutcome::Finished) --left;
+  }
+  return StepState::Ran;
+}
+
+StepState CenturionInterpreter::paused() {
+  switch (run_.pause) {
+    case Pause::Text:
+      run_.pause = Pause::None;
+      return StepState::NeedsText;
+    case Pause::Question:
+      run_.pause = Pause::None;
+      if (run_.state.is_searching && settle_in_search()) return StepState::Ran;
+      if (run_.pause == Pause::Alarm) break;
+      is_asking_ = true;
+      return StepState::NeedsAnswer;
+    default:
+      break;
+  }
+  run_.pause = Pause::None;
+  run_.events().on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
+  if (is_looking_back_) [[unlikely]] {
+    if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
+  }
+  const TextCursor::State loaded = run_.text.load(run_.state.at);
+  if (loaded != TextCursor::State::Ready) [[unlikely]]
+    return meet_line_state(loaded);
+  Block::Parts& parts = run_.block.parts;
+  if (run_.state.is_searching && !is_way_back_known_ && may_start_here()) [[unlikely]]
+    return look_back();
+  if (parts.stage == Stage::Start) {
+    if (!begin_block()) [[unlikely]] {
+      return departure_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+    }
+    if (run_.pause != Pause::None) [[unlikely]]
+      return BlockOutcome::Paused;
+    if (!run_.state.has_header && !run_.name_is_settled) [[unlikely]]
+      settle_name();
+  }
+  if (parts.stage == Stage::Items) {
+    if (!read_items(run_) || !fits_mode()) [[unlikely]]
+      return BlockOutcome::Paused;
+    parts.stage = Stage::Execution;
+  }
+  if (run_.state.is_searching && parts.tool && start_->is_tool(run_, *parts.tool)) [[unlikely]] {
+    if (!is_way_back_known_ && start_->asks_for_way_back(run_)) return look_back();
+    if (!start_->arrive(run_)) return BlockOutcome::Paused;
+  }
+  if (!execute_block(run_) || !finish_block()) [[unlikely]]
+    return BlockOutcome::Paused;
+  return BlockOutcome::Finished;
+}
+
+/// No block to be seen: more text is needed, the program is over, or it cannot go on.
+CenturionInterpreter::BlockOutcome CenturionInterpreter::meet_line_state(TextCursor::State state) {
+  switch (state) {
+    case TextCursor::State::NotYet:
+      run_.pause = Pause::Text;
+      return BlockOutcome::Paused;
+    case TextCursor::State::EndOfText:
+      return departure_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+    case TextCursor::State::TooLong:
+      place_origin();
+      run_.fail(ErrorCode::BlockTooLong, 0, "more than 4096 characters");
+      return BlockOutcome::Paused;
+    default:
+      place_origin();
+      run_.fail(ErrorCode::TextFailed, 0, run_.text.failure());
+      return BlockOutcome::Paused;
+  }
+}
+
+void CenturionInterpreter::place_origin() {
+  Origin& origin = run_.origin;
+  origin.block = run_.state.blocks + 1;
+  origin.offset = run_.state.at.offset;
+  origin.line = run_.state.at.line;
+  origin.sequence = Origin::kNone;
+  origin.program = run_.state.at.program;
+}
+
+/// False at the O line of the next program in the file.
+bool CenturionInterpreter::begin_block() {
+  const char* begin = run_.text.begin();
+  const bool is_plain = kind_of(*begin) == CharKind::Letter && upper(*begin) != 'O';
+  if (!is_plain && is_end_of_segment()) [[unlikely]]
+    return false;
+  place_origin();
+  run_.origin.offset = run_.text.offset();
+  run_.block.words.clear();
+  run_.block.parts = kFreshParts;
+  run_.block.parts.stage = Stage::Items;
+  if (run_.state.is_searching && starts_here() && !start_->arrive(run_)) [[unlikely]]
+    return true;  // an alarm
+  if (!is_plain && is_skipped()) [[unlikely]] {
+    run_.block.parts.has_code = true;
+    run_.block.parts.resume = run_.offset(run_.text.end());
+  }
+  return true;
+}
+
+/// MDI takes one block.
+bool CenturionInterpreter::fits_mode() {
+  if (!run_.options.is_mdi || run_.state.blocks == 0 || !run_.block.parts.has_code) return true;
+  return run_.fail(ErrorCode::IllegalStatement, 0, "a second block in MDI");
+}
+
+bool CenturionInterpreter::starts_here() const {
+  const BlockHead head = read_head(run_.text.begin());
+  const bool has_number = head.kind == BlockHead::Kind::Label;
+  return start_->is_here(run_, has_number ? std::optional(head.number) : std::nullopt);
+}
+
+/// At a block that is not begun yet.
+bool CenturionInterpreter::may_start_here() {
+  if (run_.block.parts.stage != Stage::Start || !start_->asks_for_way_back(run_)) return false;
+  place_origin();
+  run_.origin.offset = run_.text.offset();
+  return starts_here();
+}
+
+CenturionInterpreter::BlockOutcome CenturionInterpreter::look_back() {
+  is_looking_back_ = true;
+  return BlockOutcome::NoBlock;
+}
+
+/// Finished: it is known now.
+CenturionInterpreter::BlockOutcome CenturionInterpreter::find_way_back() {
+  std::uint64_t line = 0;
+  const TextSearch::Outcome outcome = search_.find_way_back(run_.state.at, line);
+  if (outcome == TextSearch::Outcome::More) return BlockOutcome::More;
+  if (outcome == TextSearch::Outcome::NotYet) {
+    run_.pause = Pause::Text;
+    return BlockOutcome::Paused;
+  }
+  if (outcome != TextSearch::Outcome::Found && outcome != TextSearch::Outcome::Missing) {
+    refuse_search(run_, outcome);
+    return BlockOutcome::Paused;
+  }
+  const bool is_found = outcome == TextSearch::Outcome::Found;
+  start_->note_way_back(is_found ? std::optional(line) : std::nullopt);
+  is_way_back_known_ = true;
+  is_looking_back_ = false;
+  return BlockOutcome::Finished;
+}
+
+/// Nobody is bothered for what happens before the start, unless the program's way hangs on it.
+/// False leaves the question to the owner, or an alarm.
+bool CenturionInterpreter::settle_in_search() {
+  if (!std::holds_alternative<ProbeQuestion>(run_.question)) return false;
+  run_.fail(ErrorCode::ProbeBeforeStart, 0, "a start after it cannot be looked for");
+  return false;
+}
+
+/// The start that was asked for is not in the program.
+bool CenturionInterpreter::begin_at_first() {
+  if (run_.start.arrivals > 0) {
+    run_.state.phase = RunPhase::Running;
+    return start_->begin_at_first(run_);
+  }
+  const bool has_header = run_.state.has_header;
+  const bool is_restored = restore(*first_).has_value();
+  invariant(is_restored, "the state of a moment ago reads back");
+  run_.state.has_header = has_header;
+  return start_->begin_at_first(run_);
+}
+
+bool CenturionInterpreter::is_end_of_segment() const {
+  return run_.state.at.code_seen && read_head(run_.text.begin()).kind == BlockHead::Kind::Program;
+}
+
+bool CenturionInterpreter::is_skipped() const {
+  return run_.options.block_skip && *skip_blanks(run_.text.begin()) == '/';
+}
+
+/// The program's name comes from its first block that is not empty: the O word (block_reader.cpp
+/// has it then) or else the comment; and before that block is executed (spec 3.2).
+void CenturionInterpreter::settle_name() {
+  const char* at = skip_blanks(run_.text.begin());
+  if (*at == '%' || is_end_of_block(*at)) return;
+  const BlockHead head = read_head(at);
+  if (head.kind == BlockHead::Kind::Program) return;
+  if (*at == '(') {
+    const char* close = at;
+    while (*close != ')' && !is_end_of_block(*close)) ++close;
+    if (run_.name.empty() && *close == ')') run_.name.assign(at + 1, close);
+  }
+  run_.name_is_settled = head.kind != BlockHead::Kind::Empty;
+}
+
+bool CenturionInterpreter::finish_block() {
+  if (!leave_block(run_)) return false;
+  if (run_.state.pattern.phase != PatternPhase::None && !leave_pattern_block(run_)) [[unlikely]]
+    return false;
+  run_.end_block();
+  if (run_.may_have_failed() && !check_path(run_)) [[unlikely]]
+    return false;
+  ++run_.state.blocks;
+  run_.block.parts.stage = Stage::Start;
+  return true;
+}
+
+Result<void> CenturionInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) return fail(Errc::Syntax, "an answer to another question");
+  if (const auto* prompt = std::get_if<PromptAnswer>(&answer)) {
+    if (prompt->text && !is_input_answer(*prompt->text)) {
+      return fail(Errc::Syntax, "{}: \"{}\" is not a number",
+                  std::get<PromptQuestion>(run_.question).variable, *prompt->text);
+    }
+  }
+  run_.answers.push_back(answer);
+  is_asking_ = false;
+  run_.answers_used = 0;
+  return {};
+}
+
+Snapshot CenturionInterpreter::snapshot() const {
+  invariant(run_.block.parts.stage == Stage::Start, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> CenturionInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.text.forget();
+  run_.block.clear();
+  run_.answers.clear();
+  run_.answers_used = 0;
+  run_.pause = Pause::None;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::centurion

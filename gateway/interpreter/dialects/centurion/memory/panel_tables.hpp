@@ -1,0 +1,15 @@
+#pragma once
+
+#include "gateway/interpreter/core/panel_tables.hpp"
+#include "gateway/interpreter/core/setup.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// The override tables (spec 23.6) and what drives a program by handwheel (23.5), from the options
+/// `feed_overrides`, `spindle_overrides` (per cent), `handwheel_pulses` (of a click, for each
+/// position of the feed switch) and `cranking_minutes` (of the program, for a turn of 400 pulses).
+/// Errors: Syntax, LimitExceeded.
+Result<PanelTables> read_panel_tables(const Setup& setup);
+
+}  // namespace dripline::interpreter::centurion

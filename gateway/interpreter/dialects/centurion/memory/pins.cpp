@@ -1,0 +1,89 @@
+#include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+namespace dripline::interpreter::centurion {
+namespace {
+
+constexpr int kFirstOfZ = 1000;
+constexpr int kFirstOfX = 2000;
+
+std::uint32_t output_bit(int number, Axis axis) {
+  const int place = number - 1 + (axis == Axis::X ? kPinsPerKind : 0);
+  return std::uint32_t{1} << place;
+}
+
+bool is_listed(const Run& run, int pin) {
+  const auto& ones = run.options.pins_at_one;
+  return std::find(ones.begin(), ones.end(), pin) != ones.end();
+}
+
+void emit(Run& run, OutputPin pin, bool state, std::optional<double> pulse_ms) {
+  run.events().on_pin({run.origin, pin.axis, pin.number, state, pulse_ms});
+}
+
+bool refuse_missing(Run& run, int pin) {
+  return run.fail(ErrorCode::InputMissing, 0, fmt::format("pin {} does not come to 1", pin));
+}
+
+}  // namespace
+
+int input_pin(Axis axis, int number) {
+  return (axis == Axis::X ? kFirstOfX : kFirstOfZ) + number - 1;
+}
+
+std::optional<OutputPin> output_of_pin(int pin) {
+  for (const Axis axis : {Axis::Z, Axis::X}) {
+    const int number = pin - input_pin(axis, 1) - kPinsPerKind + 1;
+    if (number >= 1 && number <= kPinsPerKind) return OutputPin{axis, number};
+  }
+  return std::nullopt;
+}
+
+void remember_output(Run& run, OutputPin pin, bool state) {
+  const std::uint32_t bit = output_bit(pin.number, pin.axis);
+  run.state.outputs = state ? run.state.outputs | bit : run.state.outputs & ~bit;
+}
+
+void set_output(Run& run, OutputPin pin, bool state) {
+  remember_output(run, pin, state);
+  emit(run, pin, state, {});
+}
+
+void pulse_output(Run& run, OutputPin pin, bool state, double milliseconds) {
+  remember_output(run, pin, !state);
+  emit(run, pin, state, milliseconds);
+}
+
+bool read_pin(Run& run, int pin, std::uint32_t column, double& value) {
+  if (const auto output = output_of_pin(pin)) {
+    value = (run.state.outputs & output_bit(output->number, output->axis)) != 0 ? 1 : 0;
+    return true;
+  }
+  const bool is_input = (pin >= kFirstOfZ && pin < kFirstOfZ + kPinsPerKind) ||
+                        (pin >= kFirstOfX && pin < kFirstOfX + kPinsPerKind);
+  if (!is_input) {
+    return run.fail(ErrorCode::ParameterOutOfRange, column, fmt::format("there is no pin {}", pin));
+  }
+  if (run.options.answers_pins) {
+    value = is_listed(run, pin) ? 1 : 0;
+    return true;
+  }
+  const Answer* answer = run.next_answer();
+  if (answer == nullptr) return run.ask(InputQuestion{pin});
+  value = std::get<bool>(*answer) ? 1 : 0;
+  return true;
+}
+
+bool wait_for_input(Run& run, int pin) {
+  if (run.options.answers_pins) return is_listed(run, pin) || refuse_missing(run, pin);
+  if (!run.options.asks_for_inputs) return true;
+  const Answer* answer = run.next_answer();
+  if (answer == nullptr) return run.ask(InputQuestion{pin});
+  const bool has_come = std::get<bool>(*answer);
+  run.item_done();
+  return has_come || refuse_missing(run, pin);
+}
+
+}  // namespace dripline::interpreter::centurion

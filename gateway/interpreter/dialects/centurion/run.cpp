@@ -1,0 +1,156 @@
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+
+namespace dripline::interpreter::centurion {
+
+void Run::choose_stages() {
+  if (!state.has_header) deliver_header();
+  EventSink* last = guards_travel() ? static_cast<EventSink*>(&guard) : &sink;
+  if (state.pattern.phase == PatternPhase::Reading) last = &recorder;
+  if (passes_compensator()) {
+    blender.lead_to(compensator);
+  } else {
+    blender.lead_to(*last);
+  }
+  front = state.transformation.is_on() ? static_cast<EventSink*>(&transform) : &blender;
+  has_stages = passes_compensator() || last != &sink || front != &blender;
+}
+
+/// The passes of a cycle are made from moves that are compensated.
+bool Run::passes_compensator() const {
+  return state.uses_compensator && !is_making_passes(state.pattern);
+}
+
+void Run::restart_stages() {
+  if (state.uses_compensator) {
+    compensator.leave();
+    compensator.place(present_position());
+  }
+  blender.place(present_position());
+  resume_compensation(*this);
+  choose_stages();
+}
+
+/// Brings the guard up to date. True when it has anything to look after.
+bool Run::guards_travel() {
+  const auto area = [this](int positive, int negative) {
+    const Point a = parameters.point(positive);
+    const Point b = parameters.point(negative);
+    return TravelArea{length(b.x).mm(), length(a.x).mm(), length(b.z).mm(), length(a.z).mm()};
+  };
+  const TravelArea limits = area(kPositiveLimit, kNegativeLimit);
+  std::optional<TravelArea> zone;
+  if (state.modes.checks_zone) {
+    zone = area(kPositiveZone, kNegativeZone);
+    if (zone->least_x > zone->max_x) std::swap(zone->least_x, zone->max_x);
+    if (zone->least_z > zone->max_z) std::swap(zone->least_z, zone->max_z);
+  }
+  const Point most = parameters.point(kMaximumFeed);
+  guard.set_maximum_feed({length(most.x).mm(), length(most.z).mm()});
+  guard.set_limits(limits);
+  guard.set_zone(zone);
+  guard.place(passes_compensator() ? compensator.tool() : blender.given());
+  const bool is_active = zone || most.x > 0 || most.z > 0 || limits.least_x < limits.max_x ||
+                         limits.least_z < limits.max_z;
+  guard.set_active(is_active);
+  return is_active;
+}
+
+void Run::command(const PathCommand& command) {
+  carry_out(blender, command);
+}
+
+/// A block says that it is over even where it does nothing, header or not.
+void Run::end_block() {
+  if (front != nullptr) return blender.on_block_end(origin);
+  sink.on_block_end(origin);
+}
+
+Position Run::present_position() const {
+  Position at;
+  const Point machine = machine_of(*this, state.position);
+  at.set(Axis::X, length(machine.x));
+  at.set(Axis::Z, length(machine.z));
+  if (!(state.moved_axes & 1)) at.unmark(Axis::X);
+  if (!(state.moved_axes & 2)) at.unmark(Axis::Z);
+  return at;
+}
+
+void Run::deliver_header() {
+  state.has_header = true;
+  ProgramHeader header;
+  header.control = "centurion";
+  if (!name.empty()) header.name = name;
+  header.units = state.units;
+  header.x_is_diameter = true;
+  sink.on_program(header);
+  if (state.modes.path == PathMode::Tapping) sink.on_override_inhibit(override_inhibit(*this));
+  tell_material();
+}
+
+/// From the face at Z0 towards the chuck, about the program's X0 (spec 24.6).
+void Run::tell_material() {
+  const double size = parameters[kMaterialLength], diameter = parameters[kMaterialDiameter];
+  if (!(size > 0 && diameter > 0)) return;
+  Blank blank{.origin = origin, .spindle_axis = Axis::Z, .min = {}, .max = {}};
+  blank.min.set(Axis::X, length(state.origin.x - diameter / 2));
+  blank.max.set(Axis::X, length(state.origin.x + diameter / 2));
+  blank.min.set(Axis::Y, length(-diameter / 2));
+  blank.max.set(Axis::Y, length(diameter / 2));
+  blank.min.set(Axis::Z, length(state.origin.z - size));
+  blank.max.set(Axis::Z, length(state.origin.z));
+  sink.on_blank(blank);
+}
+
+bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
+  return fail_as(error_row(code), at_column, detail);
+}
+
+bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view detail) {
+  pause = Pause::Alarm;
+  alarm.id = row.id;
+  alarm.text = row.text;
+  if (!detail.empty()) {
+    alarm.text += ": ";
+    alarm.text += detail;
+  }
+  alarm.line = origin.line;
+  alarm.column = at_column;
+  return false;
+}
+
+bool Run::settle_path() {
+  blender.settle();
+  if (state.uses_compensator) compensator.settle();
+  return !may_have_failed() || check_path(*this);
+}
+
+bool Run::ask(Question asked) {
+  // an operator or a probe needs the tool in its place
+  const bool meets_tool =
+      std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
+  if (meets_tool && !settle_path()) return false;
+  loops.note_progress();
+  pause = Pause::Question;
+  question = std::move(asked);
+  if (block.parts.stage == Stage::Items) state.random = random_at_item;
+  return false;
+}
+
+const Answer* Run::next_answer() {
+  if (answers_used >= answers.size()) return nullptr;
+  return &answers[answers_used++];
+}
+
+void Run::update_origin() {
+  const Point work = parameters.work_offset(state.modes.work_system);
+  const Point home = parameters.point(kHomePosition);
+  const Point machine = machine_of(*this, state.position);
+  state.origin = {home.x + work.x + state.floating_zero.x + state.local_zero.x,
+                  home.z + work.z + state.floating_zero.z + state.local_zero.z};
+  if (state.transformation.is_on()) [[unlikely]]
+    state.position = programmed_of(*this, machine);
+}
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/dialects/centurion/reading/block.hpp"
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
+#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
+#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
+#include "gateway/interpreter/dialects/centurion/options.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_recorder.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/start_notes.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/execution/travel_guard.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
+#include "gateway/interpreter/core/language/loop_guard.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
+
+namespace dripline::interpreter::centurion {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question, Text };
+
+/// One run: what the files of this folder work on. Functions that cannot go on give false and
+/// leave the reason in `pause`; a question leaves no trace of the item that asked, which is done
+/// again from its start once the answer is there.
+struct Run {
+  Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
+      : options(std::move(control_options)),
+        source(program_source),
+        sink(event_sink),
+        guard(event_sink),
+        recorder(guard, state),
+        compensator(compensation_policy(), recorder),
+        blender(blending_policy(), event_sink),
+        transform(*this, blender),
+        text(program_source) {}
+
+  /// Where events go, after the header has been delivered: through the stages in use, to the sink.
+  EventSink& events() {
+    if (front == nullptr) [[unlikely]]
+      choose_stages();
+    return *front;
+  }
+  /// After a change of what is in use, or of the state as a whole: the stages between the program's
+  /// events and the sink are put together anew.
+  void choose_stages();
+  /// The same, when there has been an event; else the first one does it.
+  void stages_changed() {
+    if (front == nullptr) return;
+    // a move that waits is made as things were when it was read
+    if (guard.has_zone() != state.modes.checks_zone) blender.settle();
+    choose_stages();
+  }
+  /// A stage may have refused what it was given: `check_path` says more.
+  bool may_have_failed() const { return has_stages || blender.fault(); }
+  /// For moves of the machine's own, which nothing transforms.
+  EventSink& machine_events() {
+    if (front == nullptr) [[unlikely]]
+      choose_stages();
+    return blender;
+  }
+  /// P156 and P157: the bar that the program cuts, for graphics. Nothing while one of them is 0.
+  void tell_material();
+  /// From here on, with the machine at the program's position and compensation, if on, anew.
+  void restart_stages();
+  /// To the compensation stage, in order with the events. The blending stage stands in front.
+  void command(const PathCommand& command);
+  void end_block();
+  /// Moves that wait in the stages end as programmed. False: they are refused.
+  bool settle_path();
+  /// Whether the move of the block ends at rest (G9, G61).
+  bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
+
+  /// Offset of `at` in the block, and its 1-based column.
+  std::uint32_t offset(const char* at) const {
+    return static_cast<std::uint32_t>(at - text.begin());
+  }
+  std::uint32_t column(const char* at) const { return offset(at) + 1; }
+
+  /// Both give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
+  [[gnu::cold]] bool fail_as(const ErrorRow& row, std::uint32_t at_column,
+                             std::string_view detail = {});
+  [[gnu::cold]] bool ask(Question asked);
+  /// The answer to the next question of the item in hand, or nullptr when it has yet to be asked.
+  const Answer* next_answer();
+  void begin_item(const char* at) {
+    block.parts.resume = offset(at);
+    answers_used = 0;
+    random_at_item = state.random;
+  }
+  void item_done() {
+    if (!answers.empty()) [[unlikely]]
+      answers.clear();
+    answers_used = 0;
+  }
+
+  /// Where the machine is, as an event shows it.
+  Position present_position() const;
+  /// After a change of anything the active coordinates are made of.
+  void update_origin();
+  /// What the axis words of the block are for; None: a move.
+  GAction action() const {
+    const std::uint8_t row = block.parts.action;
+    return row == kNoRow ? GAction::None : g_row(row).action;
+  }
+  Length length(double program_units) const {
+    return Length::mm(program_units * state.mm_per_unit());
+  }
+  Feed active_feed() const {
+    const Length per = length(state.active_feed());
+    return state.modes.is_feed_per_revolution ? Feed::per_revolution(per) : Feed::per_minute(per);
+  }
+
+  const ControlOptions options;
+  ProgramSource& source;
+  EventSink& sink;
+  TravelGuard guard;
+  PatternRecorder recorder;
+  compensation::Compensator compensator;
+  blending::CornerBlender blender;
+  TransformStage transform;
+  TextCursor text;
+  ModalState state;
+  Parameters parameters;
+  StartNotes start;  ///< while a start is looked for
+  std::string name;  ///< as the program calls itself; empty when it does not
+  bool name_is_settled = false;
+
+  Block block;
+  language::LoopGuard loops;
+  language::WordLedger ledger;  ///< of the block in hand: the words of a line
+  Origin origin;
+  std::vector<Answer> answers;  ///< of the item in hand, in the order asked
+  std::size_t answers_used = 0;
+  std::uint64_t random_at_item = 0;  ///< where the item in hand found the random numbers
+  Question question;
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+  std::string scratch;  ///< output text being made
+
+  EventSink* front = nullptr;  ///< the first stage; none before the header
+  bool has_stages = false;     ///< besides the blending stage
+
+ private:
+  bool guards_travel();
+  bool passes_compensator() const;
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,180 @@
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+using compensation::FaultKind;
+
+compensation::Cutter cutter_of(const Run& run) {
+  compensation::Cutter cutter;
+  cutter.plane = run.state.plane();
+  cutter.side =
+      run.state.g[kCompensationGroup] == 41 ? compensation::Side::Left : compensation::Side::Right;
+  cutter.radius = Length::mm(radius_of_offset(run, run.state.d_number));
+  if (run.state.is_transformed && is_plane_mirrored(run.state, run.state.plane())) {
+    cutter.side = cutter.side == compensation::Side::Left ? compensation::Side::Right
+                                                          : compensation::Side::Left;
+  }
+  return cutter;
+}
+
+ErrorCode code_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::NoIntersection:
+      return ErrorCode::NoSolution;
+    case FaultKind::StartUpNotStraight:
+    case FaultKind::CancelNotStraight:
+      return ErrorCode::ArcAtStartUp;
+    case FaultKind::OtherPlane:
+      return ErrorCode::PlaneInCompensation;
+    default:
+      return ErrorCode::Interference;
+  }
+}
+
+void turn_on(Run& run) {
+  ModalState& state = run.state;
+  if (!state.uses_compensator) {
+    run.events();  // the header first
+    run.compensator.reset(state.position);
+    state.uses_compensator = true;
+  }
+  // D0 cancels: the next move goes to its programmed end
+  if (state.d_number == 0 && run.compensator.is_on()) return run.compensator.turn_off();
+  run.compensator.turn_on(cutter_of(run));
+}
+
+/// I, J, K of G39, of length 1, as scaling and rotation turn it. False: an alarm.
+bool read_direction(Run& run, PlaneVector& direction) {
+  const Words& words = run.block.words;
+  const PlaneAxes axes = axes_of(run.state.plane());
+  constexpr std::array<Address, 3> kComponents{I, J, K};
+  Point3 from = program_position(run);
+  Point3 to = from;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!words.has(kComponents[i])) continue;
+    if (static_cast<Axis>(i) == axes.normal) {
+      return run.fail(ErrorCode::IllegalPlaneAxis, words.column(kComponents[i]),
+                      fmt::format("{}", letter(kComponents[i])));
+    }
+    to[i] += run.length(words[kComponents[i]]);
+  }
+  if (run.state.is_transformed) {
+    from = transform(run.state, from);
+    to = transform(run.state, to);
+  }
+  const auto along = [&](Axis axis) {
+    return to[static_cast<std::size_t>(axis)] - from[static_cast<std::size_t>(axis)];
+  };
+  const PlaneVector vector{along(axes.first), along(axes.second)};
+  const double size = length(vector);
+  if (!(size > 0)) {
+    return run.fail(ErrorCode::CornerMoveNotAllowed, words.first_column(kCenterWords),
+                    "I, J, K say no direction");
+  }
+  direction = (1 / size) * vector;
+  return true;
+}
+
+bool refuse_corner(Run& run, std::string_view why) {
+  return run.fail(ErrorCode::CornerMoveNotAllowed, run.block.parts.g_column, why);
+}
+
+bool reaches_machine(const Block& block) {
+  const Block::Parts& parts = block.parts;
+  if (parts.kind != BlockKind::Nc || parts.ending == Ending::Return) return false;
+  if (parts.m_count == 1 && block.m[0] == 98) return block.words.has_any(kAxisWords);
+  return (block.words.present() & ~set_of(N, O)) != 0 || parts.groups != 0 || parts.m_count != 0 ||
+         parts.one_shot != Block::kNoCode;
+}
+
+}  // namespace
+
+compensation::Policy policy_of(const ControlOptions& options) {
+  compensation::Policy policy;
+  if (options.start_up_b) {
+    policy.start_up = compensation::StartUp::Corner;
+    policy.cancel = compensation::Cancel::Corner;
+  }
+  return policy;
+}
+
+bool apply_compensation(Run& run) {
+  ModalState& state = run.state;
+  const Block& block = run.block;
+  const bool was_on = state.is_compensating();
+  if (was_on && block.names(kPlaneGroup) && block.g[kPlaneGroup] != state.g[kPlaneGroup]) {
+    return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);
+  }
+  if (block.words.has(D) && !read_offset_number(run, D, state.d_number)) return false;
+  if (!block.names(kCompensationGroup)) {
+    if (was_on && block.words.has(D)) turn_on(run);
+    return true;
+  }
+  const std::uint8_t code = block.g[kCompensationGroup];
+  if (block.words.has_any(kCenterWords) && state.g[kMotionGroup] < 2 && !state.is_cycle() &&
+      block.parts.one_shot == Block::kNoCode) {
+    // A vector that the control would aim at: without it the tool goes elsewhere.
+    return run.fail(ErrorCode::ImproperCommand, block.words.first_column(kCenterWords),
+                    fmt::format("I, J, K beside G{}: a vector is not supported", code));
+  }
+  const bool changes = code != state.g[kCompensationGroup] || block.words.has(D);
+  state.g[kCompensationGroup] = code;
+  if (code != 40) {
+    if (changes) turn_on(run);
+  } else if (was_on) {
+    run.compensator.turn_off();
+  }
+  return true;
+}
+
+bool round_corner(Run& run) {
+  const Words& words = run.block.words;
+  if (!run.state.is_compensating()) return refuse_corner(run, "without G41 or G42");
+  if (words.has_any(kAxisWords)) return refuse_corner(run, "with a move in its block");
+  if (!check_feed(run)) return false;
+  std::optional<PlaneVector> direction;
+  if (words.has_any(kCenterWords) && !read_direction(run, direction.emplace())) return false;
+  // D0: nothing to go round
+  if (!run.compensator.is_on()) return true;
+  if (run.compensator.round_outside_corner(run.origin, run.active_feed(), direction)) return true;
+  return refuse_corner(run, "before a compensated move");
+}
+
+void interrupt_compensation(Run& run, bool first_keeps_distance) {
+  if (!run.state.uses_compensator || !run.state.is_compensating()) return;
+  if (first_keeps_distance) {
+    run.compensator.leave_in_parallel();
+  } else {
+    run.compensator.leave();
+  }
+}
+
+void resume_compensation(Run& run) {
+  if (!run.state.uses_compensator || !run.state.is_compensating()) return;
+  run.compensator.turn_on(cutter_of(run));
+}
+
+void end_compensated_block(Run& run) {
+  if (reaches_machine(run.block)) {
+    run.compensator.on_block_end(run.origin);
+  } else {
+    run.compensator.end_uncounted_block(run.origin);
+  }
+}
+
+bool check_compensation(Run& run) {
+  const auto& fault = run.compensator.fault();
+  if (!fault) return true;
+  run.origin.line = fault->origin.line;
+  return run.fail(code_of(fault->kind), 0, compensation::describe(*fault));
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "gateway/interpreter/stages/compensation/policy.hpp"
+#include "gateway/interpreter/dialects/fanuc/options.hpp"
+
+/// Cutter compensation C: how G40, G41, G42 and D drive the shared stage that offsets the path.
+namespace dripline::interpreter::fanuc {
+
+struct Run;
+
+compensation::Policy policy_of(const ControlOptions& options);
+
+/// G40, G41, G42 and D of the block, before its motion. False: an alarm.
+bool apply_compensation(Run& run);
+/// G39: round the corner on the cutter's circle, to the normal of the next block's begin, or to
+/// that of the direction of I, J, K. False: an alarm.
+bool round_corner(Run& run);
+/// What interrupts compensation calls `interrupt` before and `resume` after its moves. By choice
+/// the first of them keeps the distance that the tool has.
+void interrupt_compensation(Run& run, bool first_keeps_distance = false);
+void resume_compensation(Run& run);
+/// The end of the block, as the look-ahead takes it: macro statements, calls, returns and blocks
+/// without words are no blocks without motion, since nothing of them reaches the machine.
+void end_compensated_block(Run& run);
+/// False: the alarm of a contour that cannot be offset.
+bool check_compensation(Run& run);
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,85 @@
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "gateway/interpreter/dialects/fanuc/interpreter.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using namespace fanuc;
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  auto options = read_options(setup);
+  if (!options) return fail(options.error());
+  ModalState state;
+  Memory memory;
+  if (auto loaded = load_memory(setup, *options, state, memory); !loaded) {
+    return fail(loaded.error());
+  }
+  return std::unique_ptr<Interpreter>(std::make_unique<FanucInterpreter>(
+      *std::move(options), std::move(state), memory, source, sink));
+}
+
+/// The text without blanks and comments, in capitals, line ends kept: marks are looked for in this.
+std::string squeeze(std::string_view head) {
+  std::string text = "\n";
+  bool in_comment = false;
+  for (const char c : head) {
+    if (c == '(') in_comment = true;
+    if (!in_comment && kind_of(c) != CharKind::Blank) text += is_letter(c) ? upper(c) : c;
+    if (c == ')' || c == '\n') in_comment = false;
+  }
+  return text;
+}
+
+/// `letter` with a digit after it at the beginning of a line.
+bool begins_line(const std::string& text, char letter) {
+  const std::string mark{'\n', letter};
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+    if (at + 2 < text.size() && is_digit(text[at + 2])) return true;
+  }
+  return false;
+}
+
+/// `#1=`, `#[...]`: macro variables, and how they are joined.
+bool contains_any(const std::string& text, std::initializer_list<std::string_view> marks) {
+  return std::any_of(marks.begin(), marks.end(),
+                     [&](std::string_view mark) { return text.find(mark) != std::string::npos; });
+}
+
+int likelihood(std::string_view head, std::string_view) {
+  const std::string text = squeeze(head);
+  // Words of other controls: plain language, RS274/NGC's O words and names, Centurion's P
+  // variables.
+  if (contains_any(text, {"BEGINPGM", "TOOLCALL", "\nPROGRAM", "GOSUB", "IFP", "POPENP", "#<",
+                          "PB81", "ENDSUB", "ENDIF", "ENDWHILE", "CALL["})) {
+    return 0;
+  }
+  int points = 0;
+  if (text.find_first_of("GXYZ") != std::string::npos) points += 10;
+  if (begins_line(text, 'O') || begins_line(text, ':')) points += 30;
+  if (contains_any(text, {"G54", "G28", "G43", "M98P", "G65P", "G66P"})) points += 15;
+  if (contains_any(text, {"IF[", "WHILE[", "GOTO", "POPEN\n", "DPRNT[", "#3000=", "#3006="})) {
+    points += 30;
+  }
+  if (contains_any(text, {"\n#1", "\n#2", "\n#3", "\n#5"})) points += 25;
+  return std::min(points, 90);
+}
+
+}  // namespace
+
+const Dialect kFanucDialect{"fanuc",
+                            "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining center)",
+                            &likelihood,
+                            &make,
+                            Units::Millimetre,
+                            MachineKind::Mill,
+                            // T selects and M06 exchanges (spec 7.1): only a machine without
+                            // `tool_changer` has a tool change stop.
+                            {},
+                            true};
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/registry.hpp"
+
+namespace dripline::interpreter {
+
+/// Fanuc-class machining centers (0-M, 6M, 11M, 16/18/21-M) with custom macro B.
+extern const Dialect kFanucDialect;
+
+}  // namespace dripline::interpreter

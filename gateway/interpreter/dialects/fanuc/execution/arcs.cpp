@@ -1,0 +1,214 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kSamePoint = 1e-6;
+
+/// A point of the plane in the order of its axes.
+using Flat = PlaneVector;
+
+std::size_t place(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+double distance(const Flat& a, const Flat& b) {
+  return length(a - b);
+}
+bool is_same_point(const Flat& a, const Flat& b) {
+  return dot(a - b, a - b) <= kSamePoint * kSamePoint;
+}
+
+double sweep_of(const Flat& start, const Flat& end, const Flat& center, Turn turn) {
+  if (is_same_point(start, end)) return 360;
+  double sweep = turn_between(start - center, end - center) * (180.0 / Angle::kPi);
+  if (turn == Turn::Clockwise) sweep = -sweep;
+  return sweep <= 0 ? sweep + 360 : sweep;
+}
+
+/// The words of one arc in program coordinates.
+struct ArcWords {
+  PlaneAxes axes{};
+  Turn turn = Turn::Clockwise;
+  Point3 start{};
+  Point3 end{};
+  Flat center;
+};
+
+Flat flat(const ArcWords& arc, const Point3& point) {
+  return {point[place(arc.axes.first)], point[place(arc.axes.second)]};
+}
+
+constexpr std::array<Address, 3> kOffsetOf{I, J, K};
+
+/// The center of an arc of radius R; the short one when R > 0.
+bool center_by_radius(Run& run, double radius, ArcWords& arc) {
+  const Flat start = flat(arc, arc.start);
+  const Flat end = flat(arc, arc.end);
+  const double chord = distance(start, end);
+  double size = std::fabs(radius);
+  if (chord / 2 > size) {
+    const double missing = chord / 2 - size;
+    if (missing > run.options.arc_error && !run.options.short_radius_is_semicircle) {
+      return run.fail(ErrorCode::IllegalRadius, run.block.words.column(R),
+                      fmt::format("R{} does not span {}", run.in_units(Axis::X, radius),
+                                  run.in_units(Axis::X, chord)));
+    }
+    size = chord / 2;
+  }
+  const double height = std::sqrt(std::max(0.0, size * size - chord * chord / 4));
+  // The center of a short counterclockwise arc lies to the left of the way from start to end.
+  const double side = (radius > 0) == (arc.turn == Turn::Clockwise) ? -height : height;
+  const double along_first = (end.first - start.first) / chord;
+  const double along_second = (end.second - start.second) / chord;
+  arc.center = {(start.first + end.first) / 2 - side * along_second,
+                (start.second + end.second) / 2 + side * along_first};
+  return true;
+}
+
+/// The radii at both ends differ by no more than `limit`, told without roots: |a - b| is at most
+/// |a^2 - b^2| over the larger. False says nothing.
+bool surely_agree(const ArcWords& arc, double limit) {
+  const Flat at_start = flat(arc, arc.start) - arc.center;
+  const Flat at_end = flat(arc, arc.end) - arc.center;
+  const double start_square = dot(at_start, at_start);
+  const double end_square = dot(at_end, at_end);
+  const double off = start_square - end_square;
+  return off * off <= limit * limit * std::max(start_square, end_square);
+}
+
+bool center_by_offsets(Run& run, ArcWords& arc) {
+  const Words& words = run.block.words;
+  arc.center = flat(arc, arc.start);
+  const Address first = kOffsetOf[place(arc.axes.first)];
+  const Address second = kOffsetOf[place(arc.axes.second)];
+  const Address third = kOffsetOf[place(arc.axes.normal)];
+  if (words.has(third)) return run.fail(ErrorCode::IllegalPlaneAxis, words.column(third));
+  if (words.has(first)) arc.center.first += run.length(words[first]);
+  if (words.has(second)) arc.center.second += run.length(words[second]);
+  if (is_same_point(arc.center, flat(arc, arc.start))) {
+    return run.fail(ErrorCode::NoRadius, words.first_column(kCenterWords),
+                    "the center is the start");
+  }
+  const double limit = run.options.arc_error;
+  if (limit <= 0 || surely_agree(arc, limit)) return true;
+  const double error = std::fabs(distance(arc.center, flat(arc, arc.start)) -
+                                 distance(arc.center, flat(arc, arc.end)));
+  if (error > limit) {
+    return run.fail(ErrorCode::RadiusTolerance, words.first_column(kCenterWords),
+                    fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
+  }
+  return true;
+}
+
+/// An end that unequal factors have put off the circle is reached straight.
+bool emit(Run& run, const ArcWords& words, const Position& end) {
+  ModalState& state = run.state;
+  Point3 center = words.start;
+  center[place(words.axes.first)] = words.center.first;
+  center[place(words.axes.second)] = words.center.second;
+  Turn turn = words.turn;
+  if (state.is_transformed) {
+    center = transform(state, center);
+    if (is_plane_mirrored(state, state.plane())) {
+      turn = turn == Turn::Clockwise ? Turn::Counterclockwise : Turn::Clockwise;
+    }
+  }
+  const auto in_machine = [&](Axis axis) {
+    return center[place(axis)] + state.origin[place(axis)];
+  };
+  const Flat middle{in_machine(words.axes.first), in_machine(words.axes.second)};
+  const Flat start{state.position.raw(words.axes.first), state.position.raw(words.axes.second)};
+  const Flat stop{end.raw(words.axes.first), end.raw(words.axes.second)};
+  Arc arc{.origin = run.origin,
+          .to = end,
+          .center_first = Length::mm(middle.first),
+          .center_second = Length::mm(middle.second),
+          .plane = state.plane(),
+          .turn = turn,
+          .sweep = Angle::degrees(sweep_of(start, stop, middle, turn)),
+          .feed = run.active_feed(),
+          .rests = run.rests_at_end()};
+  if (!state.is_transformed) return arc_to(run, arc);
+  const double radius = distance(middle, start);
+  const double reach = distance(middle, stop);
+  const double error = std::fabs(radius - reach);
+  if (error <= std::fmax(run.options.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
+  arc.rests = false;  // the line to the end does
+  arc.to.set_raw(words.axes.first, middle.first + (stop.first - middle.first) * radius / reach);
+  arc.to.set_raw(words.axes.second, middle.second + (stop.second - middle.second) * radius / reach);
+  return arc_to(run, arc) && line_to(run, end, arc.feed);
+}
+
+/// G45 to G48 on a quarter: the radius grows or shrinks with the end.
+bool offset_arc(Run& run, ArcWords& arc, Position& end) {
+  const Flat start = flat(arc, arc.start);
+  const double sweep = sweep_of(start, flat(arc, arc.end), arc.center, arc.turn);
+  constexpr double kClose = 1e-3;
+  const bool is_quarter = std::fabs(sweep - 90) < kClose || std::fabs(sweep - 270) < kClose;
+  if (!is_quarter || run.state.is_transformed || run.block.words.has(R)) {
+    return run.fail(ErrorCode::OffsetArc, run.block.parts.g_column);
+  }
+  const Position plain = end;
+  if (!offset_target(run, end)) return false;
+  const double change = std::fabs(end.raw(arc.axes.first) - plain.raw(arc.axes.first));
+  const double way = plain.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
+  const double moved = end.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
+  const double grown = std::fabs(moved) < std::fabs(way) ? -change : change;
+  const double radius = distance(arc.center, start);
+  const double factor = (radius + grown) / radius;
+  if (!(factor > 0)) return run.fail(ErrorCode::OffsetArc, run.block.parts.g_column);
+  arc.center = {start.first + (arc.center.first - start.first) * factor,
+                start.second + (arc.center.second - start.second) * factor};
+  return true;
+}
+
+}  // namespace
+
+bool move_on_arc(Run& run) {
+  const Words& words = run.block.words;
+  const ModalState& state = run.state;
+  if (!words.has_any(kAxisWords | kCenterWords)) return true;  // R alone: end and start are one
+  if (words.has_any(kAxisWords & ~set_of(X, Y, Z))) {
+    return run.fail(ErrorCode::IllegalPlaneAxis, words.first_column(kAxisWords & ~set_of(X, Y, Z)));
+  }
+  if (state.g[kRotationGroup] == 68 && state.rotation.plane != state.plane()) {
+    return run.fail(ErrorCode::RotationPlane, words.first_column(kAxisWords | kCenterWords));
+  }
+  run.ledger.take(kAxisWords | kCenterWords | set_of(R));  // of R and I J K, R counts
+  Position end;
+  if (!read_target(run, end) || !check_feed(run)) return false;
+  ArcWords arc;
+  arc.axes = axes_of(state.plane());
+  arc.turn = state.g[kMotionGroup] == 2 ? Turn::Clockwise : Turn::Counterclockwise;
+  arc.start = program_position(run);
+  const Point3 work_end{end.raw(Axis::X) - state.origin[0], end.raw(Axis::Y) - state.origin[1],
+                        end.raw(Axis::Z) - state.origin[2]};
+  arc.end = state.is_transformed ? transform_back(state, work_end) : work_end;
+  if (words.has(R) && run.length(words[R]) != 0) {
+    if (is_same_point(flat(arc, arc.start), flat(arc, arc.end))) {
+      run.warn(WarningCode::ArcWithoutMove, words.column(R));
+      return line_to(run, end, run.active_feed());  // nothing, or the third axis alone
+    }
+    if (!center_by_radius(run, run.length(words[R]), arc)) return false;
+  } else if (words.has_any(kCenterWords)) {
+    if (!center_by_offsets(run, arc)) return false;
+  } else {
+    if (run.options.arc_needs_center) {
+      return run.fail(ErrorCode::NoRadius, words.first_column(kAxisWords));
+    }
+    run.warn(WarningCode::ArcAsLine, words.first_column(kAxisWords));
+    return line_to(run, end, run.active_feed());
+  }
+  const std::uint8_t one_shot = run.block.parts.one_shot;
+  if (one_shot >= 45 && one_shot <= 48 && !offset_arc(run, arc, end)) return false;
+  return emit(run, arc, end);
+}
+
+}  // namespace dripline::interpreter::fanuc

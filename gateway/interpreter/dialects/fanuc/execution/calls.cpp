@@ -1,0 +1,160 @@
+#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+bool refuse_two(Run& run) {
+  return run.fail(ErrorCode::ImproperCommand, 0, "two calls or ends in one block");
+}
+
+void open_call(Run& run, CallKind kind, std::uint32_t program, std::uint32_t passes) {
+  Jump& jump = run.state.jump;
+  jump = Jump{};
+  jump.kind = JumpKind::Call;
+  jump.call = kind;
+  jump.number = program;
+  jump.passes = passes;
+  jump.from = run.state.at;
+}
+
+/// P of M98: a program, with repeats before its last four digits where the form allows.
+bool plan_subprogram(Run& run, int code) {
+  const Words& words = run.block.words;
+  const CallForm form = run.options.call_form;
+  if (run.options.is_dnc && code == 198) return run.fail(ErrorCode::ExternalCall, 0);
+  if (!words.has(P)) return run.fail(ErrorCode::NoP, 0);
+  if (words.has(Q)) {
+    // Later controls begin the program at block N of this number; from its head is another part.
+    return run.fail(ErrorCode::ImproperCommand, words.column(Q),
+                    fmt::format("M{} calls a program from its head, not from a block", code));
+  }
+  const double value = run.whole(words[P]);
+  const bool takes_l = form != CallForm::EightDigits && words.has(L);
+  const bool splits = form != CallForm::L && !takes_l;
+  if (!(value >= 1 && value <= (splits ? 99'999'999 : 9999)) || value != std::trunc(value)) {
+    return run.fail(ErrorCode::NumberNotFound, words.column(P), fmt::format("P{}", value));
+  }
+  auto program = static_cast<std::uint32_t>(value);
+  std::uint32_t passes = 1;
+  if (program > 9999) {
+    passes = program / 10000;
+    program %= 10000;
+  }
+  if (takes_l) {
+    run.ledger.take(set_of(L));
+    const double repeats = run.whole(words[L]);
+    if (!(repeats >= 1 && repeats <= 9999)) {
+      return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", repeats));
+    }
+    passes = static_cast<std::uint32_t>(repeats);
+  }
+  if (program == 0) return run.fail(ErrorCode::NumberNotFound, words.column(P), "O0000");
+  open_call(run, CallKind::Subprogram, program, passes);
+  return true;
+}
+
+bool plan_return(Run& run) {
+  const Words& words = run.block.words;
+  run.block.parts.ending = Ending::Return;
+  if (words.has(L)) {
+    run.ledger.take(set_of(L));
+    const double passes = run.whole(words[L]);
+    if (!(passes >= 0 && passes <= 9999)) {
+      return run.fail(ErrorCode::TooManyDigits, words.column(L), fmt::format("L{}", passes));
+    }
+    run.block.parts.passes_left = static_cast<std::uint32_t>(passes);
+  }
+  if (!words.has(P)) return true;
+  const double value = run.whole(words[P]);
+  if (!(value >= 1 && value <= 99999)) {
+    return run.fail(ErrorCode::SequenceNotFound, words.column(P), fmt::format("P{}", value));
+  }
+  run.block.parts.ending_number = static_cast<std::uint32_t>(value);
+  return true;
+}
+
+}  // namespace
+
+bool plan_flow_of_m_codes(Run& run) {
+  Block& block = run.block;
+  for (std::size_t i = 0; i < block.parts.m_count; ++i) {
+    const int code = block.m[i];
+    const bool is_flow = code == 2 || code == 30 || code == 98 || code == 99 || code == 198;
+    if (!is_flow) {
+      if (code == 199 && run.options.is_dnc) return run.fail(ErrorCode::ExternalCall, 0);
+      continue;
+    }
+    if (block.parts.ending != Ending::None || run.state.jump.kind != JumpKind::None) {
+      return refuse_two(run);
+    }
+    if (code == 98 || code == 198) {
+      if (!plan_subprogram(run, code)) return false;
+    } else if (code == 99) {
+      if (!plan_return(run)) return false;
+    } else {
+      block.parts.ending = Ending::EndOfProgram;
+      block.parts.rewinds = code == 30;
+    }
+  }
+  return true;
+}
+
+bool plan_macro_call(Run& run) {
+  ModalState& state = run.state;
+  const Block::Parts& parts = run.block.parts;
+  if (!parts.has_call_program) {
+    const bool is_macro_a = run.options.model == Model::M0;
+    return is_macro_a ? run.fail(ErrorCode::ImproperG, parts.g_column, "MACRO A")
+                      : run.fail(ErrorCode::NoP, parts.g_column);
+  }
+  Locals arguments;
+  if (!assign_arguments(run, arguments)) return false;
+  if (parts.call == CallKind::Code && parts.variable != 0) {
+    if (!write_variable(run, parts.variable, parts.g_column, parts.value)) return false;
+  }
+  if (!parts.is_modal_call) {
+    open_call(run, parts.call, parts.call_program, parts.call_passes);
+    state.jump.arguments = arguments;
+    return true;
+  }
+  if (state.modals.size() == kMaxModalCalls) {
+    return run.fail(ErrorCode::TooManyModalCalls, parts.g_column);
+  }
+  state.modals.push_back({parts.call_program, parts.call_passes, state.modal_active, arguments});
+  state.modal_active = static_cast<std::int8_t>(state.modals.size() - 1);
+  run.update_special();
+  return true;
+}
+
+void cancel_modal_call(Run& run) {
+  ModalState& state = run.state;
+  if (state.modal_active < 0) return;
+  const auto macro =
+      std::find_if(state.calls.rbegin(), state.calls.rend(),
+                   [](const CallFrame& frame) { return frame.kind != CallKind::Subprogram; });
+  const std::size_t floor = macro == state.calls.rend() ? 0 : macro->modal_count;
+  state.modal_active = state.modals[static_cast<std::size_t>(state.modal_active)].outer;
+  if (state.modals.size() > floor) state.modals.pop_back();
+  run.update_special();
+}
+
+bool plan_modal_call(Run& run) {
+  ModalState& state = run.state;
+  if (state.modal_active < 0 || !run.block.parts.has_motion) [[likely]]
+    return true;
+  if (state.jump.kind != JumpKind::None || run.block.parts.ending != Ending::None) return true;
+  const ModalCall& call = state.modals[static_cast<std::size_t>(state.modal_active)];
+  open_call(run, CallKind::Modal, call.program, call.passes);
+  state.jump.arguments = call.arguments;
+  state.jump.modal = state.modal_active;
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,172 @@
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr std::array<Address, kAxisCount> kWordOfAxis{X, Y, Z, A, B, C, U, V, W};
+
+/// `use(index, value)` for every axis word of the block.
+template <class Use>
+void each_axis_word(const Run& run, Use use) {
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const Address address = kWordOfAxis[i];
+    if (run.block.words.has(address)) {
+      use(i, run.coordinate(static_cast<Axis>(i), run.block.words[address]));
+    }
+  }
+}
+
+bool refuse_transformed(Run& run, ErrorCode code) {
+  return run.fail(code, run.block.parts.g_column);
+}
+
+/// G10 L2 and L20: zero offsets.
+bool set_work_offset(Run& run, bool more) {
+  const Words& words = run.block.words;
+  if (!words.has(P)) return run.fail(ErrorCode::IllegalPInG10, run.block.parts.g_column, "no P");
+  const double number = run.whole(words[P]);
+  const double most = more ? kMoreWorkCount : 6;
+  if (!(number >= (more ? 1 : 0) && number <= most)) {
+    return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("P{}", number));
+  }
+  const auto system = static_cast<std::size_t>(number) + (more ? 6 : 0);
+  AxisValues& offset = run.memory.coordinates.work[system];
+  const bool adds = run.state.is_incremental();
+  each_axis_word(
+      run, [&](std::size_t i, double value) { offset[i] = adds ? offset[i] + value : value; });
+  interrupt_compensation(run);
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+/// A code of the block that has a use of its own for P.
+bool has_other_user_of_p(const Block& block) {
+  const Block::Parts& parts = block.parts;
+  if (parts.one_shot == 4 || parts.one_shot == 10 || parts.one_shot == 30) return true;
+  if (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) return true;
+  if (block.names(kSpindleGroup) && block.g[kSpindleGroup] == 96) return true;
+  if (block.names(kCycleGroup) && block.g[kCycleGroup] != 80) return true;
+  return std::any_of(block.m.begin(), block.m.begin() + parts.m_count,
+                     [](int code) { return code == 98 || code == 99 || code == 198; });
+}
+
+/// G54 P is G54.1 P where the control has those systems. A block in which P could be another
+/// code's as well is not guessed at.
+bool read_page(Run& run, std::uint8_t& code) {
+  Block& block = run.block;
+  const Words& words = block.words;
+  const bool has_pages = run.options.model >= Model::M11;
+  if (code == kMoreWorkSystems && !has_pages) {
+    return run.fail(ErrorCode::ImproperG, block.parts.g_column, "G54.1 on this model");
+  }
+  if ((code != kMoreWorkSystems && code != 54) || !words.has(P)) return true;
+  const double number = run.whole(words[P]);
+  if (has_other_user_of_p(block)) {
+    if (code == 54 && (!has_pages || number > kMoreWorkCount)) return true;
+    return run.fail(ErrorCode::ImproperCommand, words.column(P),
+                    fmt::format("P{} is of G54 as well as of another code", number));
+  }
+  if (!has_pages) {
+    if (run.state.is_cycle()) return true;
+    return run.fail(ErrorCode::ImproperCommand, words.column(P), "G54 takes no P on this model");
+  }
+  block.parts.p_is_work_system = true;
+  code = kMoreWorkSystems;
+  return true;
+}
+
+}  // namespace
+
+bool select_work_system(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  std::uint8_t code = run.block.g[kWorkGroup];
+  if (state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  if (!read_page(run, code)) return false;
+  if (code == kMoreWorkSystems) {
+    const double number = words.has(P) ? run.whole(words[P]) : 1;
+    if (!(number >= 1 && number <= kMoreWorkCount)) {
+      return run.fail(ErrorCode::IllegalPInG10, words.column(P), fmt::format("G54.1 P{}", number));
+    }
+    run.memory.coordinates.more_work = static_cast<int>(number);
+  }
+  interrupt_compensation(run);
+  state.g[kWorkGroup] = code;
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_local_zero(Run& run) {
+  run.ledger.take(kAxisWords);
+  if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+  interrupt_compensation(run);
+  each_axis_word(run,
+                 [&](std::size_t i, double value) { run.memory.coordinates.local[i] = value; });
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_position(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  if (!words.has_any(kAxisWords)) return true;  // G92 S
+  run.ledger.take(kAxisWords);
+  if (state.is_transformed) return refuse_transformed(run, ErrorCode::PositionUnderTransform);
+  interrupt_compensation(run);
+  Coordinates& all = run.memory.coordinates;
+  each_axis_word(run, [&](std::size_t i, double value) {
+    const auto axis = static_cast<Axis>(i);
+    // The local zero of the axis goes; what is left makes this place `value`. Positions leave the
+    // tool's length out already, so that they are those of the tip.
+    const double without = state.origin[i] - all.shift[i] - all.local[i];
+    all.local[i] = 0;
+    all.shift[i] = state.position.raw(axis) - without - value;
+  });
+  run.update_origin();
+  resume_compensation(run);
+  return true;
+}
+
+bool set_data(Run& run) {
+  const Words& words = run.block.words;
+  const double list = words.has(L) ? run.whole(words[L]) : 1;
+  if (list == 2 || list == 20) {
+    if (run.state.is_transformed) return refuse_transformed(run, ErrorCode::RotationOffset);
+    run.ledger.take(kAxisWords | set_of(L));
+    return set_work_offset(run, list == 20);
+  }
+  run.ledger.take(set_of(L, R));
+  if (list == 1 || (list >= 10 && list <= 13)) return set_offset_data(run, static_cast<int>(list));
+  return run.fail(ErrorCode::IllegalPInG10, words.column(L), fmt::format("G10 L{}", list));
+}
+
+bool set_stroke_zone(Run& run) {
+  ModalState& state = run.state;
+  const std::uint8_t code = run.block.g[kStrokeGroup];
+  state.g[kStrokeGroup] = code;
+  state.zone.is_on = false;
+  if (code == 23) return true;
+  run.ledger.take(set_of(X, Y, Z, I, J, K));
+  constexpr std::array<Address, 3> kOneCorner{X, Y, Z};
+  constexpr std::array<Address, 3> kOther{I, J, K};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Words& words = run.block.words;
+    if (words.has(kOneCorner[i])) state.zone.high[i] = run.length(words[kOneCorner[i]]);
+    if (words.has(kOther[i])) state.zone.low[i] = run.length(words[kOther[i]]);
+    if (state.zone.low[i] > state.zone.high[i]) std::swap(state.zone.low[i], state.zone.high[i]);
+  }
+  state.zone.is_on = state.zone.has_volume();
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

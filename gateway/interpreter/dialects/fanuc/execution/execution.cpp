@@ -1,0 +1,313 @@
+#include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
+
+#include <fmt/format.h>
+#include <bit>
+
+#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/cycles/hole_cycles.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/reference.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+void change_units(Run& run) {
+  ModalState& state = run.state;
+  const Units units = state.g[kUnitsGroup] == 20 ? Units::Inch : Units::Millimetre;
+  if (units == state.units) return;
+  state.units = units;
+  run.update_increments();
+  if (state.has_header) run.events().on_units({run.origin, units});
+}
+
+/// A group 01 and a group 09 code end or begin the mode of hole cycles; of both the later counts.
+void apply_motion_groups(Run& run) {
+  Block& block = run.block;
+  ModalState& state = run.state;
+  const bool names_cycle = block.names(kCycleGroup);
+  const bool names_motion = block.names(kMotionGroup);
+  const bool ends_cycle = names_cycle && block.g[kCycleGroup] == 80;
+  if (names_motion &&
+      (!names_cycle || ends_cycle || block.parts.last_motion_group == kMotionGroup)) {
+    state.g[kMotionGroup] = block.g[kMotionGroup];
+    state.g[kCycleGroup] = 80;
+    state.is_rigid_tapping = false;
+    return;
+  }
+  if (!names_cycle) return;
+  const bool was_on = state.is_cycle();
+  state.g[kCycleGroup] = block.g[kCycleGroup];
+  if (ends_cycle) state.is_rigid_tapping = false;
+  block.parts.begins_cycle = !was_on && state.is_cycle();
+}
+
+/// Codes that only set what later words mean.
+bool apply_modes(Run& run) {
+  const Block& block = run.block;
+  ModalState& state = run.state;
+  constexpr std::uint32_t kPlain = 1u << kDistanceGroup | 1u << kFeedGroup | 1u << kReturnGroup |
+                                   1u << kSpindleGroup | 1u << kPathGroup | 1u << kUnitsGroup |
+                                   1u << kPolarGroup;
+  for (std::uint32_t left = block.parts.groups & kPlain; left != 0; left &= left - 1) {
+    const auto group = static_cast<std::size_t>(std::countr_zero(left));
+    state.g[group] = block.g[group];
+  }
+  if (block.names(kUnitsGroup)) change_units(run);
+  if (block.names(kPathGroup)) show_override_inhibit(run);
+  if (block.names(kPolarGroup)) state.polar_angle = 0;
+  if (block.names(kPlaneGroup)) {
+    if (state.is_compensating() && state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
+      return run.fail(ErrorCode::PlaneInCompensation, block.parts.g_column);
+    }
+    if (state.g[kRotationGroup] == 68 && state.g[kPlaneGroup] != block.g[kPlaneGroup] &&
+        !(block.names(kRotationGroup) && block.g[kRotationGroup] == 69)) {
+      return run.fail(ErrorCode::RotationPlane, block.parts.g_column);
+    }
+    // Z of the holes before would become the depth along another axis.
+    if (state.is_cycle() && !block.parts.begins_cycle &&
+        state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
+      return run.fail(ErrorCode::IllegalPlane, block.parts.g_column,
+                      "a hole cycle is cancelled before its axis changes");
+    }
+    state.g[kPlaneGroup] = block.g[kPlaneGroup];
+  }
+  const bool is_thread =
+      block.names(kMotionGroup) ? block.g[kMotionGroup] == 33 : state.g[kMotionGroup] == 33;
+  if (is_thread) {
+    apply_lead(run);
+  } else if (!apply_feed(run)) {
+    return false;
+  }
+  return apply_speed(run);
+}
+
+/// Coordinates, transformations, offsets.
+bool apply_frames(Run& run) {
+  const Block& block = run.block;
+  if (block.names(kWorkGroup) && !select_work_system(run)) return false;
+  if (block.names(kStrokeGroup) && !set_stroke_zone(run)) return false;
+  if (block.names(kScalingGroup) && !apply_scaling(run)) return false;
+  if (block.names(kRotationGroup) && !apply_rotation(run)) return false;
+  if (!apply_length_offset(run)) return false;
+  if (!apply_compensation(run)) return false;
+  // Its level is one of the plane and the coordinates that the block itself selects.
+  if (block.parts.begins_cycle) begin_cycle_mode(run);
+  return true;
+}
+
+/// Whether the axis words of the block are data, not a move.
+bool words_are_data(const Block& block) {
+  return (block.names(kStrokeGroup) && block.g[kStrokeGroup] == 22) ||
+         (block.names(kScalingGroup) && block.g[kScalingGroup] == 51) ||
+         (block.names(kRotationGroup) && block.g[kRotationGroup] == 68);
+}
+
+bool dwell(Run& run) {
+  const Words& words = run.block.words;
+  double seconds = 0;
+  std::uint32_t column = 0;
+  if (words.has(X) || words.has(U)) {
+    const Word& word = words[words.has(X) ? X : U];
+    run.ledger.take(set_of(words.has(X) ? X : U));
+    const bool counts = word.form == WordForm::Whole && !run.options.calculator_point;
+    seconds = counts ? word.value / 1000 : word.value;
+    column = word.column;
+  } else if (words.has(P)) {
+    seconds = run.whole(words[P]) / 1000;
+    column = words.column(P);
+  }
+  if (!(seconds >= 0 && seconds <= 99999.999)) {
+    return run.fail(seconds < 0 ? ErrorCode::NegativeSign : ErrorCode::TooManyDigits, column);
+  }
+  if (seconds > 0) {
+    run.state.limits = {};
+    run.events().on_dwell({run.origin, seconds, {}});
+  }
+  return true;
+}
+
+/// G07: 0 makes an axis imaginary, anything else makes it real again.
+bool set_imaginary(Run& run) {
+  ModalState& state = run.state;
+  for (const Axis axis : kAllAxes) {
+    const AddressSet set = set_of_axis(axis);
+    if (!run.block.words.has_any(set)) continue;
+    run.ledger.take(set);
+    const auto i = static_cast<std::size_t>(axis);
+    const auto address = static_cast<Address>(std::countr_zero(set));
+    const bool was_on = (state.imaginary >> i & 1u) != 0;
+    const bool is_on = run.block.words[address].value == 0;
+    if (is_on && !was_on) state.held[i] = state.position.raw(axis);
+    if (!is_on && was_on) state.position.set_raw(axis, state.held[i]);
+    state.imaginary = static_cast<std::uint16_t>(is_on ? state.imaginary | 1u << i
+                                                       : state.imaginary & ~(1u << i));
+  }
+  return true;
+}
+
+/// G05 P, G05.1 Q and G08 P prepare the control for many short blocks, and change no path. What
+/// else these codes do with other numbers (cycles from binary data, smoothing) is not known here.
+bool set_look_ahead(Run& run) {
+  const Block& block = run.block;
+  const Words& words = block.words;
+  const std::uint8_t code = block.parts.one_shot;
+  const Address address = code == kContourControl ? Q : P;
+  const std::string_view name = code == kContourControl ? "G05.1" : code == 5 ? "G05" : "G08";
+  const double on = code == 5 ? 10000 : 1;
+  const double value = words.has(address) ? run.whole(words[address]) : -1;
+  run.ledger.take(set_of(address));
+  if (value != 0 && value != on) {
+    return run.fail(
+        ErrorCode::ImproperG, block.parts.g_column,
+        fmt::format("{} with {}0 or {}{} only", name, letter(address), letter(address), on));
+  }
+  if (words.has_any(kAxisWords)) {
+    return run.fail(ErrorCode::ImproperCommand, words.first_column(kAxisWords),
+                    fmt::format("a move beside {}", name));
+  }
+  run.warn(WarningCode::LookAhead, block.parts.g_column);
+  return true;
+}
+
+bool execute_one_shot(Run& run) {
+  Block& block = run.block;
+  switch (block.parts.one_shot) {
+    case 4:
+      return dwell(run);
+    case 5:
+    case 8:
+    case kContourControl:
+      return set_look_ahead(run);
+    case 7:
+      return set_imaginary(run);
+    case 10:
+      return set_data(run);
+    case 11:
+      return true;
+    case 27:
+    case 28:
+    case 29:
+    case 30:
+      block.parts.has_motion = block.words.has_any(kAxisWords);
+      if (!execute_reference(run)) return false;
+      resume_compensation(run);
+      return true;
+    case 31:
+      block.parts.has_motion = block.words.has_any(kAxisWords);
+      if (run.state.is_cycle())
+        return run.fail(ErrorCode::HomeInCycle, block.parts.g_column, "G31");
+      return start_skip(run);
+    case 39:
+      run.ledger.take(kCenterWords);
+      return round_corner(run);
+    case 52:
+      return set_local_zero(run);
+    case 53:
+      block.parts.has_motion = block.words.has_any(kAxisWords);
+      interrupt_compensation(run);
+      if (!move_in_machine_coordinates(run)) return false;
+      resume_compensation(run);
+      return true;
+    default:
+      return set_position(run);  // 92
+  }
+}
+
+bool is_data_code(std::uint8_t one_shot) {
+  switch (one_shot) {
+    case Block::kNoCode:
+    case 9:
+    case 45:
+    case 46:
+    case 47:
+    case 48:
+    case 60:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool execute_motion(Run& run) {
+  Block& block = run.block;
+  if (is_data_code(block.parts.one_shot)) return execute_one_shot(run);
+  if (words_are_data(block)) {
+    run.ledger.take_all();
+    return true;
+  }
+  if (run.state.is_cycle()) {
+    block.parts.has_motion = block.words.has_any(kAxisWords | set_of(R));
+    return execute_cycle(run);
+  }
+  block.parts.has_motion = block.words.has_any(kAxisWords | kCenterWords);
+  return move(run);
+}
+
+bool execute_nc(Run& run) {
+  Block::Parts& parts = run.block.parts;
+  if (parts.stage == Stage::Execution) {
+    if (const Answer* answer = run.next_answer()) {
+      finish_skip(run, std::get<ProbeResult>(*answer));
+    } else {
+      apply_motion_groups(run);
+      if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
+      if (!execute_motion(run)) return false;
+    }
+    run.update_special();
+    parts.stage = Stage::AfterMove;
+  }
+  if (run.block.names(kModalCallGroup) && run.block.g[kModalCallGroup] == 67)
+    cancel_modal_call(run);
+  if (parts.m_count == 0) [[likely]]
+    return plan_modal_call(run);
+  return apply_after_motion(run) && plan_flow_of_m_codes(run) && plan_modal_call(run);
+}
+
+/// The codes before G65 and G66 act; the rest are arguments.
+bool execute_call(Run& run) {
+  run.block.parts.one_shot = Block::kNoCode;
+  apply_motion_groups(run);
+  if (!apply_modes(run) || !apply_before_motion(run) || !apply_frames(run)) return false;
+  run.update_special();
+  return plan_macro_call(run);
+}
+
+}  // namespace
+
+void open_ledger(Run& run) {
+  constexpr AddressSet kOwed = kAxisWords | kCenterWords | set_of(L, Q, R);
+  const bool has_data = run.block.parts.kind == BlockKind::Nc;
+  run.ledger.open(has_data ? run.block.words.present() & kOwed : 0);
+}
+
+bool report_left_words(Run& run) {
+  const auto left = static_cast<AddressSet>(run.ledger.left());
+  const std::string text = language::listed(left, [&](std::size_t i) {
+    const auto address = static_cast<Address>(i);
+    return fmt::format("{}{}", letter(address), run.block.words[address].value);
+  });
+  const std::uint32_t column = run.block.words.first_column(left);
+  if ((left & kAxisWords) != 0) return run.fail(ErrorCode::UnusedAxis, column, text);
+  run.warn(WarningCode::UnusedWord, column, text);
+  return true;
+}
+
+bool execute_block(Run& run) {
+  switch (run.block.parts.kind) {
+    case BlockKind::Nc:
+      return execute_nc(run);
+    case BlockKind::Macro:
+      return execute_statement(run);
+    case BlockKind::Call:
+      break;
+  }
+  return execute_call(run);
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+
+/// Where a block's words lead, and G00, G01, G31, G33, G53, G60.
+namespace dripline::interpreter::fanuc {
+
+/// From the words, the distance mode and all transformations, in machine coordinates; named axes
+/// are marked. False: alarm 003 or 143.
+bool read_target(Run& run, Position& to);
+/// A point of program coordinates as a machine position; other axes stay.
+Position machine_point(const Run& run, const Point3& point);
+
+/// A block of nothing but axis words and F while nothing special is in force.
+bool execute_plain(Run& run);
+/// Moves as the active code of group 01 says.
+bool move(Run& run);
+/// Rapid to `to`, from one direction when the block says G60.
+bool position_to(Run& run, const Position& to);
+bool move_in_machine_coordinates(Run& run);
+/// G45 to G48: lengthens or shortens the way.
+bool offset_target(Run& run, Position& to);
+/// Asks; the answer comes to finish_skip.
+bool start_skip(Run& run);
+void finish_skip(Run& run, const ProbeResult& result);
+
+/// F of the block, before anything else.
+bool apply_feed(Run& run);
+/// F of a block in G33: the lead, a length whatever the feed mode.
+void apply_lead(Run& run);
+bool check_feed(Run& run);
+
+/// G02, G03; arcs.cpp.
+bool move_on_arc(Run& run);
+
+}  // namespace dripline::interpreter::fanuc

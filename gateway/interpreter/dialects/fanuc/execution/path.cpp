@@ -1,0 +1,172 @@
+#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+/// Pieces of an arc that is made of straight moves, at most this many degrees each.
+constexpr double kPieceDegrees = 5;
+
+bool is_imaginary(const ModalState& state, Axis axis) {
+  return (state.imaginary >> static_cast<unsigned>(axis) & 1u) != 0;
+}
+
+/// Imaginary axes stay where they are.
+Position held(const ModalState& state, Position to) {
+  for (const Axis axis : kAllAxes) {
+    if (!is_imaginary(state, axis)) continue;
+    to.set_raw(axis, state.held[static_cast<std::size_t>(axis)]);
+    if (!state.position.has(axis)) to.unmark(axis);
+  }
+  return to;
+}
+
+bool same_place(const Position& a, const Position& b) {
+  return a.same_point(b);
+}
+
+bool is_limited(const Run& run) {
+  return run.options.has_limits || run.state.zone.is_on;
+}
+
+/// The part of the way that lies within the box, by clipping axis after axis.
+bool crosses(const StrokeZone& zone, const Position& from, const Position& to) {
+  double begin = 0;
+  double end = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const double start = from.raw(axis);
+    const double way = to.raw(axis) - start;
+    if (way == 0) {
+      if (start <= zone.low[i] || start >= zone.high[i]) return false;
+      continue;
+    }
+    double enter = (zone.low[i] - start) / way;
+    double leave = (zone.high[i] - start) / way;
+    if (enter > leave) std::swap(enter, leave);
+    begin = std::max(begin, enter);
+    end = std::min(end, leave);
+    if (begin >= end) return false;
+  }
+  return true;
+}
+
+bool check_way(Run& run, const Position& from, const Position& to) {
+  const ControlOptions& options = run.options;
+  for (std::size_t i = 0; options.has_limits && i < 3; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const double at = to.raw(axis);
+    if (at >= options.limit_low[i] && at <= options.limit_high[i]) continue;
+    return run.fail(ErrorCode::OverTravel, 0,
+                    fmt::format("{} {} is beyond stroke limit 1", letter(axis), at));
+  }
+  if (run.state.zone.is_on && crosses(run.state.zone, from, to)) {
+    return run.fail(ErrorCode::OverTravel, 0, "the way enters the zone of G22");
+  }
+  return true;
+}
+
+bool check_arc(Run& run, const Arc& arc) {
+  Position from = run.state.position;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(arc.sweep.degrees() / kPieceDegrees)));
+  for (int piece = 1; piece <= pieces; ++piece) {
+    const Position to = point_on_arc(arc, run.state.position, arc.sweep.degrees() * piece / pieces);
+    if (!check_way(run, from, to)) return false;
+    from = to;
+  }
+  return true;
+}
+
+/// An arc in which an axis is imaginary: straight pieces.
+void pieces_of_arc(Run& run, const Arc& arc) {
+  const Position start = run.state.position;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(arc.sweep.degrees() / kPieceDegrees)));
+  Position last = held(run.state, start);
+  for (int piece = 1; piece <= pieces; ++piece) {
+    const double degrees = arc.sweep.degrees() * piece / pieces;
+    Position to = held(run.state, piece == pieces ? arc.to : point_on_arc(arc, start, degrees));
+    const bool rests = arc.rests && piece == pieces;
+    if (!same_place(last, to)) run.events().on_line({run.origin, to, arc.feed, rests});
+    last = to;
+  }
+  arrive(run, arc.to);
+}
+
+}  // namespace
+
+Position point_on_arc(const Arc& arc, const Position& from, double degrees) {
+  const PlaneAxes axes = axes_of(arc.plane);
+  const double turn = (arc.turn == Turn::Clockwise ? -degrees : degrees) * (Angle::kPi / 180.0);
+  const double first = from.raw(axes.first) - arc.center_first.mm();
+  const double second = from.raw(axes.second) - arc.center_second.mm();
+  Position point = arc.to;
+  point.set_raw(axes.first,
+                arc.center_first.mm() + first * std::cos(turn) - second * std::sin(turn));
+  point.set_raw(axes.second,
+                arc.center_second.mm() + first * std::sin(turn) + second * std::cos(turn));
+  const double part = arc.sweep.degrees() == 0 ? 1 : degrees / arc.sweep.degrees();
+  const double height = from.raw(axes.normal);
+  if (arc.to.raw(axes.normal) != height) {
+    point.set_raw(axes.normal, height + part * (arc.to.raw(axes.normal) - height));
+  }
+  return point;
+}
+
+bool check_stroke(Run& run, const Position& to) {
+  return !is_limited(run) || check_way(run, run.state.position, to);
+}
+
+bool rapid_to(Run& run, const Position& to) {
+  if (same_place(run.state.position, to)) return true;
+  if (is_limited(run) && !check_way(run, run.state.position, to)) return false;
+  run.events().on_rapid({run.origin, to});
+  for (const Axis axis : kAllAxes) {
+    if (is_imaginary(run.state, axis)) {
+      run.state.held[static_cast<std::size_t>(axis)] = to.raw(axis);
+    }
+  }
+  arrive(run, to);
+  return true;
+}
+
+bool line_to(Run& run, const Position& to, const Feed& feed) {
+  if (same_place(run.state.position, to)) return true;
+  if (is_limited(run) && !check_way(run, run.state.position, to)) return false;
+  if (run.state.imaginary != 0) [[unlikely]] {
+    const Position from = held(run.state, run.state.position);
+    const Position real = held(run.state, to);
+    if (!same_place(from, real)) {
+      run.events().on_line({run.origin, real, feed, run.rests_at_end()});
+    }
+  } else {
+    run.events().on_line({run.origin, to, feed, run.rests_at_end()});
+  }
+  arrive(run, to);
+  return true;
+}
+
+bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start) {
+  if (same_place(run.state.position, to)) return true;
+  if (!check_stroke(run, to)) return false;
+  run.events().on_thread({run.origin, to, lead, start});
+  arrive(run, to);
+  return true;
+}
+
+bool arc_to(Run& run, const Arc& arc) {
+  if (is_limited(run) && !check_arc(run, arc)) return false;
+  if (run.state.imaginary != 0) {
+    pieces_of_arc(run, arc);
+    return true;
+  }
+  run.events().on_arc(arc);
+  arrive(run, arc.to);
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,177 @@
+#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/language/expression.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kLeastFactor = 0.001;
+constexpr double kMaxFactor = 999.999;
+
+std::size_t place(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+
+void rotate(const Rotation& rotation, double sine, Point3& point) {
+  const PlaneAxes axes = axes_of(rotation.plane);
+  const double first = point[place(axes.first)] - rotation.first;
+  const double second = point[place(axes.second)] - rotation.second;
+  point[place(axes.first)] = rotation.first + first * rotation.cosine - second * sine;
+  point[place(axes.second)] = rotation.second + first * sine + second * rotation.cosine;
+}
+
+/// P and I J K: thousandths without a point.
+bool read_factor(Run& run, Address address, double& factor) {
+  const Word& word = run.block.words[address];
+  factor = word.form == WordForm::Whole ? word.value / 1000 : word.value;
+  const double size = std::fabs(factor);
+  if (size >= kLeastFactor && size <= kMaxFactor) return true;
+  return run.fail(ErrorCode::IllegalScale, word.column,
+                  fmt::format("{} is not {} to {}", size, kLeastFactor, kMaxFactor));
+}
+
+void update_transformed(Run& run) {
+  ModalState& state = run.state;
+  state.is_transformed = state.g[kScalingGroup] == 51 || state.g[kRotationGroup] == 68;
+  ++run.frame_changes;
+}
+
+bool begin_scaling(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  if (state.is_compensating())
+    return run.fail(ErrorCode::ScalingInCompensation, run.block.parts.g_column);
+  const Point3 present = program_position(run);
+  Scaling scaling;
+  constexpr std::array<Address, 3> kCenter{X, Y, Z};
+  constexpr std::array<Address, 3> kFactors{I, J, K};
+  double all = run.options.scale_default;
+  if (words.has(P) && !read_factor(run, P, all)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    scaling.center[i] = words.has(kCenter[i]) ? run.length(words[kCenter[i]]) : present[i];
+    scaling.factor[i] = all;
+    if (words.has_any(kCenterWords)) scaling.factor[i] = run.options.scale_default;
+    if (words.has(kFactors[i]) && !read_factor(run, kFactors[i], scaling.factor[i])) return false;
+  }
+  state.scaling = scaling;
+  return true;
+}
+
+bool begin_rotation(Run& run) {
+  ModalState& state = run.state;
+  const Words& words = run.block.words;
+  const bool was_on = state.g[kRotationGroup] == 68;
+  const PlaneAxes axes = axes_of(state.plane());
+  if (was_on && state.rotation.plane != state.plane()) {
+    return run.fail(ErrorCode::RotationPlane, run.block.parts.g_column);
+  }
+  const Point3 present = program_position(run);
+  constexpr std::array<Address, 3> kCenter{X, Y, Z};
+  // Under scaling the center is scaled as any point is; a mirror image turns the other way.
+  const auto center = [&](Axis axis) {
+    const std::size_t i = place(axis);
+    const Address address = kCenter[i];
+    const double at = words.has(address) ? run.length(words[address]) : present[i];
+    if (state.g[kScalingGroup] != 51) return at;
+    return state.scaling.center[i] + state.scaling.factor[i] * (at - state.scaling.center[i]);
+  };
+  Rotation rotation;
+  rotation.plane = state.plane();
+  rotation.first = center(axes.first);
+  rotation.second = center(axes.second);
+  rotation.degrees = words.has(R) ? run.angle(words[R]) : run.options.rotate_default;
+  if (!(std::fabs(rotation.degrees) <= 360)) {
+    return run.fail(ErrorCode::TooManyDigits, words.column(R), "R is beyond 360 degrees");
+  }
+  if (was_on && state.is_incremental() && run.options.rotate_incremental) {
+    rotation.degrees += state.rotation.degrees;
+  }
+  if (is_plane_mirrored(state, state.plane())) rotation.degrees = -rotation.degrees;
+  rotation.sine = language::sine(rotation.degrees).value;
+  rotation.cosine = language::cosine(rotation.degrees).value;
+  state.rotation = rotation;
+  return true;
+}
+
+}  // namespace
+
+Point3 transform(const ModalState& state, Point3 point) {
+  if (state.g[kScalingGroup] == 51) {
+    const Scaling& scaling = state.scaling;
+    for (std::size_t i = 0; i < 3; ++i) {
+      point[i] = scaling.center[i] + scaling.factor[i] * (point[i] - scaling.center[i]);
+    }
+  }
+  if (state.g[kRotationGroup] == 68) rotate(state.rotation, state.rotation.sine, point);
+  return point;
+}
+
+Point3 transform_back(const ModalState& state, Point3 point) {
+  if (state.g[kRotationGroup] == 68) rotate(state.rotation, -state.rotation.sine, point);
+  if (state.g[kScalingGroup] == 51) {
+    const Scaling& scaling = state.scaling;
+    for (std::size_t i = 0; i < 3; ++i) {
+      point[i] = scaling.center[i] + (point[i] - scaling.center[i]) / scaling.factor[i];
+    }
+  }
+  return point;
+}
+
+Point3 program_position(const Run& run) {
+  const Point3 work{run.work_position(Axis::X), run.work_position(Axis::Y),
+                    run.work_position(Axis::Z)};
+  return run.state.is_transformed ? transform_back(run.state, work) : work;
+}
+
+CoordinateFrame frame_of(const Run& run) {
+  const ModalState& state = run.state;
+  const Coordinates& all = run.memory.coordinates;
+  CoordinateFrame frame;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    frame.datum[i] = all.work[run.work_system()][i] + all.work[0][i];
+    frame.shift[i] = all.shift[i] + all.local[i];
+  }
+  if (!state.is_transformed) {
+    frame.learn_offset(state.origin);
+    return frame;
+  }
+  if (state.g[kRotationGroup] == 68) frame.rotation = state.rotation.degrees;
+  for (std::size_t i = 0; i < 3 && state.g[kScalingGroup] == 51; ++i) {
+    frame.scale[i] = std::fabs(state.scaling.factor[i]);
+    frame.mirrored[i] = state.scaling.factor[i] < 0;
+  }
+  frame.learn([&state](CoordinateFrame::Values at) {
+    for (std::size_t i = 0; i < kAxisCount; ++i) at[i] -= state.origin[i];
+    const Point3 back = transform_back(state, {at[0], at[1], at[2]});
+    std::copy(back.begin(), back.end(), at.begin());
+    return at;
+  });
+  return frame;
+}
+
+bool is_plane_mirrored(const ModalState& state, Plane plane) {
+  if (state.g[kScalingGroup] != 51) return false;
+  const PlaneAxes axes = axes_of(plane);
+  return (state.scaling.factor[place(axes.first)] < 0) !=
+         (state.scaling.factor[place(axes.second)] < 0);
+}
+
+bool apply_scaling(Run& run) {
+  if (run.block.g[kScalingGroup] == 51 && !begin_scaling(run)) return false;
+  run.state.g[kScalingGroup] = run.block.g[kScalingGroup];
+  update_transformed(run);
+  return true;
+}
+
+bool apply_rotation(Run& run) {
+  if (run.block.g[kRotationGroup] == 68 && !begin_rotation(run)) return false;
+  run.state.g[kRotationGroup] = run.block.g[kRotationGroup];
+  update_transformed(run);
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,257 @@
+#include "gateway/interpreter/dialects/fanuc/interpreter.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
+#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::fanuc {
+FanucInterpreter::FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
+                                   ProgramSource& source, EventSink& sink)
+    : run_(std::move(options), source, sink), search_(run_) {
+  run_.state = std::move(state);
+  run_.memory = memory;
+  run_.update_increments();
+  run_.update_origin();
+  run_.update_special();
+}
+
+StepState FanucInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  run_.text.forget();  // its text was good only until the owner used the source
+  for (std::uint64_t left = max_blocks; left > 0;) {
+    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+      const JumpOutcome outcome = take_jump(run_, search_);
+      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
+      if (outcome == JumpOutcome::More) return StepState::Ran;
+      if (outcome == JumpOutcome::Failed) return paused();
+    }
+    switch (run_block()) {
+      case BlockOutcome::Finished:
+        --left;
+        break;
+      case BlockOutcome::NoBlock:
+        break;
+      case BlockOutcome::NeedsText:
+        return StepState::NeedsText;
+      case BlockOutcome::Paused:
+        return paused();
+    }
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+      return StepState::Ended;
+  }
+  return StepState::Ran;
+}
+
+StepState FanucInterpreter::paused() {
+  if (run_.pause == Pause::Question) {
+    run_.pause = Pause::None;
+    is_asking_ = true;
+    return StepState::NeedsAnswer;
+  }
+  run_.pause = Pause::None;
+  run_.events().on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+FanucInterpreter::BlockOutcome FanucInterpreter::run_block() {
+  const bool is_new = run_.block.parts.stage == Stage::Start;
+  const TextCursor::State loaded = run_.text.load(run_.state.at);
+  if (loaded != TextCursor::State::Ready) [[unlikely]]
+    return meet_line_state(loaded);
+  if (is_new) {
+    const BlockOutcome outcome = read();
+    if (outcome != BlockOutcome::Finished) [[unlikely]]
+      return outcome;
+  } else {
+    run_.answers_used = answers_of_reading_;
+  }
+  if (is_plain()) [[likely]] {
+    if (!execute_plain(run_)) return BlockOutcome::Paused;
+  } else {
+    if (is_new) open_ledger(run_);
+    if (!execute_block(run_)) return BlockOutcome::Paused;
+    if (run_.ledger.left() != 0 && !report_left_words(run_)) [[unlikely]]
+      return BlockOutcome::Paused;
+  }
+  return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
+}
+
+/// Nothing but G00 to G03, the words of a move and F, and no mode that makes more of them.
+bool FanucInterpreter::is_plain() const {
+  constexpr AddressSet kLineWords = kAxisWords | set_of(F, N);
+  constexpr AddressSet kArcWords = kLineWords | kCenterWords | set_of(R);
+  const Block& block = run_.block;
+  if (block.parts.kind != BlockKind::Nc || run_.state.is_special ||
+      (block.parts.groups & ~(1u << kMotionGroup)) != 0 || block.parts.one_shot != Block::kNoCode ||
+      block.parts.m_count != 0) {
+    return false;
+  }
+  const std::uint8_t motion =
+      block.names(kMotionGroup) ? block.g[kMotionGroup] : run_.state.g[kMotionGroup];
+  return motion <= 3 && (block.words.present() & ~(motion <= 1 ? kLineWords : kArcWords)) == 0;
+}
+
+FanucInterpreter::BlockOutcome FanucInterpreter::read() {
+  const char c = *run_.text.begin();
+  place_origin();
+  run_.block.words.clear();
+  run_.block.parts = kFreshParts;
+  run_.answers_used = 0;
+  if (c == '%' || upper(c) == 'O' || c == ':' || c == '(' || kind_of(c) == CharKind::Blank)
+      [[unlikely]] {
+    is_leader_ = false;
+    if (!begin_other_block()) return BlockOutcome::Paused;
+    if (is_leader_) return BlockOutcome::NoBlock;
+  }
+  if (!read_block(run_)) [[unlikely]]
+    return BlockOutcome::Paused;
+  Block& block = run_.block;
+  answers_of_reading_ = run_.answers_used;
+  if (!run_.name_is_settled && block.parts.has_code) [[unlikely]]
+    settle_name();
+  if (run_.origin.sequence != Origin::kNone) {
+    run_.state.last.n = static_cast<int>(run_.origin.sequence);
+  }
+  for (std::size_t i = 0; i < block.parts.warning_count; ++i) {
+    const auto& warning = block.warnings[i];
+    if (warning.code == WarningCode::LowerCase && run_.state.told_lower_case) continue;
+    run_.state.told_lower_case |= warning.code == WarningCode::LowerCase;
+    run_.warn(warning.code, warning.column);
+  }
+  block.parts.stage = Stage::Execution;
+  return BlockOutcome::Finished;
+}
+
+/// A tape's leader is passed over; % after it, or an O word after code, is the end of the record.
+bool FanucInterpreter::begin_other_block() {
+  TextPosition& at = run_.state.at;
+  const BlockHead head = read_head(run_.text.begin(), run_.text.end());
+  if (head.kind == BlockHead::Kind::Percent && !at.head_seen) {
+    run_.text.advance(at, run_.text.end());
+    at.head_seen = true;
+    is_leader_ = true;
+    return true;
+  }
+  const bool is_next_program = head.kind == BlockHead::Kind::Program && at.code_seen;
+  return (head.kind != BlockHead::Kind::Percent && !is_next_program) || departure_end(run_);
+}
+
+/// No block to be seen: more text is needed, the record is over, or it cannot go on.
+FanucInterpreter::BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
+  if (state == TextCursor::State::NotYet) return BlockOutcome::NeedsText;
+  if (run_.block.parts.stage == Stage::Start) place_origin();
+  switch (state) {
+    case TextCursor::State::EndOfText:
+      departure_end(run_);
+      break;
+    case TextCursor::State::TooLong:
+      run_.fail(ErrorCode::LineTooLong, 0, fmt::format("more than {} characters", kMaxLineBytes));
+      break;
+    default:
+      run_.fail(ErrorCode::TextFailed, 0, run_.text.failure());
+      break;
+  }
+  return BlockOutcome::Paused;
+}
+
+void FanucInterpreter::place_origin() {
+  Origin& origin = run_.origin;
+  origin.block = run_.state.blocks + 1;
+  origin.offset = run_.state.at.offset;
+  origin.line = run_.state.at.line;
+  origin.sequence = Origin::kNone;
+  origin.program = run_.state.at.program;
+}
+
+/// Without an O number, the first block's N names the program.
+void FanucInterpreter::settle_name() {
+  if (run_.name.empty() && run_.origin.sequence > 0 && run_.origin.sequence <= 9999) {
+    run_.name = fmt::format("O{:04}", run_.origin.sequence);
+  }
+  run_.name_is_settled = true;
+}
+
+bool FanucInterpreter::finish_block() {
+  if (run_.state.uses_compensator) [[unlikely]] {
+    if (!check_compensation(run_) || !leave_block(run_)) return false;
+    end_compensated_block(run_);
+    if (!check_compensation(run_)) return false;
+  } else {
+    if (!leave_block(run_)) return false;
+    run_.sink.on_block_end(run_.origin);
+  }
+  ++run_.state.blocks;
+  run_.block.parts.stage = Stage::Start;
+  if (!run_.answers.empty()) [[unlikely]]
+    run_.answers.clear();
+  return run_.state.limits.jumps_back == 0 || count_block();
+}
+
+/// Only a program that goes back can go on for ever.
+bool FanucInterpreter::count_block() {
+  if (++run_.state.limits.blocks_after_jumps <= run_.options.max_blocks) return true;
+  return run_.fail(ErrorCode::LoopLimit, 0,
+                   fmt::format("more than {} blocks since a jump back without a move or a wait",
+                               run_.options.max_blocks));
+}
+
+Result<void> FanucInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return dripline::fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) {
+    return dripline::fail(Errc::Syntax, "an answer to another question");
+  }
+  run_.answers.push_back(answer);
+  is_asking_ = false;
+  return {};
+}
+
+ActiveModes FanucInterpreter::modes() const {
+  const ModalState& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  modes.is_incremental = state.is_incremental();
+  modes.compensation = static_cast<CompensationSide>(state.g[kCompensationGroup] - 40);
+  const std::uint8_t system = state.g[kWorkGroup];
+  const bool is_paged = system == kMoreWorkSystems;
+  modes.work_system = static_cast<std::uint16_t>(is_paged ? 541 : 10 * system);
+  if (is_paged) modes.work_page = static_cast<std::uint16_t>(run_.memory.coordinates.more_work);
+  modes.tool_length_z = Length::mm(state.length_offset);
+  modes.tool_radius = Length::mm(radius_of_offset(run_, state.d_number));
+  const Length feed = Length::mm(state.feed[state.is_per_revolution()]);
+  modes.feed = state.is_per_revolution() ? Feed::per_revolution(feed) : Feed::per_minute(feed);
+  modes.cycle = hole_cycle_name(state.g[kCycleGroup]);
+  modes.frame_changes = run_.frame_changes;
+  return modes;
+}
+
+std::optional<CoordinateFrame> FanucInterpreter::frame() const {
+  return frame_of(run_);
+}
+
+Snapshot FanucInterpreter::snapshot() const {
+  invariant(run_.block.parts.stage == Stage::Start, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> FanucInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.text.forget();
+  run_.block.clear();
+  run_.answers.clear();
+  run_.answers_used = 0;
+  run_.pause = Pause::None;
+  ++run_.frame_changes;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,333 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr std::array<Axis, 8> kVariableAxes{Axis::X, Axis::Y, Axis::Z, Axis::A,
+                                            Axis::B, Axis::C, Axis::U, Axis::V};
+
+bool refuse(Run& run, int number, std::uint32_t column) {
+  return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{}", number));
+}
+bool refuse_write(Run& run, int number, std::uint32_t column) {
+  return run.fail(ErrorCode::WriteProtected, column, fmt::format("#{}", number));
+}
+
+/// Axis of the last digit of #5001 and the like; nullptr beyond the eighth.
+const Axis* axis_at(int number, int base) {
+  const int place = number - base - 1;
+  return place >= 0 && place < 8 ? &kVariableAxes[static_cast<std::size_t>(place)] : nullptr;
+}
+
+bool read_pin(Run& run, int pin, double& value) {
+  if (run.options.answers_pins) {
+    const auto& ones = run.options.pins_at_one;
+    value = std::find(ones.begin(), ones.end(), pin) != ones.end() ? 1 : 0;
+    return true;
+  }
+  const Answer* answer = run.next_answer();
+  if (answer == nullptr) return run.ask(InputQuestion{pin});
+  value = std::get<bool>(*answer) ? 1 : 0;
+  return true;
+}
+
+bool read_inputs(Run& run, int number, std::uint32_t column, double& value) {
+  constexpr int kWord = 1032;
+  if (number >= 1000 && number <= 1015) return read_pin(run, number, value);
+  if (number != kWord) return refuse(run, number, column);
+  value = 0;
+  for (int bit = 0; bit < 16; ++bit) {
+    double one = 0;
+    if (!read_pin(run, 1000 + bit, one)) return false;
+    value += one * static_cast<double>(1 << bit);
+  }
+  return true;
+}
+
+bool ask_time(Run& run, LocalTime& now) {
+  const Answer* answer = run.next_answer();
+  if (answer == nullptr) return run.ask(TimeQuestion{});
+  now = std::get<LocalTime>(*answer);
+  return true;
+}
+
+double milliseconds_of(const LocalTime& now) {
+  return 1000.0 * (now.hour * 3600 + now.minute * 60 + now.second);
+}
+
+bool read_clock(Run& run, int number, double& value) {
+  LocalTime now;
+  if (!ask_time(run, now)) return false;
+  if (number == 3011) value = now.year * 10000 + now.month * 100 + now.day;
+  if (number == 3012) value = now.hour * 10000 + now.minute * 100 + now.second;
+  if (number == 3001) value = milliseconds_of(now) - run.state.counters[kClockBase];
+  return true;
+}
+
+bool read_control(Run& run, int number, std::uint32_t column, double& value) {
+  const auto& counters = run.state.counters;
+  switch (number) {
+    case 3001:
+    case 3011:
+    case 3012:
+      return read_clock(run, number, value);
+    case 3002:
+      value = counters[kHours];
+      return true;
+    case 3005:
+      value = counters[kSettings];
+      return true;
+    case 3007: {
+      int mirrored = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        mirrored |= run.state.scaling.factor[i] < 0 ? 1 << i : 0;
+      }
+      value = run.state.g[kScalingGroup] == 51 ? mirrored : 0;
+      return true;
+    }
+    case 3901:
+      value = counters[kMade];
+      return true;
+    case 3902:
+      value = counters[kRequired];
+      return true;
+    case 3000:
+    case 3003:
+    case 3004:
+    case 3006:
+      return run.fail(ErrorCode::WriteProtected, column,
+                      fmt::format("#{} cannot be read", number));
+    default:
+      return refuse(run, number, column);
+  }
+}
+
+bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
+  const ModalState& state = run.state;
+  if (number > 4000 && number < 4000 + static_cast<int>(kGroupCount)) {
+    const std::uint8_t code = state.g[static_cast<std::size_t>(number - 4000)];
+    value = code == kMoreWorkSystems ? 54.1 : code;
+    return true;
+  }
+  switch (number) {
+    case 4022:
+      value = 0;
+      return true;
+    case 4102:
+      value = state.last.b;
+      return true;
+    case 4107:
+      value = state.d_number;
+      return true;
+    case 4109:
+      value = state.last.f;
+      return true;
+    case 4111:
+      value = state.h_number;
+      return true;
+    case 4113:
+      value = state.last.m;
+      return true;
+    case 4114:
+      value = state.last.n;
+      return true;
+    case 4115:
+      value = state.last.o;
+      return true;
+    case 4119:
+      value = state.last.s;
+      return true;
+    case 4120:
+      value = state.last.t;
+      return true;
+    default:
+      return refuse(run, number, column);
+  }
+}
+
+/// Zero offsets: #2500 .. by axis and #5201 .. by system; nullptr when it is none.
+double* work_variable(Run& run, int number, Axis& axis) {
+  Coordinates& all = run.memory.coordinates;
+  if (number >= 2500 && number < 2900 && number % 100 <= 6) {
+    axis = kVariableAxes[static_cast<std::size_t>((number - 2500) / 100)];
+    return &all.work[static_cast<std::size_t>(number % 100)][static_cast<std::size_t>(axis)];
+  }
+  const bool is_basic = number > 5200 && number < 5340;
+  const bool is_more = number > 7000 && number < 7000 + 20 * kMoreWorkCount;
+  if (!is_basic && !is_more) return nullptr;
+  const int base = is_basic ? 5200 : 7000;
+  const std::size_t system = static_cast<std::size_t>((number - base) / 20 + (is_basic ? 0 : 7));
+  const Axis* at = axis_at(number, base + 20 * ((number - base) / 20));
+  if (at == nullptr || system >= all.work.size()) return nullptr;
+  axis = *at;
+  return &all.work[system][static_cast<std::size_t>(axis)];
+}
+
+bool read_position(Run& run, int number, std::uint32_t column, double& value) {
+  const ModalState& state = run.state;
+  const int base = number / 20 * 20;
+  const Axis* axis = axis_at(number, base);
+  if (axis == nullptr) return refuse(run, number, column);
+  const double length = *axis == state.length_axis ? state.length_offset : 0;
+  double raw = 0;
+  switch (base) {
+    case 5000:
+    case 5040:
+      raw = run.work_position(*axis);
+      break;
+    case 5020:
+      raw = state.position.raw(*axis) + length;
+      break;
+    case 5060:
+      raw = state.skip[static_cast<std::size_t>(*axis)];
+      break;
+    case 5080:
+      raw = length;
+      break;
+    case 5100:
+      break;
+    default:
+      return refuse(run, number, column);
+  }
+  value = run.in_units(*axis, raw);
+  return true;
+}
+
+/// An alarm of the program's own.
+bool raise_alarm(Run& run, std::uint32_t column, double value) {
+  const double number = std::isnan(value) ? 0 : std::round(value);
+  if (!(number >= 0 && number <= kHighestUserAlarm)) {
+    return run.fail(ErrorCode::IllegalVariable, column,
+                    fmt::format("#3000 = {} is not 0 to {}", value, kHighestUserAlarm));
+  }
+  const Block::Parts& parts = run.block.parts;
+  const std::string_view message(run.text.begin() + parts.message_begin,
+                                 parts.message_end - parts.message_begin);
+  return run.fail_as(user_alarm_id(static_cast<int>(number)), message, column);
+}
+
+void stop_with_message(Run& run) {
+  const Block::Parts& parts = run.block.parts;
+  if (parts.message_begin != parts.message_end) {
+    run.events().on_message(
+        {run.origin, std::string_view(run.text.begin() + parts.message_begin,
+                                      parts.message_end - parts.message_begin)});
+  }
+  run.state.limits = {};
+  run.events().on_stop({run.origin, StopKind::Operator});
+}
+
+bool write_outputs(Run& run, int number, std::uint32_t column, double value) {
+  const auto set = [&](int output, bool is_on) {
+    run.events().on_pin({run.origin, Axis::X, output, is_on, {}});
+  };
+  if (number >= 1100 && number <= 1115) {
+    set(number, value != 0 && !std::isnan(value));
+    return true;
+  }
+  if (number != 1132 && number != 1133) {
+    return number <= 1032 ? refuse_write(run, number, column) : refuse(run, number, column);
+  }
+  const double bits = std::isnan(value) ? 0 : std::round(value);
+  if (!(bits >= 0 && bits <= 65535)) {
+    return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{} = {}", number, value));
+  }
+  for (int bit = 0; bit < 16; ++bit) {
+    set(1100 + bit, (static_cast<std::uint32_t>(bits) >> bit & 1u) != 0);
+  }
+  return true;
+}
+
+bool write_control(Run& run, int number, std::uint32_t column, double value) {
+  auto& counters = run.state.counters;
+  const double stored = std::isnan(value) ? 0 : value;
+  const auto keep = [&](Counter place, double least, double most) {
+    if (!(stored >= least && stored <= most)) {
+      return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{} = {}", number, value));
+    }
+    counters[place] = stored;
+    return true;
+  };
+  switch (number) {
+    case 3000:
+      return raise_alarm(run, column, value);
+    case 3006:
+      stop_with_message(run);
+      return true;
+    case 3001: {
+      LocalTime now;
+      if (!ask_time(run, now)) return false;
+      counters[kClockBase] = milliseconds_of(now) - stored;
+      return true;
+    }
+    case 3002:
+      return keep(kHours, 0, 1e9);
+    case 3003:
+      if (!keep(kSingle, 0, 3)) return false;
+      show_override_inhibit(run);
+      return true;
+    case 3004:
+      if (!keep(kHold, 0, 7)) return false;
+      show_override_inhibit(run);
+      return true;
+    case 3005:
+      return keep(kSettings, 0, 65535);
+    case 3901:
+      return keep(kMade, 0, 1e9);
+    case 3902:
+      return keep(kRequired, 0, 1e9);
+    case 3007:
+    case 3011:
+    case 3012:
+      return refuse_write(run, number, column);
+    default:
+      return refuse(run, number, column);
+  }
+}
+
+}  // namespace
+
+bool read_system_variable(Run& run, int number, std::uint32_t column, double& value) {
+  if (number < 1100) return read_inputs(run, number, column, value);
+  if (number < 1134) return run.fail(ErrorCode::WriteProtected, column, "outputs cannot be read");
+  if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {
+    value = run.in_units(Axis::X, read_register(cell));
+    return true;
+  }
+  Axis axis{};
+  if (const double* cell = work_variable(run, number, axis)) {
+    value = run.in_units(axis, *cell);
+    return true;
+  }
+  if (number >= 3000 && number < 4000) return read_control(run, number, column, value);
+  if (number >= 4000 && number < 5000) return read_modal(run, number, column, value);
+  if (number >= 5000 && number < 5200) return read_position(run, number, column, value);
+  return refuse(run, number, column);
+}
+
+bool write_system_variable(Run& run, int number, std::uint32_t column, double value) {
+  if (number < 1200) return write_outputs(run, number, column, value);
+  const double stored = std::isnan(value) ? 0 : value;
+  if (const OffsetRegister cell = offset_variable(run, number); cell.value != nullptr) {
+    write_register(run, cell, run.from_units(Axis::X, stored), column);
+    return true;
+  }
+  Axis axis{};
+  if (double* cell = work_variable(run, number, axis)) {
+    *cell = run.from_units(axis, stored);
+    run.update_origin();
+    return true;
+  }
+  if (number >= 3000 && number < 4000) return write_control(run, number, column, value);
+  if (number >= 4000 && number < 5200) return refuse_write(run, number, column);
+  return refuse(run, number, column);
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,171 @@
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+
+#include <fmt/core.h>
+#include <bit>
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+constexpr double kMaxValue = 999.999;
+
+enum class Kind : std::uint8_t { LengthWear, LengthGeometry, RadiusWear, RadiusGeometry };
+
+double* cell_of(ToolOffsets& tools, Kind kind, std::size_t n) {
+  switch (kind) {
+    case Kind::LengthWear:
+      return &tools.length_wear[n];
+    case Kind::LengthGeometry:
+      return &tools.length_geometry[n];
+    case Kind::RadiusWear:
+      return &tools.radius_wear[n];
+    case Kind::RadiusGeometry:
+      break;
+  }
+  return &tools.radius_geometry[n];
+}
+
+OffsetRegister register_of(Run& run, Kind kind, int number) {
+  if (number < 1 || number > kMaxOffsets) return {};
+  ToolOffsets& tools = run.memory.tools;
+  const auto n = static_cast<std::size_t>(number);
+  switch (run.options.offset_memory) {
+    case OffsetMemory::A:
+      return {&tools.length_geometry[n], &tools.radius_geometry[n]};
+    case OffsetMemory::B: {
+      const bool is_wear = kind == Kind::LengthWear || kind == Kind::RadiusWear;
+      return {cell_of(tools, is_wear ? Kind::LengthWear : Kind::LengthGeometry, n),
+              cell_of(tools, is_wear ? Kind::RadiusWear : Kind::RadiusGeometry, n)};
+    }
+    case OffsetMemory::C:
+      break;
+  }
+  return {cell_of(tools, kind, n), nullptr};
+}
+
+}  // namespace
+
+OffsetRegister offset_variable(Run& run, int number) {
+  const bool is_a = run.options.offset_memory == OffsetMemory::A;
+  const bool is_c = run.options.offset_memory == OffsetMemory::C;
+  if (number > 2000 && number <= 2200) return register_of(run, Kind::LengthWear, number - 2000);
+  if (number > 2200 && number <= 2400 && !is_a) {
+    return register_of(run, Kind::LengthGeometry, number - 2200);
+  }
+  if (number > 10000 && number <= 10400) return register_of(run, Kind::LengthWear, number - 10000);
+  if (number > 11000 && number <= 11400 && !is_a) {
+    return register_of(run, Kind::LengthGeometry, number - 11000);
+  }
+  if (number > 12000 && number <= 12400 && is_c) {
+    return register_of(run, Kind::RadiusWear, number - 12000);
+  }
+  if (number > 13000 && number <= 13400 && is_c) {
+    return register_of(run, Kind::RadiusGeometry, number - 13000);
+  }
+  return {};
+}
+
+OffsetRegister offset_of_g10(Run& run, int list, int number) {
+  switch (list) {
+    case 10:
+      return register_of(run, Kind::LengthGeometry, number);
+    case 12:
+      return register_of(run, Kind::RadiusGeometry, number);
+    case 13:
+      return register_of(run, Kind::RadiusWear, number);
+    default:
+      return register_of(run, Kind::LengthWear, number);
+  }
+}
+
+double read_register(const OffsetRegister& cell) {
+  return *cell.value != 0 || cell.also == nullptr ? *cell.value : *cell.also;
+}
+
+void write_register(Run& run, const OffsetRegister& cell, double value, std::uint32_t column) {
+  if (cell.also != nullptr) {
+    if (*cell.value != 0 && *cell.also != 0 && *cell.value != *cell.also) {
+      run.warn(WarningCode::SharedOffset, column);
+    }
+    *cell.also = value;
+  }
+  *cell.value = value;
+}
+
+double length_of_offset(const Run& run, int number) {
+  const auto n = static_cast<std::size_t>(number);
+  return run.memory.tools.length_geometry[n] + run.memory.tools.length_wear[n];
+}
+
+double radius_of_offset(const Run& run, int number) {
+  const auto n = static_cast<std::size_t>(number);
+  const double value = run.memory.tools.radius_geometry[n] + run.memory.tools.radius_wear[n];
+  return run.options.diameter_offset ? value / 2 : value;
+}
+
+bool read_offset_number(Run& run, Address address, int& number) {
+  const Word& word = run.block.words[address];
+  const double value = run.whole(word);
+  if (!(value >= 0 && value <= kMaxOffsets)) {
+    return run.fail(ErrorCode::IllegalOffsetNumber, word.column,
+                    fmt::format("{}{} is not 0 to {}", letter(address), value, kMaxOffsets));
+  }
+  number = static_cast<int>(value);
+  return true;
+}
+
+bool set_offset_data(Run& run, int list) {
+  const Words& words = run.block.words;
+  if (!words.has(P))
+    return run.fail(ErrorCode::IllegalOffsetNumber, run.block.parts.g_column, "no P");
+  const double number = run.whole(words[P]);
+  const OffsetRegister cell = number >= 1 && number <= kMaxOffsets
+                                  ? offset_of_g10(run, list, static_cast<int>(number))
+                                  : OffsetRegister{};
+  if (cell.value == nullptr) {
+    return run.fail(ErrorCode::IllegalOffsetNumber, words.column(P),
+                    fmt::format("P{} is not 1 to {}", number, kMaxOffsets));
+  }
+  if (!words.has(R))
+    return run.fail(ErrorCode::IllegalValueInG10, run.block.parts.g_column, "no R");
+  double value = run.length(words[R]);
+  if (run.state.is_incremental()) value += read_register(cell);
+  if (!(std::fabs(value) <= kMaxValue)) {
+    return run.fail(ErrorCode::IllegalValueInG10, words.column(R),
+                    fmt::format("{} mm is beyond {}", value, kMaxValue));
+  }
+  write_register(run, cell, value, words.column(R));
+  return true;
+}
+
+bool apply_length_offset(Run& run) {
+  ModalState& state = run.state;
+  const Block& block = run.block;
+  if (block.words.has(H)) {
+    if (!read_offset_number(run, H, state.h_number)) return false;
+    state.last.h = state.h_number;
+  }
+  if (block.names(kLengthGroup)) state.g[kLengthGroup] = block.g[kLengthGroup];
+  const std::uint8_t code = state.g[kLengthGroup];
+  if (block.names(kLengthGroup) && code != 49) {
+    const AddressSet axes = block.words.present() & set_of(X, Y, Z);
+    state.length_axis = Axis::Z;
+    if (run.options.length_axis_type == 'B') {
+      constexpr std::array<Axis, 3> kNormals{Axis::Z, Axis::Y, Axis::X};
+      state.length_axis = kNormals[static_cast<std::size_t>(state.plane())];
+    } else if (run.options.length_axis_type == 'C') {
+      if (std::popcount(axes) != 1) {
+        return run.fail(ErrorCode::NoLengthAxis, block.parts.g_column, "one axis is expected");
+      }
+      state.length_axis = axes == set_of(X) ? Axis::X : axes == set_of(Y) ? Axis::Y : Axis::Z;
+    }
+  }
+  if (code == 49) {
+    state.length_offset = 0;
+  } else if (block.names(kLengthGroup) || block.words.has(H)) {
+    const double value = length_of_offset(run, state.h_number);
+    state.length_offset = code == 43 ? value : -value;
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/core/setup.hpp"
+
+namespace dripline::interpreter::fanuc {
+
+enum class Model : std::uint8_t { M0, M6, M11, M16 };
+enum class RepeatAddress : std::uint8_t { K, L, Both };
+enum class CallForm : std::uint8_t { EightDigits, L, Both };
+enum class OffsetMemory : std::uint8_t { A, B, C };
+
+/// What a machine's builder and operator have set: the `[control]` options and the panel's
+/// switches. Lengths in millimetres.
+struct ControlOptions {
+  Model model = Model::M16;
+  bool calculator_point = false;
+  bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands
+  int decimals_mm = 3;           ///< of the least increment; inches have one more
+  Units start_units = Units::Millimetre;
+  std::vector<std::uint8_t> start_g;
+  RepeatAddress repeat_address = RepeatAddress::Both;
+  CallForm call_form = CallForm::Both;
+  OffsetMemory offset_memory = OffsetMemory::A;
+  bool start_up_b = false;
+  std::array<AxisValues, 4> reference{};
+  double peck_return = 0.1;      ///< d of G73
+  double peck_clearance = 1;     ///< d of G83
+  double peck_tap_return = 0.1;  ///< d of a peck in rigid tapping
+  bool peck_tap_leaves = false;  ///< the tap turns out to R between pecks, else back by d
+  double shift_first = 1;        ///< direction of G76 and G87 along the plane's axes
+  double shift_second = 0;
+  AxisValues single_direction{};
+  double arc_error = 0.01;  ///< 0: not checked
+  bool arc_needs_center = false;
+  bool short_radius_is_semicircle = false;
+  double scale_default = 1;
+  double rotate_default = 0;
+  bool rotate_incremental = false;
+  bool leading_zero_print = true;
+  bool print_expands = false;
+  bool atan_is_signed = false;
+  bool reset_clears_locals = true;
+  bool reset_clears_commons = true;
+  bool has_limits = false;
+  std::array<double, 3> limit_low{};
+  std::array<double, 3> limit_high{};
+  StrokeZone zone;                ///< limit 2 before any G22
+  std::uint16_t skip_levels = 0;  ///< bit n: switch n is on
+  std::vector<std::int64_t> g_macros;
+  std::vector<std::int64_t> m_macros;
+  bool t_macro = false;
+  bool semicolon_eob = true;
+  bool comment_over_eob = false;
+  double feed_unit_inch = 0.01;
+  bool diameter_offset = false;
+  std::vector<std::int64_t> before_m;
+  bool is_dnc = false;
+  std::size_t max_call_depth = 4;
+  std::size_t max_nesting = 8;
+  std::uint64_t max_loops = 1'000'000;
+  std::uint64_t max_blocks = 10'000'000;
+  int last_common = 149;
+  int last_kept = 531;
+  char length_axis_type = 'A';
+  bool optional_stop = false;
+  bool answers_pins = false;
+  std::vector<std::int64_t> pins_at_one;
+};
+
+/// Reads the options. Errors: Syntax, Unsupported (an option or switch this control does not
+/// have).
+Result<ControlOptions> read_options(const Setup& setup);
+
+/// The control's memory at the start of a run. Errors: Unsupported, naming the record of the setup
+/// that this control does not have.
+Result<void> load_memory(const Setup& setup, const ControlOptions& options, ModalState& state,
+                         Memory& memory);
+
+/// The G codes that power on and reset put in force; units, work system and cycle data aside.
+void apply_start_codes(const ControlOptions& options, ModalState& state);
+
+}  // namespace dripline::interpreter::fanuc

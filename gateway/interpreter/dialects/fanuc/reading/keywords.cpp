@@ -1,0 +1,102 @@
+#include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
+
+#include <array>
+
+#include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+using language::Operator;
+
+template <class Meaning>
+struct Spelling {
+  std::string_view text;
+  Meaning meaning;
+};
+
+constexpr std::array kKeywords{
+    Spelling<Keyword>{"IF", Keyword::If},       Spelling<Keyword>{"THEN", Keyword::Then},
+    Spelling<Keyword>{"GOTO", Keyword::Goto},   Spelling<Keyword>{"WHILE", Keyword::While},
+    Spelling<Keyword>{"DO", Keyword::Do},       Spelling<Keyword>{"END", Keyword::End},
+    Spelling<Keyword>{"POPEN", Keyword::Popen}, Spelling<Keyword>{"PCLOS", Keyword::Pclos},
+    Spelling<Keyword>{"DPRNT", Keyword::Dprnt}, Spelling<Keyword>{"BPRNT", Keyword::Bprnt},
+};
+constexpr std::array kFunctions{
+    Spelling<Function>{"SIN", Function::Sin},     Spelling<Function>{"COS", Function::Cos},
+    Spelling<Function>{"TAN", Function::Tan},     Spelling<Function>{"ASIN", Function::Asin},
+    Spelling<Function>{"ACOS", Function::Acos},   Spelling<Function>{"ATAN", Function::Atan},
+    Spelling<Function>{"SQRT", Function::Sqrt},   Spelling<Function>{"ABS", Function::Abs},
+    Spelling<Function>{"LN", Function::Ln},       Spelling<Function>{"EXP", Function::Exp},
+    Spelling<Function>{"ROUND", Function::Round}, Spelling<Function>{"FIX", Function::Fix},
+    Spelling<Function>{"FUP", Function::Fup},     Spelling<Function>{"BIN", Function::Bin},
+    Spelling<Function>{"BCD", Function::Bcd},
+};
+constexpr std::array kOperators{
+    Spelling<Operator>{"*", Operator::Multiply},
+    Spelling<Operator>{"/", Operator::Divide},
+    Spelling<Operator>{"+", Operator::Add},
+    Spelling<Operator>{"-", Operator::Subtract},
+    Spelling<Operator>{"AND", Operator::And},
+    Spelling<Operator>{"OR", Operator::Or},
+    Spelling<Operator>{"XOR", Operator::ExclusiveOr},
+    Spelling<Operator>{"EQ", Operator::Equal},
+    Spelling<Operator>{"NE", Operator::NotEqual},
+    Spelling<Operator>{"GT", Operator::Greater},
+    Spelling<Operator>{"LT", Operator::Less},
+    Spelling<Operator>{"GE", Operator::GreaterOrEqual},
+    Spelling<Operator>{"LE", Operator::LessOrEqual},
+};
+
+template <class Table>
+auto take_from(const Table& table, const char*& at) {
+  for (const auto& spelling : table) {
+    if (take_word(at, spelling.text)) return spelling.meaning;
+  }
+  return decltype(table[0].meaning){};
+}
+
+}  // namespace
+
+int rank(language::Operator op) {
+  switch (op) {
+    case Operator::None:
+      return 0;
+    case Operator::Multiply:
+    case Operator::Divide:
+    case Operator::And:
+      return 3;
+    case Operator::Add:
+    case Operator::Subtract:
+    case Operator::Or:
+    case Operator::ExclusiveOr:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+bool take_word(const char*& at, std::string_view word) {
+  const char* after = at;
+  for (const char expected : word) {
+    after = skip_blanks(after);
+    const char met = is_letter(*after) ? upper(*after) : *after;
+    if (met != expected) return false;
+    ++after;
+  }
+  at = after;
+  return true;
+}
+
+Keyword take_keyword(const char*& at) {
+  return take_from(kKeywords, at);
+}
+Function take_function(const char*& at) {
+  return take_from(kFunctions, at);
+}
+language::Operator operator_at(const char* at, const char*& after) {
+  after = at;
+  return take_from(kOperators, after);
+}
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
+
+/// Places that jumps go to, found in text that may still be arriving.
+namespace dripline::interpreter::fanuc {
+
+/// How a block begins, and whether it begins or ends a loop.
+struct BlockHead {
+  enum class Kind : std::uint8_t { Empty, Sequence, Program, Percent, Other };
+  Kind kind = Kind::Empty;
+  std::uint32_t number = 0;
+  int loop = 0;  ///< m of DO m, -m of END m
+};
+/// The text must end with a LF.
+BlockHead read_head(const char* begin, const char* end);
+
+/// A DO that has been passed and not its END.
+struct OpenLoop {
+  std::uint8_t number = 1;
+  std::uint64_t offset = 0;  ///< of the DO block
+};
+struct OpenLoops {
+  static constexpr std::size_t kMax = 3;
+  std::array<OpenLoop, kMax> loop{};
+  std::size_t count = 0;
+};
+
+/// Searches go on where they stopped when called again with the same question, and give back after
+/// a bounded number of lines. What they found is kept for as long as the run lasts: it only saves
+/// searching again.
+class TextSearch {
+ public:
+  enum class Outcome : std::uint8_t {
+    Found,
+    Missing,
+    NotYet,
+    More,
+    TooLong,
+    Failed,
+    Crossed,  ///< DO and END do not belong together
+  };
+
+  explicit TextSearch(Run& run) : run_(run) {}
+
+  /// The block N`label`: forward from `from` to the end of the program, then from its head.
+  /// `open` holds the loops around `from`, and afterwards those around what was found.
+  Outcome find_label(const TextPosition& from, std::uint32_t label, OpenLoops& open,
+                     TextPosition& found);
+  /// The program O`number` in the text that was started.
+  Outcome find_program(std::uint32_t number, TextPosition& found);
+  /// The END of the loop that begins at `head`; `after` is the block after it.
+  Outcome find_end(const TextPosition& head, const TextPosition& after, std::uint8_t number,
+                   LoopFrame& loop);
+
+ private:
+  static constexpr unsigned kBlocksPerCall = 1u << 16;
+  static constexpr std::size_t kKnown = 256;
+
+  struct KnownLabel {
+    bool is_used = false;
+    std::uint32_t label = 0;
+    TextPosition from;
+    TextPosition found;
+    OpenLoops open;
+  };
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint64_t line = 0;
+  };
+  struct LabelSearch {
+    bool is_running = false;
+    bool from_head = false;
+    std::uint32_t label = 0;
+    TextPosition from;
+    TextPosition next;
+    OpenLoops open;
+  };
+  struct EndSearch {
+    bool is_running = false;
+    TextPosition head;
+    TextPosition next;
+    OpenLoops open;
+  };
+
+  Outcome load(const TextPosition& at);
+  Outcome go_on_with_label(LabelSearch& search);
+  /// The head of the block at `at`, which moves after it.
+  Outcome next_block(TextPosition& at, BlockHead& head, TextPosition& block);
+  KnownLabel& known_label(const TextPosition& from, std::uint32_t label);
+  static Outcome follow(const BlockHead& head, std::uint64_t offset, OpenLoops& open);
+
+  Run& run_;
+  std::array<KnownLabel, kKnown> labels_{};
+  std::array<LoopFrame, kKnown> loops_{};
+  LabelSearch label_search_;
+  EndSearch end_search_;
+  std::unordered_map<std::uint32_t, Place> programs_;  ///< numbers go up to 9999
+  TextPosition programs_next_;
+  bool programs_complete_ = false;
+};
+
+}  // namespace dripline::interpreter::fanuc

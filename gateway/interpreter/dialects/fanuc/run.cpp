@@ -1,0 +1,101 @@
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
+
+#include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
+
+namespace dripline::interpreter::fanuc {
+namespace {
+
+Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_view detail,
+                      std::uint64_t line, std::uint32_t column) {
+  Diagnostic made{id, std::string(text), line, column};
+  if (!detail.empty()) {
+    made.text += ": ";
+    made.text += detail;
+  }
+  return made;
+}
+
+}  // namespace
+
+void Run::deliver_header() {
+  state.has_header = true;
+  ProgramHeader header;
+  header.control = "fanuc";
+  if (!name.empty()) header.name = name;
+  header.units = state.units;
+  sink.on_program(header);
+  const OverrideInhibit lock = override_inhibit(*this);
+  const bool locks = lock.feed_override || lock.single_block || lock.hold != FeedHoldInhibit::AtOnce;
+  if (locks) sink.on_override_inhibit(lock);
+}
+
+bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
+  const ErrorRow& row = error_row(code);
+  pause = Pause::Alarm;
+  alarm = diagnostic(row.id, row.text, detail, origin.line, at_column);
+  return false;
+}
+
+bool Run::fail_as(std::string_view id, std::string_view alarm_text, std::uint32_t at_column) {
+  pause = Pause::Alarm;
+  alarm = diagnostic(id, alarm_text, {}, origin.line, at_column);
+  return false;
+}
+
+bool Run::ask(Question asked) {
+  state.limits = {};
+  pause = Pause::Question;
+  question = std::move(asked);
+  return false;
+}
+
+void Run::warn(WarningCode code, std::uint32_t at_column, std::string_view detail) {
+  const WarningRow& row = warning_row(code);
+  events().on_warning({origin, diagnostic(row.id, row.text, detail, origin.line, at_column)});
+}
+
+void Run::update_increments() {
+  const bool is_inch = state.units == Units::Inch;
+  increments.mm_per_unit = state.mm_per_unit();
+  increments.angle_decimals = options.decimals_mm;
+  increments.decimals = options.decimals_mm + (is_inch ? 1 : 0);
+  increments.per_degree = std::pow(10.0, increments.angle_decimals);
+  increments.per_unit = std::pow(10.0, increments.decimals);
+}
+
+std::size_t Run::work_system() const {
+  const std::uint8_t code = state.g[kWorkGroup];
+  return code == kMoreWorkSystems ? static_cast<std::size_t>(6 + memory.coordinates.more_work)
+                                  : static_cast<std::size_t>(code - 53);
+}
+
+void Run::update_origin() {
+  const Coordinates& all = memory.coordinates;
+  const std::size_t system = work_system();
+  ++frame_changes;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    state.origin[i] = all.work[system][i] + all.work[0][i] + all.shift[i] + all.local[i];
+  }
+}
+
+void Run::update_special() {
+  state.g[kModalCallGroup] = state.modal_active >= 0 ? 66 : 67;
+  state.is_special = state.is_cycle() || state.is_polar() || state.is_transformed ||
+                     state.imaginary != 0 || state.modal_active >= 0 || state.zone.is_on ||
+                     options.has_limits || state.g[kMotionGroup] > 3;
+}
+
+double Run::angle(const Word& word) const {
+  switch (word.form) {
+    case WordForm::Whole:
+      return options.calculator_point ? word.value : word.value / increments.per_degree;
+    case WordForm::Computed:
+      return std::round(word.value * increments.per_degree) / increments.per_degree;
+    case WordForm::Point:
+      break;
+  }
+  return word.decimals > increments.angle_decimals ? cut(word.value, increments.per_degree)
+                                                   : word.value;
+}
+
+}  // namespace dripline::interpreter::fanuc

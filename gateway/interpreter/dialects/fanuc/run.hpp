@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
+#include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
+#include "gateway/interpreter/dialects/fanuc/errors.hpp"
+#include "gateway/interpreter/dialects/fanuc/options.hpp"
+#include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
+
+namespace dripline::interpreter::fanuc {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question };
+
+/// What numbers without a decimal point count, and how fine lengths are, in the units in force.
+struct Increments {
+  double mm_per_unit = 1;
+  double per_unit = 1000;  ///< least increments of a length in one unit
+  double per_degree = 1000;
+  int decimals = 3;
+  int angle_decimals = 3;
+};
+
+/// One run: what the files of this folder work on. Functions that cannot go on give false and
+/// leave the reason in `pause`.
+struct Run {
+  Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
+      : options(std::move(control_options)),
+        source(program_source),
+        sink(event_sink),
+        compensator(policy_of(options), event_sink),
+        text(program_source, options.comment_over_eob) {}
+
+  /// Where events go, after the header has been delivered.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    if (state.uses_compensator) [[unlikely]]
+      return compensator;
+    return sink;
+  }
+
+  /// Offset of `at` in the block, and its 1-based column.
+  std::uint32_t offset(const char* at) const {
+    return static_cast<std::uint32_t>(at - text.begin());
+  }
+  std::uint32_t column(const char* at) const { return offset(at) + 1; }
+
+  /// All give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
+  [[gnu::cold]] bool fail_as(std::string_view id, std::string_view alarm_text,
+                             std::uint32_t at_column);
+  [[gnu::cold]] bool ask(Question asked);
+  [[gnu::cold]] void warn(WarningCode code, std::uint32_t at_column, std::string_view detail = {});
+  /// The answer to the next question of the block in hand, or nullptr when it has yet to be asked.
+  const Answer* next_answer() {
+    return answers_used < answers.size() ? &answers[answers_used++] : nullptr;
+  }
+
+  /// After a change of units, offsets or anything that decides what a plain block means.
+  void update_increments();
+  void update_origin();
+  std::size_t work_system() const;  ///< index of Coordinates::work
+  void update_special();
+
+  /// A word's number as millimetres; finer than the least increment is cut, computed is rounded.
+  double length(const Word& word) const {
+    const Increments& in = increments;
+    double value = word.value;
+    if (word.form == WordForm::Whole) {
+      if (!options.calculator_point) value /= in.per_unit;
+    } else if (word.form == WordForm::Computed) {
+      value = std::round(value * in.per_unit) / in.per_unit;
+    } else if (word.decimals > in.decimals) {
+      value = cut(value, in.per_unit);
+    }
+    return value * in.mm_per_unit;
+  }
+  /// As degrees.
+  double angle(const Word& word) const;
+  /// Of a coordinate: millimetres or degrees.
+  double coordinate(Axis axis, const Word& word) const {
+    return is_rotary(axis) ? angle(word) : length(word);
+  }
+  /// As a whole number, computed values rounded.
+  double whole(const Word& word) const {
+    return word.form == WordForm::Computed ? std::round(word.value) : word.value;
+  }
+  Feed active_feed() const {
+    const Length per = Length::mm(state.feed[state.is_per_revolution()]);
+    return state.is_per_revolution() ? Feed::per_revolution(per) : Feed::per_minute(per);
+  }
+  /// G09 of the block, G61 in force: a cutting feed comes to rest at its end.
+  bool rests_at_end() const { return block.parts.one_shot == 9 || state.g[kPathGroup] == 61; }
+  /// Millimetres to program units, for macro variables.
+  double in_units(Axis axis, double raw) const {
+    return is_rotary(axis) ? raw : raw / increments.mm_per_unit;
+  }
+  double from_units(Axis axis, double value) const {
+    return is_rotary(axis) ? value : value * increments.mm_per_unit;
+  }
+  /// The present place in program coordinates before scaling and rotation; motion.cpp.
+  double work_position(Axis axis) const {
+    return state.position.raw(axis) - state.origin[static_cast<std::size_t>(axis)];
+  }
+
+  static double cut(double value, double per_unit) {
+    // Decimal fractions are rarely exact in binary: what is written as a whole count must stay one.
+    constexpr double kNudge = 1e-6;
+    return std::trunc(value * per_unit + std::copysign(kNudge, value)) / per_unit;
+  }
+
+  const ControlOptions options;
+  ProgramSource& source;
+  EventSink& sink;
+  compensation::Compensator compensator;
+  TextCursor text;
+  ModalState state;
+  Memory memory;
+  Increments increments;
+  std::string name;  ///< as the program calls itself; empty when it does not
+  bool name_is_settled = false;
+
+  Block block;
+  language::WordLedger ledger;  ///< of the block in hand, unless it is a plain move
+  Origin origin;
+  std::vector<Answer> answers;  ///< of the block in hand, in the order asked
+  std::size_t answers_used = 0;
+  std::uint32_t frame_changes = 0;  ///< origin, scaling or rotation became others so often
+  Question question;
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+  std::string scratch;  ///< output text being made
+
+ private:
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,224 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/g_codes.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
+
+/// Everything that stays from one block to the next. Lengths are millimetres, angles degrees;
+/// positions are machine coordinates of the programmed point, the tool's length left out, unless
+/// said otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+namespace dripline::interpreter::fanuc {
+
+/// One value for each axis of event.hpp, in its order.
+using AxisValues = std::array<double, kAxisCount>;
+
+enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
+
+inline constexpr int kLocalCount = 33;
+inline constexpr std::size_t kMaxMacroLevels = 5;  ///< 0 is the main program's
+inline constexpr std::size_t kMaxFrames = 32;      ///< calls, whatever the options say
+inline constexpr std::size_t kMaxLoops = 3 * (kMaxFrames + 1);
+inline constexpr std::size_t kMaxModalCalls = 4;
+inline constexpr int kMaxOffsets = 400;
+inline constexpr int kMoreWorkCount = 48;  ///< G54.1 P1 to P48
+/// 0 external, 1 to 6 G54 to G59, then those of G54.1.
+inline constexpr std::size_t kWorkCount = 7 + kMoreWorkCount;
+
+/// A macro variable that holds nothing.
+inline constexpr double kNull = std::numeric_limits<double>::quiet_NaN();
+
+struct SpindleModes {
+  SpindleState state = SpindleState::Off;
+  double revolutions = 0;  ///< last S under G97
+  double surface = 0;      ///< last S under G96, millimetres a minute
+  double limit = 0;        ///< G92 S; 0 = none
+};
+
+struct ToolModes {
+  int pending = 0;
+  bool is_pending = false;
+  int active = 0;
+};
+
+/// G50, G51: point = center + factor * (point - center), in program coordinates.
+struct Scaling {
+  std::array<double, 3> center{};
+  std::array<double, 3> factor{1, 1, 1};
+};
+/// G68, G69: about the center, in the plane in force at G68.
+struct Rotation {
+  Plane plane = Plane::XY;
+  double first = 0;
+  double second = 0;
+  double degrees = 0;
+  double sine = 0;
+  double cosine = 1;
+};
+
+/// What a hole cycle keeps from block to block: levels in program coordinates of the hole's axis.
+struct CycleData {
+  double initial = 0;
+  double retract = 0;  ///< R
+  double bottom = 0;   ///< Z
+  double depth = 0;    ///< Q, a length above 0
+  double dwell = 0;    ///< P, seconds
+  bool has_retract = false;
+  bool has_bottom = false;
+  bool has_depth = false;
+};
+
+/// Registers of tool offsets, index 1 to 400.
+struct ToolOffsets {
+  std::array<double, kMaxOffsets + 1> length_geometry{};
+  std::array<double, kMaxOffsets + 1> length_wear{};
+  std::array<double, kMaxOffsets + 1> radius_geometry{};
+  std::array<double, kMaxOffsets + 1> radius_wear{};
+};
+
+struct Coordinates {
+  std::array<AxisValues, kWorkCount> work{};
+  AxisValues shift{};  ///< G92
+  AxisValues local{};  ///< G52
+  int more_work = 1;   ///< P of G54.1
+};
+
+struct StrokeZone {
+  bool is_on = false;  ///< G22 is in force, and there is something to keep out of
+  std::array<double, 3> low{};
+  std::array<double, 3> high{};
+
+  bool has_volume() const { return low[0] < high[0] && low[1] < high[1] && low[2] < high[2]; }
+};
+
+using Locals = std::array<double, kLocalCount>;
+
+enum class CallKind : std::uint8_t { Subprogram, Macro, Modal, Code };
+
+/// M98, G65, a call by G66.
+struct CallFrame {
+  CallKind kind = CallKind::Subprogram;
+  TextPosition back;
+  TextPosition entry;
+  Locals arguments{};  ///< the locals of each pass anew
+  std::uint32_t passes_left = 0;
+  std::uint8_t loop_base = 0;     ///< loops of the caller are out of reach
+  std::int8_t modal_active = -1;  ///< of the caller
+  std::uint8_t modal_count = 0;
+};
+/// DO m ... END m
+struct LoopFrame {
+  TextPosition head;             ///< before the DO block
+  TextPosition next;             ///< after the END block
+  std::uint64_t end_offset = 0;  ///< of the END block
+  std::uint8_t number = 1;
+};
+/// G66
+struct ModalCall {
+  std::uint32_t program = 0;
+  std::uint32_t passes = 1;
+  std::int8_t outer = -1;  ///< what calls while this one's macro runs
+  Locals arguments{};
+};
+
+/// A jump that a block asked for and that needs text of another place; taken before the next block.
+enum class JumpKind : std::uint8_t { None, Goto, Loop, Call };
+struct Jump {
+  JumpKind kind = JumpKind::None;
+  CallKind call = CallKind::Subprogram;
+  bool condition = false;  ///< of a loop
+  bool is_return = false;  ///< M99 P: its own alarm number
+  std::uint8_t loop_number = 1;
+  std::int8_t modal = -1;    ///< which modal call, of CallKind::Modal
+  std::uint32_t number = 0;  ///< sequence or program number
+  std::uint32_t passes = 1;
+  TextPosition from;  ///< the block that jumps
+  Locals arguments{};
+};
+
+/// Since the machine last moved, dwelt or waited for somebody.
+struct Counters {
+  std::uint64_t jumps_back = 0;
+  std::uint64_t blocks_after_jumps = 0;
+};
+
+/// Last commanded values that #4100 and up show.
+struct LastWords {
+  int b = 0, d = 0, h = 0, m = 0, n = 0, o = 0, s = 0, t = 0;
+  double f = 0;
+};
+
+/// Places in ModalState::counters.
+enum Counter : std::size_t { kClockBase, kHours, kSingle, kHold, kSettings, kMade, kRequired };
+
+struct ModalState {
+  RunPhase phase = RunPhase::Running;
+  bool has_header = false;
+  bool is_port_open = false;
+  bool told_lower_case = false;
+  bool speed_changed = false;  ///< within a block: S differs from what the spindle was told
+  std::uint64_t blocks = 0;
+  TextPosition at;
+
+  Position position;    ///< marked are the axes that have moved
+  AxisValues origin{};  ///< of the active coordinates: work + external + local + G92 shift
+  std::array<std::uint8_t, kGroupCount> g{};
+  bool is_transformed = false;    ///< scaling or rotation
+  bool uses_compensator = false;  ///< from the first G41 or G42 on
+  bool is_special = false;        ///< a block of axis words is more than a straight move or an arc
+  Units units = Units::Millimetre;
+  std::array<double, 2> feed{};  ///< per minute, per revolution
+
+  SpindleModes spindle;
+  Coolant coolant;
+  ToolModes tool;
+  int h_number = 0;
+  int d_number = 0;
+  Axis length_axis = Axis::Z;
+  double length_offset = 0;  ///< in force, signed
+  Scaling scaling;
+  Rotation rotation;
+  CycleData cycle;
+  StrokeZone zone;  ///< G22
+  AxisValues intermediate{};
+  std::uint16_t has_intermediate = 0;  ///< bit per axis
+  std::uint16_t imaginary = 0;         ///< G07, bit per axis
+  AxisValues held{};                   ///< where the imaginary axes really stand
+  AxisValues skip{};                   ///< work coordinates
+  LastWords last;
+  double polar_angle = 0;         ///< degrees; where an angle of G16 in G91 counts from
+  bool is_rigid_tapping = false;  ///< M29, until the mode of hole cycles ends
+
+  std::vector<Locals> locals{Locals{}};
+  std::array<double, 100> commons{};  ///< #100
+  std::array<double, 500> kept{};     ///< #500
+  std::array<double, 7> counters{};   ///< #3001 base, #3002, #3003, #3004, #3005, #3901, #3902
+  std::vector<CallFrame> calls;
+  std::vector<LoopFrame> loops;
+  std::vector<ModalCall> modals;
+  std::int8_t modal_active = -1;
+  Jump jump;
+  Counters limits;
+
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  bool is_polar() const { return g[kPolarGroup] == 16; }
+  bool is_incremental() const { return g[kDistanceGroup] == 91; }
+  bool is_per_revolution() const { return g[kFeedGroup] == 95; }
+  bool is_cycle() const { return g[kCycleGroup] != 80; }
+  bool is_compensating() const { return g[kCompensationGroup] != 40; }
+  Plane plane() const {
+    return g[kPlaneGroup] == 18 ? Plane::ZX : g[kPlaneGroup] == 19 ? Plane::YZ : Plane::XY;
+  }
+};
+
+/// The control's memory that a program can change and that is not on the way of ordinary motion.
+struct Memory {
+  ToolOffsets tools;
+  Coordinates coordinates;
+};
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/dialects/prototrak/program_event.hpp"
+
+namespace dripline::interpreter::prototrak {
+
+/// A straight or circular piece of a part's edge, in mm.
+struct Element {
+  bool is_arc = false;
+  XY from, to;
+  XY center;
+  double radius = 0;
+  bool is_counterclockwise = false;
+};
+Element element_of(const ProgramEvent& cut);
+
+double distance(XY a, XY b);
+/// Within a resolution step: so far, in mm, events may lie apart and still be one corner (spec
+/// 11.2).
+double join_tolerance(bool is_metric);
+/// Of travel at an element's ends; unit length.
+XY direction_at_start(const Element& element);
+XY direction_at_end(const Element& element);
+/// The point `by` to the left of `at`, seen along `direction`.
+XY beside(XY at, XY direction, double by);
+/// The corner turns left (> 0), right (< 0) or not at all: the sine of the change of direction.
+double turn_at(const Element& first, const Element& second);
+
+/// The conrad between two elements that meet: the arc that touches both on the inside of the turn,
+/// nearest to the corner. nullopt: there is none that touches them within their length (spec 11.3).
+std::optional<Element> conrad(const Element& first, const Element& second, double radius);
+
+}  // namespace dripline::interpreter::prototrak

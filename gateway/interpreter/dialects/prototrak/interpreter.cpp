@@ -1,0 +1,145 @@
+#include "gateway/interpreter/dialects/prototrak/interpreter.hpp"
+
+#include <fmt/format.h>
+
+#include "gateway/interpreter/dialects/prototrak/snapshot.hpp"
+
+namespace dripline::interpreter::prototrak {
+namespace {
+
+/// Ends of lines are layout: a whole program may stand on one.
+constexpr LineRules kLineRules{.max_bytes = 60'000, .skip_percent = false};
+constexpr int kLinesAtOnce = 256;
+
+}  // namespace
+
+ProtoTrakInterpreter::ProtoTrakInterpreter(ControlOptions options, const Position& start,
+                                           ProgramSource& source, EventSink& sink)
+    : options_(options),
+      reader_(source, kLineRules),
+      sink_(sink),
+      executor_(options_, program_, sink, start) {}
+
+const Origin& ProtoTrakInterpreter::origin() const {
+  return phase_ == Phase::Receiving || executor_.origin().block == 0 ? received_at_
+                                                                     : executor_.origin();
+}
+
+StepState ProtoTrakInterpreter::step(std::uint64_t max_blocks) {
+  reader_.drop_window();
+  switch (phase_) {
+    case Phase::Receiving:
+      return receive();
+    case Phase::Running:
+      return run(max_blocks);
+    case Phase::Ended:
+      return StepState::Ended;
+    case Phase::Alarmed:
+      break;
+  }
+  return StepState::Alarmed;
+}
+
+/// A bounded number of lines; nothing is done before the last one is in.
+StepState ProtoTrakInterpreter::receive() {
+  for (int i = 0; i < kLinesAtOnce; ++i) {
+    SourceLine line;
+    auto state = Receiver::State::Failed;
+    switch (reader_.next(line)) {
+      case LineState::Ready:
+        state = receiver_.take(line);
+        break;
+      case LineState::NotYet:
+        return StepState::NeedsText;
+      case LineState::End:
+        state = receiver_.end_of_text(reader_.place().line);
+        break;
+      case LineState::TooLong:
+        state = receiver_.fail_line(Fault::NoBlockEnd, "a line of more than 60000 characters");
+        break;
+      case LineState::Failed:
+        state = receiver_.fail_line(Fault::TextFailed, reader_.reason());
+        break;
+    }
+    if (state == Receiver::State::Failed) return refuse_program();
+    if (state == Receiver::State::Receiving) continue;
+    deliver_header();
+    executor_.begin();
+    phase_ = Phase::Running;
+    return executor_.is_done() ? end() : StepState::Ran;
+  }
+  return StepState::Ran;
+}
+
+/// The header, then what was noticed while receiving.
+void ProtoTrakInterpreter::deliver_header() {
+  program_ = receiver_.program();
+  ProgramHeader header;
+  header.control = "prototrak-plus";
+  const std::string name = fmt::format("{}", program_.part_number);
+  if (program_.has_part_number) header.name = name;
+  header.units = program_.is_metric ? Units::Millimetre : Units::Inch;
+  sink_.on_program(header);
+  for (const Notice& notice : receiver_.notices()) {
+    sink_.on_warning(
+        {{0, notice.offset, notice.line, Origin::kNone, kMainProgram}, notice.diagnostic});
+  }
+}
+
+StepState ProtoTrakInterpreter::refuse_program() {
+  deliver_header();
+  const Notice& failure = receiver_.failure();
+  received_at_ = {0, failure.offset, failure.line, Origin::kNone, kMainProgram};
+  sink_.on_alarm({received_at_, failure.diagnostic});
+  phase_ = Phase::Alarmed;
+  return StepState::Alarmed;
+}
+
+StepState ProtoTrakInterpreter::run(std::uint64_t max_blocks) {
+  for (std::uint64_t left = max_blocks; left > 0; --left) {
+    if (!executor_.step()) {
+      executor_.events().on_alarm({executor_.origin(), executor_.alarm()});
+      phase_ = Phase::Alarmed;
+      return StepState::Alarmed;
+    }
+    if (executor_.is_done()) return end();
+  }
+  return StepState::Ran;
+}
+
+StepState ProtoTrakInterpreter::end() {
+  phase_ = Phase::Ended;
+  executor_.events().on_end({executor_.origin(), blocks(), true});
+  return StepState::Ended;
+}
+
+Result<void> ProtoTrakInterpreter::answer(const Answer&) {
+  return fail(Errc::Syntax, "no question is open");
+}
+
+/// While receiving nothing has happened yet: such a snapshot is that of the start.
+Snapshot ProtoTrakInterpreter::snapshot() const {
+  return take_snapshot(
+      {static_cast<std::uint8_t>(phase_), program_, executor_.state(),
+       phase_ == Phase::Receiving ? std::vector<std::byte>{} : executor_.path().state()});
+}
+
+Result<void> ProtoTrakInterpreter::restore(const Snapshot& snapshot) {
+  auto kept = read_snapshot(snapshot);
+  if (!kept) return fail(kept.error());
+  if (kept->phase == static_cast<std::uint8_t>(Phase::Receiving)) {
+    receiver_ = Receiver();
+    reader_.drop_window();
+    reader_.seek(TextPlace{});
+    phase_ = Phase::Receiving;
+    return {};
+  }
+  if (const auto done = executor_.restore(std::move(kept->execution), kept->path); !done) {
+    return done;
+  }
+  program_ = std::move(kept->program);
+  phase_ = static_cast<Phase>(kept->phase);
+  return {};
+}
+
+}  // namespace dripline::interpreter::prototrak

@@ -1,0 +1,401 @@
+#include <fmt/core.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation_paths.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
+
+/// The later program holds the last move back until it knows the next: inside corners are trimmed
+/// to where the offset curves meet (15.6). The geometry of corners is done in machine coordinates,
+/// those of the held event.
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+constexpr double kQuarter = Angle::kPi / 2;
+constexpr double kStraightOn = 0.05;  ///< radians
+
+PlanePoint machine_point(const Run& run, PlanePoint program) {
+  const PlaneAxes plane = axes_of(run.state.modes.plane);
+  Axes axes = run.state.position;
+  axes[index_of(plane.first)] = program.first;
+  axes[index_of(plane.second)] = program.second;
+  const Position machine = to_machine(run, axes);
+  return {machine.raw(plane.first), machine.raw(plane.second)};
+}
+PlanePoint plane_point(const Run& run, const Position& position) {
+  const PlaneAxes plane = axes_of(run.state.modes.plane);
+  return {position.raw(plane.first), position.raw(plane.second)};
+}
+void put(const Run& run, Position& position, PlanePoint point) {
+  const PlaneAxes plane = axes_of(run.state.modes.plane);
+  position.set_raw(plane.first, point.first);
+  position.set_raw(plane.second, point.second);
+}
+
+void programmed_at(Run& run, PlanePoint at) {
+  run.state.compensation.x = at.first;
+  run.state.compensation.y = at.second;
+  run.state.compensation.is_first = false;
+}
+
+/// A straight line through `at` along `angle`, or a circle about `at`.
+struct Curve {
+  bool is_circle = false;
+  PlanePoint at;
+  double angle = 0;
+  double radius = 0;
+};
+
+struct Meeting {
+  int count = 0;
+  std::array<PlanePoint, 2> points{};
+};
+
+Meeting meet_line(const Curve& line, const Curve& other) {
+  const double c = std::cos(line.angle);
+  const double s = std::sin(line.angle);
+  if (!other.is_circle) {
+    const double cross = c * std::sin(other.angle) - s * std::cos(other.angle);
+    if (std::fabs(cross) < 1e-12) return {};
+    const double first = other.at.first - line.at.first;
+    const double second = other.at.second - line.at.second;
+    const double t = (first * std::sin(other.angle) - second * std::cos(other.angle)) / cross;
+    return {1, {along(line.at, line.angle, t), {}}};
+  }
+  // The foot of the center on the line, and half the chord.
+  const double t = (other.at.first - line.at.first) * c + (other.at.second - line.at.second) * s;
+  const PlanePoint foot = along(line.at, line.angle, t);
+  const double away = distance(foot, other.at);
+  if (away > other.radius) return {};
+  const double half = std::sqrt(other.radius * other.radius - away * away);
+  return {2, {along(foot, line.angle, half), along(foot, line.angle, -half)}};
+}
+
+Meeting meet(const Curve& a, const Curve& b) {
+  if (!a.is_circle) return meet_line(a, b);
+  if (!b.is_circle) return meet_line(b, a);
+  const double apart = distance(a.at, b.at);
+  if (apart == 0) return {};
+  const double t = (apart * apart + a.radius * a.radius - b.radius * b.radius) / (2 * apart);
+  if (std::fabs(t) > a.radius) return {};
+  const double half = std::sqrt(a.radius * a.radius - t * t);
+  const double base = direction(a.at, b.at);
+  const PlanePoint foot = along(a.at, base, t);
+  return {2, {along(foot, base + kQuarter, half), along(foot, base - kQuarter, half)}};
+}
+
+/// The held move's curve: an arc's circle, or the line it was programmed along.
+Curve held_curve(const Run& run, PlanePoint corner, PlanePoint tool) {
+  if (const auto* arc = std::get_if<Arc>(&run.held.events().front())) {
+    const PlanePoint center{arc->center_first.mm(), arc->center_second.mm()};
+    return {true, center, 0, distance(center, tool)};
+  }
+  return {false, tool, direction(corner, tool) + kQuarter, 0};
+}
+
+/// Ends the held arc at `end`; false when it would then be longer than it was programmed, for its
+/// corners have eaten it up.
+bool end_arc(const Run& run, Arc& arc, PlanePoint end) {
+  const double slack = run.state.units == Units::Inch ? 0.001 : 0.0254;  // radians
+  const PlanePoint center{arc.center_first.mm(), arc.center_second.mm()};
+  const PlanePoint start = plane_point(run, run.held.start());
+  const double turns = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
+  const double sweep = sweep_of(center, start, end, arc.turn);
+  if (sweep > run.state.compensation.held_sweep + slack * (180 / Angle::kPi)) return false;
+  put(run, arc.to, end);
+  arc.sweep = Angle::degrees(sweep + turns);
+  return true;
+}
+
+bool is_reversed(const Run& run, PlanePoint end, double travel) {
+  const PlanePoint start = plane_point(run, run.held.start());
+  return (end.first - start.first) * std::cos(travel) +
+             (end.second - start.second) * std::sin(travel) <
+         0;
+}
+
+/// A corner may only shorten the move before it. Where the way turns straight back into an arc,
+/// the curves may meet far past the end instead.
+bool is_past(PlanePoint end, PlanePoint corner, double travel) {
+  constexpr double kSlack = 0.0254;  // mm
+  return (corner.first - end.first) * std::cos(travel) +
+             (corner.second - end.second) * std::sin(travel) >
+         kSlack;
+}
+
+/// Ends the held move at `end` (machine) and lets it go with all that came after it.
+bool finish_held(Run& run, PlanePoint end, double travel) {
+  if (run.held.empty()) return true;
+  auto& events = run.held.events();
+  if (auto* arc = std::get_if<Arc>(&events.front())) {
+    if (!end_arc(run, *arc, end)) return run.fail(ErrorCode::CompCorner, 0);
+  } else {
+    auto* line = std::get_if<Line>(&events.front());
+    Position& to = line ? line->to : std::get<Rapid>(events.front()).to;
+    if (is_reversed(run, end, travel)) {
+      return run.fail(ErrorCode::CompCorner, 0);
+    }
+    put(run, to, end);
+  }
+  // Moves after it that do not move in the plane stand over the same point.
+  for (auto& event : events) {
+    if (auto* line = std::get_if<Line>(&event)) put(run, line->to, end);
+    if (auto* rapid = std::get_if<Rapid>(&event)) put(run, rapid->to, end);
+  }
+  release_held(run);
+  return true;
+}
+
+enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
+
+struct Entry {
+  PlanePoint corner;  ///< machine coordinates
+  PlanePoint tool;
+  double normal = 0;              ///< of the tool at the start of the next move
+  std::optional<Turn> next_turn;  ///< of an arc
+};
+
+/// A way straight back leads into a valley, not around a point, where the arc beside it (the next
+/// move, or else the held one) bulges towards the tool.
+bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
+  if (next_turn) return !is_inside(run, *next_turn);
+  const auto* arc = std::get_if<Arc>(&run.held.events().front());
+  return arc != nullptr && !is_inside(run, arc->turn);
+}
+
+Corner corner_of(const Run& run, const Entry& entry) {
+  const double old_normal = direction(entry.corner, entry.tool);
+  const double turn = turned_into(side_sign(run) * (old_normal - entry.normal), -kQuarter);
+  if (turn < -kStraightOn || turn > Angle::kPi + kStraightOn) return Corner::Concave;
+  if (turn > Angle::kPi - kStraightOn && turns_back_inside(run, entry.next_turn))
+    return Corner::Concave;
+  return turn > kStraightOn ? Corner::Convex : Corner::StraightOn;
+}
+
+/// Direction in which the held move arrives at the corner.
+double travel_of(const Run& run, const Entry& entry) {
+  return direction(entry.corner, entry.tool) - side_sign(run) * kQuarter;
+}
+
+/// About the programmed corner, at the height where the held moves end; not held itself.
+bool make_corner(Run& run, PlanePoint to, bool is_rapid, const Feed& feed) {
+  Target here;
+  here.to = run.state.position;
+  const Target target = moved_to(run, here, to);
+  const bool is_lathe = run.state.compensation.orientation != 0;
+  if (is_lathe) run.held.on_block_end({});  // makes it the sink
+  bool ok = true;
+  if (is_rapid) {
+    rapid_to(run, target);
+  } else {
+    const PlanePoint center = programmed_point(run);
+    const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::Counterclockwise;
+    const double sweep = sweep_of(center, tool_point(run), to, turn);
+    ok = arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
+  }
+  if (is_lathe) {
+    run.held.events().erase(run.held.events().begin());
+    release_held(run);
+  }
+  return ok;
+}
+
+/// Makes the corner between the held move and the next, whose offset curve is `next`.
+bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const Feed& feed) {
+  const double travel = travel_of(run, entry);
+  switch (corner_of(run, entry)) {
+    case Corner::StraightOn:
+      return finish_held(run, entry.tool, travel);
+    case Corner::Convex: {
+      const double normal = entry.normal - run.state.rotation * (Angle::kPi / 180);
+      return finish_held(run, entry.tool, travel) &&
+             make_corner(run, along(programmed_point(run), normal, run.state.compensation.radius),
+                         is_rapid, feed);
+    }
+    case Corner::Concave:
+      break;
+  }
+  const Meeting meeting = meet(held_curve(run, entry.corner, entry.tool), next);
+  if (meeting.count == 0) {
+    return run.fail(next.is_circle ? ErrorCode::CompCorner : ErrorCode::CompZeroCorner, 0);
+  }
+  PlanePoint best = meeting.points[0];
+  if (meeting.count == 2 &&
+      distance(meeting.points[1], entry.corner) < distance(best, entry.corner)) {
+    best = meeting.points[1];
+  }
+  if (is_past(entry.tool, best, travel)) return run.fail(ErrorCode::CompCorner, 0);
+  if (!finish_held(run, best, travel)) return false;
+  // The next move begins where the held one ended now.
+  Axes machine;
+  for (const Axis axis : kAllAxes) machine[index_of(axis)] = run.state.machine.raw(axis);
+  const PlaneAxes plane = axes_of(run.state.modes.plane);
+  machine[index_of(plane.first)] = best.first;
+  machine[index_of(plane.second)] = best.second;
+  run.state.position = to_program(run, machine);
+  put(run, run.state.machine, best);
+  return true;
+}
+
+/// From here on events wait after the move that is about to be made.
+class Hold {
+ public:
+  explicit Hold(Run& run) : run_(run) {
+    run_.events();  // the header
+    start_ = run_.state.machine;
+  }
+  void line(const Target& target, bool is_rapid, const Feed& feed) {
+    const Position& to = arrive(run_, target);
+    run_.held.begin(start_);
+    if (is_rapid) {
+      run_.held.on_rapid({run_.origin, to, run_.rests_at_end()});
+    } else {
+      run_.held.on_line({run_.origin, to, feed, run_.rests_at_end()});
+    }
+  }
+  /// An arc is made as any other, with the queue as its sink.
+  bool arc(const Target& target, const ArcShape& shape, const Feed& feed) {
+    run_.held.begin(start_);
+    run_.held.on_block_end({});  // makes it the sink
+    const bool ok = arc_to(run_, target, shape, feed);
+    run_.held.events().erase(run_.held.events().begin());
+    return ok;
+  }
+
+ private:
+  Run& run_;
+  Position start_;
+};
+
+bool check_room(Run& run) {
+  if (!run.held.is_full()) return true;
+  return run.fail(ErrorCode::CompTooLong, 0, fmt::format("more than {}", HeldEvents::kMax));
+}
+
+bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
+  const double radius = run.state.compensation.radius;
+  const PlanePoint tool = tool_point(run);
+  const PlanePoint end = point_of(run, target.to);
+  if (distance(tool, end) <= radius) return run.fail(ErrorCode::CompEntry, 0);
+  const double normal = direction(tool, end) + side_sign(run) * kQuarter;
+  Hold(run).line(moved_to(run, target, along(end, normal, radius)), is_rapid, feed);
+  programmed_at(run, end);
+  return true;
+}
+
+/// The offset arc must begin where the tool is: its center moves along the end's normal.
+bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+                  const Feed& feed) {
+  if (run.state.compensation.orientation != 0) {
+    return run.fail(ErrorCode::CompLathe, 0, "the entry move is an arc");
+  }
+  const double radius = run.state.compensation.radius;
+  const PlanePoint tool = tool_point(run);
+  const PlanePoint end = point_of(run, target.to);
+  if (run.state.compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
+  // A full circle is shorter still: it would shrink to the little arc that leads to its offset.
+  if (distance(tool, end) <= radius) return run.fail(ErrorCode::CompEntry, 0);
+  if (distance(center, end) <= radius) return run.fail(ErrorCode::CompArcRadius, 0);
+  const double inward = direction(end, center);
+  const PlanePoint stop = along(end, is_inside(run, turn) ? inward : inward + Angle::kPi, radius);
+  const double toward_center = direction(stop, center);
+  const double cosine = std::cos(direction(stop, tool) - toward_center);
+  if (std::fabs(cosine) < 1e-6) return run.fail(ErrorCode::CompArcRadius, 0);
+  const PlanePoint moved = along(stop, toward_center, distance(tool, stop) / 2 / cosine);
+  const double once = sweep_of(moved, tool, stop, turn);
+  const double sweep = once + 360 * (turns - 1);
+  run.state.compensation.held_sweep = once;
+  if (!Hold(run).arc(moved_to(run, target, stop), {moved.first, moved.second, turn, sweep}, feed)) {
+    return false;
+  }
+  programmed_at(run, end);
+  return true;
+}
+
+}  // namespace
+
+bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
+  const Compensation& compensation = run.state.compensation;
+  if (!check_room(run)) return false;
+  if (compensation.is_first) return enter_on_line(run, target, is_rapid, feed);
+  const PlanePoint start = programmed_point(run);
+  const PlanePoint end = point_of(run, target.to);
+  if (end.first == start.first && end.second == start.second) {
+    const Target over = moved_to(run, target, tool_point(run));
+    is_rapid ? rapid_to(run, over) : line_to(run, over, feed);
+    return true;
+  }
+  const double normal = direction(start, end) + side_sign(run) * kQuarter;
+  const PlanePoint stop = along(end, normal, compensation.radius);
+  const double turned = run.state.rotation * (Angle::kPi / 180);
+  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
+                    std::nullopt};
+  const Curve next{false, machine_point(run, stop), direction(start, end) + turned, 0};
+  if (!run.held.empty() && !join(run, entry, next, is_rapid, feed)) return false;
+  Hold(run).line(moved_to(run, target, stop), is_rapid, feed);
+  programmed_at(run, end);
+  return true;
+}
+
+bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+                 const Feed& feed) {
+  const Compensation& compensation = run.state.compensation;
+  if (!check_room(run)) return false;
+  if (compensation.is_first) return enter_on_arc(run, target, center, turn, turns, feed);
+  const PlanePoint start = programmed_point(run);
+  const PlanePoint end = point_of(run, target.to);
+  const bool inside = is_inside(run, turn);
+  const double radius = distance(center, end);
+  if (inside && radius <= compensation.radius) return run.fail(ErrorCode::CompArcRadius, 0);
+  const double path = inside ? radius - compensation.radius : radius + compensation.radius;
+  const double outward = direction(center, start);
+  const double turned = run.state.rotation * (Angle::kPi / 180);
+  const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)),
+                    (inside ? outward + Angle::kPi : outward) + turned, turn};
+  const Curve next{true, machine_point(run, center), 0, path};
+  if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
+  const PlanePoint stop = along(center, direction(center, end), path);
+  const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (turns - 1);
+  if (!Hold(run).arc(moved_to(run, target, stop), {center.first, center.second, turn, sweep},
+                     feed)) {
+    return false;
+  }
+  run.state.compensation.held_sweep = sweep_of(center, start, end, turn);
+  programmed_at(run, end);
+  return true;
+}
+
+void go_on_from_tool(Run& run) {
+  State& state = run.state;
+  const Compensation& compensation = state.compensation;
+  if (!compensation.was_on) return;
+  Axes machine;
+  for (const Axis axis : kAllAxes) machine[index_of(axis)] = state.machine.raw(axis);
+  std::copy(compensation.left.begin(), compensation.left.end(), machine.begin());
+  state.position = to_program(run, machine);
+  state.machine = to_machine(run, state.position);
+  state.is_displaced = false;
+}
+
+bool stop_trimming(Run& run) {
+  Compensation& compensation = run.state.compensation;
+  if (compensation.is_first) return true;
+  const Entry end{machine_point(run, programmed_point(run)), machine_point(run, tool_point(run)), 0,
+                  std::nullopt};
+  if (!finish_held(run, end.tool, travel_of(run, end))) return false;
+  Position tool = run.state.machine;
+  put(run, tool, end.tool);
+  for (std::size_t i = 0; i < 3; ++i) compensation.left[i] = tool.raw(kAllAxes[i]);
+  const PlaneAxes plane = axes_of(run.state.modes.plane);
+  run.state[plane.first] = compensation.x;
+  run.state[plane.second] = compensation.y;
+  run.state.machine = to_machine(run, run.state.position);
+  compensation.was_on = true;
+  run.state.is_displaced = true;
+  return true;
+}
+
+}  // namespace dripline::interpreter::rs274ngc

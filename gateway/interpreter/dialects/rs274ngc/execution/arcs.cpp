@@ -1,0 +1,217 @@
+#include "gateway/interpreter/dialects/rs274ngc/execution/arcs.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
+
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+/// Offset words along the axes of the plane; the third has no meaning there.
+struct OffsetWords {
+  char first, second, other;
+};
+OffsetWords offset_words(Plane plane) {
+  switch (plane) {
+    case Plane::ZX:
+      return {'K', 'I', 'J'};
+    case Plane::YZ:
+      return {'J', 'K', 'I'};
+    default:
+      return {'I', 'J', 'K'};
+  }
+}
+
+/// What arcs may be off by (9.3).
+struct Tolerance {
+  double radius;        ///< of the radii at both ends, absolute
+  double spread;        ///< of the radii, as a part of the larger (the later program)
+  double most;          ///< of the radii, whatever their size
+  double least_radius;  ///< a smaller one is none
+  double chord;         ///< that half a chord may exceed the radius
+};
+Tolerance tolerance(const Run& run) {
+  const bool is_inch = run.state.units == Units::Inch;
+  if (!run.is_linuxcnc())
+    return {is_inch ? 0.0002 * Length::kMillimetresPerInch : 0.002, 0, 0, 0, 0};
+  return {is_inch ? 0.00283 * Length::kMillimetresPerInch : 0.0283, 0.001,
+          is_inch ? 0.283 * Length::kMillimetresPerInch : 2.83,
+          is_inch ? 0.00004 * Length::kMillimetresPerInch : 0.001,
+          is_inch ? 0.00005 * Length::kMillimetresPerInch : 0.00127};
+}
+
+/// Of squares, so that nearly all arcs need no root: |a - b| is at most |a^2 - b^2| over the
+/// larger.
+bool surely_agree(const Tolerance& limits, double at_start, double at_end) {
+  const double off = at_start - at_end;
+  return std::min(at_start, at_end) > limits.least_radius * limits.least_radius &&
+         off * off <= limits.radius * limits.radius * std::max(at_start, at_end);
+}
+
+bool check_radii(Run& run, PlanePoint center, PlanePoint start, PlanePoint end) {
+  const Tolerance limits = tolerance(run);
+  const auto square = [&](PlanePoint point) {
+    const double first = point.first - center.first;
+    const double second = point.second - center.second;
+    return first * first + second * second;
+  };
+  if (surely_agree(limits, square(start), square(end))) [[likely]]
+    return true;
+  const double at_start = std::sqrt(square(start));
+  const double at_end = std::sqrt(square(end));
+  if (at_start <= limits.least_radius || at_end <= limits.least_radius) {
+    return run.fail(ErrorCode::ArcZero, 0);
+  }
+  const double off = std::fabs(at_start - at_end);
+  bool differs = off > limits.radius;
+  if (run.is_linuxcnc()) {
+    differs = (differs && off > limits.spread * std::fmax(at_start, at_end)) || off > limits.most;
+  }
+  if (!differs) return true;
+  const double unit = run.state.mm_per_unit();
+  return run.fail(ErrorCode::ArcRadiusDiffers, 0,
+                  fmt::format("{} at the start, {} at the end", at_start / unit, at_end / unit));
+}
+
+double length(double first, double second) {
+  return std::sqrt(first * first + second * second);
+}
+
+double word_in_mm(const Run& run, char word) {
+  return run.mm(run.block.words.value_or(word, 0));
+}
+
+bool center_of_offsets(Run& run, const OffsetWords& offsets, PlanePoint start, PlanePoint end,
+                       PlanePoint& center) {
+  const Words& words = run.block.words;
+  center = {word_in_mm(run, offsets.first), word_in_mm(run, offsets.second)};
+  if (!run.state.modes.is_arc_absolute) {
+    center.first += start.first;
+    center.second += start.second;
+  } else if (!words.has(offsets.first) || !words.has(offsets.second)) {
+    return run.fail(ErrorCode::ArcNone, 0, "G90.1 needs both offsets");
+  }
+  const Compensation& compensation = run.state.compensation;
+  if (compensation.side != Side::Off && compensation.is_first && !run.is_linuxcnc()) return true;
+  return check_radii(run, center, start, end);
+}
+
+bool center_of_radius(Run& run, PlanePoint start, PlanePoint end, Turn turn, PlanePoint& center) {
+  const double radius = word_in_mm(run, 'R');
+  const double chord_first = end.first - start.first;
+  const double chord_second = end.second - start.second;
+  const double half = length(chord_first, chord_second) / 2;
+  if (half == 0) return run.fail_word(ErrorCode::ArcSamePoint, 'R');
+  const double size = std::fabs(radius);
+  if (half > size * (1 + 1e-12) + tolerance(run).chord) {
+    return run.fail_word(ErrorCode::ArcRadiusTooSmall, 'R',
+                         fmt::format("half the chord is {}", half / run.state.mm_per_unit()));
+  }
+  const double height = half < size ? std::sqrt(size * size - half * half) : 0;
+  // The center lies left of the chord for short arcs ccw and long ones cw.
+  const bool is_left = (turn == Turn::Counterclockwise) == (radius > 0);
+  const double along = (is_left ? height : -height) / (2 * half);
+  center = {(start.first + end.first) / 2 - along * chord_second,
+            (start.second + end.second) / 2 + along * chord_first};
+  return true;
+}
+
+bool check_words(Run& run, const OffsetWords& offsets, bool names_plane) {
+  const Words& words = run.block.words;
+  const bool has_radius = words.has('R');
+  const bool has_offset = words.has_any(set_of("IJK"));
+  if (has_radius && has_offset) return run.fail_word(ErrorCode::ArcMixed, 'R');
+  if (!has_radius && !has_offset) return run.fail(ErrorCode::ArcNone, 0);
+  if (words.has(offsets.other)) return run.fail_word(ErrorCode::ArcOffsetPlane, offsets.other);
+  if (names_plane || (run.is_linuxcnc() && has_offset)) return true;
+  if (run.is_linuxcnc()) return run.fail_word(ErrorCode::ArcSamePoint, 'R');
+  return run.fail(ErrorCode::ArcNoAxis, 0);
+}
+
+/// A code of the block, not the arc's, that takes P as well.
+bool has_other_user_of_p(const Run& run) {
+  const Profile profile = run.options.profile;
+  const Block& block = run.block;
+  for (const GGroup group : {GGroup::OneShot, GGroup::Path}) {
+    const GRow* row = g_row(block.g(group), profile);
+    if (row != nullptr && (words_of(*row, profile) & set_of("P")) != 0) return true;
+  }
+  for (std::size_t group = 0; group < kMGroups; ++group) {
+    const MRow* row = m_row(block.m(static_cast<MGroup>(group)), profile);
+    if (row != nullptr && (row->words & set_of("P")) != 0) return true;
+  }
+  return false;
+}
+
+/// P of an arc. One that is a dwell, a tolerance or an input's number at the same time would turn
+/// the arc that often, without a word of it.
+bool read_turns(Run& run, double& turns) {
+  turns = 1;
+  const Words& words = run.block.words;
+  if (!words.has('P')) return true;
+  if (has_other_user_of_p(run)) {
+    if (!run.is_linuxcnc()) return true;
+    return run.fail_word(ErrorCode::ArcTurns, 'P',
+                         fmt::format("P{} is of another code of the block as well", words['P']));
+  }
+  turns = std::round(words['P']);
+  constexpr double kMaxTurns = 1e6;
+  if (std::fabs(words['P'] - turns) <= 0.0001 && turns >= 1 && turns <= kMaxTurns) return true;
+  return run.fail_word(ErrorCode::ArcTurns, 'P', fmt::format("P{}", words['P']));
+}
+
+}  // namespace
+
+double sweep_of(PlanePoint center, PlanePoint start, PlanePoint end, Turn turn) {
+  constexpr double kFull = 2 * Angle::kPi;
+  constexpr double kSame = 1e-6;  // radians; an angle this small is a full turn
+  const PlanePoint from{start.first - center.first, start.second - center.second};
+  const PlanePoint to{end.first - center.first, end.second - center.second};
+  const double cross = from.first * to.second - from.second * to.first;
+  const double dot = from.first * to.first + from.second * to.second;
+  double sweep = std::atan2(turn == Turn::Counterclockwise ? cross : -cross, dot);
+  if (sweep < 0) sweep += kFull;
+  if (sweep <= kSame || sweep >= kFull) sweep = kFull;
+  return sweep * (180 / Angle::kPi);
+}
+
+bool arc_move(Run& run, bool is_clockwise) {
+  Target target;
+  Feed feed;
+  State& state = run.state;
+  if (state.modes.has_tilted_plane) {
+    return run.fail(ErrorCode::ArcTilted, 0);
+  }
+  if (!read_feed(run, true, feed) || !read_target(run, target)) return false;
+  const PlaneAxes axes = axes_of(state.modes.plane);
+  const OffsetWords offsets = offset_words(state.modes.plane);
+  const bool names_plane = (target.named & (bit_of(axes.first) | bit_of(axes.second))) != 0;
+  if (!check_words(run, offsets, names_plane)) return false;
+  double turns = 1;
+  if (!read_turns(run, turns)) return false;
+  PlanePoint start{state[axes.first], state[axes.second]};
+  const Compensation& compensation = state.compensation;
+  const bool is_compensated = shifts_moves(run);
+  if (is_compensated && !compensation.is_first) start = {compensation.x, compensation.y};
+  const PlanePoint end{target.to[index_of(axes.first)], target.to[index_of(axes.second)]};
+  const Turn turn = is_clockwise ? Turn::Clockwise : Turn::Counterclockwise;
+  PlanePoint center;
+  if (run.block.words.has('R')) {
+    if (!is_compensated || !compensation.is_first || run.is_linuxcnc()) {
+      if (!center_of_radius(run, start, end, turn, center)) return false;
+    }
+  } else if (!center_of_offsets(run, offsets, start, end, center)) {
+    return false;
+  }
+  run.state.passes = 0;
+  if (is_compensated) return compensated_arc(run, target, center, turn, turns, feed);
+  if (compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
+  const double sweep = sweep_of(center, start, end, turn) + 360 * (turns - 1);
+  target.named = static_cast<AxisBits>(target.named | bit_of(axes.first) | bit_of(axes.second));
+  return arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
+}
+
+}  // namespace dripline::interpreter::rs274ngc

@@ -1,0 +1,319 @@
+#include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/modes.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+bool is_turning(const SpindleModes& spindle) {
+  return spindle.state == SpindleState::Clockwise ||
+         spindle.state == SpindleState::Counterclockwise;
+}
+
+void show_spindle(Run& run) {
+  const SpindleModes& spindle = run.state.spindle;
+  Spindle event;
+  event.origin = run.origin;
+  event.state = spindle.state;
+  if (spindle.is_surface) {
+    const bool is_inch = run.state.units == Units::Inch;  // feet or metres a minute
+    event.surface_speed =
+        is_inch ? Length::inch(12 * spindle.speed) : Length::mm(1000 * spindle.speed);
+    if (spindle.most > 0) event.max_revolutions = spindle.most;
+  } else {
+    event.revolutions_per_minute = spindle.speed;
+  }
+  run.events().on_spindle(event);
+}
+
+void apply_coolant(Run& run, int code) {
+  State& state = run.state;
+  const bool flood = code == 8 || (code == 7 && state.flood);
+  const bool mist = code == 7 || (code == 8 && state.mist);
+  if (flood == state.flood && mist == state.mist) return;
+  state.flood = flood;
+  state.mist = mist;
+  run.events().on_coolant({run.origin, flood, mist});
+}
+
+void apply_override(Run& run, int code) {
+  Overrides& overrides = run.state.overrides;
+  const bool enables = run.block.words.value_or('P', 1) != 0;
+  if (code == 48 || code == 49) overrides.speed = overrides.feed = code == 48;
+  if (code == 50) overrides.feed = enables;
+  if (code == 51) overrides.speed = enables;
+  if (code == 52) overrides.adaptive = enables;
+  if (code == 53) overrides.hold = enables;
+  run.events().on_miscellaneous({run.origin, code});
+  run.events().on_override_inhibit(override_inhibit(run));
+}
+
+bool change_tool(Run& run, int code) {
+  State& state = run.state;
+  if (run.is_linuxcnc() && state.compensation.side != Side::Off) {
+    return run.fail(ErrorCode::CompNotAllowed, 0, "a tool change");
+  }
+  if (code == 61) {
+    const double number = run.block.words.value_or('Q', -1);
+    if (!(number >= 0 && number <= 99'999) || number != std::round(number)) {
+      return run.fail_word(ErrorCode::ToolNumber, 'Q');
+    }
+    state.tool.loaded = static_cast<int>(number);
+  } else {
+    if (is_turning(state.spindle)) turn_spindle(run, SpindleState::Off);
+    state.tool.loaded = state.tool.selected;
+  }
+  run.events().on_tool({run.origin, state.tool.loaded, false, {}});
+  if (code != 61 && !run.options.has_tool_changer) {
+    run.events().on_stop({run.origin, StopKind::ToolChange});
+  }
+  // A move of the same line still begins at the programmed place.
+  if (run.is_linuxcnc() && run.block.motion < 0) go_on_from_tool(run);
+  return true;
+}
+
+bool orient(Run& run) {
+  const double angle = run.block.words.value_or('R', 0);
+  if (!(angle >= 0 && angle <= 360)) return run.fail_word(ErrorCode::OrientWords, 'R');
+  turn_spindle(run, SpindleState::Oriented);
+  return true;
+}
+
+bool write_output(Run& run, int code) {
+  const Words& words = run.block.words;
+  const bool is_analog = code == 67 || code == 68;
+  const char index = is_analog ? 'E' : 'P';
+  if (!words.has(index) || words[index] < 0 || (is_analog && !words.has('Q'))) {
+    return run.fail_word(ErrorCode::IoWords, index, fmt::format("M{}", code));
+  }
+  run.events().on_miscellaneous({run.origin, code});
+  return true;
+}
+
+/// M66: a digital or analog input, at once or when it changes; the result is #5399.
+bool read_input(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has('P') == words.has('E') || words.value_or('P', 0) < 0) {
+    return run.fail(ErrorCode::IoWords, 0, "M66 needs P or E");
+  }
+  const double mode = words.value_or('L', 0);
+  const bool waits = mode > 0;
+  if (mode < 0 || mode > 4 || (words.has('E') && waits) || (waits && words.value_or('Q', 0) <= 0)) {
+    return run.fail_word(ErrorCode::IoWords, 'L', "M66");
+  }
+  if (words.has('E')) {
+    run.events().on_miscellaneous({run.origin, 66});
+    run.parameters[kInputResult] = 0;
+    return true;
+  }
+  const auto pin = static_cast<std::int64_t>(words['P']);
+  bool state = false;
+  if (run.options.answers_pins) {
+    for (const std::int64_t each : run.options.pins) state |= each == pin;
+  } else if (run.answer) {
+    state = std::get<bool>(*run.answer);
+    run.answer.reset();
+  } else {
+    return run.ask(InputQuestion{static_cast<int>(pin)});
+  }
+  run.events().on_miscellaneous({run.origin, 66});
+  run.parameters[kInputResult] = state ? 1 : 0;
+  return true;
+}
+
+bool select_tool(Run& run) {
+  const double number = run.block.words['T'];
+  if (!run.is_linuxcnc() && number > run.options.slots) {
+    return run.fail_word(ErrorCode::SlotRange, 'T',
+                         fmt::format("T{} is above {}", number, run.options.slots));
+  }
+  const bool is_known = run.tools.empty() || number == 0 ||
+                        find_tool(run, static_cast<int>(std::fmin(number, 1e9))) != nullptr;
+  if (run.is_linuxcnc() && !is_known) {
+    return run.fail_word(ErrorCode::ToolNotFound, 'T', fmt::format("T{}", number));
+  }
+  run.state.tool.selected = static_cast<int>(std::fmin(number, 1e9));
+  run.events().on_tool({run.origin, run.state.tool.selected, true, {}});
+  return true;
+}
+
+void change_state_stack(Run& run, int code) {
+  SavedModes& saved = run.state.calls.empty() ? run.state.saved : run.state.calls.back().modes;
+  if (code == 71) {
+    saved.is_valid = false;
+    return;
+  }
+  save_modes(run, saved);
+  saved.restores_at_return = code == 73;
+}
+
+bool apply_state_code(Run& run, int code) {
+  if (code != 72) {
+    change_state_stack(run, code);
+    return true;
+  }
+  const SavedModes& saved =
+      run.state.calls.empty() ? run.state.saved : run.state.calls.back().modes;
+  if (!saved.is_valid) return run.fail(ErrorCode::StateStack, 0, "M72");
+  restore_modes(run, saved);
+  return true;
+}
+
+}  // namespace
+
+void turn_spindle(Run& run, SpindleState state) {
+  if (run.state.spindle.state == state) return;
+  run.state.spindle.state = state;
+  show_spindle(run);
+}
+
+bool apply_spindle_mode(Run& run) {
+  const int code = run.block.g(GGroup::SpindleMode);
+  if (code < 0) return true;
+  const Words& words = run.block.words;
+  SpindleModes& spindle = run.state.spindle;
+  if (code == 970) {
+    spindle.is_surface = false;
+    return true;
+  }
+  if (!words.has('S') || words.value_or('D', 0) < 0) {
+    return run.fail(ErrorCode::SpindleMode, 0, "G96 needs S");
+  }
+  spindle.is_surface = true;
+  spindle.most = words.value_or('D', 0);
+  return true;
+}
+
+bool apply_speed_and_tool(Run& run) {
+  const Words& words = run.block.words;
+  if (words.has('S')) {
+    SpindleModes& spindle = run.state.spindle;
+    const bool changes = spindle.speed != words['S'];
+    spindle.speed = words['S'];
+    // A spindle that this line starts shows its speed then.
+    const int code = run.block.m(MGroup::Spindle);
+    if (changes && is_turning(spindle) && (code < 3 || code > 5)) show_spindle(run);
+  }
+  return !words.has('T') || select_tool(run);
+}
+
+bool apply_inputs(Run& run) {
+  const int code = run.block.m(MGroup::InputOutput);
+  if (code < 0) return true;
+  return code == 66 ? read_input(run) : write_output(run, code);
+}
+
+bool apply_machine_functions(Run& run) {
+  const Block& block = run.block;
+  if (const int code = block.m(MGroup::Tool); code >= 0 && !change_tool(run, code)) return false;
+  if (const int code = block.m(MGroup::State); code >= 0 && !apply_state_code(run, code)) {
+    return false;
+  }
+  if (const int code = block.m(MGroup::Spindle); code >= 0) {
+    if (code == 19) {
+      if (!orient(run)) return false;
+    } else {
+      const auto state = code == 3   ? SpindleState::Clockwise
+                         : code == 4 ? SpindleState::Counterclockwise
+                                     : SpindleState::Off;
+      if (run.state.spindle.state == state && block.words.has('S') && code != 5) show_spindle(run);
+      turn_spindle(run, state);
+    }
+  }
+  if (const int code = block.m(MGroup::Coolant); code >= 0) apply_coolant(run, code);
+  if (const int code = block.m(MGroup::Override); code >= 0) apply_override(run, code);
+  if (const int code = block.m(MGroup::User); code >= 0) {
+    run.events().on_miscellaneous({run.origin, code});
+  }
+  return true;
+}
+
+OverrideInhibit override_inhibit(const Run& run) {
+  const Overrides& overrides = run.state.overrides;
+  OverrideInhibit lock{.origin = run.origin};
+  lock.feed_override = !overrides.feed;
+  lock.spindle_override = !overrides.speed;
+  if (!overrides.hold) lock.hold = FeedHoldInhibit::Later;
+  return lock;
+}
+
+bool reset_at_end(Run& run) {
+  State& state = run.state;
+  if (!check_nurbs_closed(run) || !switch_compensation(run, 400)) return false;
+  state.compensation = Compensation{};
+  reset_coordinates(run);
+  state.modes.plane = Plane::XY;
+  state.modes.has_tilted_plane = false;
+  state.modes.is_incremental = false;
+  state.modes.feed = FeedMode::PerMinute;
+  state.modes.motion = 10;
+  state.overrides = Overrides{};
+  if (run.is_linuxcnc()) {
+    state.feed = 0;
+    state.spindle.is_surface = false;
+    state.modes.is_arc_absolute = false;
+  }
+  if (state.spindle.state != SpindleState::Off) turn_spindle(run, SpindleState::Off);
+  apply_coolant(run, 9);
+  return true;
+}
+
+bool apply_stops(Run& run) {
+  const int code = run.block.m(MGroup::Stop);
+  EventSink& events = run.events();
+  if (code == 0 || code == 60 || (code == 1 && run.options.optional_stop)) run.state.passes = 0;
+  switch (code) {
+    case 0:
+      events.on_stop({run.origin, StopKind::Program});
+      return true;
+    case 1:
+      if (run.options.optional_stop) events.on_stop({run.origin, StopKind::Optional});
+      return true;
+    case 60:
+      events.on_miscellaneous({run.origin, code});
+      events.on_stop({run.origin, StopKind::Program});
+      return true;
+    case 2:
+    case 30:
+      if (!reset_at_end(run)) return false;
+      if (code == 30) run.events().on_miscellaneous({run.origin, code});
+      run.state.phase = RunPhase::Ended;
+      return true;
+    default:
+      return true;
+  }
+}
+
+void save_modes(const Run& run, SavedModes& saved) {
+  const State& state = run.state;
+  saved = {true,       false,         state.modes, state.units, state.system,
+           state.feed, state.spindle, state.flood, state.mist,  state.overrides};
+}
+
+void restore_modes(Run& run, const SavedModes& saved) {
+  State& state = run.state;
+  if (saved.units != state.units) change_units(run, saved.units);
+  state.modes = saved.modes;
+  state.feed = saved.feed;
+  state.overrides = saved.overrides;
+  if (state.has_header) run.events().on_override_inhibit(override_inhibit(run));
+  if (saved.system != state.system) load_system(run, saved.system);
+  const SpindleState now = state.spindle.state;
+  state.spindle = saved.spindle;
+  state.spindle.state = now;
+  turn_spindle(run, saved.spindle.state);
+  if (saved.flood != state.flood || saved.mist != state.mist) {
+    state.flood = saved.flood;
+    state.mist = saved.mist;
+    run.events().on_coolant({run.origin, state.flood, state.mist});
+  }
+}
+
+}  // namespace dripline::interpreter::rs274ngc

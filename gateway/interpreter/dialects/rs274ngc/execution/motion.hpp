@@ -1,0 +1,47 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/rs274ngc/run.hpp"
+
+/// Straight moves, and how all moves reach the sink (9.1, 9.2).
+namespace dripline::interpreter::rs274ngc {
+
+using AxisBits = std::uint16_t;
+constexpr AxisBits bit_of(Axis axis) {
+  return static_cast<AxisBits>(1u << index_of(axis));
+}
+
+/// Where a move goes: program coordinates, and the axes that its line names.
+struct Target {
+  Axes to{};
+  AxisBits named = 0;
+};
+
+/// @ and ^ stand without X and Y, in G17.
+bool check_polar_words(Run& run);
+/// The end of the line's move out of its words, G53 and distance mode.
+bool read_target(Run& run, Target& target);
+
+/// The feed of this line's move. Errors: none is in force, or the line lacks the F of G93.
+bool read_feed(Run& run, bool is_arc, Feed& feed);
+
+/// G0 and G1.
+bool straight_move(Run& run, int motion);
+/// G28 and G30.
+bool home_move(Run& run, int g_code);
+
+/// These move the state along and deliver the event; a move of no length is none.
+void rapid_to(Run& run, const Target& target);
+void line_to(Run& run, const Target& target, const Feed& feed);
+/// One of the pieces that a curve is made of comes to rest only where the curve ends.
+void line_to(Run& run, const Target& target, const Feed& feed, bool rests);
+/// Arrives there and gives the machine point: for events made elsewhere.
+const Position& arrive(Run& run, const Target& target);
+
+struct ArcShape {
+  double center_first = 0, center_second = 0;  ///< program coordinates, mm
+  Turn turn = Turn::Clockwise;
+  double sweep = 0;  ///< degrees, > 0
+};
+bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& feed);
+
+}  // namespace dripline::interpreter::rs274ngc

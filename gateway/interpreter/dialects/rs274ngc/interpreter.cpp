@@ -1,0 +1,278 @@
+#include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
+
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/snapshot.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+/// Lines passed over in one step at most.
+constexpr std::uint64_t kMaxPassedOver = 65'536;
+
+/// An editor's, in front of the program.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool is_blank_line(const char* at) {
+  return is_end_of_line(*skip_blanks(at));
+}
+
+}  // namespace
+
+Rs274NgcInterpreter::Rs274NgcInterpreter(ControlOptions options, std::vector<Tool> tools,
+                                         State state, const Parameters& parameters,
+                                         ProgramSource& source, EventSink& sink)
+    : run_(std::move(options), std::move(tools), source, sink), flow_(run_) {
+  run_.state = std::move(state);
+  run_.parameters = parameters;
+  Axes machine{};
+  for (const Axis axis : kAllAxes) machine[index_of(axis)] = run_.state.machine.raw(axis);
+  run_.state.position = to_program(run_, machine);
+}
+
+StepState Rs274NgcInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  run_.reader.drop_window();  // its text was good only until the owner used the source
+  std::uint64_t passed_over = 0;
+  for (std::uint64_t left = max_blocks; left > 0;) {
+    const Outcome outcome = run_line();
+    if (outcome == Outcome::Finished) [[likely]] {
+      if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+        return StepState::Ended;
+      --left;
+      continue;
+    }
+    if (outcome == Outcome::Paused) return paused();
+    if (++passed_over == kMaxPassedOver) return StepState::Ran;
+  }
+  return StepState::Ran;
+}
+
+StepState Rs274NgcInterpreter::paused() {
+  const Pause why = std::exchange(run_.pause, Pause::None);
+  if (why == Pause::Text) return StepState::NeedsText;
+  if (why == Pause::Question) {
+    is_asking_ = true;
+    return StepState::NeedsAnswer;
+  }
+  run_.held.drop();  // a move whose end was never found is not made
+  run_.events();     // the header
+  run_.sink.on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+/// Makes the next line visible, its end readable.
+bool Rs274NgcInterpreter::load_line(LineState& outcome) {
+  LineReader& reader = run_.reader;
+  if (!(reader.place() == run_.state.at)) reader.seek(run_.state.at);
+  SourceLine line;
+  outcome = reader.next(line);
+  run_.origin.line = run_.state.at.line;
+  run_.origin.offset = run_.state.at.offset;
+  run_.origin.program = run_.state.at.program;
+  run_.origin.block = run_.state.blocks + 1;
+  run_.origin.sequence = Origin::kNone;
+  if (outcome != LineState::Ready) [[unlikely]]
+    return false;
+  run_.here = line.place;
+  // One by one: the reader has only just counted, and a copy of all at once would wait for it.
+  run_.next.program = reader.place().program;
+  run_.next.offset = reader.place().offset;
+  run_.next.line = reader.place().line;
+  run_.line_begin = line.text.data();
+  if (run_.next.offset - run_.here.offset == line.text.size()) [[unlikely]] {
+    std::copy(line.text.begin(), line.text.end(), run_.last_line.begin());
+    run_.last_line[line.text.size()] = '\n';
+    run_.line_begin = run_.last_line.data();
+  }
+  run_.line_end = run_.line_begin + line.text.size();
+  return true;
+}
+
+Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::run_line() {
+  Block& block = run_.block;
+  if (block.stage == Stage::Start) [[likely]] {
+    LineState line{};
+    if (flow_.wants_file()) [[unlikely]] {
+      if (!flow_.look_up_file()) return Outcome::Paused;
+      run_.state.at = run_.next;
+      return Outcome::PassedOver;
+    }
+    if (!load_line(line)) [[unlikely]]
+      return meet_no_line(line);
+    if (run_.state.skip.until != SkipFor::Nothing) [[unlikely]] {
+      block.clear();
+      if (!flow_.pass_over()) return Outcome::Paused;
+      run_.state.at = run_.next;
+      return Outcome::PassedOver;
+    }
+    block.clear();
+    if (!execute()) [[unlikely]]
+      return Outcome::Paused;
+  } else if (!finish_words()) {
+    return Outcome::Paused;
+  }
+  return finish_line();
+}
+
+Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::meet_no_line(LineState state) {
+  switch (state) {
+    case LineState::NotYet:
+      run_.pause = Pause::Text;
+      return Outcome::Paused;
+    case LineState::End:
+      run_.next = run_.state.at;
+      if (!flow_.end_of_text()) return Outcome::Paused;
+      run_.state.at = run_.next;
+      return Outcome::PassedOver;
+    case LineState::TooLong:
+      run_.fail(ErrorCode::CommandTooLong, 0);
+      return Outcome::Paused;
+    default:
+      run_.fail(ErrorCode::TextFailed, 0, run_.reader.reason());
+      return Outcome::Paused;
+  }
+}
+
+/// The first line of a program that is not blank says how its end is told (2.1).
+bool Rs274NgcInterpreter::meet_percent(const char* at, bool& is_end) {
+  State& state = run_.state;
+  is_end = false;
+  const bool is_alone = is_blank_line(at + 1);
+  const bool is_main = state.at.program == kMainProgram;
+  if (is_alone && is_main && state.demarcation == Demarcation::Unknown) {
+    state.demarcation = Demarcation::Percent;
+    return true;
+  }
+  if (is_alone && (!is_main || state.demarcation == Demarcation::Percent)) {
+    is_end = is_main;
+    return true;
+  }
+  return run_.fail(ErrorCode::BadCharacter, run_.column(at), "'%'");
+}
+
+bool Rs274NgcInterpreter::execute() {
+  State& state = run_.state;
+  const char* at = skip_blanks(run_.line_begin);
+  if (*at == kByteOrderMark.front() && run_.here.offset == 0) [[unlikely]] {
+    const std::string_view line(at, static_cast<std::size_t>(run_.line_end - at));
+    if (line.starts_with(kByteOrderMark)) at = skip_blanks(at + kByteOrderMark.size());
+  }
+  if (*at == '%') [[unlikely]] {
+    bool is_end = false;
+    if (!meet_percent(at, is_end)) return false;
+    if (is_end) {
+      if (!check_nurbs_closed(run_)) return false;
+      release_held(run_);
+      state.phase = RunPhase::Ended;
+    }
+    return true;
+  }
+  if (state.demarcation == Demarcation::Unknown) [[unlikely]] {
+    if (!is_end_of_line(*at)) state.demarcation = Demarcation::None;
+  }
+  bool is_skip = *at == '/';
+  if (is_skip && run_.options.block_skip && run_.is_linuxcnc()) [[unlikely]]
+    return true;
+  if ((is_skip || upper(*at) == 'N') && !read_line_head(run_, at, is_skip)) [[unlikely]]
+    return false;
+  if (upper(*at) == 'O' && run_.is_linuxcnc()) [[unlikely]]
+    return flow_.execute(at);
+  return execute_words(at, is_skip && run_.options.block_skip);
+}
+
+bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
+  if (!read_items(run_, at) || !check_line(run_)) [[unlikely]]
+    return false;
+  if (is_skipped) [[unlikely]] {  // read, so that its errors are told, and left out
+    run_.block.clear();
+    return true;
+  }
+  run_.block.stage = Stage::Before;
+  return finish_words();
+}
+
+bool Rs274NgcInterpreter::finish_words() {
+  if (!execute_line(run_)) [[unlikely]]
+    return false;
+  const int stop = run_.block.m(MGroup::Stop);
+  return stop < 98 || flow_.execute_fanuc(stop);
+}
+
+Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::finish_line() {
+  State& state = run_.state;
+  if (state.phase == RunPhase::Ended) [[unlikely]] {
+    run_.events().on_end({run_.origin, state.blocks + 1, run_.block.m(MGroup::Stop) == 30});
+  }
+  if (run_.held.empty()) [[likely]] {
+    run_.sink.on_block_end(run_.origin);
+  } else {
+    run_.held.on_block_end(run_.origin);
+  }
+  ++state.blocks;
+  state.at = run_.next;
+  run_.block.stage = Stage::Start;
+  return Outcome::Finished;
+}
+
+Result<void> Rs274NgcInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) return fail(Errc::Syntax, "an answer to another question");
+  run_.answer = answer;
+  is_asking_ = false;
+  return {};
+}
+
+ActiveModes Rs274NgcInterpreter::modes() const {
+  const State& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  modes.is_incremental = state.modes.is_incremental;
+  modes.compensation = static_cast<CompensationSide>(state.compensation.side);
+  const int system = state.system;  // 7 to 9 are G59.1 to G59.3
+  modes.work_system = static_cast<std::uint16_t>(system <= 6 ? 530 + 10 * system : 584 + system);
+  modes.tool_length_x = Length::mm(state.tool_length[index_of(Axis::X)]);
+  modes.tool_length_z = Length::mm(state.tool_length[index_of(Axis::Z)]);
+  modes.tool_radius = Length::mm(state.compensation.radius);
+  const Length feed = Length::mm(run_.mm(state.feed));
+  modes.feed = state.modes.feed == FeedMode::PerMinute       ? Feed::per_minute(feed)
+               : state.modes.feed == FeedMode::PerRevolution ? Feed::per_revolution(feed)
+                                                             : Feed::inverse_time(state.feed);
+  modes.cycle = hole_cycle_name(state.modes.motion / 10);
+  modes.frame_changes = run_.frame_changes;
+  return modes;
+}
+
+std::optional<CoordinateFrame> Rs274NgcInterpreter::frame() const {
+  return frame_of(run_);
+}
+
+Snapshot Rs274NgcInterpreter::snapshot() const {
+  invariant(run_.block.stage == Stage::Start, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> Rs274NgcInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.reader.drop_window();
+  run_.block.clear();
+  run_.answer.reset();
+  run_.pause = Pause::None;
+  flow_.forget();
+  ++run_.frame_changes;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::rs274ngc

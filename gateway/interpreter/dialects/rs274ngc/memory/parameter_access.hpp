@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+
+#include "gateway/interpreter/dialects/rs274ngc/run.hpp"
+
+/// Reading and setting parameters by number and by name, those that show the state included
+/// (3.5, 16.1, 16.2).
+namespace dripline::interpreter::rs274ngc {
+
+/// `index` is whole, but may be any number.
+bool read_parameter(Run& run, double index, std::uint32_t column, double& value);
+/// Whether the program may set it.
+bool check_settable(Run& run, double index, std::uint32_t column);
+
+bool read_named(Run& run, std::string_view name, std::uint32_t column, double& value);
+bool is_defined(Run& run, std::string_view name);
+/// The number under which a name can be set; alarms on those that only show the state.
+bool name_to_set(Run& run, std::string_view name, std::uint32_t column, NameId& id);
+
+/// For the texts of comments: what stands after a #, without alarms.
+std::optional<double> parameter_for_text(Run& run, int index);
+std::optional<double> named_for_text(Run& run, std::string_view name);
+
+}  // namespace dripline::interpreter::rs274ngc

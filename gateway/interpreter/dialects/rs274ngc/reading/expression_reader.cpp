@@ -1,0 +1,360 @@
+#include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+#include <cstdlib>
+
+#include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/functions.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/number_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+using language::Computed;
+using language::MathFault;
+using language::Operator;
+
+constexpr int kMaxDepth = 64;
+/// A value this near to a whole number is one (1.2).
+constexpr double kWholeWithin = 0.0001;
+/// Comparisons of the later language.
+constexpr double kSameWithin = 1e-6;
+
+bool is_number_start(char c) {
+  return is_digit(c) || c == '.' || c == '-' || c == '+';
+}
+
+/// The walk over one expression and all that is inside it.
+class Terms {
+ public:
+  Terms(Run& run, const char*& at, int depth) : run_(run), at_(at), depth_(depth) {}
+
+  bool operand(double& value);
+  Operator peek();
+  void take() { at_ = after_; }
+  int rank(Operator op) const;
+  Computed apply(Operator op, double left, double right) const;
+  bool fault(MathFault fault) { return run_.fail(code_of(fault), run_.column(at_)); }
+
+  bool bracketed(double& value);
+
+ private:
+  static ErrorCode code_of(MathFault fault) {
+    switch (fault) {
+      case MathFault::DivisionByZero:
+        return ErrorCode::DivideByZero;
+      case MathFault::PowerBase:
+        return ErrorCode::NegativePower;
+      default:
+        return ErrorCode::NotFinite;
+    }
+  }
+  bool parameter(double& value);
+  bool function(double& value);
+  bool arc_tangent(double& value);
+  bool exists(double& value);
+  bool argument(double& value);
+  Operator operator_here(const char* at);
+  bool is_comparison_allowed() const { return run_.is_linuxcnc(); }
+
+  Run& run_;
+  const char*& at_;
+  const char* after_ = nullptr;
+  int depth_;
+};
+
+int Terms::rank(Operator op) const {
+  switch (op) {
+    case Operator::None:
+      return 0;
+    case Operator::Power:
+      return 6;
+    case Operator::Multiply:
+    case Operator::Divide:
+    case Operator::Modulo:
+      return 5;
+    case Operator::And:
+    case Operator::Or:
+    case Operator::ExclusiveOr:
+      return run_.is_linuxcnc() ? 2 : 4;
+    default:
+      return language::is_comparison(op) ? 3 : 4;
+  }
+}
+
+Computed Terms::apply(Operator op, double left, double right) const {
+  const auto claim = [](bool holds) { return Computed{holds ? 1.0 : 0.0, MathFault::None}; };
+  const auto finite = [](double value) {
+    return Computed{value, std::isfinite(value) ? MathFault::None : MathFault::Overflow};
+  };
+  switch (op) {
+    case Operator::Add:
+      return finite(left + right);
+    case Operator::Subtract:
+      return finite(left - right);
+    case Operator::Multiply:
+      return finite(left * right);
+    case Operator::Power: {
+      if (left < 0 && right != std::floor(right)) return {0, MathFault::PowerBase};
+      const double power = std::pow(left, right);
+      return {power, std::isfinite(power) ? MathFault::None : MathFault::Overflow};
+    }
+    case Operator::Modulo: {
+      const double rest = std::fmod(left, right);
+      if (std::isnan(rest)) return {0, MathFault::Undefined};
+      return {rest < 0 ? rest + std::fabs(right) : rest, MathFault::None};
+    }
+    case Operator::Equal:
+      return claim(std::fabs(left - right) < kSameWithin);
+    case Operator::NotEqual:
+      return claim(std::fabs(left - right) >= kSameWithin);
+    case Operator::Less:
+      return claim(left < right);
+    case Operator::LessOrEqual:
+      return claim(left <= right);
+    case Operator::Greater:
+      return claim(left > right);
+    case Operator::GreaterOrEqual:
+      return claim(left >= right);
+    default:
+      return language::apply(op, left, right);
+  }
+}
+
+Operator Terms::operator_here(const char* at) {
+  after_ = at + 1;
+  switch (upper(*at)) {
+    case '+':
+      return Operator::Add;
+    case '-':
+      return Operator::Subtract;
+    case '/':
+      return Operator::Divide;
+    case '*':
+      if (*skip_blanks(at + 1) != '*') return Operator::Multiply;
+      after_ = skip_blanks(at + 1) + 1;
+      return Operator::Power;
+    default:
+      break;
+  }
+  struct Spelling {
+    const char* word;
+    Operator op;
+  };
+  static constexpr std::array kWords{
+      Spelling{"MOD", Operator::Modulo},      Spelling{"AND", Operator::And},
+      Spelling{"XOR", Operator::ExclusiveOr}, Spelling{"OR", Operator::Or},
+      Spelling{"EQ", Operator::Equal},        Spelling{"NE", Operator::NotEqual},
+      Spelling{"GT", Operator::Greater},      Spelling{"GE", Operator::GreaterOrEqual},
+      Spelling{"LT", Operator::Less},         Spelling{"LE", Operator::LessOrEqual}};
+  const char first = upper(*at);
+  for (const Spelling& spelling : kWords) {
+    if (spelling.word[0] != first) continue;
+    after_ = at;
+    if (!take_word(after_, spelling.word)) continue;
+    if (language::is_comparison(spelling.op) && !is_comparison_allowed()) break;
+    return spelling.op;
+  }
+  return Operator::None;
+}
+
+Operator Terms::peek() {
+  at_ = skip_blanks(at_);
+  if (*at_ == ']') return Operator::None;
+  return operator_here(at_);
+}
+
+bool Terms::bracketed(double& value) {
+  ++at_;  // [
+  if (!language::evaluate(*this, 1, value)) return false;
+  at_ = skip_blanks(at_);
+  if (*at_ == ']') [[likely]] {
+    ++at_;
+    return true;
+  }
+  return run_.fail(
+      is_end_of_line(*at_) ? ErrorCode::UnclosedExpression : ErrorCode::UnknownOperation,
+      run_.column(at_));
+}
+
+bool Terms::operand(double& value) {
+  at_ = skip_blanks(at_);
+  const char c = *at_;
+  if (is_digit(c) || c == '.') [[likely]] {
+    return take_small_number(at_, value) || read_number_at(run_, at_, value);
+  }
+  if (depth_ >= kMaxDepth) return run_.fail(ErrorCode::NestedTooDeep, run_.column(at_));
+  ++depth_;
+  bool ok = false;
+  if (c == '[') {
+    ok = bracketed(value);
+  } else if (c == '#') {
+    ++at_;
+    ok = parameter(value);
+  } else if (c == '-' || c == '+') {
+    const char next = *skip_blanks(at_ + 1);
+    if (run_.is_linuxcnc() && !is_digit(next) && next != '.') {
+      ++at_;
+      ok = operand(value);
+      if (c == '-') value = -value;
+    } else {
+      ok = read_number_at(run_, at_, value);
+    }
+  } else if (is_letter(c)) {
+    ok = function(value);
+  } else {
+    run_.fail(is_end_of_line(c) ? ErrorCode::NoValue : ErrorCode::BadNumber, run_.column(at_));
+  }
+  --depth_;
+  return ok;
+}
+
+/// After the #: an index, which is itself a real value, or a name.
+bool Terms::parameter(double& value) {
+  at_ = skip_blanks(at_);
+  const char* start = at_;
+  if (*at_ == '<' && run_.is_linuxcnc()) {
+    if (!read_name(run_, at_, run_.scratch)) return false;
+    return read_named(run_, run_.scratch, run_.column(start), value);
+  }
+  double index = 0;
+  if (take_small_number(at_, index)) {
+    return read_parameter(run_, index, run_.column(start), value);
+  }
+  if (!operand(index)) return false;
+  const double whole = std::round(index);
+  if (!(std::fabs(index - whole) <= kWholeWithin)) {
+    return run_.fail(ErrorCode::NotInteger, run_.column(start), fmt::format("#{}", index));
+  }
+  return read_parameter(run_, whole, run_.column(start), value);
+}
+
+bool Terms::argument(double& value) {
+  at_ = skip_blanks(at_);
+  if (*at_ != '[') return run_.fail(ErrorCode::FunctionBracket, run_.column(at_));
+  return bracketed(value);
+}
+
+bool Terms::arc_tangent(double& value) {
+  double second = 0;
+  if (!argument(value)) return false;
+  at_ = skip_blanks(at_);
+  if (*at_ != '/') return run_.fail(ErrorCode::AtanSlash, run_.column(at_));
+  at_ = skip_blanks(at_ + 1);
+  if (*at_ != '[') return run_.fail(ErrorCode::AtanBracket, run_.column(at_));
+  if (!bracketed(second)) return false;
+  if (value == 0) {
+    value = second < 0 ? 180 : 0;  // -0 must not turn into -180; 0/0 is 0
+  } else {
+    value = std::atan2(value, second) * (180 / Angle::kPi);
+  }
+  return true;
+}
+
+bool Terms::exists(double& value) {
+  at_ = skip_blanks(at_);
+  if (*at_ != '[') return run_.fail(ErrorCode::FunctionBracket, run_.column(at_));
+  at_ = skip_blanks(at_ + 1);
+  const char* start = at_;
+  if (*at_ != '#') return run_.fail(ErrorCode::NotAParameter, run_.column(start));
+  at_ = skip_blanks(at_ + 1);
+  bool is_there = false;
+  if (*at_ == '<') {
+    if (!read_name(run_, at_, run_.scratch)) return false;
+    is_there = is_defined(run_, run_.scratch);
+  } else {
+    int index = 0;
+    if (!read_integer(run_, at_, index)) return false;
+    is_there = parameter_for_text(run_, index).has_value();
+  }
+  at_ = skip_blanks(at_);
+  if (*at_ != ']') return run_.fail(ErrorCode::UnclosedExpression, run_.column(at_));
+  ++at_;
+  value = is_there ? 1 : 0;
+  return true;
+}
+
+bool Terms::function(double& value) {
+  const char* start = at_;
+  const Function function = take_function(at_);
+  switch (function) {
+    case Function::None:
+      return run_.fail(ErrorCode::UnknownFunction, run_.column(start));
+    case Function::Atan:
+      return arc_tangent(value);
+    case Function::Exists:
+      if (!run_.is_linuxcnc()) return run_.fail(ErrorCode::UnknownFunction, run_.column(start));
+      return exists(value);
+    default:
+      return argument(value) && compute(run_, function, run_.column(start), value);
+  }
+}
+
+}  // namespace
+
+bool take_word(const char*& at, const char* word) {
+  const char* s = at;
+  for (const char* w = word; *w != '\0'; ++w) {
+    if (w != word) s = skip_blanks(s);
+    if (upper(*s) != *w) return false;
+    ++s;
+  }
+  at = s;
+  return true;
+}
+
+bool read_value(Run& run, const char*& at, double& value) {
+  at = skip_blanks(at);
+  const char c = *at;
+  if (is_number_start(c)) [[likely]] {
+    const char* after_sign = is_digit(c) || c == '.' ? at : skip_blanks(at + 1);
+    if (is_digit(*after_sign) || *after_sign == '.') return read_number_at(run, at, value);
+    if (!run.is_linuxcnc()) return run.fail(ErrorCode::NoDigits, run.column(at));
+  }
+  return Terms(run, at, 0).operand(value);
+}
+
+bool read_integer(Run& run, const char*& at, int& value) {
+  constexpr double kMax = 1e9;
+  at = skip_blanks(at);
+  const char* start = at;
+  double real = 0;
+  if (take_small_number(at, real)) [[likely]] {
+    value = static_cast<int>(real);
+    return true;
+  }
+  if (!read_value(run, at, real)) return false;
+  const double whole = std::round(real);
+  if (!(std::fabs(real - whole) <= kWholeWithin) || !(std::fabs(whole) <= kMax)) {
+    return run.fail(ErrorCode::NotInteger, run.column(start), fmt::format("{}", real));
+  }
+  value = static_cast<int>(whole);
+  return true;
+}
+
+bool read_expression(Run& run, const char*& at, double& value) {
+  return Terms(run, at, 0).bracketed(value);
+}
+
+bool read_name(Run& run, const char*& at, std::string& name) {
+  const char* start = at;
+  name.clear();
+  for (++at; *at != '>'; ++at) {
+    if (is_end_of_line(*at))
+      return run.fail(ErrorCode::BadCharacter, run.column(start), "< without >");
+    if (is_blank(*at)) continue;
+    const char c = *at;
+    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+  }
+  ++at;
+  if (name.empty() || name.size() > kMaxNameLength) {
+    return run.fail(ErrorCode::TooManyNames, run.column(start),
+                    fmt::format("a name has 1 to {} characters", kMaxNameLength));
+  }
+  return true;
+}
+
+}  // namespace dripline::interpreter::rs274ngc

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/language/line_reader.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/block.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/errors.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/compensation/held_events.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/names.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/options.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/state.hpp"
+
+namespace dripline::interpreter::rs274ngc {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question, Text };
+
+inline constexpr std::size_t kMaxLine = 253;
+
+/// One run: what the files of this folder work on. Functions that cannot go on give false and
+/// leave the reason in `pause`.
+struct Run {
+  Run(ControlOptions control_options, std::vector<Tool> tool_table, ProgramSource& program_source,
+      EventSink& event_sink);
+
+  /// Where events go: the sink, after the header, or after the moves that compensation holds back.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    if (!held.empty()) [[unlikely]]
+      return held;
+    return sink;
+  }
+
+  std::uint32_t column(const char* at) const {
+    return static_cast<std::uint32_t>(at - line_begin) + 1;
+  }
+  /// Give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
+  /// At the column of a word.
+  [[gnu::cold]] bool fail_word(ErrorCode code, char capital, std::string_view detail = {});
+  [[gnu::cold]] bool ask(Question asked);
+  [[gnu::cold]] void warn(std::string_view id, std::string_view text);
+
+  bool is_linuxcnc() const { return options.profile == Profile::LinuxCnc; }
+  double mm(double units) const { return units * state.mm_per_unit(); }
+  /// G61.1: every move comes to rest at its end. G61, exact path, needs no more than the corners
+  /// passed through, which all moves here are; G64 allows to cut them.
+  bool rests_at_end() const { return state.modes.path == 611; }
+
+  const ControlOptions options;
+  const std::vector<Tool> setup_tools;
+  std::vector<Tool> tools;  ///< the same rows, as G10 has written them
+  ProgramSource& source;
+  EventSink& sink;
+  LineReader reader;
+  State state;
+  Parameters parameters{};
+  NamedParameters names;
+  HeldEvents held;
+
+  TextPlace here;                 ///< of the line
+  TextPlace next;                 ///< where the run goes on after it
+  const char* line_begin = "\n";  ///< the line; its end can be read and is an end of line
+  const char* line_end = line_begin;
+  std::array<char, kMaxLine + 2> last_line{};  ///< a last line without end, with one
+  Block block;
+  language::WordLedger ledger;  ///< axis and polar words of the line
+  Origin origin;
+  std::optional<Answer> answer;
+  std::uint32_t frame_changes = 0;  ///< system or G92 offsets became others so often
+  Question question;
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+  std::string scratch;
+
+ private:
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::rs274ngc

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "gateway/interpreter/dialects/tektronix1704/run.hpp"
+
+namespace dripline::interpreter::tektronix1704 {
+
+enum class ReadOutcome : std::uint8_t {
+  Block,    ///< `state.block` holds a whole block
+  GoesOn,   ///< the end of block stood in a comment: the next line belongs to it
+  EndCode,  ///< the rewind stop code was met
+  Alarm,
+};
+
+/// Reads the characters of one line, its end of block included, into `state.block` (spec 3.2, 4).
+ReadOutcome read_line(Run& run, std::string_view line);
+
+}  // namespace dripline::interpreter::tektronix1704

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/dialects/tektronix1704/run.hpp"
+
+/// Moves in program counts; false: alarm.
+namespace dripline::interpreter::tektronix1704 {
+
+/// The rate in force, in mm per minute; nullopt after the alarm was made.
+std::optional<double> feed_rate(Run& run);
+/// Loads an F word. False: out of range, strict.
+bool load_feed(Run& run, std::int32_t count);
+
+enum class Pace : std::uint8_t { Rapid, Feed };
+struct LineMove {
+  Counts to;
+  Pace pace = Pace::Feed;
+  bool flows = false;
+};
+bool move_line(Run& run, const LineMove& move);
+/// As a cycle does: one axis to a depth that need not be a whole count.
+bool move_depth(Run& run, double to, Pace pace);
+
+/// The end point of a linear block: axes that are named go, the others stay.
+Counts end_point(const Run& run);
+/// Capacity and travel (spec 2).
+bool check_point(Run& run, const Counts& point);
+/// The block's motion in the active mode; true without doing anything when it has none.
+bool move_block(Run& run);
+
+}  // namespace dripline::interpreter::tektronix1704

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string_view>
+
+#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/diagnostics.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/state.hpp"
+
+namespace dripline::interpreter::tektronix1704 {
+
+using Counts = std::array<std::int64_t, kAxes>;
+
+/// One run: what the files of this folder work on. Functions that cannot go on give false and
+/// leave the reason in `alarm`.
+struct Run {
+  Run(ControlOptions control_options, EventSink& event_sink);
+
+  /// The sink, after the header has been delivered.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    return sink;
+  }
+
+  /// Gives false. `detail`: which value, which limit.
+  [[gnu::cold]] bool fail(Fault fault, std::uint32_t column = 0, std::string_view detail = {});
+  [[gnu::cold]] void warn(Fault fault, const Origin& at, std::uint32_t column = 0,
+                          std::string_view detail = {});
+  /// What the manual forbids without naming an effect: told, or an alarm when strict.
+  [[gnu::cold]] bool object(Fault fault, std::uint32_t column = 0, std::string_view detail = {});
+
+  double machine_mm(std::size_t axis, double program_counts) const {
+    const double sign = options.mirror[axis] ? -1 : 1;
+    return (static_cast<double>(state.origin[axis]) + sign * program_counts) * mm_per_count;
+  }
+
+  const ControlOptions options;
+  const double mm_per_count;
+  EventSink& sink;
+  State state;
+  Position position;  ///< of the machine; axes that have moved are marked
+  Diagnostic alarm;
+  language::WordLedger ledger;  ///< of the block being executed
+
+ private:
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::tektronix1704

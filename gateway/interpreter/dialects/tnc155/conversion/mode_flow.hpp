@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "gateway/interpreter/dialects/tnc155/reading/iso_modes.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_text.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What is in force in front of an ISO block, over all ways the run of a program can come to it.
+struct ModesBefore {
+  IsoModes modes;
+  // Where the ways disagree:
+  bool is_motion_open = false;
+  bool is_distance_open = false;
+  bool is_turn_open = false;
+  bool is_plane_open = false;         ///< whether one was programmed
+  bool is_compensation_open = false;  ///< likewise
+  bool is_reached = false;
+  friend bool operator==(const ModesBefore&, const ModesBefore&) = default;
+};
+
+/// One for each block of the program. Labels, repeats, jumps and returns are followed; a called
+/// program has modes of its own. Blocks that nothing reaches go on from those before them.
+std::vector<ModesBefore> modes_before(const IsoProgram& program);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,229 @@
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+constexpr int kDatumShift = 7;
+constexpr int kMirror = 8;
+constexpr int kDwell = 9;
+constexpr int kRotation = 10;
+constexpr int kScaling = 11;
+constexpr double kLongestDwell = 19'999.999;
+constexpr double kMaxRotation = 360;
+
+bool refuse_incomplete(Run& run, const Block& block) {
+  const CycleState& cycle = run.state.cycle;
+  if (block.cycle == cycle.defining && block.part == cycle.next_part) {
+    return run.fail(ErrorCode::CycleIncomplete,
+                    fmt::format("CYCL DEF {0}.{1} does not stand after {0}.{2}", block.cycle,
+                                block.part, block.part - 1));
+  }
+  return run.fail(ErrorCode::CycleIncomplete,
+                  fmt::format("CYCL DEF {}.{} where {}.{} was due", block.cycle, block.part,
+                              cycle.defining, cycle.next_part));
+}
+
+/// Sub-blocks come in their order, one after the other; of the datum shift only the first has to.
+bool take_place(Run& run, const Block& block) {
+  CycleState& cycle = run.state.cycle;
+  if (block.part == 0) {
+    if (!cycle.is_complete) return refuse_incomplete(run, block);
+    cycle.defining = block.cycle;
+    cycle.draft = MachiningCycle{};
+    cycle.draft.number = block.cycle;
+  } else if (block.cycle != cycle.defining || block.part != cycle.next_part ||
+             run.state.blocks > cycle.block + 1) {
+    return refuse_incomplete(run, block);
+  }
+  cycle.block = run.state.blocks;
+  cycle.next_part = static_cast<std::uint8_t>(block.part + 1);
+  const bool is_last = cycle.next_part >= cycle_parts(block.cycle).size();
+  cycle.is_complete = is_last || (block.cycle == kDatumShift && block.part > 0);
+  return true;
+}
+
+/// A contour ends as by M98 before what it is made of changes.
+bool transform(Run& run, const Transformation& changed) {
+  end_contour(run, true);
+  change_transformation(run, changed);
+  return true;
+}
+
+bool shift_datum(Run& run, const Block& block) {
+  run.ledger.take_all();
+  Transformation changed = run.state.transformation;
+  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+    const Coordinate& word = block.coordinates[i];
+    double& shift = changed.shift[static_cast<std::size_t>(word.axis)];
+    shift = run.coordinate(word.axis, word.value) + (word.is_incremental ? shift : 0);
+  }
+  return transform(run, changed);
+}
+
+bool mirror(Run& run, const Block& block) {
+  run.ledger.take_all();
+  // In whichever order the axes stand, the same one is complained about.
+  const ActiveTool& tool = run.state.tool;
+  const auto names = [&](Axis axis) {
+    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
+      if (block.coordinates[i].axis == axis) return true;
+    }
+    return false;
+  };
+  if (tool.is_called && names(tool.axis)) {
+    return run.fail(ErrorCode::MirrorOnToolAxis, std::string(1, letter(tool.axis)));
+  }
+  Transformation changed = run.state.transformation;
+  changed.mirrored = {};
+  for (const Axis axis : kAllAxes) {
+    if (!names(axis)) continue;
+    if (axis > Axis::Z) {
+      return run.fail(ErrorCode::WrongAxis, fmt::format("{} is not mirrored", letter(axis)));
+    }
+    changed.mirrored[static_cast<std::size_t>(axis)] = true;
+  }
+  return transform(run, changed);
+}
+
+bool rotate(Run& run, const Block& block) {
+  Transformation changed = run.state.transformation;
+  double angle = run.number(block.angle);
+  if (block.is_angle_incremental) angle += changed.rotation;
+  if (!(std::fabs(angle) <= kMaxRotation)) {
+    if (!block.is_angle_incremental) {
+      return run.fail(ErrorCode::EntryOutOfRange, fmt::format("ROT {} is not -360 to 360", angle));
+    }
+    angle = std::fmod(angle, kMaxRotation);
+  }
+  changed.rotation = angle;
+  changed.rotation_plane = block.axis ? plane_across(*block.axis) : run.state.plane;
+  return transform(run, changed);
+}
+
+bool scale(Run& run, const Block& block) {
+  constexpr double kMillionths = 1e-6;
+  if (block.factor <= 0) return run.fail(ErrorCode::EntryOutOfRange, "SCL 0");
+  Transformation changed = run.state.transformation;
+  changed.scale = block.factor * kMillionths;
+  changed.scaled = {};
+  const PlaneAxes axes = axes_of(run.state.plane);
+  for (const Axis axis : {axes.first, axes.second, axes.normal}) {
+    const bool is_scaled = run.options.scales_three_axes || axis != axes.normal;
+    changed.scaled[static_cast<std::size_t>(axis)] = is_scaled;
+  }
+  return transform(run, changed);
+}
+
+bool dwell(Run& run, const Block& block) {
+  const double seconds = run.number(block.first);
+  if (!(seconds >= 0 && seconds <= kLongestDwell)) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("DWELL {} s is not 0 to {}", seconds, kLongestDwell));
+  }
+  if (seconds > 0) {
+    run.loops.note_progress();
+    run.events().on_dwell({run.origin, seconds, {}});
+  }
+  return true;
+}
+
+/// The value of a sub-block of lengths goes by its word: set-up, depth or pecking.
+void take_length(MachiningCycle& draft, std::string_view word, double value) {
+  if (word.starts_with("SET-UP")) {
+    draft.clearance = value;
+  } else if (word.starts_with("DEPTH")) {
+    draft.depth = value;
+  } else {
+    draft.peck = value;
+  }
+}
+
+void take_side(Run& run, const Block& block, MachiningCycle& draft) {
+  const Coordinate& side = block.coordinates[0];
+  run.ledger.take(1);
+  const double value = run.coordinate(side.axis, side.value);
+  const bool is_first = block.part == 4;
+  (is_first ? draft.first_axis : draft.second_axis) = side.axis;
+  (is_first ? draft.first_side : draft.second_side) = value;
+}
+
+bool take_machining(Run& run, const Block& block, const CyclePart& part) {
+  MachiningCycle& draft = run.state.cycle.draft;
+  double feed = 0;
+  if (block.feed.is_programmed() && !read_cycle_feed(run, block.feed, feed)) return false;
+  switch (part.field) {
+    case CycleField::Length:
+      take_length(draft, part.word, run.length(block.first));
+      break;
+    case CycleField::Dwell:
+      draft.dwell = run.number(block.first);
+      break;
+    case CycleField::Peck:
+      draft.peck = run.length(block.first);
+      draft.plunge_feed = feed;
+      break;
+    case CycleField::Side:
+      take_side(run, block, draft);
+      break;
+    case CycleField::FeedTurn:
+      draft.turn = block.turn.value_or(Turn::Counterclockwise);
+      draft.feed = feed;
+      break;
+    case CycleField::Feed:
+      draft.feed = feed;
+      break;
+    case CycleField::Radius:
+      draft.radius = std::fabs(run.length(block.radius));
+      break;
+    case CycleField::Program:
+      draft.program = block.target;
+      break;
+    default:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool define_cycle(Run& run, const Block& block) {
+  if (!take_place(run, block)) return false;
+  if (block.part == 0) return true;
+  switch (block.cycle) {
+    case kDatumShift:
+      return shift_datum(run, block);
+    case kMirror:
+      return mirror(run, block);
+    case kDwell:
+      return dwell(run, block);
+    case kRotation:
+      return rotate(run, block);
+    case kScaling:
+      return scale(run, block);
+    default:
+      break;
+  }
+  CycleState& cycle = run.state.cycle;
+  if (!take_machining(run, block, cycle_parts(block.cycle)[block.part])) return false;
+  if (cycle.is_complete) cycle.machining = cycle.draft;
+  return true;
+}
+
+bool is_defining(const Run& run) {
+  return !run.state.cycle.is_complete;
+}
+
+void end_cycles(Run& run) {
+  run.state.cycle = CycleState{};
+  if (!run.options.cancels_transformations) return;
+  run.state.transformation.cancel_cycles();
+  ++run.frame_changes;
+}
+
+}  // namespace dripline::interpreter::tnc155

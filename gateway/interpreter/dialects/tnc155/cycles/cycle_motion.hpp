@@ -1,0 +1,49 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// The moves of one call of a machining cycle, from where the tool stands. Program coordinates:
+/// what transforms the program transforms the cycle. `u` and `v` are the plane's axes.
+class CycleMotion {
+ public:
+  /// A hole is made at the corner that the contour has there. A pocket is milled where the block
+  /// before ends by itself; the contour goes on at `end`.
+  enum class Way : std::uint8_t { AlongTheToolAxis, InThePlane };
+
+  CycleMotion(Run& run, Way way);
+  void end();
+
+  PlaneVector start() const { return start_; }
+  double start_height() const { return start_height_; }
+  /// In program coordinates, which scaling makes another length than the tool's.
+  double tool_radius() const { return tool_radius_; }
+  /// The way round that the machine has to see: mirroring does not turn a cycle over.
+  Turn turn_for(Turn programmed) const;
+  /// The place of an axis in the plane: 0, 1, or -1 for neither.
+  int place_of(Axis axis) const;
+
+  void feed_to_height(double height, double feed);
+  void rapid_to_height(double height);
+  void feed_to(PlaneVector to, double feed);
+  void rapid_to(PlaneVector to);
+  void arc_to(PlaneVector to, PlaneVector center, Turn turn, double feed);
+  void circle(PlaneVector center, Turn turn, double feed);
+  void dwell(double seconds);
+
+ private:
+  void move(Axis axis, double value, Pace pace);
+  void move(PlaneVector to, Pace pace);
+
+  Run& run_;
+  bool leaves_contour_;
+  PlaneAxes axes_;
+  Position machine_;    ///< before compensation
+  AxisValues nominal_;  ///< as the program left it
+  PlaneVector start_;
+  double start_height_ = 0;
+  double tool_radius_ = 0;
+};
+
+}  // namespace dripline::interpreter::tnc155

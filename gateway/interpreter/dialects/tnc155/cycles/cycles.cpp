@@ -1,0 +1,175 @@
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+
+#include <fmt/core.h>
+#include <cmath>
+
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/machining_cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+enum Machining : std::uint8_t { kPecking = 1, kTapping, kSlot, kPocket, kCircle, kProgram = 12 };
+
+bool check_signs(Run& run, const MachiningCycle& cycle) {
+  const double towards = cycle.depth;
+  const bool has_pecks = cycle.number != kTapping;
+  const bool good =
+      towards != 0 && cycle.clearance * towards >= 0 && (!has_pecks || cycle.peck * towards > 0);
+  if (good) return true;
+  const std::string pecking = has_pecks ? fmt::format(", PECKING {}", cycle.peck) : "";
+  return run.fail(ErrorCode::WrongSign,
+                  fmt::format("SET-UP {}, DEPTH {}{}: none may be 0 or of another sign",
+                              cycle.clearance, cycle.depth, pecking));
+}
+
+bool check_feeds(Run& run, const MachiningCycle& cycle) {
+  const bool plunges = cycle.number >= kSlot;
+  if (cycle.feed > 0 && (!plunges || cycle.plunge_feed > 0)) return true;
+  return run.fail(ErrorCode::FeedRateMissing, fmt::format("in CYCL DEF {}", cycle.number));
+}
+
+bool too_narrow(Run& run, std::string_view what, double size) {
+  return run.fail(
+      ErrorCode::ToolRadiusTooLarge,
+      fmt::format("{} {:.4f} mm, tool radius {:.4f}", what, size, run.state.tool.data.radius));
+}
+
+/// The sides along the two axes of the plane, each one of them.
+bool check_sides(Run& run, const MachiningCycle& cycle) {
+  const PlaneAxes axes = axes_of(run.state.plane);
+  const auto is_in_plane = [&](Axis axis) { return axis == axes.first || axis == axes.second; };
+  if (is_in_plane(cycle.first_axis) && is_in_plane(cycle.second_axis) &&
+      cycle.first_axis != cycle.second_axis) {
+    return true;
+  }
+  return run.fail(
+      ErrorCode::PlaneWronglyDefined,
+      fmt::format("sides along {} and {}", letter(cycle.first_axis), letter(cycle.second_axis)));
+}
+
+bool check_room(Run& run, const MachiningCycle& cycle) {
+  const double width =
+      2 * run.state.tool.data.radius / run.state.transformation.factor(run.state.plane);
+  if (!(width > 0)) return too_narrow(run, "no tool to mill", 0);
+  if (cycle.number == kCircle) {
+    return 2 * cycle.radius > width || too_narrow(run, "circle radius", cycle.radius);
+  }
+  if (!check_sides(run, cycle)) return false;
+  for (const double side : {std::fabs(cycle.first_side), std::fabs(cycle.second_side)}) {
+    if (!(side > width)) return too_narrow(run, "side", side);
+  }
+  return true;
+}
+
+double stepover(const Run& run) {
+  return run.options.pocket_overlap * run.state.tool.data.radius /
+         run.state.transformation.factor(run.state.plane);
+}
+
+/// They wait with the block that leads to the corner; other events need room too.
+constexpr double kMaxAtCorner = look_ahead::kMaxHeldEvents - 16;
+
+/// How many moves a call comes to, about.
+double moves_of(const Run& run, const MachiningCycle& cycle) {
+  if (cycle.number == kTapping) return 2;
+  const double pecks = pecks_of(cycle);
+  if (cycle.number == kPecking) return 3 * pecks;
+  if (cycle.number == kSlot) return 2 * pecks;
+  const double widest =
+      cycle.number == kCircle
+          ? cycle.radius
+          : std::min(std::fabs(cycle.first_side), std::fabs(cycle.second_side)) / 2;
+  return pecks * (4 + 6 * std::ceil(widest / stepover(run)));
+}
+
+bool check_bounds(Run& run, const MachiningCycle& cycle) {
+  const double moves = moves_of(run, cycle);
+  const bool waits = cycle.number < kSlot && run.state.is_compensating();
+  if (waits && moves > kMaxAtCorner) {
+    return run.fail(ErrorCode::EntryOutOfRange,
+                    fmt::format("a hole at a corner of a contour would be {:.0f} moves, at most "
+                                "{:.0f}; R0 before it",
+                                moves, kMaxAtCorner));
+  }
+  if (moves <= kMaxMoves) return true;
+  return run.fail(ErrorCode::EntryOutOfRange,
+                  fmt::format("a call of CYCL DEF {} would be {:.0f} moves, at most {:.0f}",
+                              cycle.number, moves, kMaxMoves));
+}
+
+void make(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
+  switch (cycle.number) {
+    case kPecking:
+      drill_by_pecks(motion, cycle);
+      break;
+    case kTapping:
+      tap(run, motion, cycle);
+      break;
+    case kSlot:
+      mill_slot(motion, cycle);
+      break;
+    case kPocket:
+      mill_pocket(motion, cycle, stepover(run));
+      break;
+    default:
+      mill_circle(motion, cycle, stepover(run));
+      break;
+  }
+}
+
+/// A cycle that does not keep to the limits is not begun.
+bool stays_within_limits(Run& run, CycleMotion& motion, const MachiningCycle& cycle) {
+  if (!run.limits.has_any()) return true;
+  const Position machine = run.state.machine;
+  const auto nominal = run.state.nominal;
+  run.is_measuring = true;
+  if (cycle.number < kSlot) {
+    motion.feed_to_height(motion.start_height() + cycle.clearance + cycle.depth, cycle.feed);
+  } else {
+    make(run, motion, cycle);
+  }
+  run.is_measuring = false;
+  run.state.machine = machine;
+  run.state.nominal = nominal;
+  return !run.limits.reached();
+}
+
+bool run_machining(Run& run, const MachiningCycle& cycle) {
+  using Way = CycleMotion::Way;
+  CycleMotion motion(run, cycle.number < kSlot ? Way::AlongTheToolAxis : Way::InThePlane);
+  if (!stays_within_limits(run, motion, cycle)) return run.fail_at_limit();
+  make(run, motion, cycle);
+  motion.end();
+  return true;
+}
+
+}  // namespace
+
+bool check_machining(Run& run, const MachiningCycle& cycle) {
+  const State& state = run.state;
+  if (!state.tool.is_called || !state.spindle.has_speed) {
+    return run.fail(ErrorCode::ToolCallMissing, "a cycle needs TOOL CALL with axis and S");
+  }
+  if (state.spindle.state == SpindleState::Off) {
+    return run.fail(ErrorCode::SpindleRotatesMissing, "M03 or M04 before a cycle");
+  }
+  if (!check_signs(run, cycle) || !check_feeds(run, cycle)) return false;
+  if (cycle.number == kCircle && !check_circle_plane(run)) return false;
+  if (cycle.number >= kSlot && !check_room(run, cycle)) return false;
+  return check_bounds(run, cycle);
+}
+
+bool call_cycle(Run& run) {
+  const MachiningCycle& cycle = run.state.cycle.machining;
+  if (cycle.number == 0) return run.fail(ErrorCode::CycleIncomplete, "no cycle was defined");
+  if (cycle.number == kProgram) return call_cycle_program(run, cycle.program);
+  if (!refuse_before_positioning(run, "a cycle call")) return false;
+  if (!check_machining(run, cycle)) return false;
+  return run_machining(run, cycle);
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,142 @@
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
+
+#include <string>
+
+#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
+#include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "protocol/base/decimal.hpp"
+
+namespace dripline::interpreter {
+namespace {
+
+using namespace tnc155;
+
+/// "datum": where the workpiece's datum lies in machine coordinates.
+Result<void> load_datum(const Setup& setup, State& state) {
+  for (const OffsetRecord& offset : setup.offsets) {
+    if (offset.name != "datum") {
+      return fail(Errc::Unsupported, "offset {}: this control has datum", offset.name);
+    }
+    for (const Axis axis : kAllAxes) {
+      state.transformation.datum[static_cast<std::size_t>(axis)] = offset.value.raw(axis);
+    }
+  }
+  return {};
+}
+
+/// datum.C: as the control kept it (retained_memory.cpp).
+bool load_datum_cell(const VariableRecord& variable, State& state) {
+  for (const Axis axis : kAllAxes) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (variable.name != std::string("datum").append(kAxisSuffixes[i])) continue;
+    state.transformation.datum[i] = variable.value;
+    return true;
+  }
+  return false;
+}
+
+Result<void> load_parameters(const Setup& setup, State& state) {
+  for (const VariableRecord& variable : setup.variables) {
+    const std::string_view name = variable.name;
+    if (load_datum_cell(variable, state)) continue;
+    const auto number = parse_decimal(name.substr(name.starts_with('Q') ? 1 : 0));
+    if (!name.starts_with('Q') || !number || number->scale != 0 || number->digits < 0 ||
+        number->digits >= kParameterCount) {
+      return fail(Errc::Unsupported, "variable {}: this control has Q0 to Q{}", name,
+                  kParameterCount - 1);
+    }
+    state.q[static_cast<std::size_t>(number->digits)] = variable.value;
+  }
+  return {};
+}
+
+/// The central tool file has fewer tools than programs may define.
+Result<void> check_tool_store(const Setup& setup) {
+  const auto store = write_tool_store(setup.tools, Units::Millimetre);
+  if (!store) return fail(store.error().code, "central_tool_file: {}", store.error().what);
+  return {};
+}
+
+void stand_at_start(const Setup& setup, State& state) {
+  state.machine = setup.start;
+  state.machine.unmark_all();
+  state.transformation.update();
+  Transformation::Values at{};
+  for (const Axis axis : kAllAxes) at[static_cast<std::size_t>(axis)] = state.machine.raw(axis);
+  state.nominal = state.transformation.to_program(at);
+}
+
+Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& source,
+                                          EventSink& sink) {
+  auto options = read_options(setup);
+  if (!options) return fail(options.error());
+  State state;
+  std::vector<ToolDefinition> tools;
+  if (auto done = load_datum(setup, state); !done) return fail(done.error());
+  if (auto done = load_parameters(setup, state); !done) return fail(done.error());
+  if (options->central_tool_file) {
+    if (auto fits = check_tool_store(setup); !fits) return fail(fits.error());
+  }
+  if (auto done = load_tools(setup, tools); !done) return fail(done.error());
+  auto pockets = load_pockets(setup, *options);
+  if (!pockets) return fail(pockets.error());
+  state.pockets = *std::move(pockets);
+  state.transformation.basic_rotation = options->basic_rotation;
+  stand_at_start(setup, state);
+  if (options->start_block >= 0) {
+    state.start.is_searching = true;
+    state.start.block = options->start_block;
+    state.start.stand = setup.stands.value_or(setup.start);
+  }
+  return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
+      *std::move(options), std::move(state), std::move(tools), source, sink));
+}
+
+/// Capitals and marks without blanks, line ends kept.
+std::string squeeze(std::string_view head) {
+  std::string text = "\n";
+  for (const char c : head) {
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\0') text += c;
+  }
+  return text;
+}
+
+bool contains(const std::string& text, std::string_view mark) {
+  return text.find(mark) != std::string::npos;
+}
+
+/// `%`, a number, and G71 or G70 on one line.
+bool has_iso_start(const std::string& text) {
+  const std::size_t percent = text.find('%');
+  if (percent == std::string::npos) return false;
+  std::size_t at = percent + 1;
+  while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+  return at > percent + 1 && (text.compare(at, 3, "G71") == 0 || text.compare(at, 3, "G70") == 0);
+}
+
+int likelihood(std::string_view head, std::string_view) {
+  const std::string text = squeeze(head);
+  if (contains(text, "BEGINPGM") && (contains(text, "MM") || contains(text, "INCH"))) return 100;
+  if (has_iso_start(text)) return 90;
+  if (contains(text, "TOOLCALL") || contains(text, "CYCLDEF") || contains(text, "CALLLBL")) {
+    return 80;
+  }
+  return 0;
+}
+
+}  // namespace
+
+const Dialect kTnc155Dialect{.name = "tnc155",
+                             .title = "HEIDENHAIN TNC 151/155 (plain language and ISO)",
+                             .likelihood = &likelihood,
+                             .make = &make,
+                             // M06 is a program stop where the machine parameter makes it one
+                             // (`m06_stop`; spec 16.2); TOOL CALL itself never stops, a STOP before
+                             // it is programmed (spec 6).
+                             .waits_at_tool_change = true,
+                             .keeping = &kTncProgramStorage};
+
+}  // namespace dripline::interpreter

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+/// What this control calls an error. It has texts and no numbers, so the ids are ours and stable;
+/// texts that its manual does not have are marked in the table.
+namespace dripline::interpreter::tnc155 {
+
+enum class ErrorCode : std::uint8_t {
+  None,
+  AngleReferenceMissing,
+  BlankFormIncorrect,
+  BlockFormatIncorrect,
+  CircleEndIncorrect,
+  CycleIncomplete,
+  ExcessiveSubprogramming,
+  GCodeGroupAssigned,
+  IllegalGCode,
+  JumpToLabelZero,
+  MirrorOnToolAxis,
+  NumberAllocated,
+  PathOffsetWronglyStarted,
+  ProgramUnavailable,
+  MemoryExceeded,
+  PlaneWronglyDefined,
+  ProgramStartUndefined,
+  RoundingRadiusTooLarge,
+  BlockNotAddressed,
+  SpindleRotatesMissing,
+  ToolCallMissing,
+  ToolRadiusTooLarge,
+  TouchPointInaccessible,
+  WrongAxis,
+  WrongRpm,
+  // not in the manual:
+  FeedRateMissing,
+  LabelNotFound,
+  ToolDefMissing,
+  ArithmeticalError,
+  WrongSign,
+  LimitSwitch,
+  EntryOutOfRange,
+  BlockTooLong,
+  BlockNumberOrder,
+  TextFailed,
+  NotInBlockwiseTransfer,
+  NotSupported,
+  PocketMissing,
+  LoopLimit,
+  Count,
+};
+
+struct ErrorRow {
+  ErrorCode code;
+  std::string_view id;    ///< stable, e.g. TNC-BLOCK-FORMAT
+  std::string_view text;  ///< the control's wording
+};
+
+const ErrorRow& error_row(ErrorCode code);
+
+/// Why a block cannot be read.
+struct Fault {
+  ErrorCode code = ErrorCode::None;
+  std::uint32_t column = 0;  ///< 1-based, in the block's text as it stands in the program
+  std::string detail;        ///< names the word, its value and the limit
+
+  explicit operator bool() const { return code != ErrorCode::None; }
+  /// "BLOCK FORMAT INCORRECT: ...".
+  std::string text() const;
+};
+
+}  // namespace dripline::interpreter::tnc155

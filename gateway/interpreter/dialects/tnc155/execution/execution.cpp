@@ -1,0 +1,190 @@
+#include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
+
+#include <fmt/core.h>
+
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/motion.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/q_parameters.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool begin_program(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!state.has_header && state.programs.empty()) {
+    state.program_number = block.target;
+    state.units = block.units;
+    return true;
+  }
+  if (state.units == block.units) return true;
+  state.units = block.units;
+  run.events().on_units({run.origin, state.units});
+  return true;
+}
+
+bool move(Run& run, const Block& block) {
+  switch (block.kind) {
+    case BlockKind::Line:
+      return run_line(run, block);
+    case BlockKind::PolarLine:
+      return run_polar_line(run, block);
+    case BlockKind::Arc:
+      return run_arc(run, block);
+    case BlockKind::PolarArc:
+      return run_polar_arc(run, block);
+    case BlockKind::TangentArc:
+      return run_tangent_arc(run, block);
+    default:
+      return run_single_axis(run, block);
+  }
+}
+
+/// M99 and M89: the machining cycle, after the motion.
+bool call_cycle_by_m(Run& run, int m, bool has_moved) {
+  CycleState& cycle = run.state.cycle;
+  if (m == 99) {
+    cycle.is_modal_call = false;
+    return call_cycle(run);
+  }
+  if (m == 89 && run.options.m89_modal) {
+    cycle.is_modal_call = true;
+    return true;
+  }
+  return !has_moved || !cycle.is_modal_call || call_cycle(run);
+}
+
+/// M functions after the motion, those that end the program last.
+bool finish_m(Run& run, int m, bool has_moved) {
+  if (m == 2 || m == 30) {
+    end_program(run, true);
+    return true;
+  }
+  if (m != Block::kNone && !end_m(run, m)) return false;
+  return call_cycle_by_m(run, m, has_moved);
+}
+
+bool positioning(Run& run, const Block& block) {
+  if (block.m == Block::kNone && !run.state.cycle.is_modal_call) [[likely]]
+    return move(run, block);
+  if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
+  const bool moves = block.coordinate_count != 0 || block.kind == BlockKind::PolarLine ||
+                     block.kind == BlockKind::PolarArc;
+  return move(run, block) && finish_m(run, block.m, moves);
+}
+
+/// M91 and M92 say what coordinates refer to.
+bool check_no_coordinates(Run& run, int m) {
+  if (m != 91 && m != 92) return true;
+  return run.fail(ErrorCode::BlockFormatIncorrect,
+                  fmt::format("M{} refers to coordinates, and there are none", m));
+}
+
+bool stop_block(Run& run, const Block& block) {
+  const int m = block.m;
+  if (!check_no_coordinates(run, m)) return false;
+  if (m != Block::kNone && !begin_m(run, m)) return false;
+  if (m == 0) return end_m(run, m);  // M00 stops by itself
+  if (m == 2 || m == 30) {
+    end_program(run, true);
+    return true;
+  }
+  if (m != Block::kNone && !end_m(run, m)) return false;
+  if ((m == 99 || m == 89) && !call_cycle_by_m(run, m, false)) return false;
+  stop(run, StopKind::Program);
+  return true;
+}
+
+bool cycle_call(Run& run, const Block& block) {
+  if (!check_no_coordinates(run, block.m)) return false;
+  if (block.m != Block::kNone && !begin_m(run, block.m)) return false;
+  run.state.cycle.is_modal_call = false;
+  if (!call_cycle(run)) return false;
+  if (block.m == 99) return true;  // the call itself
+  return finish_m(run, block.m, false);
+}
+
+bool function(Run& run, const Block& block) {
+  const bool computes = block.function < 9;
+  if (computes && run.state.start.is_searching && !note_computation(run, block)) return false;
+  if (computes) return compute(run, block);
+  return !is_true(run, block) || jump_to_label(run, block.target);
+}
+
+bool dispatch(Run& run, const Block& block) {
+  switch (block.kind) {
+    case BlockKind::Line:
+    case BlockKind::PolarLine:
+    case BlockKind::Arc:
+    case BlockKind::PolarArc:
+    case BlockKind::TangentArc:
+    case BlockKind::SingleAxis:
+      return positioning(run, block);
+    case BlockKind::Begin:
+      return begin_program(run, block);
+    case BlockKind::End:
+      end_program(run, false);
+      return true;
+    case BlockKind::ToolDefinition:
+      return define_tool(run, block);
+    case BlockKind::ToolCall:
+      return call_tool(run, block);
+    case BlockKind::Stop:
+      return stop_block(run, block);
+    case BlockKind::Rounding:
+      return check_circle_plane(run) && make_blend(run, block);
+    case BlockKind::Chamfer:
+      return make_blend(run, block);
+    case BlockKind::Center:
+      return set_pole(run, block);
+    case BlockKind::Label:
+      return meet_label(run, block);
+    case BlockKind::LabelCall:
+      return call_label(run, block);
+    case BlockKind::ProgramCall:
+      return call_program(run, block.target);
+    case BlockKind::Function:
+      return function(run, block);
+    case BlockKind::CycleDefinition:
+      return define_cycle(run, block);
+    case BlockKind::CycleCall:
+      return cycle_call(run, block);
+    case BlockKind::BlankForm:
+      return define_blank(run, block);
+    case BlockKind::Probe:
+      return probe(run, block);
+  }
+  return true;
+}
+
+[[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
+  const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
+    const Coordinate& word = block.coordinates[i];
+    return fmt::format("{}{}", letter(word.axis), run.number(word.value));
+  });
+  return run.fail(ErrorCode::BlockFormatIncorrect,
+                  fmt::format("nothing in the block takes {}", words));
+}
+
+}  // namespace
+
+bool execute(Run& run, const Block& block) {
+  if (is_defining(run) && block.kind != BlockKind::CycleDefinition) [[unlikely]] {
+    return run.fail(
+        ErrorCode::CycleIncomplete,
+        fmt::format("CYCL DEF {} ends before its last sub-block", run.state.cycle.defining));
+  }
+  if (needs_check(block) && !check_words(run, block)) [[unlikely]]
+    return false;
+  run.ledger.open((1u << block.coordinate_count) - 1);
+  if (!dispatch(run, block)) return false;
+  return run.ledger.left() == 0 || refuse_left_words(run, block);
+}
+
+}  // namespace dripline::interpreter::tnc155

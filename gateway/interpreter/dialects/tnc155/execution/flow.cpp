@@ -1,0 +1,269 @@
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+
+#include <fmt/core.h>
+#include <algorithm>
+
+#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool refuse_in_transfer(Run& run, std::string_view what) {
+  if (!run.options.blockwise_restrictions) return true;
+  return run.fail(ErrorCode::NotInBlockwiseTransfer, what);
+}
+
+bool refuse_depth(Run& run, std::size_t most, std::string_view what) {
+  return run.fail(ErrorCode::ExcessiveSubprogramming, fmt::format("more than {} {}", most, what));
+}
+
+std::size_t label_base(const State& state) {
+  return state.programs.empty() ? 0 : state.programs.back().label_base;
+}
+
+bool check_label(Run& run, std::int32_t label) {
+  if (label == 0) return run.fail(ErrorCode::JumpToLabelZero);
+  if (label >= 1 && label <= kLastLabel) return true;
+  return run.fail(ErrorCode::EntryOutOfRange,
+                  fmt::format("label {} is not 1 to {}", label, kLastLabel));
+}
+
+void request(Run& run, JumpKind kind, std::int32_t number, std::int32_t repeats = 0) {
+  Jump& jump = run.state.jump;
+  jump.kind = kind;
+  jump.number = static_cast<std::uint32_t>(number);
+  jump.repeats = static_cast<std::uint32_t>(repeats);
+  jump.call = run.reader.block_place();
+}
+
+/// The repeat that this block controls, if it is under way.
+LabelFrame* open_repeat(State& state, const TextPlace& call) {
+  for (std::size_t i = state.labels.size(); i > label_base(state); --i) {
+    LabelFrame& frame = state.labels[i - 1];
+    if (frame.is_repeat && frame.call == call) return &frame;
+    if (!frame.is_repeat) break;
+  }
+  return nullptr;
+}
+
+void forget_labels_of(State& state, ProgramIndex program) {
+  std::erase_if(state.known_labels,
+                [&](const LabelPlace& label) { return label.program == program; });
+}
+
+const LabelPlace* known_label(const State& state, ProgramIndex program, std::uint32_t label) {
+  for (const LabelPlace& known : state.known_labels) {
+    if (known.program == program && known.label == label) return &known;
+  }
+  return nullptr;
+}
+
+void go_to(Run& run, const TextPlace& place) {
+  run.state.at = place;
+  run.state.number_due = Block::kNone;
+  run.reader.seek(place);
+}
+
+/// LBL 0: back after the call. A repeat plays over it, and so does a program that runs into it.
+void return_from_label(Run& run) {
+  State& state = run.state;
+  const std::uint64_t here = run.reader.block_place().offset;
+  std::size_t level = state.labels.size();
+  if (level > label_base(state) && state.labels.back().is_repeat) {
+    const LabelFrame& repeat = state.labels.back();
+    if (here >= repeat.from && here < repeat.call.offset) return;
+  }
+  while (level > label_base(state) && state.labels[level - 1].is_repeat) --level;
+  if (level == label_base(state)) return;
+  go_to(run, state.labels[level - 1].back);
+  state.labels.resize(level - 1);
+}
+
+JumpOutcome arrive_at_label(Run& run, const TextPlace& found) {
+  State& state = run.state;
+  const Jump& jump = state.jump;
+  if (jump.kind != JumpKind::Label) {
+    if (state.labels.size() >= kMaxLabelLevels) {
+      refuse_depth(run, kMaxLabelLevels, "levels of labels");
+      return JumpOutcome::Failed;
+    }
+    LabelFrame frame;
+    frame.is_repeat = jump.kind == JumpKind::Repeat;
+    frame.label = static_cast<std::uint8_t>(jump.number);
+    frame.left = frame.is_repeat ? jump.repeats - 1 : 0;
+    frame.call = jump.call;
+    frame.back = state.at;
+    frame.from = found.offset;
+    state.labels.push_back(frame);
+  }
+  go_to(run, found);
+  return JumpOutcome::Taken;
+}
+
+JumpOutcome find_label(Run& run, TextSearch& search) {
+  State& state = run.state;
+  const std::uint32_t label = state.jump.number;
+  const ProgramIndex program = state.jump.call.program;
+  if (const LabelPlace* known = known_label(state, program, label)) {
+    return arrive_at_label(run, known->at);
+  }
+  TextPlace found;
+  switch (search.find_label(program, label, found)) {
+    case TextSearch::Outcome::Found:
+      return arrive_at_label(run, found);
+    case TextSearch::Outcome::NotYet:
+      return JumpOutcome::NeedsText;
+    case TextSearch::Outcome::More:
+      return JumpOutcome::More;
+    case TextSearch::Outcome::Failed:
+      run.fail(ErrorCode::TextFailed, search.reason());
+      break;
+    case TextSearch::Outcome::Missing:
+      run.fail(ErrorCode::LabelNotFound, fmt::format("LBL {}", label));
+      break;
+  }
+  return JumpOutcome::Failed;
+}
+
+JumpOutcome find_program(Run& run) {
+  State& state = run.state;
+  if (state.programs.size() >= kMaxProgramLevels) {
+    refuse_depth(run, kMaxProgramLevels, "levels of programs");
+    return JumpOutcome::Failed;
+  }
+  const ProgramLookup lookup = run.reader.find(fmt::format("{}", state.jump.number));
+  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotFound) {
+    fail_unavailable(run, state.jump.number);
+    return JumpOutcome::Failed;
+  }
+  const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
+  state.programs.push_back({state.at, state.reading, static_cast<std::uint8_t>(state.labels.size()),
+                            is_cycle && state.cycle.is_modal_call});
+  if (is_cycle) state.cycle.is_modal_call = false;
+  if (run.options.modes_go_over_calls) {
+    state.reading.program = ProgramForm{};
+  } else {
+    state.reading = ReadingState{};
+  }
+  TextPlace entry;
+  entry.program = lookup.program;
+  go_to(run, entry);
+  return JumpOutcome::Taken;
+}
+
+}  // namespace
+
+bool meet_label(Run& run, const Block& block) {
+  State& state = run.state;
+  if (block.target == 0) {
+    return_from_label(run);
+    return true;
+  }
+  const TextPlace& here = run.reader.block_place();
+  const auto label = static_cast<std::uint8_t>(block.target);
+  if (const LabelPlace* known = known_label(state, here.program, label)) {
+    if (known->at.offset == here.offset) return true;
+    return run.fail(ErrorCode::NumberAllocated,
+                    fmt::format("LBL {} is set in line {} already", label, known->at.line));
+  }
+  state.known_labels.push_back({here.program, label, here});
+  return true;
+}
+
+bool call_label(Run& run, const Block& block) {
+  State& state = run.state;
+  if (!refuse_in_transfer(run, "CALL LBL") || !check_label(run, block.target)) return false;
+  if (block.repeats == Block::kNone) {
+    request(run, JumpKind::Subprogram, block.target);
+    return true;
+  }
+  if (LabelFrame* repeat = open_repeat(state, run.reader.block_place())) {
+    const auto level = static_cast<std::size_t>(repeat - state.labels.data());
+    state.labels.resize(level + 1);  // repeats inside it start anew
+    if (repeat->left == 0) {
+      state.labels.pop_back();
+      return true;
+    }
+    --repeat->left;
+    request(run, JumpKind::Label, block.target);
+    return true;
+  }
+  if (block.repeats > 0) request(run, JumpKind::Repeat, block.target, block.repeats);
+  return true;
+}
+
+bool jump_to_label(Run& run, std::int32_t label) {
+  if (!refuse_in_transfer(run, "a jump to a label") || !check_label(run, label)) return false;
+  request(run, JumpKind::Label, label);
+  return true;
+}
+
+bool call_program(Run& run, std::int32_t number) {
+  if (!refuse_in_transfer(run, "CALL PGM")) return false;
+  request(run, JumpKind::Program, number);
+  return true;
+}
+
+bool call_cycle_program(Run& run, std::int32_t number) {
+  if (!refuse_in_transfer(run, "CALL PGM")) return false;
+  request(run, JumpKind::CycleProgram, number);
+  return true;
+}
+
+bool fail_unavailable(Run& run, std::int64_t number) {
+  return run.fail_as(ErrorCode::ProgramUnavailable, fmt::format("PGM {} UNAVAILABLE", number));
+}
+
+void end_program(Run& run, bool rewinds) {
+  State& state = run.state;
+  if (!state.programs.empty()) {
+    const ProgramFrame& frame = state.programs.back();
+    forget_labels_of(state, state.at.program);
+    state.labels.resize(frame.label_base);
+    if (run.options.modes_go_over_calls) {
+      state.reading.program = frame.reading.program;
+    } else {
+      state.reading = frame.reading;
+    }
+    if (state.units != state.reading.program.units) {
+      state.units = state.reading.program.units;
+      run.events().on_units({run.origin, state.units});
+    }
+    go_to(run, frame.back);
+    state.cycle.is_modal_call |= frame.resumes_modal_call;
+    state.programs.pop_back();
+    return;
+  }
+  if (rewinds) switch_off(run);
+  end_cycles(run);
+  report_pockets(run);
+  state.phase = RunPhase::Ended;
+  run.events().on_end({run.origin, state.blocks + (run.is_in_block ? 1 : 0), rewinds});
+}
+
+JumpOutcome take_jump(Run& run, TextSearch& search) {
+  JumpOutcome outcome = JumpOutcome::Taken;
+  switch (run.state.jump.kind) {
+    case JumpKind::None:
+      break;
+    case JumpKind::Program:
+    case JumpKind::CycleProgram:
+      outcome = find_program(run);
+      break;
+    default:
+      outcome = find_label(run, search);
+      break;
+  }
+  if (outcome != JumpOutcome::Taken) return outcome;
+  run.state.jump = Jump{};
+  if (run.loops.count_pass()) return outcome;
+  run.fail(ErrorCode::LoopLimit, fmt::format("more than {} jumps and repeats without a move or a "
+                                             "wait",
+                                             language::LoopGuard::kMaxIdlePasses));
+  return JumpOutcome::Failed;
+}
+
+}  // namespace dripline::interpreter::tnc155

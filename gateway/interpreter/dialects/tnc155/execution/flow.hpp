@@ -1,0 +1,27 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/tnc155/run.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
+
+/// Labels, repeats, subprograms, program calls, jumps and ends. A block only asks for a jump; it is
+/// taken before the next block, because its place may not have arrived yet.
+namespace dripline::interpreter::tnc155 {
+
+bool meet_label(Run& run, const Block& block);
+bool call_label(Run& run, const Block& block);
+/// FN 9 to FN 12, when the condition holds.
+bool jump_to_label(Run& run, std::int32_t label);
+/// CALL PGM, %.
+bool call_program(Run& run, std::int32_t number);
+/// The call of cycle 12: M89 rests until the program is over.
+bool call_cycle_program(Run& run, std::int32_t number);
+/// PGM n UNAVAILABLE. False.
+bool fail_unavailable(Run& run, std::int64_t number);
+/// END PGM, M02, M30 and the end of the text: back to the caller, or the run is over.
+void end_program(Run& run, bool rewinds);
+
+enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
+/// Takes `State::jump`; afterwards State::at is where the run goes on.
+JumpOutcome take_jump(Run& run, TextSearch& search);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,164 @@
+#include "gateway/interpreter/dialects/tnc155/execution/path.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+constexpr AxisMask kRotary = bit(Axis::A) | bit(Axis::B) | bit(Axis::C);
+/// Rotated coordinates nearer to the old ones than this have not changed.
+constexpr double kSame = 1e-9;
+
+/// Of the linear axes, or of a rotary axis that moves alone, as the machine wants it.
+double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
+  double linear = 0;
+  double rotary = 0;
+  for (const Axis axis : kAllAxes) {
+    const double way = to.raw(axis) - run.state.machine.raw(axis);
+    (is_rotary(axis) ? rotary : linear) += way * way;
+  }
+  if (rotary == 0) return pace.feed;
+  if (linear == 0) return pace.rotary_feed;
+  if (run.options.contour_feed) return pace.feed * std::sqrt(linear / (linear + rotary));
+  return pace.rotary_feed * std::sqrt(linear / rotary);
+}
+
+Feed feed_to(const Run& run, const Target& target, const Position& to, const Pace& pace) {
+  const bool turns = (target.named & kRotary) != 0 && !pace.is_rapid;
+  return Feed::per_minute(Length::mm(turns ? feed_with_rotary(run, to, pace) : pace.feed));
+}
+
+void put_out(Run& run, const Line& move, bool is_rapid) {
+  State& state = run.state;
+  const bool moves = !move.to.same_point(state.machine);
+  if (moves) run.loops.note_progress();
+  if (run.is_measuring) [[unlikely]] {
+    run.limits.check_line(move.origin, state.machine, move.to);
+  } else if (moves && is_rapid) {
+    run.events().on_rapid({move.origin, move.to});
+  } else if (moves) {
+    run.events().on_line(move);
+  }
+  state.machine = move.to;
+}
+
+void apply(const State& state, Position& to, const Target& target) {
+  if (!state.transformation.is_special) [[likely]] {
+    for (unsigned left = target.named; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const auto axis = static_cast<Axis>(i);
+      to.set_raw(axis, state.transformation.to_machine(axis, target.at[i]));
+    }
+    return;
+  }
+  const AxisValues at = state.transformation.to_machine(target.at);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const bool is_named = (target.named & bit(axis)) != 0;
+    const bool follows = axis <= Axis::Z && std::fabs(at[i] - to.raw(axis)) > kSame;
+    if (is_named || follows) to.set_raw(axis, at[i]);
+  }
+}
+
+/// The element before lies in the machine where it lay: what joins it (CT) sees it from the new
+/// coordinates.
+void carry_last_move(State& state, const Transformation& before, const AxisValues& nominal) {
+  const PlaneAxes axes = axes_of(state.plane);
+  const auto first = static_cast<std::size_t>(axes.first);
+  const auto second = static_cast<std::size_t>(axes.second);
+  LastMove& last = state.last;
+  for (PlaneVector* point : {&last.from, &last.to, &last.center}) {
+    AxisValues at = nominal;
+    at[first] = point->first;
+    at[second] = point->second;
+    at = state.transformation.to_program(before.to_machine(at));
+    *point = {at[first], at[second]};
+  }
+  if (before.turns_over(state.plane) == state.transformation.turns_over(state.plane)) return;
+  last.turn = last.turn == Turn::Clockwise ? Turn::Counterclockwise : Turn::Clockwise;
+}
+
+}  // namespace
+
+PlaneVector nominal_in_plane(const State& state) {
+  const PlaneAxes axes = axes_of(state.plane);
+  return {state.nominal_of(axes.first), state.nominal_of(axes.second)};
+}
+
+Position machine_position(const State& state, const Target& target) {
+  Position to = state.machine;
+  apply(state, to, target);
+  return to;
+}
+
+void line_to(Run& run, const Target& target, const Pace& pace) {
+  State& state = run.state;
+  Line move{run.origin, state.machine, {}};
+  apply(state, move.to, target);
+  state.nominal = target.at;
+  move.feed = feed_to(run, target, move.to, pace);
+  put_out(run, move, pace.is_rapid);
+}
+
+void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
+  State& state = run.state;
+  const PlaneAxes axes = axes_of(state.plane);
+  Arc arc;
+  arc.origin = run.origin;
+  arc.to = machine_position(state, target.to);
+  AxisValues center = state.nominal;
+  center[static_cast<std::size_t>(axes.first)] = target.center.first;
+  center[static_cast<std::size_t>(axes.second)] = target.center.second;
+  center = state.transformation.to_machine(center);
+  arc.center_first = Length::mm(center[static_cast<std::size_t>(axes.first)]);
+  arc.center_second = Length::mm(center[static_cast<std::size_t>(axes.second)]);
+  arc.plane = state.plane;
+  const bool turns_over = state.transformation.turns_over(state.plane);
+  arc.turn =
+      (target.turn == Turn::Clockwise) != turns_over ? Turn::Clockwise : Turn::Counterclockwise;
+  arc.sweep = Angle::degrees(target.sweep);
+  arc.feed = Feed::per_minute(Length::mm(pace.is_rapid ? kFeedAtRapid : pace.feed));
+  if (run.is_measuring) [[unlikely]] {
+    run.limits.check_arc(arc, state.machine);
+  } else {
+    run.loops.note_progress();
+    run.events().on_arc(arc);
+  }
+  state.machine = arc.to;
+  state.nominal = target.to.at;
+}
+
+void machine_line_to(Run& run, const Target& target, const Pace& pace) {
+  State& state = run.state;
+  Line move{run.origin, state.machine, {}};
+  Position& to = move.to;
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if ((target.named & bit(axis)) != 0) to.set_raw(axis, target.at[i]);
+  }
+  move.feed = feed_to(run, target, to, pace);
+  put_out(run, move, pace.is_rapid);
+  AxisValues machine{};
+  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
+  const AxisValues nominal = state.transformation.to_program(machine);
+  for (std::size_t i = 0; i < kAxisCount; ++i) {
+    if (state.transformation.is_special || (target.named >> i & 1u) != 0) {
+      state.nominal[i] = nominal[i];
+    }
+  }
+}
+
+void change_transformation(Run& run, const Transformation& changed) {
+  State& state = run.state;
+  const Transformation before = state.transformation;
+  const AxisValues nominal = state.nominal;
+  state.transformation = changed;
+  state.transformation.update();
+  state.nominal = state.transformation.to_program(before.to_machine(nominal));
+  carry_last_move(state, before, nominal);
+  state.polar.is_current = false;
+  ++run.frame_changes;
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "gateway/interpreter/stages/event_filter.hpp"
+#include "gateway/interpreter/dialects/tnc155/run.hpp"
+
+/// A start in the middle of a program (GOTO before the start). On the control a run that was
+/// terminated leaves tool, transformations, CC and cycle in force (spec 20.4); here they are
+/// rebuilt by going through everything the program does before the block, of which nothing reaches
+/// the machine. What cannot be rebuilt is refused before anything moves.
+namespace dripline::interpreter::tnc155 {
+
+/// The last stage before the sink, closed while the start is looked for.
+class StartGate final : public EventGate {
+ public:
+  explicit StartGate(EventSink& out) : EventGate(out) {}
+  /// `start` is where the state is kept; it must outlive this.
+  void attach(StartState& start) { start_ = &start; }
+
+  // What a program states of itself, and its alarm, are delivered all the same.
+  void on_program(const ProgramHeader& event) override { out().on_program(event); }
+  void on_units(const UnitsChange& event) override { out().on_units(event); }
+  void on_blank(const Blank& event) override { out().on_blank(event); }
+  void on_alarm(const Alarm& event) override { out().on_alarm(event); }
+  void on_tool(const ToolChange& event) override;
+  void on_miscellaneous(const Miscellaneous& event) override;
+
+ private:
+  bool is_open() const override { return !start_->is_searching; }
+  StartState* start_ = nullptr;
+};
+
+/// The block that the start names is read and not executed: the machine's state is announced, the
+/// operator is asked, and the run goes on from where the machine is. `way_back`: the block that
+/// comes back over this one, -1 without one. False: what is missing.
+bool begin_at_block(Run& run, std::int32_t number, std::int32_t way_back);
+
+/// Compensation, or a corner that the next move decides.
+bool is_contour_open(const State& state);
+/// After each block of the search: where the contour in force began.
+void note_contour_start(Run& run, std::int32_t number);
+
+/// FN 0 to FN 8 of the search. False: the parameter's value depends on how often the program ran.
+bool note_computation(Run& run, const Block& block);
+
+/// The first positioning after the start moves the axes in `named`; all others must be where the
+/// program has them.
+bool check_positions(Run& run, std::uint16_t named);
+
+/// Motion other than by a positioning block needs one first. `what`: "a cycle call".
+bool refuse_before_positioning(Run& run, std::string_view what);
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,345 @@
+#include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
+
+#include <fmt/core.h>
+#include <utility>
+
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
+#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/status_window.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "protocol/base/invariant.hpp"
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+std::unique_ptr<StartGate> gate_of(const State& state, EventSink& sink) {
+  return state.start.is_searching ? std::make_unique<StartGate>(sink) : nullptr;
+}
+
+}  // namespace
+
+TncInterpreter::TncInterpreter(ControlOptions options, State state,
+                               std::vector<ToolDefinition> tools, ProgramSource& source,
+                               EventSink& sink)
+    : gate_(gate_of(state, sink)),
+      run_(std::move(options), source, gate_ ? *gate_ : sink),
+      search_(source, {run_.options.iso_continuation}),
+      calls_ahead_(source, {run_.options.iso_continuation}),
+      definitions_ahead_(source, {run_.options.iso_continuation}),
+      way_back_(source, {run_.options.iso_continuation}) {
+  run_.state = std::move(state);
+  if (gate_) gate_->attach(run_.state.start);
+  run_.tools = std::move(tools);
+  run_.reset_stages();
+}
+
+StepState TncInterpreter::step(std::uint64_t max_blocks) {
+  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
+  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
+  if (is_asking_) return StepState::NeedsAnswer;
+  if (!run_.is_in_block) run_.reader.drop_window();  // the owner may have used the source
+  if (!run_.state.are_calls_checked) [[unlikely]] {
+    const BlockOutcome outcome = check_calls();
+    if (outcome == BlockOutcome::NeedsText) return StepState::NeedsText;
+    if (outcome == BlockOutcome::Paused) return paused();
+  }
+  for (std::uint64_t left = max_blocks; left > 0; --left) {
+    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+      const JumpOutcome outcome = take_jump(run_, search_);
+      run_.reader.drop_window();
+      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
+      if (outcome == JumpOutcome::More) return StepState::Ran;
+      if (outcome == JumpOutcome::Failed) return paused();
+    }
+    switch (run_block()) {
+      case BlockOutcome::Finished:
+        break;
+      case BlockOutcome::NeedsText:
+        return StepState::NeedsText;
+      case BlockOutcome::More:
+        return StepState::Ran;
+      case BlockOutcome::Paused:
+        return paused();
+    }
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
+      if (!run_.state.start.is_searching) return StepState::Ended;
+      run_.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run_.state.start.block));
+      return paused();
+    }
+  }
+  return StepState::Ran;
+}
+
+StepState TncInterpreter::paused() {
+  if (run_.pause == Pause::Question && run_.state.start.is_searching) {
+    run_.fail(ErrorCode::ProgramStartUndefined,
+              "a start after TCH PROBE would lose what the probe has measured");
+  }
+  if (run_.pause == Pause::Question) {
+    run_.pause = Pause::None;
+    is_asking_ = true;
+    return StepState::NeedsAnswer;
+  }
+  run_.pause = Pause::None;
+  run_.events().on_alarm({run_.origin, run_.alarm});
+  run_.state.phase = RunPhase::Alarmed;
+  return StepState::Alarmed;
+}
+
+TncInterpreter::BlockOutcome TncInterpreter::run_block() {
+  if (!run_.is_in_block) {
+    const BlockOutcome outcome = read();
+    if (outcome != BlockOutcome::Finished || !run_.is_in_block) [[unlikely]]
+      return outcome;
+  }
+  if (!execute_parts()) [[unlikely]]
+    return BlockOutcome::Paused;
+  return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
+}
+
+/// A program that is called and not there is complained of when the run begins.
+TncInterpreter::BlockOutcome TncInterpreter::check_calls() {
+  const bool is_wanted = run_.options.checks_calls && !run_.options.blockwise_restrictions;
+  const auto outcome =
+      is_wanted ? calls_ahead_.find_missing_program() : AheadSearch::Outcome::Missing;
+  run_.reader.drop_window();
+  if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+  run_.state.are_calls_checked = true;
+  if (outcome != AheadSearch::Outcome::Found) return BlockOutcome::Finished;
+  run_.state.program_number = calls_ahead_.program().number;
+  run_.state.units = calls_ahead_.program().units;
+  place_origin(calls_ahead_.place());
+  run_.origin.sequence = calls_ahead_.block_number();
+  fail_unavailable(run_, calls_ahead_.missing_program());
+  return BlockOutcome::Paused;
+}
+
+/// A tool may be defined after its call.
+TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
+  for (const Block& part : run_.parts) {
+    const std::uint64_t reach = reach_of_definition(run_, part);
+    if (reach == 0) continue;
+    const auto outcome = definitions_ahead_.find_tool(part.target, reach);
+    run_.reader.drop_window();
+    if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+    if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+    if (outcome == AheadSearch::Outcome::Found) {
+      run_.definition_ahead = {definitions_ahead_.definition(), definitions_ahead_.units()};
+    }
+  }
+  return BlockOutcome::Finished;
+}
+
+/// What the block needs of the text that the run has not come to.
+TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
+  peeked_blend_ = false;
+  if (is_start()) {
+    if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
+  }
+  const BlockParts& parts = run_.parts;
+  if (parts.count == 0) return BlockOutcome::Finished;
+  const bool is_move = is_positioning(parts.blocks[parts.count - 1]);
+  if (!is_move || parts.count > 1) {
+    const BlockOutcome outcome = is_definition_known_ ? BlockOutcome::Finished : find_definition();
+    is_definition_known_ = outcome == BlockOutcome::Finished;
+    if (!is_definition_known_ || !is_move) return outcome;
+  }
+  // A corner is known from the block after it: that block is looked at first.
+  std::string_view next;
+  const ReadState state = run_.reader.peek(run_.state.reading, next);
+  if (state == ReadState::NotYet) return BlockOutcome::NeedsText;
+  peeked_blend_ = state == ReadState::Ready && is_blend_next(next);
+  return BlockOutcome::Finished;
+}
+
+/// In ISO a corner may stand after other words, whose own blocks of plain language come first.
+bool TncInterpreter::is_blend_next(std::string_view text) {
+  const ReadingState& reading = run_.state.reading;
+  return may_be_blend(text, reading.program.form) &&
+         run_.reader.read_peeked(reading, parts_ahead_) && parts_ahead_.count != 0 &&
+         is_blend(parts_ahead_.blocks[0]);
+}
+
+/// A block whose successor has not arrived is kept, and the run stays in front of it.
+TncInterpreter::BlockOutcome TncInterpreter::read() {
+  const ReadingState before = run_.state.reading;
+  const bool was_kept = std::exchange(has_kept_block_, false);
+  if (was_kept) run_.state.reading = after_kept_block_;
+  is_definition_known_ &= was_kept;
+  switch (was_kept ? ReadState::Ready : run_.reader.next(run_.state.reading, run_.parts)) {
+    case ReadState::Ready:
+      break;
+    case ReadState::NotYet:
+      return BlockOutcome::NeedsText;
+    case ReadState::End:
+      return meet_end();
+    case ReadState::Failed:
+      place_origin(run_.reader.place());
+      run_.fail(ErrorCode::TextFailed, run_.reader.reason());
+      return BlockOutcome::Paused;
+    case ReadState::Wrong:
+      place_origin(run_.reader.place());
+      run_.origin.line = run_.reader.fault_line();
+      run_.fail_as(run_.reader.fault().code, run_.reader.fault().text());
+      run_.alarm.column = run_.reader.fault().column;
+      return BlockOutcome::Paused;
+  }
+  if (const BlockOutcome ahead = look_ahead(); ahead != BlockOutcome::Finished) {
+    after_kept_block_ = std::exchange(run_.state.reading, before);
+    has_kept_block_ = true;
+    return ahead;
+  }
+  if (run_.options.strict_numbers && !check_number()) return BlockOutcome::Paused;
+  place_origin(run_.reader.block_place());
+  if (run_.parts.count != 0) run_.origin.sequence = run_.parts.blocks[0].number;
+  run_.state.at = run_.reader.place();
+  run_.is_in_block = true;
+  part_ = 0;
+  if (is_start() && !begin_at_block(run_, run_.state.start.block, came_back_.value_or(-1))) {
+    return BlockOutcome::Paused;
+  }
+  return BlockOutcome::Finished;
+}
+
+/// The number of the block read last.
+std::int32_t TncInterpreter::block_number() const {
+  if (run_.parts.count != 0) return run_.parts.blocks[0].number;
+  const bool is_iso = run_.state.reading.program.form == Form::Iso;
+  return is_iso ? run_.reader.iso_block().number : Block::kNone;
+}
+
+bool TncInterpreter::is_start() const {
+  const StartState& start = run_.state.start;
+  return start.is_searching && run_.reader.block_place().program == kMainProgram &&
+         block_number() == start.block;
+}
+
+/// Without a label before it the program comes to a block once.
+TncInterpreter::BlockOutcome TncInterpreter::find_way_back() {
+  if (came_back_ || run_.state.known_labels.empty()) return BlockOutcome::Finished;
+  const TextPlace place = run_.reader.block_place();
+  const auto outcome = way_back_.find_way_back(place);
+  run_.reader.drop_window();
+  if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
+  if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+  came_back_ = outcome == AheadSearch::Outcome::Found ? way_back_.block_number() : -1;
+  return BlockOutcome::Finished;
+}
+
+/// Blocks of plain language that follow one another are numbered so.
+bool TncInterpreter::check_number() {
+  std::int32_t& due = run_.state.number_due;
+  if (run_.state.reading.program.form != Form::Plain) return true;
+  const std::int32_t number = run_.parts.blocks[0].number;
+  const std::int32_t wanted = std::exchange(due, number == Block::kNone ? 1 : number + 1);
+  if (wanted == Block::kNone || number == wanted) return true;
+  place_origin(run_.reader.block_place());
+  return run_.fail(ErrorCode::BlockNumberOrder,
+                   number == Block::kNone ? fmt::format("no number where {} was due", wanted)
+                                          : fmt::format("{} where {} was due", number, wanted));
+}
+
+/// The text ends without END PGM: as if it were there, with what the last moves meet.
+TncInterpreter::BlockOutcome TncInterpreter::meet_end() {
+  place_origin(run_.reader.place());
+  end_program(run_, false);
+  return check_moves() ? BlockOutcome::Finished : BlockOutcome::Paused;
+}
+
+void TncInterpreter::place_origin(const TextPlace& at) {
+  Origin& origin = run_.origin;
+  origin.block = run_.state.blocks + 1;
+  origin.offset = at.offset;
+  origin.line = at.line;
+  origin.sequence = Origin::kNone;
+  origin.program = at.program;
+}
+
+bool TncInterpreter::execute_parts() {
+  const BlockParts& parts = run_.parts;
+  for (; part_ < parts.count; ++part_) {
+    const bool is_last = part_ + 1 == parts.count;
+    run_.blend_follows = is_last ? peeked_blend_ : is_blend(parts.blocks[part_ + 1]);
+    if (!execute(run_, parts.blocks[part_])) return false;
+    // what a part has done to the contour comes before what the next one finds wrong
+    if (run_.state.uses_stages && !is_last && !check_stages(run_)) return false;
+    if (run_.state.jump.kind != JumpKind::None && !is_last) [[unlikely]] {
+      return run_.fail(ErrorCode::BlockFormatIncorrect,
+                       "a program is called before the end of its block");
+    }
+    run_.answer.reset();
+    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
+      break;
+  }
+  return true;
+}
+
+/// What the moves up to here have met.
+bool TncInterpreter::check_moves() {
+  if (run_.limits.reached()) [[unlikely]]
+    return run_.fail_at_limit();
+  return !run_.state.uses_stages || check_stages(run_);
+}
+
+bool TncInterpreter::finish_block() {
+  if (!check_moves()) [[unlikely]]
+    return false;
+  run_.is_in_block = false;
+  if (run_.state.start.is_searching) [[unlikely]]
+    note_contour_start(run_, block_number());
+  run_.end_block();
+  ++run_.state.blocks;
+  return !run_.state.uses_stages || check_stages(run_);
+}
+
+Result<void> TncInterpreter::answer(const Answer& answer) {
+  if (!is_asking_) return dripline::fail(Errc::Syntax, "no question is open");
+  if (!fits(run_.question, answer)) {
+    return dripline::fail(Errc::Syntax, "an answer to another question");
+  }
+  run_.answer = answer;
+  is_asking_ = false;
+  return {};
+}
+
+ActiveModes TncInterpreter::modes() const {
+  const State& state = run_.state;
+  ActiveModes modes;
+  modes.units = state.units;
+  if (state.compensation == Compensation::Left) modes.compensation = CompensationSide::Left;
+  if (state.compensation == Compensation::Right) modes.compensation = CompensationSide::Right;
+  modes.tool_length_z = Length::mm(state.tool.data.length);
+  modes.tool_radius = Length::mm(state.tool.data.radius);
+  modes.feed = Feed::per_minute(Length::mm(state.feed));
+  if (state.tool.is_called) modes.tool_axis = state.tool.axis;
+  modes.frame_changes = run_.frame_changes;
+  return modes;
+}
+
+std::optional<CoordinateFrame> TncInterpreter::frame() const {
+  return frame_of(run_.state);
+}
+
+Snapshot TncInterpreter::snapshot() const {
+  invariant(!run_.is_in_block, "a snapshot is taken between blocks");
+  return take_snapshot(run_);
+}
+
+Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
+  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+  run_.reader.drop_window();
+  run_.reader.seek(run_.state.at);
+  run_.is_in_block = false;
+  has_kept_block_ = false;
+  run_.definition_ahead.reset();
+  run_.answer.reset();
+  run_.pause = Pause::None;
+  ++run_.frame_changes;
+  is_asking_ = false;
+  return {};
+}
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// What stays in force between ISO blocks, in the order of execution. Part of the run's state: at
+/// the start of a program nothing is preset (the first move must find everything programmed).
+/// Compensation and feed are in force in both forms alike and not kept here.
+struct IsoModes {
+  static constexpr std::uint8_t kUnset = 0xFF;
+
+  std::uint8_t motion = kUnset;   ///< number of the modal path function: 0-3, 5, 6, 10-13, 15
+  bool has_plane = false;         ///< a G17-G20 was programmed
+  bool has_compensation = false;  ///< a G40-G44 was programmed
+  bool has_distance = false;      ///< a G90 or G91 was programmed
+  bool is_incremental = false;
+  std::optional<Turn> last_turn;  ///< for G05 and G15
+  friend bool operator==(const IsoModes&, const IsoModes&) = default;
+};
+
+}  // namespace dripline::interpreter::tnc155

@@ -1,0 +1,147 @@
+#include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
+
+#include <fmt/core.h>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The characters of a block without blanks and controls.
+class Characters {
+ public:
+  explicit Characters(std::string_view line) : line_(line) { skip(); }
+  char peek() const { return at_ < line_.size() ? line_[at_] : '\0'; }
+  void advance() {
+    ++at_;
+    skip();
+  }
+  bool take(char c) {
+    if (peek() != c) return false;
+    advance();
+    return true;
+  }
+  bool take(std::string_view word) {
+    const std::size_t start = at_;
+    for (const char c : word) {
+      if (take(c)) continue;
+      at_ = start;
+      return false;
+    }
+    return true;
+  }
+  /// Digits; -1 when there are none.
+  std::int64_t number() {
+    if (!is_digit(peek())) return -1;
+    std::int64_t value = 0;
+    for (; is_digit(peek()); advance()) {
+      if (value < 1'000'000'000) value = value * 10 + (peek() - '0');
+    }
+    return value;
+  }
+
+ private:
+  void skip() {
+    while (at_ < line_.size() && static_cast<unsigned char>(line_[at_]) <= ' ') ++at_;
+  }
+  std::string_view line_;
+  std::size_t at_ = 0;
+};
+
+/// G98 and its L stand anywhere in an ISO block; most blocks have no L.
+std::int32_t label_of_iso(std::string_view block) {
+  if (block.find('L') == std::string_view::npos) return -1;
+  bool sets_label = false;
+  std::int64_t label = -1;
+  for (Characters text(block); text.peek() != '\0';) {
+    const char letter = text.peek();
+    text.advance();
+    if (letter != 'G' && letter != 'L') continue;
+    const std::int64_t number = text.number();
+    if (letter == 'L') label = number;
+    sets_label |= letter == 'G' && number == 98;
+  }
+  return sets_label ? static_cast<std::int32_t>(label) : -1;
+}
+
+}  // namespace
+
+BlockHead read_head(std::string_view block, Form form) {
+  BlockHead head;
+  Characters text(block);
+  if (form == Form::Iso) {
+    if (text.take('N')) head.number = text.number();
+    head.label = label_of_iso(block);
+    return head;
+  }
+  head.number = text.number();
+  if (text.take("LBL")) head.label = static_cast<std::int32_t>(text.number());
+  return head;
+}
+
+TextSearch::TextSearch(ProgramSource& source, ReaderOptions options) : reader_(source, options) {}
+
+TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
+  Index* oldest = &indexes_[0];
+  for (Index& index : indexes_) {
+    if (index.is_used && index.way.next.program == program) {
+      index.last_use = ++uses_;
+      return index;
+    }
+    if (index.last_use < oldest->last_use) oldest = &index;
+  }
+  *oldest = Index{};
+  oldest->is_used = true;
+  oldest->last_use = ++uses_;
+  oldest->way.next.program = program;
+  return *oldest;
+}
+
+TextSearch::Outcome TextSearch::next_block(Way& way, std::string_view& text) {
+  reader_.seek(way.next);
+  switch (reader_.pass(way.state, text)) {
+    case ReadState::Ready:
+      way.next = reader_.place();
+      return Outcome::Found;
+    case ReadState::End:
+      return Outcome::Missing;
+    case ReadState::NotYet:
+      return Outcome::NotYet;
+    case ReadState::Wrong:
+      reason_ =
+          fmt::format("line {}: {}, met in a search", reader_.fault_line(), reader_.fault().text());
+      return Outcome::Failed;
+    case ReadState::Failed:
+      break;
+  }
+  reason_ = reader_.reason();
+  return Outcome::Failed;
+}
+
+TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t label,
+                                           TextPlace& found) {
+  if (label >= kLabels) return Outcome::Missing;
+  reader_.drop_window();
+  Index& index = index_of(program);
+  for (unsigned count = 0; count < kBlocksPerCall; ++count) {
+    if (const auto& place = index.labels[label]) {
+      found = *place;
+      return Outcome::Found;
+    }
+    if (index.is_complete) return Outcome::Missing;
+    std::string_view text;
+    const Outcome read = next_block(index.way, text);
+    if (read == Outcome::Missing) index.is_complete = true;
+    if (read == Outcome::Missing) continue;
+    if (read != Outcome::Found) return read;
+    const std::int32_t set = read_head(text, index.way.state.program.form).label;
+    if (set < 0 || static_cast<std::size_t>(set) >= kLabels) continue;
+    auto& place = index.labels[static_cast<std::size_t>(set)];
+    if (!place) place = reader_.block_place();
+  }
+  return Outcome::More;
+}
+
+}  // namespace dripline::interpreter::tnc155

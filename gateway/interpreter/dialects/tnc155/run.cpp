@@ -1,0 +1,113 @@
+#include "gateway/interpreter/dialects/tnc155/run.hpp"
+
+#include <fmt/core.h>
+#include <limits>
+
+namespace dripline::interpreter::tnc155 {
+namespace {
+
+/// Transitional arcs at outside corners, any number of blocks between two moves.
+compensation::Policy policy() {
+  compensation::Policy policy;
+  policy.outside = compensation::OutsideCorner::Arc;
+  policy.sharpest = Angle::degrees(180);
+  policy.resume = compensation::Resume::OwnNormal;
+  policy.blocks_without_motion = std::numeric_limits<int>::max();
+  policy.rounds_at_rapid = true;
+  policy.arc_at_rapid = Feed::per_minute(Length::mm(15'999));  // the highest that can be entered
+  return policy;
+}
+
+blending::Policy corner_policy() {
+  blending::Policy policy;
+  policy.blends_rapids = true;
+  policy.refuses_straight_corner = false;
+  return policy;
+}
+
+Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_view detail,
+                      std::uint64_t line) {
+  Diagnostic made{id, std::string(text), line, 0};
+  if (!detail.empty()) {
+    made.text += ": ";
+    made.text += detail;
+  }
+  return made;
+}
+
+}  // namespace
+
+Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
+    : options(std::move(control_options)),
+      source(program_source),
+      limits(event_sink, options.limit_low, options.limit_high),
+      sink(limits.has_any() ? static_cast<EventSink&>(limits) : event_sink),
+      compensator(policy(), sink),
+      blender(corner_policy(), compensator),
+      reader(program_source, ReaderOptions{options.iso_continuation, options.version}) {}
+
+void Run::deliver_header() {
+  state.has_header = true;
+  ProgramHeader header;
+  header.control = "tnc155";
+  const std::string name = fmt::format("{}", state.program_number);
+  if (state.program_number >= 0) header.name = name;
+  header.units = state.units;
+  sink.on_program(header);
+}
+
+void Run::use_stages() {
+  if (state.uses_stages) return;
+  events();  // the header first
+  compensator.reset(state.machine);
+  state.uses_stages = true;
+}
+
+void Run::begin_blending() {
+  use_stages();
+  if (state.joins) return;
+  blender.reset(state.machine);
+  blender.set_plane(state.plane);
+  state.joins = true;
+}
+
+void Run::reset_stages() {
+  compensator.reset(state.machine);
+  blender.reset(state.machine);
+  limits.place(state.machine);
+}
+
+bool Run::fail(ErrorCode code, std::string_view detail) {
+  const ErrorRow& row = error_row(code);
+  pause = Pause::Alarm;
+  alarm = diagnostic(row.id, row.text, detail, origin.line);
+  return false;
+}
+
+bool Run::fail_as(ErrorCode code, std::string_view text) {
+  pause = Pause::Alarm;
+  alarm = diagnostic(error_row(code).id, text, {}, origin.line);
+  return false;
+}
+
+bool Run::fail_at_limit() {
+  const LimitReached& limit = *limits.reached();
+  origin = limit.origin;
+  return fail_as(ErrorCode::LimitSwitch,
+                 fmt::format("{} {}{}", error_row(ErrorCode::LimitSwitch).text, letter(limit.axis),
+                             limit.is_positive ? '+' : '-'));
+}
+
+bool Run::ask(Question asked) {
+  if (limits.reached()) return fail_at_limit();
+  loops.note_progress();
+  pause = Pause::Question;
+  question = std::move(asked);
+  return false;
+}
+
+void Run::warn(std::string_view id, std::string_view text) {
+  events().on_warning({origin, diagnostic(id, text, {}, origin.line)});
+}
+
+}  // namespace dripline::interpreter::tnc155

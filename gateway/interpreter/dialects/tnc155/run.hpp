@@ -1,0 +1,111 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
+#include "gateway/interpreter/core/language/loop_guard.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/errors.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/dialects/tnc155/state.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/travel_limits.hpp"
+
+namespace dripline::interpreter::tnc155 {
+
+/// Why a function gave false.
+enum class Pause : std::uint8_t { None, Alarm, Question };
+
+/// A TOOL DEF the run has not come to, and the units of its program.
+struct DefinitionAhead {
+  Block block;
+  Units units = Units::Millimetre;
+};
+
+/// One run: what the files of this folder work on. Functions that cannot go on give false and
+/// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
+/// that thing is done again once the answer is there.
+struct Run {
+  Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink);
+
+  /// Where events go, after the header has been delivered.
+  EventSink& events() {
+    if (!state.has_header) [[unlikely]]
+      deliver_header();
+    if (state.uses_stages) [[unlikely]]
+      return stages();
+    return sink;
+  }
+  /// From now on events pass the stage for compensation.
+  void use_stages();
+  /// And the one for corners in front of it, from the next move on.
+  void begin_blending();
+  /// Both at the position of the state, with nothing waiting.
+  void reset_stages();
+  void end_block() {
+    if (state.uses_stages) [[unlikely]] {
+      stages().on_block_end(origin);
+    } else {
+      sink.on_block_end(origin);
+    }
+  }
+
+  /// All give false. `detail` is added to the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(ErrorCode code, std::string_view detail = {});
+  /// With a text in place of the control's.
+  [[gnu::cold]] bool fail_as(ErrorCode code, std::string_view text);
+  [[gnu::cold]] bool fail_at_limit();
+  [[gnu::cold]] bool ask(Question asked);
+  [[gnu::cold]] void warn(std::string_view id, std::string_view text);
+
+  /// A word's number, or what its Q parameter holds; 0 for none.
+  double number(const Value& value) const {
+    if (!value.is_q()) [[likely]]
+      return value.amount();
+    const double held = state.q[static_cast<std::size_t>(value.number)];
+    return value.is_negated ? -held : held;
+  }
+  /// As millimetres, a rotary axis's as degrees.
+  double coordinate(Axis axis, const Value& value) const {
+    return is_rotary(axis) ? number(value) : number(value) * state.mm_per_unit();
+  }
+  double length(const Value& value) const { return number(value) * state.mm_per_unit(); }
+
+  const ControlOptions options;
+  ProgramSource& source;
+  TravelLimits limits;
+  EventSink& sink;  ///< after the limits, where there are any
+  compensation::Compensator compensator;
+  blending::CornerBlender blender;
+  BlockReader reader;
+  State state;
+  std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
+  std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL in hand
+
+  BlockParts parts;  ///< of the block in hand
+  language::LoopGuard loops;
+  language::WordLedger ledger;  ///< of the part in hand: its coordinates, by their place
+  bool is_in_block = false;     ///< read, and not finished
+  bool is_measuring = false;    ///< moves are held against the limits and not made
+  bool blend_follows = false;   ///< RND or a chamfer stands after the part in hand
+  bool starts_contour = false;  ///< the part in hand is the first with RL or RR
+  Origin origin;
+  std::optional<Answer> answer;  ///< to the question of the part in hand
+  Question question;
+  std::uint32_t frame_changes = 0;  ///< datum, transformations or pole became others so often
+  Diagnostic alarm;
+  Pause pause = Pause::None;
+
+ private:
+  EventSink& stages() {
+    if (state.joins) return blender;
+    return compensator;
+  }
+  [[gnu::cold]] void deliver_header();
+};
+
+}  // namespace dripline::interpreter::tnc155

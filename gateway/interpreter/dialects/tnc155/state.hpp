@@ -1,0 +1,208 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycle_state.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
+
+/// Everything that stays from one block to the next. Lengths are millimetres, angles degrees.
+/// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+namespace dripline::interpreter::tnc155 {
+
+enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
+
+inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
+inline constexpr int kLastTool = 254;
+inline constexpr int kLastLabel = 254;
+inline constexpr std::size_t kMaxLabelLevels = 8;  ///< subprograms and repeats together
+inline constexpr std::size_t kMaxProgramLevels = 4;
+inline constexpr std::size_t kMaxLabels = (kLastLabel + 1) * (kMaxProgramLevels + 1);
+
+struct ToolData {
+  double length = 0;
+  double radius = 0;
+};
+struct ToolDefinition {
+  std::uint8_t number = 0;
+  ToolData data;
+};
+/// Where a tool of the store is. Without a pocket: nowhere in the magazine, changed by hand.
+struct ToolPocket {
+  std::uint8_t tool = 0;
+  bool is_special = false;
+  std::optional<int> pocket;  ///< 0: the spindle
+};
+/// What the last TOOL CALL left. Number 0 is no tool.
+struct ActiveTool {
+  int number = 0;
+  bool is_called = false;  ///< a TOOL CALL named a spindle axis
+  Axis axis = Axis::Z;
+  ToolData data;
+};
+
+struct SpindleModes {
+  SpindleState state = SpindleState::Off;
+  double speed = 0;
+  bool has_speed = false;
+};
+struct CoolantModes {
+  bool flood = false;
+};
+
+/// CALL LBL: where a subprogram goes back to, or what a repeat has left.
+struct LabelFrame {
+  bool is_repeat = false;
+  std::uint8_t label = 0;
+  std::uint32_t left = 0;  ///< of a repeat: passes still to come
+  TextPlace call;          ///< the calling block
+  TextPlace back;          ///< after it
+  std::uint64_t from = 0;  ///< of a repeat: offset of its label
+};
+/// CALL PGM, cycle 12.
+struct ProgramFrame {
+  TextPlace back;
+  ReadingState reading;  ///< of the caller
+  std::uint8_t label_base = 0;
+  bool resumes_modal_call = false;  ///< M89 rests while this program of a cycle runs
+};
+struct LabelPlace {
+  ProgramIndex program = kMainProgram;
+  std::uint8_t label = 0;
+  TextPlace at;  ///< the block LBL
+};
+
+/// A jump that needs text of another place; taken before the next block.
+enum class JumpKind : std::uint8_t {
+  None,
+  Label,
+  Subprogram,
+  Repeat,
+  Program,
+  CycleProgram,
+};
+struct Jump {
+  JumpKind kind = JumpKind::None;
+  std::uint32_t number = 0;
+  std::uint32_t repeats = 0;
+  TextPlace call;  ///< the block that jumps
+};
+
+/// The positioning block before, for what joins it: CT, RND, chamfers, single-axis rules.
+struct LastMove {
+  bool exists = false;
+  bool is_arc = false;
+  bool has_both = false;          ///< both coordinates of the plane
+  bool has_third = false;         ///< and one besides
+  bool is_single_offset = false;  ///< R+ or R-
+  bool starts_contour = false;    ///< the first with RL or RR
+  PlaneVector from, to;           ///< nominal, program coordinates
+  PlaneVector center;
+  Turn turn = Turn::Counterclockwise;
+};
+
+/// A corner that RND or a chamfer asked for and that the next move decides.
+enum class BlendKind : std::uint8_t { None, Round, Chamfer, TangentialApproach, TangentialDeparture };
+struct Blend {
+  BlendKind kind = BlendKind::None;
+  bool is_stated = false;  ///< G25: a corner and nothing else
+  bool is_lost = false;    ///< the contour ended before the move that it joins
+  double size = 0;
+  Origin origin;
+};
+
+/// The first half of DEF BLK FORM.
+struct BlankState {
+  bool has_minimum = false;
+  bool is_tool_across = false;  ///< the graphics were told that they show nothing
+  Axis axis = Axis::Z;
+  std::array<double, 3> minimum{};
+};
+
+/// A start in the middle of the program (start_search.hpp).
+struct StartState {
+  bool is_searching = false;  ///< nothing reaches the machine yet
+  std::int32_t block = Block::kNone;
+  Position stand;                             ///< where the machine is
+  Position expected;                          ///< where the program has it at the block
+  bool has_changed_tool = false;              ///< before the block
+  bool is_in_contour = false;                 ///< or a corner
+  std::int32_t contour_block = Block::kNone;  ///< that began it
+  std::bitset<100> codes;                 ///< M functions of the machine that were not given out
+  std::bitset<kParameterCount> assigned;  ///< Q parameters that the program has set
+  std::bitset<kParameterCount> carried;   ///< or used in a computation before it set them
+};
+
+struct PolarData {
+  bool exists = false;      ///< a polar block was executed in this run
+  bool is_current = false;  ///< and nothing since moved the tool or the pole
+  double radius = 0;
+  double angle = 0;
+};
+
+struct State {
+  RunPhase phase = RunPhase::Running;
+  bool has_header = false;
+  bool are_calls_checked = false;  ///< the programs that are called are there
+  std::uint64_t blocks = 0;
+  TextPlace at;                            ///< the next block
+  std::int32_t number_due = Block::kNone;  ///< its number, where that is known
+  ReadingState reading;
+  std::int64_t program_number = -1;  ///< of the program that was started
+  Units units = Units::Millimetre;
+
+  Position machine;  ///< as events say, before radius compensation; marked: moved so far
+  std::array<double, kAxisCount> nominal{};  ///< program coordinates
+  Transformation transformation;
+
+  Plane plane = Plane::XY;
+  ActiveTool tool;
+  std::vector<ToolDefinition> definitions;  ///< executed in this run; the last one last
+  std::vector<ToolPocket> pockets;          ///< of the random changer; empty without one
+  SpindleModes spindle;
+  CoolantModes coolant;
+  /// F in force, by what moves: an inch program counts it in tenths of an inch for linear axes and
+  /// in degrees for a rotary axis alone. 0: none yet.
+  double feed = 0;         ///< millimetres per minute
+  double rotary_feed = 0;  ///< degrees per minute
+
+  Compensation compensation = Compensation::Off;
+  bool uses_stages = false;       ///< from the first RL, RR, RND or chamfer on
+  bool joins = false;             ///< moves pass the corner stage: one waits there
+  bool is_parallel = false;       ///< after M98: compensation has to be programmed anew
+  bool needs_side = false;        ///< a tool call ended RL or RR: R0, RL or RR is to be said
+  bool has_compensated = false;   ///< a contour was started in this run
+  bool is_first_contour = false;  ///< the one that was started last is that one
+  bool awaits_contour = false;    ///< RL or RR is on, and no block in the plane has followed
+  Blend blend;
+  LastMove last;
+  std::array<double, 3> pole{};  ///< X, Y, Z; program coordinates
+  bool has_pole = false;
+  PolarData polar;
+
+  std::array<double, kParameterCount> q{};
+  CycleState cycle;
+  BlankState blank;
+
+  std::vector<LabelFrame> labels;
+  std::vector<ProgramFrame> programs;
+  std::vector<LabelPlace> known_labels;
+  Jump jump;
+  StartState start;
+  bool is_restart = false;      ///< after GOTO
+  bool has_positioned = false;  ///< the first positioning of the run has said where it goes
+
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  bool is_compensating() const {
+    return compensation == Compensation::Left || compensation == Compensation::Right;
+  }
+  double nominal_of(Axis axis) const { return nominal[static_cast<std::size_t>(axis)]; }
+  void set_nominal(Axis axis, double value) { nominal[static_cast<std::size_t>(axis)] = value; }
+};
+
+}  // namespace dripline::interpreter::tnc155

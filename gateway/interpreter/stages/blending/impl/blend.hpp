@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "gateway/interpreter/stages/blending/fault.hpp"
+#include "gateway/interpreter/stages/blending/impl/element.hpp"
+
+namespace dripline::interpreter::blending::impl {
+
+/// Where one element goes over into the next.
+struct Blend {
+  PlaneVector at;
+  std::optional<FaultKind> fault;
+  double off_by = 0, radius = 0;  ///< of OffArc
+};
+
+/// `first` begins where it truly does and ends where the program says; `second` begins there.
+Blend blend_of(const Element& first, const Element& second);
+/// Whether an arc that nothing corrects has `point` on its circle.
+Blend blend_on(const Element& element, PlaneVector point);
+
+}  // namespace dripline::interpreter::blending::impl

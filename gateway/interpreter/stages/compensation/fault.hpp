@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gateway/interpreter/core/event.hpp"
+
+namespace dripline::interpreter::compensation {
+
+/// Which rule a contour breaks. A dialect has its own number and wording for each.
+enum class FaultKind : std::uint8_t {
+  NoIntersection,      ///< two offset elements do not meet
+  ArcTooSmall,         ///< an arc run on its inside with a radius under the cutter's
+  Reversed,            ///< the compensated element would run against the programmed one
+  ConcaveCorner,       ///< an inside corner, where the policy refuses them
+  StartUpNotStraight,  ///< the first compensated move is an arc
+  CancelNotStraight,   ///< the move that leaves compensation is an arc
+  StartUpTooClose,     ///< the tool is within one radius of the end of a tangential start-up move
+  OtherPlane,          ///< an arc in another plane than the compensated one
+  ArcTooLarge,     ///< a start-up or cancel arc: the other end of its move lies within the circle
+  TooMuchBetween,  ///< more events between two elements than kMaxHeldEvents or kMaxHeldText
+};
+
+struct Fault {
+  FaultKind kind = FaultKind::NoIntersection;
+  Origin origin;        ///< the element that cannot be carried out
+  Origin next;          ///< the element that showed it; the same one where no other took part
+  Length value, limit;  ///< ArcTooSmall: radii of arc and cutter; StartUpTooClose: distance, radius
+  bool follows_arc = false;   ///< the element before the corner is an arc; of ArcTooSmall and
+                              ///< NoIntersection
+  bool leads_to_arc = false;  ///< the one after it
+};
+
+/// For a diagnostic: what is wrong, with value and limit.
+std::string describe(const Fault& fault);
+
+}  // namespace dripline::interpreter::compensation

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+
+#include "gateway/interpreter/core/event.hpp"
+
+/// Cutter and tool nose radius compensation in a plane: the rules of a control as data. A dialect
+/// fills a Policy; it never changes how another control's rules are carried out.
+namespace dripline::interpreter::compensation {
+
+/// Of the path, looking along it, with the plane's third axis pointing at the viewer.
+enum class Side : std::uint8_t { Left, Right };
+
+/// How the tool goes round the outside of a corner. Where a rapid move follows, `Arc` means
+/// `ExtendTangents` unless `Policy::rounds_at_rapid`.
+enum class OutsideCorner : std::uint8_t {
+  ExtendTangents,   ///< both offset elements go on along their tangents: to their intersection, or
+                    ///< beyond `Policy::sharpest` each by one radius, joined by a straight piece
+  Arc,              ///< an arc of the cutter radius about the corner
+  IntersectCurves,  ///< the offset lines and circles themselves, prolonged to where they meet
+};
+
+enum class InsideCorner : std::uint8_t {
+  Intersect,  ///< the intersection of the offset elements that is nearest to the corner
+  Refuse,     ///< FaultKind::ConcaveCorner: the programmer rounds inside corners
+};
+
+/// Where the start-up move ends. `P` is its programmed end, `n` the offset to the compensated side.
+enum class StartUp : std::uint8_t {
+  NextNormal,  ///< on the normal of the next element at P
+  Corner,      ///< outside corners as any other corner, with the start-up move as an element;
+               ///< inside ones as NextNormal
+  Tangent,     ///< where its straight line touches the cutter's circle about P, then round P on it
+};
+
+/// Where the last compensated element ends, from which the cancel move goes to its programmed end.
+enum class Cancel : std::uint8_t {
+  OwnNormal,  ///< on its own normal
+  Corner,     ///< outside corners as any other corner, with the cancel move as an element; inside
+              ///< ones as OwnNormal
+};
+
+/// How a straight element begins when the element before it was ended on its own normal because
+/// nothing was known of this one. An arc is always reached by a straight piece.
+enum class Resume : std::uint8_t {
+  Straight,  ///< straight from where the tool is to its own compensated end
+  OwnNormal  ///< a straight piece to its own normal first
+};
+
+struct Policy {
+  OutsideCorner outside = OutsideCorner::ExtendTangents;
+  /// The largest change of direction that ExtendTangents rounds with one point; above it, two.
+  Angle sharpest = Angle::degrees(90);
+  InsideCorner inside = InsideCorner::Intersect;
+  StartUp start_up = StartUp::NextNormal;
+  Cancel cancel = Cancel::OwnNormal;
+  Resume resume = Resume::Straight;
+  /// Directions that differ by no more than this go straight on.
+  Angle tangent_tolerance = Angle::radians(1e-9);
+  /// So many blocks in a row without motion in the plane are looked across; one more ends the
+  /// element before them on its own normal.
+  int blocks_without_motion = 1;
+  /// A rapid move is a fast feed move: it gets the corner arcs of any other.
+  bool rounds_at_rapid = false;
+  /// Of an arc that leads to or from a contour, or round a corner, whose element there is a rapid
+  /// move.
+  Feed arc_at_rapid;
+};
+
+/// What is offset, by how much, to which side. A negative radius swaps the side. `tip_first` and
+/// `tip_second` lead from the center of a lathe tool's nose to the point that events position.
+struct Cutter {
+  Plane plane = Plane::XY;
+  Side side = Side::Left;
+  Length radius;
+  Length tip_first, tip_second;
+};
+
+}  // namespace dripline::interpreter::compensation

@@ -1,7 +1,0 @@
-#include "gateway/interpreter/tnc155/block.hpp"
-
-namespace dripline::interpreter::tnc155 {
-
-const Block kEmptyBlock{};
-
-}  // namespace dripline::interpreter::tnc155

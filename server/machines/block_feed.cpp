@@ -1,0 +1,219 @@
+#include "server/machines/block_feed.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+#include "server/machines/called_programs.hpp"
+
+namespace dripline::machines {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A run calls at most so many different programs between two looks into the library.
+constexpr std::size_t kMaxPinned = 256;
+constexpr auto kPause = 5ms;  ///< before a machine whose queue is full is tried again
+
+bool is_same(const dds::BlockRequest& a, const dds::BlockRequest& b) {
+  return a.run == b.run && a.program == b.program && a.offset == b.offset && a.length == b.length;
+}
+
+bool has_ended(storage::RunState state) {
+  return state != storage::RunState::Ordered && state != storage::RunState::Active;
+}
+
+dds::BlockStatus status_of(const Error& error) {
+  return error.code == Errc::Corrupt ? dds::BlockStatus::Corrupt : dds::BlockStatus::Failed;
+}
+
+dds::BlockData answer_to(const dds::BlockRequest& request) {
+  dds::BlockData data;
+  data.machine = request.machine;
+  data.session = request.session;
+  data.run = request.run;
+  data.program = request.program;
+  data.offset = request.offset;
+  return data;
+}
+
+}  // namespace
+
+void BlockFeed::request(dds::BlockRequest request) {
+  const std::string machine = request.machine;
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (lane.session != request.session) {
+      lane.session = request.session;
+      lane.waiting.clear();
+    }
+    const auto asks_same = [&](const auto& other) { return is_same(other, request); };
+    if (lane.working && lane.working->session == request.session && asks_same(*lane.working))
+      return;
+    if (std::ranges::any_of(lane.waiting, asks_same)) return;
+    if (lane.waiting.size() >= kMaxWaiting) return;
+    lane.waiting.push_back(std::move(request));
+    if (std::exchange(lane.is_scheduled, true)) return;
+  }
+  pool_.post([this, machine] { serve(machine); });
+}
+
+void BlockFeed::forget(const std::string& machine, const std::string& run) {
+  const std::lock_guard lock(mutex_);
+  const auto lane = lanes_.find(machine);
+  if (lane != lanes_.end() && lane->second.pinned.run == run) lane->second.pinned = {};
+}
+
+void BlockFeed::serve(const std::string& machine) {
+  dds::BlockRequest request;
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (lane.waiting.empty()) {
+      lane.is_scheduled = false;
+      return;
+    }
+    request = std::move(lane.waiting.front());
+    lane.waiting.pop_front();
+    lane.working = request;
+  }
+  finish(machine, answer(request));
+}
+
+void BlockFeed::finish(const std::string& machine, Turn turn) {
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    lane.working.reset();
+    if (turn.rest && turn.rest->session == lane.session) {
+      lane.waiting.push_front(*std::move(turn.rest));
+    }
+    if (lane.waiting.empty()) {
+      lane.is_scheduled = false;
+      return;
+    }
+  }
+  const auto again = [this, machine] { serve(machine); };
+  if (turn.must_pause) {
+    pool_.post_after(kPause, again);
+  } else {
+    pool_.post(again);
+  }
+}
+
+BlockFeed::Turn BlockFeed::answer(const dds::BlockRequest& request) {
+  const auto content = this->content(request);
+  if (!content) {
+    if (content.error().error.code == Errc::Busy) return {.rest = request, .must_pause = true};
+    return refuse(request, content.error());
+  }
+  if (request.offset > content->size) {
+    return refuse(request, {dds::BlockStatus::OutOfRange,
+                            {Errc::LimitExceeded, fmt::format("offset {} is after the end at {}",
+                                                              request.offset, content->size)}});
+  }
+  return send_bytes(request, *content);
+}
+
+/// One turn: whole pieces of at most kMaxBlockBytes until the request, the turn or the machine's
+/// queue is at its end.
+BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& content) {
+  const std::uint64_t wanted =
+      std::min<std::uint64_t>(request.length, content.size - request.offset);
+  auto read = store_.read_content(content.digest, request.offset, std::min(wanted, kTurnBytes));
+  if (!read) {
+    if (read.error().code == Errc::Busy) return {.rest = std::move(request), .must_pause = true};
+    return refuse(request, {status_of(read.error()), read.error()});
+  }
+  if (read->size() < std::min<std::uint64_t>(wanted, 1)) {
+    return refuse(request, {dds::BlockStatus::Corrupt,
+                            {Errc::Corrupt, fmt::format("content {} has no bytes at {}",
+                                                        content.digest.hex(), request.offset)}});
+  }
+  std::span<const std::byte> bytes(*read);
+  do {
+    const auto piece = bytes.first(std::min(bytes.size(), dds::kMaxBlockBytes));
+    dds::BlockData data = answer_to(request);
+    data.total_bytes = content.size;
+    data.bytes.assign(piece.begin(), piece.end());
+    data.ends = request.offset + piece.size() == content.size;
+    if (auto written = endpoint_.write(data); !written) {
+      if (written.error().code == Errc::Timeout)
+        return {.rest = std::move(request), .must_pause = true};
+      return {};  // the machine is gone; when it is back it asks again
+    }
+    request.offset += piece.size();
+    request.length -= static_cast<std::uint32_t>(piece.size());
+    bytes = bytes.subspan(piece.size());
+  } while (!bytes.empty());
+  if (request.length == 0 || request.offset == content.size) return {};
+  return {.rest = std::move(request), .must_pause = false};
+}
+
+BlockFeed::Turn BlockFeed::refuse(const dds::BlockRequest& request, const Refusal& refusal) {
+  spdlog::warn("refused blocks machine={} run={} program={} offset={}: {}: {}", request.machine,
+               request.run, request.program, request.offset, dds::to_string(refusal.status),
+               refusal.error.what);
+  dds::BlockData data = answer_to(request);
+  data.status = refusal.status;
+  constexpr std::size_t kMaxReason = 256;
+  data.reason = refusal.error.what.substr(0, kMaxReason);
+  const auto written = endpoint_.write(data);
+  const bool is_full = !written && written.error().code == Errc::Timeout;
+  if (is_full) return {.rest = request, .must_pause = true};
+  return {};
+}
+
+tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::content(
+    const dds::BlockRequest& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const Pinned& pinned = lanes_[request.machine].pinned;
+    if (pinned.run == request.run) {
+      const auto found = pinned.programs.find(request.program);
+      if (found != pinned.programs.end()) return found->second;
+    }
+  }
+  auto content = look_up(request);
+  if (!content) return content;
+  const std::lock_guard lock(mutex_);
+  Pinned& pinned = lanes_[request.machine].pinned;
+  if (pinned.run != request.run || pinned.programs.size() >= kMaxPinned) {
+    pinned = {.run = request.run, .programs = {}};
+  }
+  pinned.programs[request.program] = *content;
+  return content;
+}
+
+tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
+    const dds::BlockRequest& request) {
+  const auto refuse_with = [](dds::BlockStatus status, Error error) {
+    return tl::unexpected<Refusal>(Refusal{status, std::move(error)});
+  };
+  const auto no_run = [&](std::string why) {
+    return refuse_with(dds::BlockStatus::NoSuchRun, {Errc::NotFound, std::move(why)});
+  };
+  const auto run = store_.run(request.run);
+  if (!run && run.error().code == Errc::NotFound) return no_run(run.error().what);
+  if (!run) return refuse_with(status_of(run.error()), run.error());
+  if (run->machine != request.machine) {
+    return no_run(fmt::format("run {} is of machine {}", run->id, run->machine));
+  }
+  if (has_ended(run->state)) {
+    return no_run(fmt::format("run {} has ended: {}", run->id, storage::to_string(run->state)));
+  }
+  if (request.program.empty() || request.program == run->program) {
+    return Content{.digest = run->content, .size = run->size};
+  }
+  const auto revision = resolve_called_program(store_, *run, request.program);
+  if (!revision) {
+    const bool is_missing = revision.error().code == Errc::NotFound;
+    const auto status = is_missing ? dds::BlockStatus::NoSuchProgram : status_of(revision.error());
+    return refuse_with(status, revision.error());
+  }
+  spdlog::info("pinned called program machine={} run={} program={} revision={}", request.machine,
+               run->id, revision->program, revision->number);
+  return Content{.digest = revision->content, .size = revision->size};
+}
+
+}  // namespace dripline::machines

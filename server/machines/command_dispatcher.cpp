@@ -1,0 +1,169 @@
+#include "server/machines/command_dispatcher.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "protocol/base/random.hpp"
+#include "protocol/dds/stop_commands.hpp"
+#include "server/machines/identifiers.hpp"
+
+namespace dripline::machines {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMaxGivenUp = 64;
+constexpr auto kRetry = 10ms;  ///< before an order is offered again to a full queue
+
+/// These are sent at once, whatever is known of the gateway. Whether an override is lowered is for
+/// the gateway to say.
+bool may_stop(const dds::Command& command) {
+  return dds::is_stop(command.action, command.argument, command.value) ||
+         dds::is_override(command.action) || command.action == dds::CommandAction::Refuse;
+}
+
+}  // namespace
+
+CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
+                     std::function<void(const dds::Command&)> on_late_start)
+    : session_(random_number() | 1),
+      endpoint_(endpoint),
+      clock_(clock),
+      options_(options),
+      on_late_start_(std::move(on_late_start)) {}
+
+SteadyTime CommandDispatcher::stamp(dds::Command& command) {
+  command.id = make_command_id();
+  command.expires = may_stop(command) ? UtcTime::max() : clock_.now() + options_.expiry;
+  command.server = session_;
+  const std::lock_guard lock(mutex_);
+  command.number = ++last_number_;
+  return clock_.steady_now() + options_.expiry;
+}
+
+Result<void> CommandDispatcher::send(dds::Command command) {
+  const SteadyTime deadline = stamp(command);
+  return write_in_time(command, deadline);
+}
+
+/// To the gateway that speaks for the machine at this moment, in terms of its clock.
+Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime deadline) {
+  if (options_.gateway_of) {
+    const auto gateway = options_.gateway_of(command.machine);
+    command.session = gateway.session;
+    if (gateway.steady_ahead) {
+      command.deadline =
+          std::chrono::duration_cast<std::chrono::microseconds>(deadline.time_since_epoch()) +
+          *gateway.steady_ahead;
+    } else if (!may_stop(command)) {
+      return fail(Errc::Timeout, "machine {} has not reported its status yet", command.machine);
+    }
+  }
+  return endpoint_.write(command);
+}
+
+Result<void> CommandDispatcher::carry_out(dds::Command command) {
+  const SteadyTime deadline = stamp(command);
+  const std::string id = command.id;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_[id] = {.command = command, .result = {}, .deadline = deadline};
+  }
+  const auto written = write_in_time(command, deadline);
+  const auto outcome = written ? await(id) : written;
+  const std::lock_guard lock(mutex_);
+  const bool is_unknown = !outcome && outcome.error().code == Errc::Timeout;
+  if (is_unknown && command.action == dds::CommandAction::Start) {
+    given_up_.push_back(std::move(command));
+    if (given_up_.size() > kMaxGivenUp) given_up_.pop_front();
+  }
+  waiting_.erase(id);
+  return outcome;
+}
+
+Result<void> CommandDispatcher::write_in_time(const dds::Command& command, SteadyTime deadline) {
+  const auto limit = std::chrono::steady_clock::now() + options_.expiry;
+  for (;;) {
+    auto written = send_to_present(command, deadline);
+    if (written || written.error().code != Errc::Timeout) return written;
+    if (std::chrono::steady_clock::now() >= limit) return written;
+    std::this_thread::sleep_for(kRetry);
+  }
+}
+
+Result<void> CommandDispatcher::await(const std::string& id) {
+  const auto expiry = std::chrono::steady_clock::now() + options_.expiry;
+  const auto limit = expiry + options_.grace;
+  std::unique_lock lock(mutex_);
+  const Waiting& waiting = waiting_.at(id);
+  const auto is_settled = [&] { return waiting.result.has_value() || is_stopping_; };
+  for (auto next = std::chrono::steady_clock::now() + options_.repeat; next < expiry;
+       next += options_.repeat) {
+    if (changed_.wait_until(lock, next, is_settled)) break;
+    dds::Command again = waiting.command;
+    lock.unlock();
+    // A full queue or a machine that went away: the next round tries again, until the limit.
+    [[maybe_unused]] const auto written = send_to_present(std::move(again), waiting.deadline);
+    lock.lock();
+  }
+  const bool is_decided = changed_.wait_until(lock, limit, is_settled);
+  if (waiting.result) {
+    if (waiting.result->accepted) return {};
+    return fail(Errc::Busy, "machine {} refused {}: {}", waiting.command.machine,
+                dds::to_string(waiting.command.action), waiting.result->reason);
+  }
+  if (is_decided) return fail(Errc::Io, "the server is stopping");
+  return fail(Errc::Timeout, "machine {} did not answer {} within {} s", waiting.command.machine,
+              dds::to_string(waiting.command.action),
+              std::chrono::duration<double>(options_.expiry).count());
+}
+
+void CommandDispatcher::on_result(const dds::CommandResult& result) {
+  std::optional<dds::Command> late;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = waiting_.find(result.id); found != waiting_.end()) {
+      if (found->second.command.machine == result.machine) found->second.result = result;
+    } else if (result.accepted) {
+      const auto given_up = std::ranges::find(given_up_, result.id, &dds::Command::id);
+      if (given_up != given_up_.end()) {
+        late = std::move(*given_up);
+        given_up_.erase(given_up);
+      }
+    }
+  }
+  changed_.notify_all();
+  if (late) on_late_start_(*late);
+}
+
+void CommandDispatcher::on_run_seen(const std::string& machine, const std::string& run) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [id, waiting] : waiting_) {
+      const bool is_start = waiting.command.action == dds::CommandAction::Start &&
+                            waiting.command.run == run && waiting.command.machine == machine;
+      if (!is_start || waiting.result) continue;
+      waiting.result = dds::CommandResult{
+          .machine = waiting.command.machine, .id = id, .accepted = true, .reason = {}};
+    }
+  }
+  changed_.notify_all();
+}
+
+bool CommandDispatcher::is_waiting_for(const std::string& run) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(waiting_, [&](const auto& entry) {
+    const dds::Command& command = entry.second.command;
+    return command.action == dds::CommandAction::Start && command.run == run;
+  });
+}
+
+void CommandDispatcher::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace dripline::machines

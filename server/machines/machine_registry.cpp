@@ -1,0 +1,234 @@
+#include "server/machines/machine_registry.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <optional>
+
+#include "server/machines/machine_notices.hpp"
+
+namespace dripline::machines {
+namespace {
+
+constexpr std::size_t kMaxSessions = 8;
+
+/// A status may come before the announcement; until then the machine is not shown.
+bool is_known(const MachineView& view) {
+  return !view.machine.name.empty();
+}
+
+}  // namespace
+
+Result<void> MachineRegistry::load() {
+  auto machines = parts_.store.machines();
+  if (!machines) return fail(machines.error());
+  const std::lock_guard lock(mutex_);
+  for (auto& machine : *machines) {
+    const std::string name = machine.name;
+    MachineView& view = entries_[name].view;
+    if (view.is_connected) {  // it announced itself before we came to this: it knows better
+      view.machine.first_seen = machine.first_seen;
+    } else {
+      view.machine = std::move(machine);
+    }
+  }
+  return {};
+}
+
+void MachineRegistry::on_announce(const dds::Announce& announce) {
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_[announce.machine];
+  storage::Machine& machine = entry.view.machine;
+  const UtcTime now = parts_.clock.now();
+  if (machine.name.empty()) {
+    machine.name = announce.machine;
+    machine.first_seen = now;
+  }
+  machine.control = announce.control;
+  machine.description = announce.description;
+  machine.gateway_version = announce.version;
+  machine.epoch = announce.epoch;
+  machine.last_seen = now;
+  entry.view.is_connected = true;
+  entry.view.protocol = announce.protocol;
+  hear(entry, announce.session);
+  entry.machine_is_dirty = true;
+  spdlog::info("machine connected machine={} control={} gateway_version={}", announce.machine,
+               announce.control, announce.version);
+  if (const auto notice = protocol_notice(announce.protocol); !notice.empty())
+    spdlog::error("machine refused machine={}: {}", announce.machine, notice);
+  schedule(entry);
+}
+
+void MachineRegistry::on_status(dds::Status status) {
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_[status.machine];
+  entry.view.machine.last_seen = parts_.clock.now();
+  hear(entry, status.session);
+  if (entry.has_rival) contest(entry);
+  compare_clocks(entry, status);
+  entry.counters_are_dirty = entry.counters_are_dirty || !status.run.empty();
+  entry.view.status = std::move(status);
+  if (is_known(entry.view)) schedule(entry);
+}
+
+/// A restarted gateway has a new session, and the old one is never heard again. When it is, there
+/// are two.
+void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
+  if (session == 0 || session == entry.view.session) return;
+  auto& earlier = entry.earlier_sessions;
+  if (std::ranges::find(earlier, session) != earlier.end()) {
+    contest(entry);
+    std::erase(earlier, session);
+  }
+  if (entry.view.session != 0) earlier.push_back(entry.view.session);
+  if (earlier.size() > kMaxSessions) earlier.pop_front();
+  entry.view.session = session;
+  entry.clocks.reset();
+}
+
+void MachineRegistry::contest(Entry& entry) {
+  const SteadyTime now = parts_.clock.steady_now();
+  if (now >= entry.contested_until) {
+    spdlog::error("two gateways say that they are machine={}: stop one of them",
+                  entry.view.machine.name);
+  }
+  entry.contested_until = now + kContested;
+}
+
+/// A killed gateway and its successor: the first is never heard again. When it is, there are two.
+void MachineRegistry::on_rival(const std::string& machine, bool is_there) {
+  const std::lock_guard lock(mutex_);
+  entries_[machine].has_rival = is_there;
+}
+
+void MachineRegistry::compare_clocks(Entry& entry, const dds::Status& status) {
+  entry.clocks.compare(status, parts_.clock.now(), parts_.clock.steady_now());
+  entry.view.clock_ahead = entry.clocks.time_ahead();
+  if (!entry.view.clock_ahead) return;
+  const auto notice = clock_notice(*entry.view.clock_ahead);
+  // Clocks that differ by just the tolerance do not fill the log.
+  const bool is_near = std::chrono::abs(*entry.view.clock_ahead) > GatewayClocks::kTolerance / 2;
+  const bool is_off = !notice.empty() || (entry.clock_is_off && is_near);
+  if (std::exchange(entry.clock_is_off, is_off) == is_off) return;
+  if (is_off) {
+    spdlog::warn("{} machine={}", notice, status.machine);
+  } else {
+    spdlog::info("the clocks of gateway and server agree again machine={}", status.machine);
+  }
+}
+
+std::chrono::microseconds MachineRegistry::clock_error(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return {};
+  const auto ahead = found->second.clocks.time_ahead().value_or(std::chrono::microseconds{0});
+  return std::chrono::abs(ahead) > GatewayClocks::kTolerance ? ahead : std::chrono::microseconds{0};
+}
+
+CommandDispatcher::Options::Gateway MachineRegistry::gateway(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return {};
+  return {found->second.view.session, found->second.clocks.steady_ahead()};
+}
+
+MachineView MachineRegistry::shown(const Entry& entry) const {
+  MachineView view = entry.view;
+  view.is_contested = parts_.clock.steady_now() < entry.contested_until;
+  return view;
+}
+
+void MachineRegistry::on_lost(const std::string& machine) {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(machine);
+  if (found == entries_.end() || !found->second.view.is_connected) return;
+  Entry& entry = found->second;
+  entry.view.is_connected = false;
+  entry.machine_is_dirty = true;
+  spdlog::warn("machine lost machine={}", machine);
+  schedule(entry);
+}
+
+std::vector<MachineView> MachineRegistry::views() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<MachineView> views;
+  views.reserve(entries_.size());
+  for (const auto& [name, entry] : entries_) {
+    if (is_known(entry.view)) views.push_back(shown(entry));
+  }
+  return views;
+}
+
+Result<MachineView> MachineRegistry::view(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end() || !is_known(found->second.view)) {
+    return fail(Errc::NotFound, "machine '{}' is not known", name);
+  }
+  return shown(found->second);
+}
+
+/// However many changes arrive meanwhile, one task a machine tells the latest.
+void MachineRegistry::schedule(Entry& entry) {
+  if (std::exchange(entry.is_scheduled, true) || entry.is_telling) return;
+  parts_.pool.post([this, name = entry.view.machine.name] { tell(name); });
+}
+
+void MachineRegistry::tell(const std::string& name) {
+  MachineView view;
+  bool is_dirty = false;
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& entry = entries_.at(name);
+    if (!std::exchange(entry.is_scheduled, false)) return;
+    entry.is_telling = true;
+    is_dirty = entry.machine_is_dirty;
+    view = shown(entry);
+  }
+  if (is_dirty) save_machine(name);
+  parts_.on_change(view);
+  const std::lock_guard lock(mutex_);
+  Entry& entry = entries_.at(name);
+  entry.is_telling = false;
+  if (entry.is_scheduled) parts_.pool.post([this, name] { tell(name); });
+}
+
+void MachineRegistry::save_machine(const std::string& name) {
+  storage::Machine machine;
+  {
+    const std::lock_guard lock(mutex_);
+    Entry& entry = entries_.at(name);
+    entry.machine_is_dirty = false;
+    machine = entry.view.machine;
+  }
+  if (auto saved = parts_.store.save_machine(machine); !saved) {
+    spdlog::warn("machine not saved machine={}: {}", name, saved.error().what);
+    const std::lock_guard lock(mutex_);
+    entries_.at(name).machine_is_dirty = true;
+  }
+}
+
+void MachineRegistry::save() {
+  std::vector<dds::Status> progressed;
+  std::vector<std::string> dirty;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, entry] : entries_) {
+      if (entry.machine_is_dirty) dirty.push_back(name);
+      if (std::exchange(entry.counters_are_dirty, false)) progressed.push_back(*entry.view.status);
+    }
+  }
+  for (const auto& name : dirty) save_machine(name);
+  for (const auto& status : progressed) {
+    const storage::Counters counters{
+        .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
+    auto saved = parts_.store.update_counters(status.machine, status.run, counters, status.line,
+                                              status.sequence);
+    if (!saved && saved.error().code != Errc::NotFound) {
+      spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
+                    saved.error().what);
+    }
+  }
+}
+
+}  // namespace dripline::machines

@@ -1,0 +1,361 @@
+#include "server/machines/machine_service.hpp"
+
+#include <spdlog/spdlog.h>
+#include <set>
+
+#include "protocol/dds/stop_commands.hpp"
+#include "server/machines/control_memory.hpp"
+#include "server/machines/identifiers.hpp"
+#include "server/machines/machine_notices.hpp"
+#include "server/machines/start_point.hpp"
+
+namespace dripline::machines {
+namespace {
+
+bool has_ended(const storage::Run& run) {
+  return run.state != storage::RunState::Ordered && run.state != storage::RunState::Active;
+}
+
+}  // namespace
+
+MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpoint)
+    : blocks(service.store_, endpoint, service.pool_),
+      records({.store = service.store_,
+               .endpoint = endpoint,
+               .pool = service.pool_,
+               .clock = service.clock_,
+               .clock_ahead =
+                   [&service](const std::string& machine) {
+                     return service.board_.clock_error(machine);
+                   },
+               .state_mutex = service.state_mutex_,
+               .on_stored = [&service](const auto& batch) { service.on_stored(batch); },
+               .on_fault = service.options_.on_fault}),
+      commands(endpoint, service.clock_, service.command_options(),
+             [&service](const dds::Command& command) { service.on_late_start(command); }),
+      watch({.store = service.store_,
+             .clock = service.clock_,
+             .desk = commands,
+             .state_mutex = service.state_mutex_,
+             .on_change = service.listener_.on_run,
+             .on_unwanted = [&service](const auto& run) { service.abort_unwanted(run); }}) {}
+
+CommandDispatcher::Options MachineService::command_options() const {
+  CommandDispatcher::Options options = options_.commands;
+  options.gateway_of = [this](const std::string& machine) { return board_.gateway(machine); };
+  return options;
+}
+
+MachineService::MachineService(storage::Store& store, const Clock& clock, Options options,
+                         FeedListener listener)
+    : store_(store),
+      clock_(clock),
+      options_(std::move(options)),
+      listener_(std::move(listener)),
+      pool_(options.workers),
+      board_({.store = store,
+              .clock = clock,
+              .pool = pool_,
+              .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
+
+MachineService::~MachineService() {
+  end();
+}
+
+MachineService::Parts* MachineService::parts() const {
+  return is_ending_ ? nullptr : parts_.load();
+}
+
+dds::ServerHandlers MachineService::handlers() {
+  dds::ServerHandlers handlers;
+  handlers.on_announce = [this](dds::Announce announce) {
+    Parts* parts = this->parts();
+    board_.on_announce(announce);
+    if (parts == nullptr) return;
+    pool_.post([this, parts, announce] {
+      parts->records.greet(announce.machine, announce.epoch);
+      refuse_stranger(announce);
+    });
+  };
+  handlers.on_lost = [this](const std::string& machine) { board_.on_lost(machine); };
+  handlers.on_rival = [this](const std::string& machine, bool is_there) {
+    board_.on_rival(machine, is_there);
+  };
+  handlers.on_status = [this](dds::Status status) {
+    if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
+      parts->commands.on_run_seen(status.machine, status.run);
+    }
+    board_.on_status(std::move(status));
+  };
+  handlers.on_record = [this](dds::Record record) {
+    if (Parts* parts = this->parts()) parts->records.take(std::move(record));
+  };
+  handlers.on_command_result = [this](const dds::CommandResult& result) {
+    if (Parts* parts = this->parts()) parts->commands.on_result(result);
+  };
+  handlers.on_request = [this](dds::BlockRequest request) {
+    if (Parts* parts = this->parts()) parts->blocks.request(std::move(request));
+  };
+  return handlers;
+}
+
+Result<void> MachineService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint) {
+  endpoint_ = std::move(endpoint);
+  owned_parts_ = std::make_unique<Parts>(*this, *endpoint_);
+  if (auto loaded = board_.load(); !loaded) return loaded;
+  if (auto loaded = owned_parts_->watch.load(); !loaded) return loaded;
+  parts_ = owned_parts_.get();
+  // Machines that announced themselves between open() and now were not greeted.
+  for (const auto& view : board_.views()) {
+    if (view.is_connected) owned_parts_->records.greet(view.machine.name, view.machine.epoch);
+  }
+  pool_.post([this] { tick(); });
+  return {};
+}
+
+void MachineService::stop_waiting() {
+  if (owned_parts_) owned_parts_->commands.stop();
+}
+
+void MachineService::end() {
+  if (is_ending_.exchange(true)) return;
+  stop_waiting();
+  pool_.stop();
+  board_.save();
+  endpoint_.reset();
+}
+
+void MachineService::tick() {
+  if (is_ending_) return;
+  board_.save();
+  owned_parts_->watch.compare(board_.views());
+  log_rejected();
+  pool_.post_after(MachineRegistry::kSaveInterval, [this] { tick(); });
+}
+
+/// What was dropped is told at most once a minute: whoever sends it must not fill the log.
+void MachineService::log_rejected() {
+  constexpr std::chrono::minutes kInterval{1};
+  const SteadyTime now = clock_.steady_now();
+  const dds::Rejected dropped = rejected();
+  if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
+  spdlog::warn("dropped {} DDS messages, the last: {}", dropped.messages - rejected_logged_,
+               dropped.last_reason);
+  rejected_logged_ = dropped.messages;
+  next_rejected_log_ = now + kInterval;
+}
+
+std::vector<MachineView> MachineService::machines() const {
+  return board_.views();
+}
+
+Result<MachineView> MachineService::machine(const std::string& name) const {
+  return board_.view(name);
+}
+
+dds::Rejected MachineService::rejected() const {
+  return endpoint_ ? endpoint_->rejected() : dds::Rejected{};
+}
+
+Result<MachineView> MachineService::connected_machine(const std::string& name) const {
+  auto view = board_.view(name);
+  if (!view || view->is_connected) return view;
+  return fail(Errc::Timeout, "machine '{}' is not connected; last seen {}", name,
+              to_iso8601(view->machine.last_seen));
+}
+
+Result<storage::Run> MachineService::make_run(const StartRequest& request, const MachineView& view) {
+  auto revision = store_.revision(request.program, request.revision);
+  if (!revision) return fail(revision.error());
+  if (!revision->control.empty() && revision->control != view.machine.control) {
+    return fail(Errc::Unsupported,
+                "program '{}' revision {} is for control {}; machine '{}' is a {}",
+                revision->program, revision->number, revision->control, request.machine,
+                view.machine.control);
+  }
+  storage::Run run;
+  run.created = clock_.now();
+  run.id = make_run_id(run.created);
+  run.machine = request.machine;
+  run.program = revision->program;
+  run.revision = revision->number;
+  run.content = revision->content;
+  run.size = revision->size;
+  run.control = view.machine.control;
+  run.author = request.author;
+  return run;
+}
+
+/// The machine's newest setup; none when the server keeps none for it.
+Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const storage::Run& run) {
+  auto setup = store_.setup(run.machine, std::nullopt);
+  if (setup) return std::optional(*std::move(setup));
+  if (setup.error().code == Errc::NotFound) return std::optional<storage::SetupRevision>{};
+  return fail(setup.error());
+}
+
+Result<storage::Run> MachineService::start(const StartRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  if (view->is_contested) {
+    return fail(Errc::Busy, "two gateways say that they are machine '{}'; stop one of them",
+                request.machine);
+  }
+  if (auto told = check_protocol(*view); !told) return fail(told.error());
+  auto run = make_run(request, *view);
+  if (!run) return run;
+  if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
+  // Nothing is begun that could not go on: the list of its chunks is looked through before.
+  if (auto sound = store_.verify_content(run->content); !sound) {
+    return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
+                sound.error().what);
+  }
+  const auto setup = setup_of(*run);
+  if (!setup) return fail(setup.error());
+  if (*setup) run->setup = (*setup)->number;
+  // It may have announced itself this very moment, and a run needs its machine in the store.
+  if (auto saved = store_.save_machine(view->machine); !saved) return fail(saved.error());
+  if (auto created = store_.create_run(*run); !created) return fail(created.error());
+  parts->watch.watch(run->machine, run->id);
+  announce_run(run->id);
+  dds::Command command;
+  command.machine = run->machine;
+  command.action = dds::CommandAction::Start;
+  command.run = run->id;
+  command.program = run->program;
+  command.revision = run->content.hex();
+  command.size = run->size;
+  command.control = run->control;
+  command.argument = start_argument(request);
+  if (*setup) command.setup = (*setup)->text;
+  return conclude_start(*run, parts->commands.carry_out(std::move(command)));
+}
+
+Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
+                                                 const Result<void>& outcome) {
+  if (outcome) {
+    spdlog::info("run started machine={} run={} program={} revision={}", run.machine, run.id,
+                 run.program, run.revision);
+    return owned_parts_->watch.settle(run.id, storage::RunState::Active, "");
+  }
+  spdlog::warn("run not started machine={} run={} program={}: {}", run.machine, run.id, run.program,
+               outcome.error().what);
+  // When the server stops, nobody knows yet: the next one finds out.
+  if (outcome.error().code == Errc::Io) return fail(outcome.error());
+  const auto settled =
+      owned_parts_->watch.settle(run.id, storage::RunState::Refused, outcome.error().what);
+  if (!settled) return fail(settled.error());
+  if (settled->state != storage::RunState::Refused) return settled;
+  owned_parts_->watch.forget(run.id);
+  return fail(outcome.error());
+}
+
+/// A gateway of another version keeps what it runs and reports, and can be stopped. That is all.
+void MachineService::refuse_stranger(const dds::Announce& announce) {
+  const std::string notice = protocol_notice(announce.protocol);
+  if (notice.empty()) return;
+  dds::Command command;
+  command.machine = announce.machine;
+  command.action = dds::CommandAction::Refuse;
+  command.argument = notice;
+  if (auto sent = owned_parts_->commands.send(std::move(command)); !sent)
+    spdlog::warn("gateway not told machine={}: {}", announce.machine, sent.error().what);
+}
+
+Result<void> MachineService::check_protocol(const MachineView& view) {
+  const std::string notice = view.protocol ? protocol_notice(*view.protocol) : "";
+  if (notice.empty()) return {};
+  return fail(Errc::Unsupported, "machine '{}': {}", view.machine.name, notice);
+}
+
+Result<void> MachineService::check_command(const CommandRequest& request, const MachineView& view) {
+  if (dds::is_stop(request.action, request.argument, request.value)) return {};
+  if (view.status && dds::lowers_override(request.action, request.value, *view.status)) return {};
+  return check_protocol(view);
+}
+
+Result<void> MachineService::command(const CommandRequest& request) {
+  Parts* parts = this->parts();
+  if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
+  if (request.run.empty()) return command_machine(request);
+  const auto run = store_.run(request.run);
+  if (!run) return fail(run.error());
+  if (has_ended(*run)) {
+    return fail(Errc::Conflict, "run {} has ended: {}", run->id,
+                storage::to_string(run->state));
+  }
+  const auto view = connected_machine(run->machine);
+  if (!view) return fail(view.error());
+  if (auto fits = check_command(request, *view); !fits) return fits;
+  dds::Command command;
+  command.machine = run->machine;
+  command.action = request.action;
+  command.run = run->id;
+  command.argument = request.argument;
+  command.value = request.value;
+  spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
+               run->machine, run->id, run->program);
+  return parts->commands.carry_out(std::move(command));
+}
+
+/// At its panel: no run is needed.
+Result<void> MachineService::command_machine(const CommandRequest& request) {
+  const auto view = connected_machine(request.machine);
+  if (!view) return fail(view.error());
+  if (auto fits = check_command(request, *view); !fits) return fits;
+  dds::Command command;
+  command.machine = request.machine;
+  command.action = request.action;
+  command.argument = request.argument;
+  command.value = request.value;
+  spdlog::info("order {} machine={}", dds::to_string(request.action), request.machine);
+  return owned_parts_->commands.carry_out(std::move(command));
+}
+
+/// The sender was told that nothing came of this start, so nothing may come of it.
+void MachineService::on_late_start(const dds::Command& late) {
+  storage::Run run;
+  run.machine = late.machine;
+  run.id = late.run;
+  run.program = late.program;
+  pool_.post([this, run] { abort_unwanted(run); });
+}
+
+void MachineService::abort_unwanted(const storage::Run& run) {
+  spdlog::warn("start accepted too late, aborting machine={} run={} program={}", run.machine,
+               run.id, run.program);
+  owned_parts_->blocks.forget(run.machine, run.id);
+  dds::Command abort;
+  abort.machine = run.machine;
+  abort.action = dds::CommandAction::Abort;
+  abort.run = run.id;
+  if (auto sent = owned_parts_->commands.send(abort); !sent) {
+    spdlog::error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
+                  sent.error().what);
+  }
+}
+
+void MachineService::on_stored(const storage::RecordBatch& batch) {
+  for (const auto& record : batch.records) listener_.on_record(record);
+  std::set<std::string> changed;
+  for (const auto& beginning : batch.beginnings) changed.insert(beginning.run);
+  for (const auto& ending : batch.endings) {
+    changed.insert(ending.run);
+    owned_parts_->watch.forget(ending.run);
+    owned_parts_->blocks.forget(batch.machine, ending.run);
+    spdlog::info("run ended machine={} run={} state={} executed={} verified={}", batch.machine,
+                 ending.run, storage::to_string(ending.state), ending.counters.executed,
+                 !ending.content_verified   ? "unknown"
+                 : *ending.content_verified ? "yes"
+                                            : "no");
+  }
+  for (const auto& run : changed) announce_run(run);
+}
+
+void MachineService::announce_run(const std::string& run) {
+  if (const auto stored = store_.run(run)) listener_.on_run(*stored);
+}
+
+}  // namespace dripline::machines

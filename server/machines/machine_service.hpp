@@ -1,0 +1,95 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/dds/endpoint.hpp"
+#include "server/machines/block_feed.hpp"
+#include "server/machines/machine_control.hpp"
+#include "server/machines/machine_registry.hpp"
+#include "server/machines/command_dispatcher.hpp"
+#include "server/machines/record_ingest.hpp"
+#include "server/machines/run_reconciler.hpp"
+#include "server/machines/worker_pool.hpp"
+
+namespace dripline::machines {
+
+/// Feeds the machines and keeps what they report. Wiring:
+///     MachineService feeds(store, clock, options, listener);
+///     auto endpoint = ServerEndpoint::open(network, feeds.handlers());
+///     feeds.begin(std::move(*endpoint));      // nothing is handled before
+///     ... feeds.end();                        // leaves DDS
+/// DDS threads only hand over; a pool of workers does everything that waits.
+class MachineService final : public MachineControl {
+ public:
+  struct Options {
+    unsigned workers = 4;
+    CommandDispatcher::Options commands;
+    /// A machine's records cannot be stored, and why; empty: they are again. Any thread.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+  };
+  MachineService(storage::Store& store, const Clock& clock, Options options, FeedListener listener);
+  ~MachineService() override;
+
+  /// Valid while the service lives; what arrives before begin() is left out, and asked or sent
+  /// again by the gateways.
+  dds::ServerHandlers handlers();
+  Result<void> begin(std::unique_ptr<dds::ServerEndpoint> endpoint);
+  /// Whoever waits for a gateway's answer is told that the server stops. Called by end().
+  void stop_waiting();
+  /// In order: no more from the network, waiting orders fail, what has arrived is stored, DDS is
+  /// left. Called by the destructor at the latest.
+  void end();
+
+  std::vector<MachineView> machines() const override;
+  Result<MachineView> machine(const std::string& name) const override;
+  Result<storage::Run> start(const StartRequest& request) override;
+  Result<void> command(const CommandRequest& request) override;
+  dds::Rejected rejected() const;
+
+ private:
+  /// Everything that needs the endpoint; made by begin().
+  struct Parts {
+    Parts(MachineService& service, dds::ServerEndpoint& endpoint);
+    BlockFeed blocks;
+    RecordIngest records;
+    CommandDispatcher commands;
+    RunWatch watch;
+  };
+  Parts* parts() const;
+  void on_stored(const storage::RecordBatch& batch);
+  Result<void> command_machine(const CommandRequest& request);
+  void on_late_start(const dds::Command& command);
+  CommandDispatcher::Options command_options() const;
+  void abort_unwanted(const storage::Run& run);
+  void refuse_stranger(const dds::Announce& announce);
+  static Result<void> check_protocol(const MachineView& view);
+  static Result<void> check_command(const CommandRequest& request, const MachineView& view);
+  void tick();
+  void log_rejected();
+  void announce_run(const std::string& run);
+  Result<MachineView> connected_machine(const std::string& name) const;
+  Result<storage::Run> make_run(const StartRequest& request, const MachineView& view);
+  Result<std::optional<storage::SetupRevision>> setup_of(const storage::Run& run);
+  Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
+
+  storage::Store& store_;
+  const Clock& clock_;
+  const Options options_;
+  const FeedListener listener_;
+  std::mutex state_mutex_;  ///< held while the state of a run is changed
+  WorkerPool pool_;
+  MachineRegistry board_;
+  std::unique_ptr<dds::ServerEndpoint> endpoint_;
+  std::unique_ptr<Parts> owned_parts_;
+  std::atomic<Parts*> parts_{nullptr};
+  std::atomic<bool> is_ending_{false};
+  std::uint64_t rejected_logged_ = 0;  ///< this and the next are the tick's
+  SteadyTime next_rejected_log_{};
+};
+
+}  // namespace dripline::machines

@@ -1,0 +1,232 @@
+#include "server/machines/record_ingest.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <iterator>
+
+#include "server/machines/run_ending.hpp"
+
+namespace dripline::machines {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kFirstPause = 250ms;  ///< doubled up to kLongestPause while the store refuses
+constexpr auto kLongestPause = 5000ms;
+constexpr auto kAckRetry = 20ms;
+
+storage::Record to_stored(const dds::Record& record) {
+  return {.machine = record.machine,
+          .epoch = record.epoch,
+          .number = record.number,
+          .time = record.time,
+          .run = record.run,
+          .kind = std::string(dds::to_string(record.kind)),
+          .block = record.block,
+          .line = record.line,
+          .sequence = record.sequence,
+          .device = record.device,
+          .text = record.text};
+}
+
+/// No later try can store these: something in them is not what a gateway writes.
+bool is_hopeless(const Error& error) {
+  return error.code == Errc::Syntax || error.code == Errc::LimitExceeded;
+}
+
+/// What was after a gap has not been stored; it comes again.
+void leave_out_after(std::uint64_t stored, storage::RecordBatch& batch) {
+  if (batch.records.back().number <= stored) return;
+  std::erase_if(batch.records, [&](const auto& record) { return record.number > stored; });
+  const auto is_told = [&](const std::string& run, std::string_view kind) {
+    return std::ranges::any_of(batch.records, [&](const auto& record) {
+      return record.run == run && record.kind == kind;
+    });
+  };
+  std::erase_if(batch.beginnings, [&](const auto& b) {
+    return !is_told(b.run, dds::to_string(dds::RecordKind::RunStarted));
+  });
+  std::erase_if(batch.endings, [&](const auto& e) {
+    return !is_told(e.run, dds::to_string(dds::RecordKind::RunEnded));
+  });
+}
+
+}  // namespace
+
+void RecordIngest::take(dds::Record record) {
+  const std::string machine = record.machine;
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (lane.waiting.size() >= kMaxWaiting) return;
+    lane.waiting.push_back(std::move(record));
+    if (std::exchange(lane.is_scheduled, true)) return;
+  }
+  parts_.pool.post([this, machine] { commit(machine); });
+}
+
+void RecordIngest::greet(const std::string& machine, std::uint64_t epoch) {
+  storage::RecordBatch nothing;
+  nothing.machine = machine;
+  nothing.epoch = epoch;
+  const auto stored = store(nothing);
+  if (stored && *stored > 0) succeed(machine, epoch, *stored);
+}
+
+void RecordIngest::commit(const std::string& machine) {
+  std::vector<dds::Record> records;
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (lane.waiting.empty()) {
+      lane.is_scheduled = false;
+      return;
+    }
+    records = take_batch(lane);
+  }
+  const auto foreign = foreign_runs(records);
+  storage::RecordBatch batch = to_batch(records, foreign);
+  const auto stored = store(batch);
+  if (!stored && !is_hopeless(stored.error())) {
+    return put_back(machine, std::move(records), stored.error());
+  }
+  if (stored) {
+    leave_out_after(*stored, batch);
+    std::erase_if(batch.records, [&](const auto& r) { return foreign.contains(r.run); });
+    parts_.on_stored(batch);
+    succeed(machine, batch.epoch, *stored);
+  } else {  // not acknowledged; and those that wait after them are not held up
+    spdlog::error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
+                  stored.error().what);
+  }
+  parts_.pool.post([this, machine] { commit(machine); });
+}
+
+/// Records of one epoch, ascending, each once: a gateway that heard no acknowledgement repeats.
+std::vector<dds::Record> RecordIngest::take_batch(Lane& lane) {
+  const std::uint64_t epoch = lane.waiting.front().epoch;
+  std::vector<dds::Record> records;
+  while (!lane.waiting.empty() && lane.waiting.front().epoch == epoch &&
+         records.size() < kMaxBatch) {
+    records.push_back(std::move(lane.waiting.front()));
+    lane.waiting.pop_front();
+  }
+  std::ranges::stable_sort(records, {}, &dds::Record::number);
+  // Not ranges::unique: clang 14 cannot parse libstdc++'s.
+  const auto is_same = [](const dds::Record& a, const dds::Record& b) {
+    return a.number == b.number;
+  };
+  records.erase(std::unique(records.begin(), records.end(), is_same), records.end());
+  return records;
+}
+
+std::set<std::string> RecordIngest::foreign_runs(const std::vector<dds::Record>& records) {
+  std::set<std::string> asked, foreign;
+  const std::string& machine = records.front().machine;
+  for (const auto& record : records) {
+    if (record.run.empty()) continue;
+    if (asked.insert(record.run).second) {
+      const auto run = parts_.store.run(record.run);
+      if (run && run->machine != machine) foreign.insert(record.run);
+    }
+    if (!foreign.contains(record.run)) continue;
+    ++foreign_;
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(lanes_[machine].foreign_run, record.run) == record.run) continue;
+    spdlog::error(
+        "machine={} reports on run={}, which is another machine's: kept, without any effect on it",
+        machine, record.run);
+  }
+  return foreign;
+}
+
+/// When it happened, by our clock, as well as we know: not later than now.
+UtcTime RecordIngest::our_time(const dds::Record& record) const {
+  return std::min(record.time - parts_.clock_ahead(record.machine), parts_.clock.now());
+}
+
+storage::RecordBatch RecordIngest::to_batch(const std::vector<dds::Record>& records,
+                                            const std::set<std::string>& foreign) {
+  storage::RecordBatch batch;
+  batch.machine = records.front().machine;
+  batch.epoch = records.front().epoch;
+  const UtcTime received = parts_.clock.now();
+  for (const auto& record : records) {
+    batch.records.push_back(to_stored(record));
+    batch.records.back().received = received;
+    if (foreign.contains(record.run)) continue;
+    if (record.kind == dds::RecordKind::RunStarted) {
+      batch.beginnings.push_back({.run = record.run, .started = our_time(record)});
+    }
+    if (record.kind != dds::RecordKind::RunEnded) continue;
+    auto ending = read_run_ending(parts_.store, record);
+    if (ending) {
+      ending->ended = our_time(record);
+      batch.endings.push_back(*std::move(ending));
+    } else {
+      spdlog::error("end of run not understood machine={} run={} record={}: {}", record.machine,
+                    record.run, record.number, ending.error().what);
+    }
+  }
+  return batch;
+}
+
+Result<std::uint64_t> RecordIngest::store(const storage::RecordBatch& batch) {
+  if (batch.beginnings.empty() && batch.endings.empty()) return parts_.store.store_records(batch);
+  const std::lock_guard lock(parts_.state_mutex);
+  return parts_.store.store_records(batch);
+}
+
+void RecordIngest::put_back(const std::string& machine, std::vector<dds::Record> records,
+                            const Error& error) {
+  std::chrono::milliseconds pause{};
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (!std::exchange(lane.is_failing, true)) {
+      spdlog::error("records cannot be stored, the gateway keeps them machine={}: {}", machine,
+                    error.what);
+      if (parts_.on_fault) parts_.on_fault(machine, error.what);
+    }
+    lane.waiting.insert(lane.waiting.begin(), std::make_move_iterator(records.begin()),
+                        std::make_move_iterator(records.end()));
+    lane.pause = std::clamp<std::chrono::milliseconds>(lane.pause * 2, kFirstPause, kLongestPause);
+    pause = lane.pause;
+  }
+  parts_.pool.post_after(pause, [this, machine] { commit(machine); });
+}
+
+void RecordIngest::succeed(const std::string& machine, std::uint64_t epoch, std::uint64_t number) {
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (std::exchange(lane.is_failing, false)) {
+      spdlog::info("records are stored again machine={}", machine);
+      if (parts_.on_fault) parts_.on_fault(machine, "");
+    }
+    lane.pause = 0ms;
+    lane.ack = {.machine = machine, .epoch = epoch, .number = number};
+    lane.ack_is_owed = true;
+  }
+  acknowledge(machine);
+}
+
+/// The newest acknowledgement contains the older ones, so only that one is ever repeated.
+void RecordIngest::acknowledge(const std::string& machine) {
+  dds::RecordAck ack;
+  {
+    const std::lock_guard lock(mutex_);
+    Lane& lane = lanes_[machine];
+    if (!std::exchange(lane.ack_is_owed, false)) return;
+    ack = lane.ack;
+  }
+  const auto written = parts_.endpoint.write(ack);
+  if (written || written.error().code != Errc::Timeout) return;
+  {
+    const std::lock_guard lock(mutex_);
+    lanes_[machine].ack_is_owed = true;
+  }
+  parts_.pool.post_after(kAckRetry, [this, machine] { acknowledge(machine); });
+}
+
+}  // namespace dripline::machines

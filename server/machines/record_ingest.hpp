@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/dds/endpoint.hpp"
+#include "server/machines/worker_pool.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::machines {
+
+/// Puts what the machines report on disk, then acknowledges it. What arrives while a commit runs
+/// is the next commit. While the store refuses (a full disk) nothing is acknowledged and nothing is
+/// lost: the gateways keep their records, and the ones that are here already are tried again.
+class RecordIngest {
+ public:
+  static constexpr std::size_t kMaxWaiting = 4096;  ///< records of one machine; more are left to
+                                                    ///< the gateway, which sends them again
+  static constexpr std::size_t kMaxBatch = 1024;
+
+  struct Parts {
+    storage::Store& store;
+    dds::ServerEndpoint& endpoint;
+    WorkerPool& pool;
+    const Clock& clock;
+    /// How far the machine's time of day is ahead of ours, where that is known and worth it.
+    std::function<std::chrono::microseconds(const std::string& machine)> clock_ahead;
+    /// Held while run states are changed.
+    std::mutex& state_mutex;
+    /// After a commit, on a worker; one call at a time per machine. Without the records that name
+    /// another machine's run: those are kept and nothing else.
+    std::function<void(const storage::RecordBatch&)> on_stored;
+    /// A machine's records cannot be stored, and why; empty: they are again.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+  };
+  /// All parts must outlive the keeper's last task, that is, the pool must be stopped first.
+  explicit RecordIngest(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Any thread; returns at once.
+  void take(dds::Record record);
+  /// Tells a machine that has just come what is on disk of this epoch.
+  void greet(const std::string& machine, std::uint64_t epoch);
+  /// Records so far that named another machine's run.
+  std::uint64_t foreign() const { return foreign_; }
+
+ private:
+  struct Lane {
+    std::deque<dds::Record> waiting;
+    bool is_scheduled = false;
+    bool is_failing = false;
+    std::string foreign_run;  ///< of another machine, named last
+    std::chrono::milliseconds pause{0};
+    dds::RecordAck ack;  ///< the last one to be sent
+    bool ack_is_owed = false;
+  };
+  void commit(const std::string& machine);
+  std::vector<dds::Record> take_batch(Lane& lane);
+  void put_back(const std::string& machine, std::vector<dds::Record> records, const Error& error);
+  void succeed(const std::string& machine, std::uint64_t epoch, std::uint64_t number);
+  void acknowledge(const std::string& machine);
+  /// The runs among these that are another machine's.
+  std::set<std::string> foreign_runs(const std::vector<dds::Record>& records);
+  storage::RecordBatch to_batch(const std::vector<dds::Record>& records,
+                                const std::set<std::string>& foreign);
+  UtcTime our_time(const dds::Record& record) const;
+  Result<std::uint64_t> store(const storage::RecordBatch& batch);
+
+  Parts parts_;
+  std::mutex mutex_;
+  std::map<std::string, Lane> lanes_;
+  std::atomic<std::uint64_t> foreign_ = 0;
+};
+
+}  // namespace dripline::machines

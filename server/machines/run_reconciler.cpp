@@ -1,0 +1,115 @@
+#include "server/machines/run_reconciler.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+namespace dripline::machines {
+
+Result<void> RunWatch::load() {
+  for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
+    constexpr std::uint64_t kPage = 500;
+    for (std::uint64_t offset = 0;; offset += kPage) {
+      storage::RunFilter filter;
+      filter.state = state;
+      const auto runs = parts_.store.runs(filter, {.limit = kPage, .offset = offset});
+      if (!runs) return fail(runs.error());
+      for (const auto& run : *runs) watch(run.machine, run.id);
+      if (runs->size() < kPage) break;
+    }
+  }
+  return {};
+}
+
+void RunWatch::watch(const std::string& machine, const std::string& run) {
+  const std::lock_guard lock(mutex_);
+  runs_[run] = {.machine = machine, .absent_since = {}};
+}
+
+void RunWatch::forget(const std::string& run) {
+  const std::lock_guard lock(mutex_);
+  runs_.erase(run);
+}
+
+void RunWatch::compare(const std::vector<MachineView>& machines) {
+  std::map<std::string, Watched> runs;
+  {
+    const std::lock_guard lock(mutex_);
+    runs = runs_;
+  }
+  for (const auto& entry : runs) {
+    const std::string& machine = entry.second.machine;
+    const auto view = std::ranges::find_if(
+        machines, [&](const MachineView& m) { return m.machine.name == machine; });
+    if (view != machines.end()) judge(entry.first, *view);
+  }
+  for (const auto& view : machines) {
+    const bool shows_run = view.is_connected && view.status && !view.status->run.empty();
+    if (shows_run && !runs.contains(view.status->run)) look_for_unwanted(view);
+  }
+}
+
+/// The start was taken, but neither its result nor a status came through in time.
+void RunWatch::look_for_unwanted(const MachineView& view) {
+  const auto run = parts_.store.run(view.status->run);
+  if (!run || run->state != storage::RunState::Refused) return;
+  if (run->machine == view.machine.name) parts_.on_unwanted(*run);
+}
+
+void RunWatch::judge(const std::string& run, const MachineView& view) {
+  if (view.is_connected && view.status && view.status->run == run) {
+    is_absent_for_long(run, false);
+    auto settled = settle(run, storage::RunState::Active, "");
+    if (settled && settled->state != storage::RunState::Active) forget(run);
+    return;
+  }
+  const bool is_absent = view.is_connected && view.status && view.status->outbox == 0 &&
+                         !parts_.desk.is_waiting_for(run);
+  if (is_absent_for_long(run, is_absent)) give_up(run);
+}
+
+bool RunWatch::is_absent_for_long(const std::string& run, bool is_absent) {
+  const std::lock_guard lock(mutex_);
+  const auto found = runs_.find(run);
+  if (found == runs_.end()) return false;
+  auto& since = found->second.absent_since;
+  if (!is_absent) {
+    since.reset();
+    return false;
+  }
+  if (!since) since = parts_.clock.steady_now();
+  return parts_.clock.steady_now() - *since >= kAbsence;
+}
+
+void RunWatch::give_up(const std::string& id) {
+  const std::lock_guard lock(parts_.state_mutex);
+  const auto run = parts_.store.run(id);
+  if (!run && run.error().code != Errc::NotFound) return;  // tried again at the next comparison
+  const bool was_commanded = run && run->state == storage::RunState::Ordered;
+  const bool was_active = run && run->state == storage::RunState::Active;
+  if (!was_commanded && !was_active) return forget(id);
+  const auto state = was_commanded ? storage::RunState::Refused : storage::RunState::Interrupted;
+  const std::string reason = was_commanded ? "the gateway never confirmed the start"
+                                         : "the gateway does not know this run any more";
+  spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
+               reason);
+  if (auto set = parts_.store.set_run_state(id, state, reason); !set) {
+    // Still watched, so this too is tried again: or the machine would be busy for ever.
+    spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
+    return;
+  }
+  forget(id);
+  if (const auto changed = parts_.store.run(id)) parts_.on_change(*changed);
+}
+
+Result<storage::Run> RunWatch::settle(const std::string& id, storage::RunState state,
+                                      const std::string& reason) {
+  const std::lock_guard lock(parts_.state_mutex);
+  auto run = parts_.store.run(id);
+  if (!run || run->state != storage::RunState::Ordered) return run;
+  if (auto set = parts_.store.set_run_state(id, state, reason); !set) return fail(set.error());
+  run = parts_.store.run(id);
+  if (run) parts_.on_change(*run);
+  return run;
+}
+
+}  // namespace dripline::machines

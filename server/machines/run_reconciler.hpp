@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "server/machines/machine_control.hpp"
+#include "server/machines/command_dispatcher.hpp"
+
+namespace dripline::machines {
+
+/// Brings the stored state of unfinished runs and what the machines show together again, after a
+/// restart of the server, a lost order result or a gateway that lost its memory:
+/// a run that a machine shows is active; one that a connected machine with an empty outbox does not
+/// show for kAbsence was never begun (Ordered: Refused) or was cut off without a record of it
+/// (Active: Interrupted). A refused run that a machine shows all the same is unwanted. Everything
+/// else is left to the gateway's own records.
+class RunWatch {
+ public:
+  static constexpr std::chrono::seconds kAbsence{15};
+
+  struct Parts {
+    storage::Store& store;
+    const Clock& clock;
+    const CommandDispatcher& desk;
+    std::mutex& state_mutex;
+    std::function<void(const storage::Run&)> on_change;
+    /// A machine shows a run whose starter was told that nothing came of it; at every comparison.
+    std::function<void(const storage::Run&)> on_unwanted;
+  };
+  explicit RunWatch(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Finds the unfinished runs of a former life of the server.
+  Result<void> load();
+  void watch(const std::string& machine, const std::string& run);
+  void forget(const std::string& run);
+  /// Compares; regularly, from one thread.
+  void compare(const std::vector<MachineView>& machines);
+
+  /// Ordered becomes `state`, every other state stays: its record was faster. Returns the run.
+  Result<storage::Run> settle(const std::string& run, storage::RunState state,
+                              const std::string& reason);
+
+ private:
+  struct Watched {
+    std::string machine;
+    std::optional<SteadyTime> absent_since;
+  };
+  void judge(const std::string& run, const MachineView& view);
+  void look_for_unwanted(const MachineView& view);
+  bool is_absent_for_long(const std::string& run, bool is_absent);
+  void give_up(const std::string& run);
+
+  Parts parts_;
+  std::mutex mutex_;
+  std::map<std::string, Watched> runs_;
+};
+
+}  // namespace dripline::machines

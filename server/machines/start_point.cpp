@@ -1,0 +1,55 @@
+#include "server/machines/start_point.hpp"
+
+#include <fmt/format.h>
+#include <charconv>
+
+namespace dripline::machines {
+
+Result<StartPoint> parse_start_point(std::string_view text) {
+  char letter = 'N';
+  std::string_view digits = text;
+  if (!digits.empty() && (digits[0] < '0' || digits[0] > '9')) {
+    letter = static_cast<char>(digits[0] & ~0x20);
+    digits.remove_prefix(1);
+  }
+  std::uint64_t value = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_whole = read.ec == std::errc{} && read.ptr == digits.data() + digits.size();
+  StartPoint point;
+  if (is_whole && letter == 'N') {
+    point.sequence = value;
+  } else if (is_whole && letter == 'L') {
+    point.line = value;
+  } else if (is_whole && letter == 'B') {
+    point.byte = value;
+  } else if (is_whole && letter == 'T') {
+    point.tool = value;
+  } else if (is_whole && text.front() == '+') {
+    point.skipped = value;
+  } else {
+    return fail(Errc::Syntax,
+                "'{}' names no block: N120, L7 (line), B4096 (byte), T3 (tool) or +25 (skipped)",
+                text);
+  }
+  return point;
+}
+
+std::string start_text(const StartPoint& point) {
+  if (point.sequence) return fmt::format("N{}", *point.sequence);
+  if (point.line) return fmt::format("L{}", *point.line);
+  if (point.byte) return fmt::format("B{}", *point.byte);
+  if (point.tool) return fmt::format("T{}", *point.tool);
+  if (point.skipped) return fmt::format("+{}", *point.skipped);
+  return {};
+}
+
+std::string start_argument(const StartRequest& request) {
+  std::string text = start_text(request.from);
+  if (text.empty()) return text;
+  if (request.from.pass) text += fmt::format(" pass={}", *request.from.pass);
+  if (request.memory == StartMemory::Begin) text += " memory=begin";
+  if (request.memory == StartMemory::Now) text += " memory=now";
+  return text;
+}
+
+}  // namespace dripline::machines

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "protocol/base/clock.hpp"
+#include "server/ports/strand.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::ports {
+
+/// What a machine without a gateway is known to have done, as records: numbered here, in an epoch
+/// of the server's process that is later than all before, and stored before anybody is told. While
+/// the store refuses, everything waits in its order and is tried again with the same numbers, so
+/// that a commit whose answer was lost doubles nothing. Used on the strand only.
+class LineRecords : public std::enable_shared_from_this<LineRecords> {
+ public:
+  static constexpr std::chrono::milliseconds kFirstPause{250};  ///< doubled up to kLongestPause
+  static constexpr std::chrono::milliseconds kLongestPause{5000};
+
+  struct Parts {
+    storage::Store& store;
+    const Clock& clock;
+    Strand strand;
+    std::string machine;
+    std::uint64_t epoch = 0;
+    std::function<void(const storage::RecordBatch&)> on_stored;  ///< on the strand
+    /// On the strand, at every try: why nothing can be stored; empty: it can again.
+    std::function<void(const std::string& trouble)> on_fault = {};
+  };
+  struct Entry {
+    storage::Record record;  ///< machine, epoch, number and time are filled in here
+    std::optional<storage::RunBeginning> beginning;
+    std::optional<storage::RunEnding> ending;
+    std::function<void()> on_stored;  ///< may be empty
+  };
+  explicit LineRecords(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Stores them, at once or later. Whoever adds keeps the number of waiting ones bounded.
+  void add(std::vector<Entry> entries);
+  std::size_t waiting() const { return waiting_.size(); }
+  std::uint64_t epoch() const { return parts_.epoch; }
+
+ private:
+  void commit();
+  Result<void> number_waiting();
+  void retry(const Error& error);
+
+  Parts parts_;
+  std::deque<Entry> waiting_;
+  std::optional<std::uint64_t> last_;  ///< number given last
+  std::size_t numbered_ = 0;           ///< of those that wait
+  std::chrono::milliseconds pause_{0};
+};
+
+}  // namespace dripline::ports

@@ -1,0 +1,184 @@
+#include "server/ports/line_runs.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "protocol/dds/record_text.hpp"
+#include "server/machines/control_memory.hpp"
+#include "server/machines/identifiers.hpp"
+#include "server/ports/programs/program_stream.hpp"
+#include "server/ports/programs/start_finder.hpp"
+#include "server/ports/programs/start_head.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr std::string_view kCompleted = "sent to its end; a line does not tell what was executed";
+
+storage::RunState to_state(SendOutcome outcome) {
+  switch (outcome) {
+    case SendOutcome::Completed:
+      return storage::RunState::Completed;
+    case SendOutcome::Aborted:
+      return storage::RunState::Aborted;
+    case SendOutcome::Interrupted:
+      return storage::RunState::Interrupted;
+  }
+  return storage::RunState::Interrupted;
+}
+
+dds::RunOutcome to_outcome(storage::RunState state) {
+  if (state == storage::RunState::Completed) return dds::RunOutcome::Completed;
+  if (state == storage::RunState::Aborted) return dds::RunOutcome::Aborted;
+  return dds::RunOutcome::Interrupted;
+}
+
+storage::Counters to_counters(const SendProgress& progress) {
+  return {.sent = progress.sent.bytes,
+          .accepted = progress.is_checked ? progress.sent.blocks : 0,
+          .executed = 0};
+}
+
+LineRecords::Entry ending_entry(const storage::RunEnding& ending) {
+  dds::RunEndText text;
+  text.outcome = to_outcome(ending.state);
+  text.sent = ending.counters.sent;
+  text.accepted = ending.counters.accepted;
+  text.reason = ending.reason;
+  LineRecords::Entry entry;
+  entry.record.run = ending.run;
+  entry.record.kind = std::string(dds::to_string(dds::RecordKind::RunEnded));
+  entry.record.text = dds::encode(text);
+  entry.ending = ending;
+  return entry;
+}
+
+}  // namespace
+
+Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine) {
+  if (revision.control.empty() || machine.control.empty() || revision.control == machine.control) {
+    return {};
+  }
+  return fail(Errc::Unsupported, "program '{}' revision {} is for control {}; machine '{}' is a {}",
+              revision.program, revision.number, revision.control, machine.name, machine.control);
+}
+
+Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+                                               bool are_aborts_told) {
+  using storage::RunState;
+  constexpr std::uint64_t kLook = 50;
+  const auto runs = store.runs({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
+  if (!runs) return fail(runs.error());
+  for (const auto& run : *runs) {
+    if (run.state == RunState::Refused) continue;
+    const bool is_over =
+        run.state == RunState::Completed || (run.state == RunState::Aborted && are_aborts_told);
+    if (is_over) return std::nullopt;
+    return run;
+  }
+  return std::nullopt;
+}
+
+Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
+                                      const storage::Machine& machine) {
+  const auto revision = store_.revision(request.program, request.revision);
+  if (!revision) return fail(revision.error());
+  if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
+  storage::Run run;
+  run.created = clock_.now();
+  run.id = machines::make_run_id(run.created);
+  run.machine = machine.name;
+  run.program = revision->program;
+  run.revision = revision->number;
+  run.content = revision->content;
+  run.size = revision->size;
+  run.control = machine.control.empty() ? revision->control : machine.control;
+  run.author = request.author;
+  if (auto fits = machines::check_control_memory(store_, run); !fits) return fail(fits.error());
+  if (auto sound = store_.verify_content(run.content); !sound) return fail(sound.error());
+  if (auto created = store_.create_run(run); !created) return fail(created.error());
+  return run;
+}
+
+Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequest& request) {
+  if (request.from.pass || request.memory != machines::StartMemory::Ask) {
+    return fail(
+        Errc::Unsupported,
+        "pass and memory: the program is looked through at a gateway; machine '{}' hangs on "
+        "a serial line, and its control has its own memory",
+        run.machine);
+  }
+  const auto place = find_start(store_, run, request.from);
+  if (!place) return fail(place.error());
+  auto head = start_head(store_, run, *place, request.head);
+  if (!head) return fail(head.error());
+  SendJob job;
+  job.head = *std::move(head);
+  job.id = run.id;
+  job.name = run.program;
+  job.stream = std::make_shared<ProgramStream>(ProgramStream::of(run.content, run.size));
+  job.size = run.size;
+  job.first_byte = place->byte;
+  job.first_line = place->line;
+  return job;
+}
+
+void LineRuns::started(const storage::Run& run, LineRecords& records) {
+  LineRecords::Entry entry;
+  entry.record.run = run.id;
+  entry.record.kind = std::string(dds::to_string(dds::RecordKind::RunStarted));
+  entry.record.text = dds::encode(dds::RunStartText{
+      .program = run.program, .revision = run.content.hex(), .control = run.control});
+  entry.beginning = storage::RunBeginning{.run = run.id, .started = clock_.now()};
+  spdlog::info("run started over a line machine={} run={} program={} revision={}", run.machine,
+               run.id, run.program, run.revision);
+  records.add({std::move(entry)});
+}
+
+void LineRuns::refused(const storage::Run& run, const Error& error) {
+  spdlog::warn("run not started over a line machine={} run={} program={}: {}", run.machine, run.id,
+               run.program, error.what);
+  auto set = store_.set_run_state(run.id, storage::RunState::Refused, error.what);
+  if (!set) spdlog::error("run={} not marked as refused: {}", run.id, set.error().what);
+}
+
+void LineRuns::progressed(const std::string& machine, const SendProgress& progress) {
+  // Repeated soon by the next one.
+  auto saved = store_.update_counters(machine, progress.id, to_counters(progress), 0, -1);
+  if (!saved) {
+    spdlog::debug("progress not saved run={}: {}", progress.id, saved.error().what);
+  }
+}
+
+void LineRuns::ended(const SendEnd& end, LineRecords& records) {
+  storage::RunEnding ending;
+  ending.run = end.progress.id;
+  ending.state = to_state(end.outcome);
+  ending.counters = to_counters(end.progress);
+  ending.reason = end.outcome == SendOutcome::Completed ? std::string(kCompleted) : end.reason;
+  ending.ended = clock_.now();
+  spdlog::info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
+               storage::to_string(ending.state), ending.counters.sent, ending.counters.accepted,
+               ending.reason);
+  records.add({ending_entry(ending)});
+}
+
+Result<void> LineRuns::give_up_unfinished(const std::string& machine, LineRecords& records) {
+  for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
+    const auto runs = store_.runs({.machine = machine, .program = {}, .state = state}, {});
+    if (!runs) return fail(runs.error());
+    for (const auto& run : *runs) {
+      storage::RunEnding ending;
+      ending.run = run.id;
+      ending.state = storage::RunState::Interrupted;
+      ending.counters = run.counters;
+      ending.reason =
+          fmt::format("the server stopped; at least {} bytes were sent, {} blocks accepted",
+                      run.counters.sent, run.counters.accepted);
+      ending.ended = clock_.now();
+      records.add({ending_entry(ending)});
+    }
+  }
+  return {};
+}
+
+}  // namespace dripline::ports

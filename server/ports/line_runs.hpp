@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "server/machines/machine_control.hpp"
+#include "server/ports/line_records.hpp"
+#include "server/ports/line_session.hpp"
+
+namespace dripline::ports {
+
+/// The last run that began, when it ended in the middle of its program, or has not ended; the
+/// control may be in the middle of it. Only while no run is on the line. `are_aborts_told`: an
+/// aborted run is over at the control too.
+Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+                                               bool are_aborts_told);
+
+/// Errors: Unsupported (the revision is for another control than the machine is).
+Result<void> check_control(const storage::Revision& revision, const storage::Machine& machine);
+
+/// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
+/// the line (or were accepted, where the protocol checks), *accepted* blocks the control
+/// acknowledged (0 where it cannot), *executed* nothing: a line cannot tell. Any thread, one
+/// machine at a time.
+class LineRuns {
+ public:
+  LineRuns(storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+
+  /// A run that is Ordered. Errors: NotFound, Unsupported (the program is for another control),
+  /// Conflict (nothing but held revisions), Busy (the machine has a run).
+  Result<storage::Run> create(const machines::StartRequest& request, const storage::Machine& machine);
+  /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
+  /// or N number), Conflict (start_head), Corrupt.
+  Result<SendJob> job(const storage::Run& run, const machines::StartRequest& request);
+
+  void started(const storage::Run& run, LineRecords& records);
+  /// Refused; nothing of it has left.
+  void refused(const storage::Run& run, const Error& error);
+  void progressed(const std::string& machine, const SendProgress& progress);
+  void ended(const SendEnd& end, LineRecords& records);
+  /// Runs of a former life of the server: they end Interrupted, with the counters of the store.
+  Result<void> give_up_unfinished(const std::string& machine, LineRecords& records);
+
+ private:
+  storage::Store& store_;
+  const Clock& clock_;
+};
+
+}  // namespace dripline::ports

@@ -1,0 +1,194 @@
+#include "server/ports/line_transfer.hpp"
+
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+#include <future>
+
+#include "protocol/base/random.hpp"
+#include "server/library/control_words.hpp"
+#include "server/ports/control_protocol.hpp"
+#include "server/ports/line_runs.hpp"
+#include "server/ports/programs/program_head.hpp"
+#include "server/ports/programs/program_stream.hpp"
+
+namespace dripline::ports {
+
+using library::Refusal;
+using library::with_control_words;
+
+namespace {
+
+using Ask = std::function<void(PortLine::Answer)>;
+
+/// On the line's strand, so that what was posted there before is done. The promise lives here too:
+/// an answer that comes too late has where to go, and one that never comes is a timeout.
+Result<void> ask_on_strand(const std::shared_ptr<PortLine>& line, const Ask& ask) {
+  const auto promise = std::make_shared<std::promise<Result<void>>>();
+  auto answer = promise->get_future();
+  line->strand().post([ask, promise] {
+    ask([promise](const Result<void>& result) { promise->set_value(result); });
+  });
+  if (answer.wait_for(kTransferAnswerLimit) == std::future_status::ready) return answer.get();
+  return fail(Errc::Timeout, "port {}: the line did not answer within {} s; the outcome is unknown",
+              line->port().name, kTransferAnswerLimit.count());
+}
+
+Result<void> check_ready(PortLine& line) {
+  const PortView port = line.view();
+  if (!port.is_open) {
+    return fail(Errc::Timeout, "port {} is not open: {}", port.port.name,
+                port.trouble.empty() ? "not yet" : port.trouble);
+  }
+  line.drop_answer();
+  if (!line.is_busy()) return {};
+  return fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port));
+}
+
+/// What of the library is meant. Errors: as PortControl::send.
+Result<std::vector<storage::Revision>> chosen(storage::Store& store,
+                                              const storage::Machine& machine,
+                                              const std::vector<ProgramChoice>& programs) {
+  std::vector<storage::Revision> revisions;
+  for (const auto& choice : programs) {
+    auto revision = store.revision(choice.program, choice.revision);
+    if (!revision) {
+      return fail(with_control_words(
+          revision.error(), machine.control,
+          revision.error().code == Errc::NotFound ? Refusal::NoSuchProgram : Refusal::None));
+    }
+    if (revision->is_held) {
+      return fail(Errc::Conflict, "program '{}' revision {} waits for acceptance",
+                  revision->program, revision->number);
+    }
+    if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
+    revisions.push_back(*std::move(revision));
+  }
+  return revisions;
+}
+
+Result<void> check_count(const PortView& port, const storage::Machine& machine, std::size_t count) {
+  if (count == 0) {
+    return fail(with_control_words({Errc::Syntax, "no program is named"}, machine.control,
+                                   Refusal::NothingToSelect));
+  }
+  if (count > kMaxTransferPrograms) {
+    return fail(Errc::LimitExceeded, "{} programs: at most {} in one transfer", count,
+                kMaxTransferPrograms);
+  }
+  if (count == 1 || !has_numbered_programs(port.settings.flow)) return {};
+  return fail(Errc::Unsupported,
+              "{} programs: the protocol of port {} names the one program of a transfer; send them "
+              "one by one",
+              count, port.port.name);
+}
+
+/// What the control's memory takes, where the port says it. Errors: LimitExceeded.
+Result<void> check_memory(const PortView& port, const storage::Machine& machine,
+                          std::uint64_t size) {
+  const std::uint64_t memory = port.settings.program_memory;
+  if (memory == 0 || size <= memory) return {};
+  Error error{Errc::LimitExceeded,
+              fmt::format("{} bytes are more than the {} of the control's memory (program_memory "
+                          "of port {})",
+                          size, memory, port.port.name)};
+  return fail(with_control_words(std::move(error), machine.control, Refusal::MemoryFull));
+}
+
+/// Why several cannot be one text, as the control would say it.
+Error stream_error(const Error& error, const storage::Machine& machine) {
+  const bool is_number = error.code == Errc::Syntax;
+  return with_control_words(error, machine.control,
+                            is_number ? Refusal::BadNumber : Refusal::NotLoaded);
+}
+
+Result<SendJob> job_of(storage::Store& store, const PortView& port, const storage::Machine& machine,
+                       const std::vector<storage::Revision>& revisions) {
+  const auto& first = revisions.front();
+  auto stream = revisions.size() == 1
+                    ? Result<ProgramStream>(ProgramStream::of(first.content, first.size))
+                    : ProgramStream::of(store, revisions);
+  if (!stream) return fail(stream_error(stream.error(), machine));
+  if (auto fits = check_memory(port, machine, stream->size()); !fits) return fail(fits.error());
+  SendJob job;
+  job.id = fmt::format("{}-{}", kTransferPrefix, random_hex(4));
+  job.name =
+      has_numbered_programs(port.settings.flow) ? program_number(first.program) : first.program;
+  for (const auto& revision : revisions) {
+    job.programs.push_back(fmt::format("{} revision {}", revision.program, revision.number));
+  }
+  job.size = stream->size();
+  job.stream = std::make_shared<ProgramStream>(*std::move(stream));
+  return job;
+}
+
+}  // namespace
+
+bool has_numbered_programs(wire::Flow flow) {
+  return flow == wire::Flow::Heidenhain || flow == wire::Flow::HeidenhainBcc;
+}
+
+std::string request_words(const PortRequest& request) {
+  return fmt::format("the control asked for {}; {}",
+                     request.program.empty() ? "a program" : "program " + request.program,
+                     request.answer.empty() ? "no run waits" : "refused: " + request.answer);
+}
+
+std::string what_it_does(const PortView& port) {
+  if (!port.run.empty()) return "sending run " + port.run;
+  if (port.transfer && port.transfer->state == "sending") {
+    return fmt::format("sending {}", fmt::join(port.transfer->programs, ", "));
+  }
+  return "receiving";
+}
+
+Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line, storage::Store& store,
+                                   const std::vector<ProgramChoice>& programs) {
+  const PortView port = line->view();
+  storage::Machine machine;
+  if (auto known = store.machine(port.port.machine)) machine = *std::move(known);
+  if (auto good = check_count(port, machine, programs.size()); !good) return fail(good.error());
+  if (auto fits = check_protocol(store, port.port.machine, port.settings.flow); !fits) {
+    return fail(fits.error());
+  }
+  const auto revisions = chosen(store, machine, programs);
+  if (!revisions) return fail(revisions.error());
+  const auto job = job_of(store, port, machine, *revisions);
+  if (!job) return fail(job.error());
+  const auto begun = ask_on_strand(line, [line, job = *job](const PortLine::Answer& answer) {
+    if (auto ready = check_ready(*line); !ready) return answer(ready);
+    line->begin(job, answer);
+  });
+  if (!begun) return fail(begun.error());
+  spdlog::info("programs sent without a run port={} id={} {}", port.port.name, job->id,
+               fmt::join(job->programs, ", "));
+  return PortTransfer{.id = job->id, .programs = job->programs, .size = job->size};
+}
+
+Result<void> receive_program(const std::shared_ptr<PortLine>& line) {
+  const PortView port = line->view();
+  if (port.settings.flow != wire::Flow::Xmodem) {
+    return fail(Errc::Unsupported,
+                "port {} takes what its control sends at any time; only over XMODEM the receiver "
+                "begins",
+                port.port.name);
+  }
+  return ask_on_strand(line, [line](const PortLine::Answer& answer) {
+    if (auto ready = check_ready(*line); !ready) return answer(ready);
+    line->begin_receive(answer);
+  });
+}
+
+Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason) {
+  return ask_on_strand(line, [line, reason](const PortLine::Answer& answer) {
+    const PortView port = line->view();
+    if (!port.run.empty()) {
+      return answer(fail(Errc::Conflict, "port {} sends run {}; dnc run abort ends it",
+                         port.port.name, port.run));
+    }
+    const bool is_sending = port.transfer && port.transfer->state == "sending";
+    if (is_sending) return line->abort(port.transfer->id, reason, answer);
+    line->stop_receiving(reason, answer);
+  });
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/ports/port_line.hpp"
+
+/// Programs to a control's memory and out of it, without a run. The functions wait for the line's
+/// answer, at most kTransferAnswerLimit; not to be called on a strand or a line's thread.
+namespace dripline::ports {
+
+inline constexpr std::chrono::seconds kTransferAnswerLimit{10};
+
+/// Promises: PortControl.
+Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line, storage::Store& store,
+                                   const std::vector<ProgramChoice>& programs);
+Result<void> receive_program(const std::shared_ptr<PortLine>& line);
+Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason);
+
+/// Whose transfers carry a program's number and nothing else of its name.
+bool has_numbered_programs(wire::Flow flow);
+/// What a control asked for in vain, for people.
+std::string request_words(const PortRequest& request);
+/// Of a busy port: "receiving", "sending run ..." or which programs it sends.
+std::string what_it_does(const PortView& port);
+
+}  // namespace dripline::ports

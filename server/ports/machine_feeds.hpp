@@ -1,0 +1,28 @@
+#pragma once
+
+#include "server/machines/machine_control.hpp"
+#include "server/ports/serial_feed.hpp"
+
+namespace dripline::ports {
+
+/// All machines of the server, however they are fed: those with an enabled port over their line,
+/// all others by their gateway. A machine has one feeder: while a gateway speaks for one that has a
+/// port, the machine is contested and nothing is started.
+class MachineFeeds final : public machines::MachineControl {
+ public:
+  MachineFeeds(storage::Store& store, machines::MachineControl& gateways, SerialFeed& lines)
+      : store_(store), gateways_(gateways), lines_(lines) {}
+
+  /// In order of their names.
+  std::vector<machines::MachineView> machines() const override;
+  Result<machines::MachineView> machine(const std::string& name) const override;
+  Result<storage::Run> start(const machines::StartRequest& request) override;
+  Result<void> command(const machines::CommandRequest& request) override;
+
+ private:
+  storage::Store& store_;
+  machines::MachineControl& gateways_;
+  SerialFeed& lines_;
+};
+
+}  // namespace dripline::ports

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/result.hpp"
+#include "protocol/wire/discipline.hpp"
+#include "storage/store.hpp"
+
+namespace dripline::ports {
+
+/// Programs sent as they stand, without a run: the last such transfer of a port.
+struct PortTransfer {
+  std::string id = {};
+  std::vector<std::string> programs = {};  ///< names, in their order
+  std::uint64_t size = 0, sent = 0;        ///< bytes
+  std::string state = "sending";           ///< sending, completed, aborted, interrupted
+  std::string reason = {};                 ///< why it did not end well, for people
+};
+
+/// A program that is to be sent; without a number the latest revision.
+struct ProgramChoice {
+  std::string program;
+  std::optional<std::uint64_t> revision;
+};
+inline constexpr std::size_t kMaxTransferPrograms = 256;
+
+/// What the control asked for last, while no run waited for it.
+struct PortRequest {
+  UtcTime since;
+  std::string program;  ///< as the protocol named it; empty: whichever is ready
+  std::string answer;   ///< why it was refused; empty: it still waits, a run would begin at once
+};
+
+/// A port as it is configured; kept in the store (storage::Port). `settings` are pairs of
+/// wire::setting_rows() keys and values over those of `line_template`.
+struct PortView {
+  storage::Port port;
+  wire::LineSettings settings;  ///< effective: template, then the port's own
+  bool is_open = false;         ///< the channel is there
+  std::string trouble;          ///< why not, or what was wrong last; for people
+  wire::LineState line;
+  std::string run;  ///< being sent, may be empty
+  std::optional<PortTransfer> transfer;
+  std::uint64_t sent = 0;  ///< characters since the line was opened
+  std::uint64_t received = 0;
+  std::optional<UtcTime> waiting_since;  ///< of a wait that the protocol does not limit
+  std::optional<PortRequest> request;    ///< until it is taken back, or something is sent
+};
+
+/// One thing on a line: what monitors show and the flight recorder keeps.
+struct PortTraffic {
+  std::string port;
+  UtcTime time;
+  std::string what;   ///< sent, received, fault, lines, note
+  std::string bytes;  ///< as they were; sent and received
+  std::string text;   ///< in words; the others
+};
+
+/// Which rule of a port's call file a received text meets, and what would be done.
+struct RuleVerdict {
+  std::string rule;              ///< its name; empty: none, the default
+  std::string action;            ///< send, directory, restart, program, report, ignore
+  std::string argument;          ///< program, file name, block ...
+  std::vector<std::string> why;  ///< one line a rule looked at, in order
+};
+
+struct PortTest {
+  bool is_passed = false;
+  std::vector<std::string> findings;  ///< one a line, for people
+};
+
+/// The serial ports as the API sees them. Any thread.
+class PortControl {
+ public:
+  virtual ~PortControl() = default;
+  virtual std::vector<PortView> ports() const = 0;
+  /// Errors: NotFound.
+  virtual Result<PortView> port(const std::string& name) const = 0;
+  /// Adds or changes one; an open line is closed and opened anew. Errors: Syntax, LimitExceeded,
+  /// NotFound (template, setting key), Unsupported (settings that exclude each other; a protocol
+  /// that the control of the machine's setup has not), Busy (it has a run; or the address is
+  /// another port's, named).
+  virtual Result<PortView> save(const storage::Port& port) = 0;
+  /// Errors: NotFound, Busy (it has a run).
+  virtual Result<void> remove(const std::string& name) = 0;
+  /// Opens the line if need be and says what can be said without a program: modem lines, XOFF held,
+  /// stray characters. At most some seconds. Errors: NotFound, Busy.
+  virtual Result<PortTest> test(const std::string& name) = 0;
+  /// Sends programs to the control as one text, as they stand and without a run: a control that
+  /// takes programs into its memory has them then. Several must bear O numbers; the whole is framed
+  /// as the line's settings say. Returns when the line has taken the job; `port` tells how it goes.
+  /// Errors: NotFound (port, program), Conflict (held), Unsupported (another control's;
+  /// several on a line whose protocol names one; a protocol as of `save`), Syntax (no number),
+  /// LimitExceeded, Busy, Timeout.
+  virtual Result<PortTransfer> send(const std::string& name,
+                                    const std::vector<ProgramChoice>& programs) = 0;
+  /// Asks the control for a program, over a protocol whose receiver begins (XMODEM), for about two
+  /// minutes; what comes is a held revision. Errors: NotFound, Unsupported (others send unasked),
+  /// Busy, Timeout.
+  virtual Result<void> receive(const std::string& name) = 0;
+  /// Ends a transfer in either direction that is no run. Errors: NotFound, Conflict (there is
+  /// none), Timeout.
+  virtual Result<void> stop_transfer(const std::string& name, const std::string& reason) = 0;
+  /// Judges a text by the port's rules without doing anything. Errors: NotFound.
+  virtual Result<RuleVerdict> test_rules(const std::string& name,
+                                         const std::string& text) const = 0;
+  /// What the flight recorder still has, oldest first. Errors: NotFound.
+  virtual Result<std::vector<PortTraffic>> recording(const std::string& name) const = 0;
+  /// Called for everything on every line from now on: a few times a second on the machines'
+  /// strands, at last by who closes a line; never on a line's own thread, one call at a time.
+  /// One listener; an empty function ends it.
+  virtual void on_traffic(std::function<void(const PortTraffic&)> listener) = 0;
+};
+
+}  // namespace dripline::ports

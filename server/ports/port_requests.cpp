@@ -1,0 +1,81 @@
+#include "server/ports/line_transfer.hpp"
+#include "server/ports/port_service.hpp"
+#include "server/ports/port_test.hpp"
+
+/// What one port is asked for besides runs: tests, its recording, programs to and fro.
+namespace dripline::ports {
+namespace {
+
+PortListener nobody() {
+  return {.on_incoming = [](const Incoming&, const std::function<void()>& kept) { kept(); },
+          .on_sent = [](const SendEnd&) {},
+          .on_request = [](const wire::TransferRequest&) {},
+          .on_change = [] {}};
+}
+
+}  // namespace
+
+Result<PortTest> PortService::test(const std::string& name) {
+  const std::lock_guard changing(change_mutex_);
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  if (auto idle = check_idle(name); !idle) return fail(idle.error());
+  if (entry->line) return examine(*entry->line, {});
+  if (!entry->trouble.empty()) return PortTest{.is_passed = false, .findings = {entry->trouble}};
+  const auto line = make_line(*entry, Strand(pool_), nobody());
+  line->open();
+  auto test = examine(*line, {});
+  line->close("the test is over");
+  return test;
+}
+
+Result<std::shared_ptr<PortLine>> PortService::find_line(const std::string& name) const {
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  if (entry->line) return entry->line;
+  return fail(Errc::Conflict, "port '{}' is {}", name,
+              entry->trouble.empty() ? "disabled" : "not open: " + entry->trouble);
+}
+
+Result<PortTransfer> PortService::send(const std::string& name,
+                                       const std::vector<ProgramChoice>& programs) {
+  const auto line = find_line(name);
+  return line ? send_programs(*line, store_, programs) : fail(line.error());
+}
+
+Result<void> PortService::receive(const std::string& name) {
+  const auto line = find_line(name);
+  return line ? receive_program(*line) : fail(line.error());
+}
+
+Result<void> PortService::stop_transfer(const std::string& name, const std::string& reason) {
+  const auto line = find_line(name);
+  return line ? ports::stop_transfer(*line, reason) : fail(line.error());
+}
+
+/// For whoever watches the line, and the recording.
+void PortService::note_transfer(const std::string& machine, const SendEnd& end) {
+  const auto line = line_of(machine);
+  if (!line) return;
+  line->note(fmt::format("the transfer of programs {}: {} of {} bytes sent{}{}",
+                         to_string(end.outcome), end.progress.sent.bytes, end.progress.size,
+                         end.reason.empty() ? "" : ": ", end.reason));
+  feed_.on_change(machine);
+}
+
+Result<RuleVerdict> PortService::test_rules(const std::string& name,
+                                            const std::string& text) const {
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  return entry->rules->explain(text, entry->settings.extracts_programs);
+}
+
+Result<std::vector<PortTraffic>> PortService::recording(const std::string& name) const {
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  if (entry->line) return entry->line->recorder().entries();
+  if (options_.recordings.empty()) return std::vector<PortTraffic>{};
+  return RecordingFile(options_.recordings, name).read();
+}
+
+}  // namespace dripline::ports

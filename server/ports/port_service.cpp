@@ -1,0 +1,426 @@
+#include "server/ports/port_service.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <cstdint>
+#include <future>
+
+#include "protocol/base/names.hpp"
+#include "protocol/serial/address.hpp"
+#include "server/ports/control_protocol.hpp"
+#include "server/ports/line_runs.hpp"
+#include "server/ports/line_transfer.hpp"
+#include "server/ports/port_settings.hpp"
+#include "server/ports/programs/inbound_handler.hpp"
+#include "server/ports/requests/rule_reader.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr unsigned kTicksPerSave = 5;
+constexpr std::chrono::seconds kDrainLimit{10};
+
+LineOpener default_opener() {
+  return
+      [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
+}
+
+/// Later than every epoch these lines have used, also when the time of day was set back meanwhile:
+/// records are listed in the order of their epochs.
+std::uint64_t next_epoch(storage::Store& store, const Clock& clock) {
+  auto epoch = static_cast<std::uint64_t>(clock.now().time_since_epoch().count());
+  const auto ports = store.ports();
+  if (!ports) return epoch;
+  for (const auto& port : *ports) {
+    const auto machine = store.machine(port.machine);
+    if (machine && machine->epoch < INT64_MAX) epoch = std::max(epoch, machine->epoch + 1);
+  }
+  return epoch;
+}
+
+}  // namespace
+
+PortService::PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
+                         Options options, machines::FeedListener listener)
+    : store_(store),
+      programs_(programs),
+      clock_(clock),
+      options_(std::move(options)),
+      listener_(std::move(listener)),
+      epoch_(next_epoch(store, clock)),
+      feed_(store, clock, *this, listener_),
+      pool_(options_.workers) {}
+
+PortService::~PortService() {
+  end();
+}
+
+Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
+  const auto stored = store_.ports();
+  if (!stored) return fail(stored.error());
+  for (const auto& port : *stored) {
+    auto entry = prepare(port);
+    if (!entry) {
+      const std::string why = entry.error().what;
+      spdlog::error("port={} cannot be used: {}", port.name, why);
+      entry = Entry{};
+      entry->port = port;
+      entry->trouble = fmt::format("cannot be used as it is stored: {}", why);
+    }
+    put(*std::move(entry));
+  }
+  // What a setup says against a port is told to who starts something there: the server begins.
+  for (const auto& port : configured) {
+    const std::lock_guard changing(change_mutex_);
+    auto entry = prepare(port);
+    const auto saved =
+        entry ? save_prepared(*std::move(entry)) : Result<PortView>(fail(entry.error()));
+    if (!saved) return fail(saved.error());
+  }
+  std::vector<std::string> names;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [name, entry] : entries_) names.push_back(name);
+  }
+  for (const auto& name : names) {
+    auto entry = find(name);
+    if (!entry || entry->line) continue;
+    open(*entry);
+    put(*std::move(entry));
+  }
+  return {};
+}
+
+void PortService::end() {
+  std::map<std::string, Entry> entries;
+  std::map<std::string, Machine> machines;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(is_ended_, true)) return;  // the pool has stopped: nothing would be drained
+    entries = entries_;
+    machines = machines_;
+  }
+  for (const auto& [name, entry] : entries) {
+    if (entry.line) entry.line->close("the server stopped");
+  }
+  // Everything posted before is done when this is.
+  std::vector<std::future<void>> drained;
+  for (const auto& [name, machine] : machines) {
+    const auto done = std::make_shared<std::promise<void>>();
+    drained.push_back(done->get_future());
+    machine.strand.post([done] { done->set_value(); });
+  }
+  for (const auto& done : drained) done.wait_for(kDrainLimit);
+  pool_.stop();
+}
+
+/// Everything that can be wrong with a port by itself.
+Result<PortService::Entry> PortService::prepare(const storage::Port& port) const {
+  if (auto checked = check_port_name(port.name); !checked) return fail(checked.error());
+  if (auto checked = check_machine_name(port.machine); !checked) return fail(checked.error());
+  Entry entry;
+  entry.port = port;
+  if (auto address = serial::parse_address(port.address); !address) {
+    return fail(address.error().code, "port '{}': {}", port.name, address.error().what);
+  }
+  auto settings = effective_settings(port);
+  if (!settings) return fail(settings.error());
+  entry.settings = *std::move(settings);
+  if (auto fits = wire::make_discipline(entry.settings, wire::Role::Host); !fits) {
+    return fail(fits.error().code, "port '{}': {}", port.name, fits.error().what);
+  }
+  auto rules = read_rules(port.rules);
+  if (!rules)
+    return fail(rules.error().code, "port '{}': rules: {}", port.name, rules.error().what);
+  entry.rules = std::make_shared<const RuleSet>(*std::move(rules));
+  return entry;
+}
+
+/// One writer for a line, one line for a machine.
+Result<void> PortService::check_free(const storage::Port& port) const {
+  const std::string identity = line_identity(port.address);
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, other] : entries_) {
+    if (name == port.name) continue;
+    if (line_identity(other.port.address) == identity) {
+      return fail(Errc::Busy, "{} is port '{}' of machine '{}'", port.address, name,
+                  other.port.machine);
+    }
+    if (port.is_enabled && other.port.is_enabled && other.port.machine == port.machine) {
+      return fail(Errc::Busy, "machine '{}' has port '{}' at {}", port.machine, name,
+                  other.port.address);
+    }
+  }
+  return {};
+}
+
+Result<void> PortService::check_idle(const std::string& name) const {
+  const auto entry = find(name);
+  if (!entry || !entry->line || !entry->line->is_busy()) return {};
+  const PortView view = entry->line->view();
+  return fail(Errc::Busy, "port '{}' of machine '{}' is {}", name, view.port.machine,
+              what_it_does(view));
+}
+
+Result<PortService::Entry> PortService::find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = entries_.find(name);
+  if (found == entries_.end()) return fail(Errc::NotFound, "port '{}' is not known", name);
+  return found->second;
+}
+
+/// Records are in order of their epochs, also when the clock was put back between two starts of the
+/// server: later than the last one that the store knows.
+std::uint64_t PortService::epoch_of(const storage::Machine& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = machines_.find(machine.name);
+  if (found != machines_.end()) return found->second.records->epoch();
+  return std::max(epoch_, machine.epoch + 1);
+}
+
+/// A run needs its machine in the store, and its records an epoch, which is returned.
+Result<std::uint64_t> PortService::enter_machine(const storage::Port& port) {
+  storage::Machine machine;
+  machine.name = port.machine;
+  machine.first_seen = clock_.now();
+  if (auto known = store_.machine(port.machine)) machine = *std::move(known);
+  if (machine.control.empty()) machine.control = template_control(port);
+  machine.epoch = epoch_of(machine);
+  machine.last_seen = clock_.now();
+  if (auto saved = store_.save_machine(machine); !saved) return fail(saved.error());
+  return machine.epoch;
+}
+
+PortService::Machine PortService::machine_of(const std::string& name, std::uint64_t epoch) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = machines_.find(name); found != machines_.end()) return found->second;
+  const Strand strand(pool_);
+  LineRecords::Parts parts{
+      .store = store_,
+      .clock = clock_,
+      .strand = strand,
+      .machine = name,
+      .epoch = epoch,
+      .on_stored = [this](const auto& batch) { on_stored(batch); },
+      .on_fault = [this, name](const std::string& trouble) { on_store_fault(name, trouble); }};
+  const Machine machine{.strand = strand,
+                        .records = std::make_shared<LineRecords>(std::move(parts))};
+  strand.post([this, name, records = machine.records] {
+    if (auto ended = feed_.runs().give_up_unfinished(name, *records); !ended) {
+      spdlog::error("unfinished runs not ended machine={}: {}", name, ended.error().what);
+    }
+  });
+  return machines_.emplace(name, machine).first->second;
+}
+
+void PortService::put(Entry entry) {
+  const std::lock_guard lock(mutex_);
+  const std::string name = entry.port.name;
+  entries_.insert_or_assign(name, std::move(entry));
+}
+
+void PortService::open_due() {
+  const std::lock_guard changing(change_mutex_);
+  std::vector<Entry> due;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_ended_) return;
+    for (const auto& [name, entry] : entries_) {
+      if (entry.is_open_due) due.push_back(entry);
+    }
+  }
+  for (auto& entry : due) {
+    entry.trouble.clear();
+    open(entry);
+    put(std::move(entry));
+  }
+}
+
+void PortService::open(Entry& entry) {
+  if (!entry.port.is_enabled || !entry.trouble.empty()) return;
+  const auto epoch = enter_machine(entry.port);
+  entry.is_open_due = !epoch;
+  if (!epoch) {
+    entry.trouble = epoch.error().what;
+    return;
+  }
+  const Machine machine = machine_of(entry.port.machine, *epoch);
+  entry.line = make_line(entry, machine.strand, listener_for(entry, machine));
+  entry.line->open();
+  machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line)] { tick(line, 0); });
+}
+
+PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
+  const std::string& name = entry.port.machine;
+  RemoteRequestHandler::Parts calls{.store = store_,
+                        .feed = feed_,
+                        .directory = *this,
+                        .clock = clock_,
+                        .machine = name,
+                        .rules = entry.rules,
+                        .offer = entry.settings.offer,
+                        .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
+                        .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
+                                        entry.settings.flow == wire::Flow::HeidenhainBcc ||
+                                        entry.settings.flow == wire::Flow::Xmodem};
+  const auto reception = std::make_shared<Reception>(Reception::Parts{
+      .store = store_,
+      .programs = programs_,
+      .records = machine.records,
+      .machine = name,
+      .port = entry.port.name,
+      .rules = entry.rules,
+      .extracts_programs = entry.settings.extracts_programs,
+      .sends_programs_only = entry.settings.control.kind == wire::ControlKind::ProtoTrak,
+      .calls = std::move(calls)});
+  return {.on_incoming =
+              [reception](Incoming incoming, std::function<void()> kept) {
+                reception->take(std::move(incoming), std::move(kept));
+              },
+          .on_sent =
+              [this, reception, name](const SendEnd& end) {
+                if (end.progress.id.starts_with(kTransferPrefix)) {
+                  note_transfer(name, end);
+                  if (end.outcome == SendOutcome::Completed) reception->on_transfer_completed();
+                }
+                if (end.progress.id.starts_with(kAnswerPrefix)) reception->on_answer_over();
+                if (!is_run(end.progress.id)) return;
+                reception->on_run(end.progress.id);
+                feed_.on_sent(name, end);
+              },
+          .on_request =
+              [reception](const wire::TransferRequest& request) { reception->answer(request); },
+          .on_change = [this, name] { feed_.on_change(name); }};
+}
+
+std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
+                                                 PortListener listener) {
+  const auto broken = broken_run(store_, entry.port.machine, true);
+  return PortLine::make(
+      {.port = entry.port,
+       .settings = entry.settings,
+       .store = store_,
+       .clock = clock_,
+       .strand = strand,
+       .open = options_.open ? options_.open : default_opener(),
+       .recording = {.port = entry.port.name, .folder = options_.recordings},
+       .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
+       .listener = std::move(listener),
+       .is_program_broken = broken && broken->has_value()});
+}
+
+void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {
+  const auto line = weak.lock();
+  if (!line) return;
+  line->tick();
+  if (count % kTicksPerSave == 0) feed_.save_progress(*line);
+  line->strand().post_after(kTick, [this, weak, count] { tick(weak, count + 1); });
+}
+
+void PortService::tell_traffic(const PortTraffic& traffic) const {
+  const std::lock_guard lock(traffic_mutex_);
+  if (on_traffic_) on_traffic_(traffic);
+}
+
+void PortService::on_store_fault(const std::string& machine, const std::string& trouble) {
+  if (const auto line = line_of(machine)) {
+    line->note_store_fault(trouble.empty() ? "" : "what comes in cannot be stored: " + trouble);
+  }
+  if (options_.on_fault) options_.on_fault(machine, trouble);
+}
+
+void PortService::on_stored(const storage::RecordBatch& batch) {
+  for (const auto& record : batch.records) listener_.on_record(record);
+  for (const auto& beginning : batch.beginnings) feed_.announce(beginning.run);
+  for (const auto& ending : batch.endings) feed_.announce(ending.run);
+}
+
+PortView PortService::view_of(const Entry& entry) {
+  if (entry.line) return entry.line->view();
+  PortView view;
+  view.port = entry.port;
+  view.settings = entry.settings;
+  view.trouble = entry.trouble;
+  return view;
+}
+
+std::vector<PortView> PortService::ports() const {
+  std::vector<PortView> views;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, entry] : entries_) views.push_back(view_of(entry));
+  return views;
+}
+
+Result<PortView> PortService::port(const std::string& name) const {
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  return view_of(*entry);
+}
+
+Result<PortView> PortService::save(const storage::Port& port) {
+  const std::lock_guard changing(change_mutex_);
+  auto entry = prepare(port);
+  if (!entry) return fail(entry.error());
+  if (auto fits = check_protocol(store_, port.machine, entry->settings.flow); !fits) {
+    return fail(fits.error().code, "port '{}': {}", port.name, fits.error().what);
+  }
+  return save_prepared(*std::move(entry));
+}
+
+Result<PortView> PortService::save_prepared(Entry entry) {
+  const storage::Port& port = entry.port;
+  if (auto free = check_free(port); !free) return fail(free.error());
+  if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
+  if (auto saved = store_.save_port(port); !saved) return fail(saved.error());
+  if (const auto before = find(port.name); before && before->line) {
+    before->line->close("the port was changed");
+  }
+  open(entry);
+  const PortView view = view_of(entry);
+  put(std::move(entry));
+  return view;
+}
+
+Result<void> PortService::remove(const std::string& name) {
+  const std::lock_guard changing(change_mutex_);
+  const auto entry = find(name);
+  if (!entry) return fail(entry.error());
+  if (auto idle = check_idle(name); !idle) return idle;
+  if (auto removed = store_.remove_port(name); !removed) return removed;
+  {
+    const std::lock_guard lock(mutex_);
+    entries_.erase(name);
+  }
+  if (entry->line) entry->line->close("the port was removed");
+  return {};
+}
+
+void PortService::on_traffic(std::function<void(const PortTraffic&)> listener) {
+  const std::lock_guard lock(traffic_mutex_);
+  on_traffic_ = std::move(listener);
+}
+
+std::shared_ptr<PortLine> PortService::line_of(const std::string& machine) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, entry] : entries_) {
+    if (entry.line && entry.port.machine == machine) return entry.line;
+  }
+  return nullptr;
+}
+
+std::vector<std::shared_ptr<PortLine>> PortService::lines() const {
+  std::vector<std::shared_ptr<PortLine>> lines;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, entry] : entries_) {
+    if (entry.line) lines.push_back(entry.line);
+  }
+  return lines;
+}
+
+std::shared_ptr<LineRecords> PortService::records_of(const std::string& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = machines_.find(machine);
+  return found == machines_.end() ? nullptr : found->second.records;
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "server/machines/machine_control.hpp"
+#include "server/machines/worker_pool.hpp"
+#include "server/library/programs.hpp"
+#include "server/ports/line_directory.hpp"
+#include "server/ports/port_control.hpp"
+#include "server/ports/requests/rule_set.hpp"
+#include "server/ports/serial_feed.hpp"
+
+namespace dripline::ports {
+
+/// The ports of the server. Wiring:
+///     PortService ports(store, programs, clock, options, listener);
+///     ports.begin(configured);        // opens what is stored, and what the settings file says
+///     ... MachineFeeds feeds(store, gateways, ports.feed());
+///     ... ports.end();
+/// Every enabled port is open and listens all the time. Each has the thread of its line, which
+/// never waits for storage; what waits is done on a pool, machine by machine in order.
+class PortService final : public PortControl, private LineDirectory {
+ public:
+  static constexpr std::chrono::milliseconds kTick{200};
+  struct Options {
+    unsigned workers = 2;
+    std::filesystem::path recordings;  ///< folder; empty: in memory only
+    LineOpener open = {};              ///< empty: serial::LineDriver::start
+    /// Why records of a machine cannot be stored, at every try; empty: they can again.
+    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+  };
+  PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
+              Options options, machines::FeedListener listener);
+  ~PortService() override;
+
+  /// Runs of a former life of the server end Interrupted. A stored port that cannot be used is
+  /// shown with its trouble. Errors: those of save() for the configured ones, Io.
+  Result<void> begin(const std::vector<storage::Port>& configured);
+  /// Opens the ports that could not be opened because nothing could be stored.
+  void open_due();
+  /// Lines are closed, their runs end Interrupted, what has arrived is stored.
+  void end();
+  SerialFeed& feed() { return feed_; }
+
+  std::vector<PortView> ports() const override;
+  Result<PortView> port(const std::string& name) const override;
+  Result<PortView> save(const storage::Port& port) override;
+  Result<void> remove(const std::string& name) override;
+  Result<PortTest> test(const std::string& name) override;
+  Result<PortTransfer> send(const std::string& name,
+                            const std::vector<ProgramChoice>& programs) override;
+  Result<void> receive(const std::string& name) override;
+  Result<void> stop_transfer(const std::string& name, const std::string& reason) override;
+  Result<RuleVerdict> test_rules(const std::string& name, const std::string& text) const override;
+  Result<std::vector<PortTraffic>> recording(const std::string& name) const override;
+  void on_traffic(std::function<void(const PortTraffic&)> listener) override;
+
+ private:
+  /// A port with everything that follows from its configuration.
+  struct Entry {
+    storage::Port port;
+    wire::LineSettings settings;
+    std::shared_ptr<const RuleSet> rules = std::make_shared<RuleSet>();
+    std::shared_ptr<PortLine> line;  ///< null: disabled, or `trouble`
+    std::string trouble;
+    bool is_open_due = false;  ///< the store refused what has to be written first
+  };
+  /// What stays with a machine when its port is changed.
+  struct Machine {
+    Strand strand;
+    std::shared_ptr<LineRecords> records;
+  };
+  std::shared_ptr<PortLine> line_of(const std::string& machine) const override;
+  std::vector<std::shared_ptr<PortLine>> lines() const override;
+  std::shared_ptr<LineRecords> records_of(const std::string& machine) const override;
+
+  Result<Entry> prepare(const storage::Port& port) const;
+  Result<void> check_free(const storage::Port& port) const;
+  Result<void> check_idle(const std::string& name) const;
+  Result<PortView> save_prepared(Entry entry);
+  Result<Entry> find(const std::string& name) const;
+  Result<std::shared_ptr<PortLine>> find_line(const std::string& name) const;
+  Result<std::uint64_t> enter_machine(const storage::Port& port);
+  std::uint64_t epoch_of(const storage::Machine& machine) const;
+  Machine machine_of(const std::string& name, std::uint64_t epoch);
+  void put(Entry entry);
+  void open(Entry& entry);
+  PortListener listener_for(const Entry& entry, const Machine& machine);
+  std::shared_ptr<PortLine> make_line(const Entry& entry, const Strand& strand,
+                                      PortListener listener);
+  void tick(const std::weak_ptr<PortLine>& line, unsigned count);
+  void tell_traffic(const PortTraffic& traffic) const;
+  void note_transfer(const std::string& machine, const SendEnd& end);
+  void on_stored(const storage::RecordBatch& batch);
+  void on_store_fault(const std::string& machine, const std::string& trouble);
+  static PortView view_of(const Entry& entry);
+
+  storage::Store& store_;
+  library::Programs& programs_;
+  const Clock& clock_;
+  const Options options_;
+  const machines::FeedListener listener_;
+  const std::uint64_t epoch_;  ///< of this process, as the clock has it: see epoch_of
+  SerialFeed feed_;
+  std::mutex change_mutex_;  ///< held by save, remove and test: one at a time
+  mutable std::mutex mutex_;
+  std::map<std::string, Entry> entries_;
+  std::map<std::string, Machine> machines_;
+  bool is_ended_ = false;
+  mutable std::mutex traffic_mutex_;
+  std::function<void(const PortTraffic&)> on_traffic_;
+  machines::WorkerPool pool_;  // last: its tasks use the others
+};
+
+}  // namespace dripline::ports

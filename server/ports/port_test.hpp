@@ -1,0 +1,15 @@
+#pragma once
+
+#include "server/ports/port_line.hpp"
+
+namespace dripline::ports {
+
+/// Looks at a line that nobody uses, for at most `wait` to open and `listen` more, and says in
+/// words what can be said without a program. Waits on the caller's thread.
+struct ExamineTimes {
+  std::chrono::milliseconds wait{3000};
+  std::chrono::milliseconds listen{1500};
+};
+PortTest examine(PortLine& line, ExamineTimes times);
+
+}  // namespace dripline::ports

@@ -1,0 +1,174 @@
+#include "server/ports/programs/inbound_handler.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "protocol/base/one_line.hpp"
+#include "protocol/dds/message.hpp"
+#include "server/library/control_words.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 8;
+constexpr std::string_view kProtoTrak = "prototrak-plus";
+
+/// The line as it was printed; other control characters than TAB become escapes.
+std::string printed_text(const std::string& line) {
+  std::string text;
+  for (const char c : line) {
+    if (c == '\t') {
+      text += c;
+    } else {
+      text += one_line({&c, 1});
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+Reception::Reception(Parts parts)
+    : parts_(std::move(parts)),
+      calls_(parts_.calls),
+      intake_(*parts_.rules, parts_.extracts_programs) {}
+
+void Reception::take(Incoming incoming, std::function<void()> kept) {
+  std::vector<Intake::Item> items;
+  switch (incoming.what) {
+    case Incoming::What::Began:
+      is_in_transfer_ = true;
+      program_name_ = incoming.text;
+      intake_.take_programs_only(parts_.sends_programs_only || machine_control() == kProtoTrak);
+      intake_.begin(incoming.text, incoming.is_program);
+      break;
+    case Incoming::What::Text:
+      items = intake_.take(incoming.text);
+      break;
+    case Incoming::What::Damaged:
+      if (program_) program_->damage(incoming.text);
+      early_damage_ = incoming.text;
+      break;
+    case Incoming::What::Ended:
+      items = intake_.end();
+      break;
+    case Incoming::What::Failed:
+      items = intake_.fail();
+      break;
+  }
+  if (const auto line = parts_.calls.directory.line_of(parts_.machine)) {
+    line->note_kind(incoming.what != Incoming::What::Text || intake_.may_be_program());
+  }
+  std::vector<LineRecords::Entry> entries;
+  for (auto& item : items) handle(item, entries);
+  if (entries.empty()) {
+    kept();
+  } else {
+    entries.back().on_stored = std::move(kept);
+    parts_.records->add(std::move(entries));
+  }
+  if (incoming.what == Incoming::What::Ended || incoming.what == Incoming::What::Failed) {
+    is_in_transfer_ = false;
+    early_damage_.clear();
+  }
+  if (!is_in_transfer_) do_calls();
+}
+
+void Reception::handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries) {
+  switch (item.what) {
+    case Intake::Item::What::Line:
+      return handle_line(item.text, entries);
+    case Intake::Item::What::ProgramBegan:
+      return begin_program(item.text);
+    case Intake::Item::What::ProgramText:
+      // Its error comes again with the end.
+      if (program_) (void)program_->append(item.text).has_value();
+      return;
+    case Intake::Item::What::ProgramEnded:
+      return end_program(item.text);
+    case Intake::Item::What::ProgramFailed:
+      program_.reset();
+      return say("a program was cut off and not stored");
+  }
+}
+
+void Reception::handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries) {
+  const RuleHit hit = parts_.rules->judge(TextKind::Line, line);
+  if (hit.action == RuleAction::Ignore) return;
+  if (hit.action != RuleAction::Report) return call(hit.action, hit.argument);
+  LineRecords::Entry entry;
+  entry.record.run = current_run();
+  entry.record.kind =
+      std::string(to_string(hit.is_probe ? dds::RecordKind::Probe : dds::RecordKind::Output));
+  entry.record.device = parts_.port;
+  entry.record.text = printed_text(line);
+  entries.push_back(std::move(entry));
+}
+
+std::string Reception::current_run() {
+  const auto line = parts_.calls.directory.line_of(parts_.machine);
+  if (line) on_run(line->view().run);
+  return run_;
+}
+
+std::string Reception::machine_control() const {
+  const auto machine = parts_.store.machine(parts_.machine);
+  return machine ? machine->control : std::string();
+}
+
+void Reception::begin_program(const std::string& name) {
+  program_name_ = name;
+  program_.emplace(parts_.programs,
+                   UploadedProgram::Origin{.machine = parts_.machine, .control = machine_control()});
+  if (!early_damage_.empty()) program_->damage(std::exchange(early_damage_, {}));
+}
+
+void Reception::end_program(const std::string& head) {
+  if (!program_) return;
+  const RuleHit hit = parts_.rules->judge(TextKind::Program, head);
+  if (hit.action == RuleAction::Program) {
+    // A rule's name wins over the protocol's, that over the text's own.
+    const bool is_named = hit.rule != nullptr && !hit.argument.empty();
+    store_program(is_named || program_name_.empty() ? hit.argument : program_name_);
+  } else if (hit.action != RuleAction::Report && hit.action != RuleAction::Ignore) {
+    call(hit.action, hit.argument);
+  }
+  program_.reset();
+}
+
+void Reception::store_program(const std::string& name) {
+  const auto stored = program_->store(name);
+  if (!stored) {
+    spdlog::error("punched program not stored machine={}: {}", parts_.machine, stored.error().what);
+    const bool is_full = stored.error().code == Errc::Io;
+    return say(library::with_control_words(
+                   {stored.error().code, "program not stored: " + stored.error().what},
+                   machine_control(),
+                   is_full ? library::Refusal::DiskFull : library::Refusal::NotSaved)
+                   .what);
+  }
+  const auto& revision = stored->revision;
+  say(fmt::format("program {} is revision {}{}", revision.program, revision.number,
+                  revision.is_held ? ", held for acceptance" : ""));
+}
+
+/// To whoever watches the line; and to the control, where the rules say how.
+void Reception::say(const std::string& words) {
+  if (const auto line = parts_.calls.directory.line_of(parts_.machine)) line->note(words);
+  call(RuleAction::Report, words);
+}
+
+void Reception::call(RuleAction action, const std::string& argument) {
+  if (waiting_.size() < kMaxWaiting) waiting_.push_back({action, argument});
+}
+
+void Reception::do_calls() {
+  for (const auto& call : std::exchange(waiting_, {})) {
+    if (call.action == RuleAction::Report) {
+      calls_.report({call.argument});
+    } else {
+      calls_.carry_out(call.action, call.argument);
+    }
+  }
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,144 @@
+#include "server/ports/recording/flight_recorder.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+namespace dripline::ports {
+namespace {
+
+using What = serial::LineTraffic::What;
+
+std::string_view to_string(What what) {
+  switch (what) {
+    case What::Sent:
+      return "sent";
+    case What::Received:
+      return "received";
+    case What::Fault:
+      return "fault";
+    case What::Lines:
+      return "lines";
+    case What::Note:
+      return "note";
+  }
+  return "note";
+}
+
+bool has_bytes(What what) {
+  return what == What::Sent || what == What::Received;
+}
+
+std::size_t cost(const PortTraffic& entry) {
+  return sizeof(PortTraffic) + entry.bytes.capacity() + entry.text.capacity();
+}
+
+}  // namespace
+
+FlightRecorder::FlightRecorder(Options options, const Clock& clock,
+                               std::function<void(const PortTraffic&)> on_entry)
+    : options_(std::move(options)), clock_(clock), on_entry_(std::move(on_entry)) {
+  if (options_.folder.empty()) return;
+  file_.emplace(options_.folder, options_.port);
+  for (auto& entry : file_->read()) append(std::move(entry));
+  untold_ = 0;
+  drop_old(clock_.now());
+}
+
+/// Whether it goes on what the open entry says.
+bool FlightRecorder::joins(const serial::LineTraffic& traffic, UtcTime now) const {
+  return open_ && has_bytes(traffic.what) && open_->what == to_string(traffic.what) &&
+         open_->bytes.size() < kMaxEntry && now - open_->time < kMaxSpan;
+}
+
+void FlightRecorder::add(const serial::LineTraffic& traffic) {
+  const UtcTime now = clock_.now();
+  const std::lock_guard lock(mutex_);
+  if (!joins(traffic, now)) close_open(now);
+  const std::string_view bytes(reinterpret_cast<const char*>(traffic.bytes.data()),
+                               traffic.bytes.size());
+  if (traffic.what == What::Sent) sent_ += bytes.size();
+  if (traffic.what == What::Received) received_ += bytes.size();
+  if (traffic.what == What::Fault) ++faults_;
+  if (open_) {
+    open_->bytes += bytes;
+    return;
+  }
+  PortTraffic entry{.port = options_.port,
+                    .time = now,
+                    .what = std::string(to_string(traffic.what)),
+                    .bytes = std::string(bytes),
+                    .text = std::string(traffic.text)};
+  if (has_bytes(traffic.what)) {
+    open_ = std::move(entry);
+  } else {
+    append(std::move(entry));
+  }
+}
+
+void FlightRecorder::close_open(UtcTime now) {
+  if (open_) append(*std::move(open_));
+  open_.reset();
+  drop_old(now);
+}
+
+void FlightRecorder::append(PortTraffic entry) {
+  bytes_ += cost(entry);
+  entries_.push_back(std::move(entry));
+  ++untold_;
+}
+
+void FlightRecorder::drop_old(UtcTime now) {
+  while (!entries_.empty() &&
+         (bytes_ > options_.max_bytes || now - entries_.front().time > options_.max_age)) {
+    bytes_ -= cost(entries_.front());
+    entries_.pop_front();
+  }
+  untold_ = std::min(untold_, entries_.size());
+}
+
+void FlightRecorder::flush() {
+  const UtcTime now = clock_.now();
+  std::vector<PortTraffic> fresh;
+  {
+    const std::lock_guard lock(mutex_);
+    if (open_ && now - open_->time >= kMaxSpan) close_open(now);
+    drop_old(now);
+    fresh.assign(entries_.end() - static_cast<std::ptrdiff_t>(untold_), entries_.end());
+    untold_ = 0;
+  }
+  if (fresh.empty()) return;
+  for (const auto& entry : fresh) on_entry_(entry);
+  if (!file_) return;
+  if (auto written = file_->write(fresh); !written) {
+    spdlog::warn("port={}: {}", options_.port, written.error().what);
+  }
+}
+
+void FlightRecorder::on_opened() {
+  const std::lock_guard lock(mutex_);
+  sent_ = received_ = faults_ = 0;
+}
+
+std::vector<PortTraffic> FlightRecorder::entries() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<PortTraffic> entries(entries_.begin(), entries_.end());
+  if (open_) entries.push_back(*open_);
+  return entries;
+}
+
+std::uint64_t FlightRecorder::sent() const {
+  const std::lock_guard lock(mutex_);
+  return sent_;
+}
+
+std::uint64_t FlightRecorder::received() const {
+  const std::lock_guard lock(mutex_);
+  return received_;
+}
+
+std::uint64_t FlightRecorder::faults() const {
+  const std::lock_guard lock(mutex_);
+  return faults_;
+}
+
+}  // namespace dripline::ports

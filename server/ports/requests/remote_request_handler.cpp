@@ -1,0 +1,235 @@
+#include "server/ports/requests/remote_request_handler.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+#include "gateway/interpreter/core/called_program_names.hpp"
+#include "protocol/base/random.hpp"
+#include "server/machines/start_point.hpp"
+#include "server/library/control_words.hpp"
+#include "server/ports/requests/answer_text.hpp"
+#include "server/ports/line_runs.hpp"
+#include "server/ports/line_transfer.hpp"
+#include "server/ports/programs/program_head.hpp"
+#include "server/ports/programs/program_stream.hpp"
+
+namespace dripline::ports {
+namespace {
+
+constexpr const char* kAuthor = "call from the control";
+constexpr std::uint64_t kMaxPrograms = 10'000;
+
+}  // namespace
+
+std::string RemoteRequestHandler::control() const {
+  const auto machine = parts_.store.machine(parts_.machine);
+  return machine ? machine->control : std::string();
+}
+
+Result<std::string> RemoteRequestHandler::find_program(const std::string& name) const {
+  const std::string control = this->control();
+  for (const auto& candidate : interpreter::called_program_names(name)) {
+    const auto revision = parts_.store.revision(candidate, std::nullopt);
+    if (!revision) continue;
+    if (control.empty() || revision->control.empty() || revision->control == control) {
+      return candidate;
+    }
+  }
+  return fail(Errc::NotFound, "program {} is not in the library", name);
+}
+
+Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) const {
+  auto program = find_program(name);
+  if (!program) return program;
+  const auto revision = parts_.store.revision(*program, std::nullopt);
+  if (!revision) return fail(revision.error());
+  const std::string control = this->control();
+  if (!control.empty() && revision->control == control) return program;
+  return fail(Errc::Unsupported, "program {} is not known to be for the control of this machine",
+              name);
+}
+
+void RemoteRequestHandler::carry_out(RuleAction action, const std::string& argument) {
+  spdlog::info("call from the control machine={} action={} argument={}", parts_.machine,
+               to_string(action), argument);
+  if (action == RuleAction::Send) send(argument, false);
+  if (action == RuleAction::Directory) send_listing(false);
+  if (action == RuleAction::Restart) restart(argument);
+}
+
+void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
+  using Kind = wire::TransferRequest::Kind;
+  if (request.kind == Kind::TakeProgram) {
+    offers_.reset();
+    if (const auto line = parts_.directory.line_of(parts_.machine)) {
+      line->accept_receive(request.name);
+    }
+    return;
+  }
+  const bool names_one = request.kind == Kind::SendProgram && !request.name.empty();
+  const auto needed = names_one ? wire::Offer::Named : wire::Offer::All;
+  if (parts_.offer < needed) return leave(request);
+  if (request.kind == Kind::Directory) return send_listing(true);
+  if (!names_one) return send_next();
+  offers_.reset();
+  send(request.name, true);
+}
+
+/// Nothing is sent that nobody ordered: the request stays for the run that is started next.
+void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  const PortRequest asked{.since = {}, .program = request.name, .answer = {}};
+  spdlog::info("port={} machine={}: {}", line->port().name, parts_.machine, request_words(asked));
+  line->note(request_words(asked));
+  if (parts_.refuses) line->refuse("NO RUN WAITS");
+}
+
+SerialFeed::Started RemoteRequestHandler::on_started(bool is_request) const {
+  return [desk = *this, is_request](const Result<storage::Run>& run) {
+    if (!run) desk.say_no(run.error().what, is_request);
+  };
+}
+
+void RemoteRequestHandler::send(const std::string& name, bool is_request) {
+  if (name.empty()) return say_no("no program is named", is_request);
+  const auto program = is_request ? find_offered(name) : find_program(name);
+  if (!program) {
+    return say_no(program.error().what, is_request, library::Refusal::NoSuchProgram);
+  }
+  parts_.feed.start_later(
+      {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
+      on_started(is_request), is_request ? name : "");
+}
+
+void RemoteRequestHandler::restart(const std::string& block) {
+  const auto blank = block.find(' ');
+  const auto point = machines::parse_start_point(block.substr(0, blank));
+  if (!point) return say_no(point.error().what, false);
+  const std::string choice = blank == std::string::npos ? "" : block.substr(blank + 1);
+  if (!choice.empty() && choice != "HEAD" && choice != "SET") {
+    return say_no("after the block comes HEAD or SET, not " + choice, false);
+  }
+  const auto last =
+      parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
+  if (!last || last->empty()) return say_no("there was no run to begin again", false);
+  parts_.feed.start_later({.machine = parts_.machine,
+                           .program = last->front().program,
+                           .revision = last->front().revision,
+                           .author = kAuthor,
+                           .from = *point,
+                           .head = choice == "HEAD"  ? machines::StartHead::Send
+                                   : choice == "SET" ? machines::StartHead::Set
+                                                     : machines::StartHead::Ask},
+                          on_started(false));
+}
+
+void RemoteRequestHandler::send_listing(bool is_request) {
+  const auto programs = parts_.store.programs({.limit = kMaxPrograms});
+  if (!programs) return say_no(programs.error().what, is_request);
+  const std::string control = this->control();
+  auto lines = listing(*programs, control);
+  if (lines.empty() && !is_request) {
+    lines.push_back(library::control_words(control, library::Refusal::NothingToSelect));
+  }
+  if (is_request) {  // the protocol knows that it is a list
+    std::string text;
+    for (const auto& line : lines) text += line + "\n";
+    return send_answer("", text);
+  }
+  const std::string& name = parts_.rules->reply();
+  send_answer(name, comment_program(name.empty() ? "O9998" : name, lines));
+}
+
+/// A control that names none gets all that have a number, one a request, and then "no more": so it
+/// lists them, or takes those it wants. They are no runs.
+void RemoteRequestHandler::send_next() {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  if (auto sound = check_last_run(); !sound) return say_no(sound.error().what, true);
+  if (auto listed = list_offers(); !listed) return say_no(listed.error().what, true);
+  if (next_offer_ >= offers_->size()) {
+    if (!std::exchange(is_end_told_, true)) {
+      line->note(
+          fmt::format("the control has been offered {} programs: none is left", next_offer_));
+    }
+    return line->refuse("");
+  }
+  const auto& revision = (*offers_)[next_offer_++];
+  line->note(fmt::format("the control asked: program {} revision {} is offered", revision.program,
+                         revision.number));
+  SendJob job;
+  job.name = program_number(revision.program);
+  job.stream = std::make_shared<ProgramStream>(ProgramStream::of(revision.content, revision.size));
+  job.size = revision.size;
+  put_on_line(std::move(job));
+}
+
+/// A control in the middle of a program that was broken off asks for the rest of it with the same
+/// words. Another program's text would be executed there.
+Result<void> RemoteRequestHandler::check_last_run() const {
+  if (is_sent_since_) return {};
+  const auto run = broken_run(parts_.store, parts_.machine, parts_.tells_aborts);
+  if (!run) return fail(run.error());
+  if (!*run) return {};
+  return fail(Errc::Conflict,
+              "run {} of program {} was broken off, and the control may be asking for its rest: "
+              "nothing is offered until a run or dnc port send has gone through",
+              (*run)->id, (*run)->program);
+}
+
+/// Those of this asking sequence. Errors: those of the store, Unsupported (no control is known).
+Result<void> RemoteRequestHandler::list_offers() {
+  const SteadyTime now = parts_.clock.steady_now();
+  const auto silence = now - std::exchange(asked_at_, now);
+  const bool is_over = is_end_told_ ? silence > kOfferLife : silence > kOfferPause;
+  if (offers_ && !is_over) return {};
+  const std::string control = this->control();
+  if (control.empty()) {
+    return fail(Errc::Unsupported, "machine '{}' has no control: no program can be offered to it",
+                parts_.machine);
+  }
+  const auto programs = parts_.store.programs({.limit = kMaxPrograms});
+  if (!programs) return fail(programs.error());
+  offers_ = numbered_programs(*programs, control);
+  next_offer_ = 0;
+  is_end_told_ = false;
+  return {};
+}
+
+void RemoteRequestHandler::say_no(const std::string& why, bool is_request, library::Refusal refusal) const {
+  spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  line->note("refused: " + why);
+  if (is_request) return line->refuse(why);
+  report({why, library::control_words(control(), refusal)});
+}
+
+void RemoteRequestHandler::report(const std::vector<std::string>& words) const {
+  if (parts_.rules->reply().empty()) return;
+  std::vector<std::string> lines;
+  for (const auto& word : words) {
+    for (auto& line : comment_lines(word)) lines.push_back(std::move(line));
+  }
+  send_answer(parts_.rules->reply(), comment_program(parts_.rules->reply(), lines));
+}
+
+void RemoteRequestHandler::send_answer(std::string name, std::string text) const {
+  SendJob job;
+  job.name = std::move(name);
+  job.size = text.size();
+  job.text = std::move(text);
+  put_on_line(std::move(job));
+}
+
+void RemoteRequestHandler::put_on_line(SendJob job) const {
+  const auto line = parts_.directory.line_of(parts_.machine);
+  if (!line) return;
+  job.id = fmt::format("{}-{}", kAnswerPrefix, random_hex(4));
+  line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
+    if (!begun) spdlog::warn("answer not sent machine={}: {}", machine, begun.error().what);
+  });
+}
+
+}  // namespace dripline::ports

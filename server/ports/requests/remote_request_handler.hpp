@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/library/control_words.hpp"
+#include "server/ports/line_directory.hpp"
+#include "server/ports/requests/rule_set.hpp"
+#include "server/ports/serial_feed.hpp"
+
+namespace dripline::ports {
+
+/// Does what an operator asks for from the control: sends a program, lists them, begins the last
+/// run again at a block. What cannot be done is said to the control where it can show it: a
+/// refused request, or a program of comments when the rules name one. On the machine's strand.
+///
+/// The rules say what a text from the control does. A request of the protocol (DC1, NAK or C of
+/// XMODEM, a TNC's heading) sends nothing by itself: it is there for the run that is started next,
+/// unless the port's `offer` says what else such a control gets.
+class RemoteRequestHandler {
+ public:
+  /// A control that asks for "the next program" is offered each one once. It begins with the first
+  /// one again when it has been silent for so long: after it was told that none is left, or in the
+  /// middle.
+  static constexpr std::chrono::seconds kOfferLife{60};
+  static constexpr std::chrono::minutes kOfferPause{10};
+
+  struct Parts {
+    storage::Store& store;
+    SerialFeed& feed;
+    const LineDirectory& directory;
+    const Clock& clock;
+    std::string machine;
+    std::shared_ptr<const RuleSet> rules;
+    wire::Offer offer = wire::Offer::None;
+    bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
+    bool tells_aborts = false;  ///< the protocol tells the control that a program is broken off
+  };
+  explicit RemoteRequestHandler(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Send, Directory or Restart.
+  void carry_out(RuleAction action, const std::string& argument);
+  /// The protocol's own way to ask.
+  void answer(const wire::TransferRequest& request);
+  /// What `answer` put on the line has been sent, or not.
+  void on_answer_over() { asked_at_ = parts_.clock.steady_now(); }
+  /// Programs that somebody had sent to the control have all arrived.
+  void on_transfer_completed() { is_sent_since_ = true; }
+  /// A run is on the line, or was.
+  void on_run() { is_sent_since_ = false; }
+  /// Short messages to the control, as a program; nothing when the rules name no program for it.
+  void report(const std::vector<std::string>& words) const;
+
+ private:
+  void leave(const wire::TransferRequest& request) const;
+  void send(const std::string& name, bool is_request);
+  void restart(const std::string& block);
+  void send_listing(bool is_request);
+  void send_next();
+  Result<void> check_last_run() const;
+  Result<void> list_offers();
+  /// `refusal`: what the control has a message of its own for.
+  void say_no(const std::string& why, bool is_request,
+              library::Refusal refusal = library::Refusal::None) const;
+  void send_answer(std::string name, std::string text) const;
+  void put_on_line(SendJob job) const;
+  SerialFeed::Started on_started(bool is_request) const;
+  /// The library's name for what the control calls `name`. Errors: NotFound.
+  Result<std::string> find_program(const std::string& name) const;
+  /// The same for a request: only what is known to be for the machine's control.
+  Result<std::string> find_offered(const std::string& name) const;
+  std::string control() const;
+
+  Parts parts_;
+  /// Of a control that asks for one program after the other (its directory, all programs); none
+  /// between such sequences.
+  std::optional<std::vector<storage::Revision>> offers_;
+  std::size_t next_offer_ = 0;
+  bool is_end_told_ = false;
+  bool is_sent_since_ = false;  ///< a transfer went through after the last run
+  SteadyTime asked_at_{};
+};
+
+}  // namespace dripline::ports

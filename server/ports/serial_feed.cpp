@@ -1,0 +1,208 @@
+#include "server/ports/serial_feed.hpp"
+
+#include <spdlog/spdlog.h>
+#include <future>
+
+#include "server/ports/control_protocol.hpp"
+#include "server/ports/line_transfer.hpp"
+#include "server/ports/programs/program_head.hpp"
+
+namespace dripline::ports {
+namespace {
+
+/// Waits for what somebody else's thread will say. The promise is shared: an answer that comes too
+/// late still has where to go.
+template <class T>
+Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
+  if (answer.wait_for(SerialFeed::kAnswerLimit) == std::future_status::ready) return answer.get();
+  return fail(Errc::Timeout, "{}: the line did not answer within {} s; the outcome is unknown",
+              what, SerialFeed::kAnswerLimit.count());
+}
+
+dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
+  if (!progress) return dds::Execution::Ready;
+  if (progress->is_held) return dds::Execution::FeedHold;
+  if (!port.is_open || port.waiting_since || port.line.is_stopped) {
+    return dds::Execution::Waiting;
+  }
+  return dds::Execution::Active;
+}
+
+std::string message_of(const PortView& port, const std::optional<SendProgress>& progress) {
+  if (!port.is_open) return fmt::format("port {} is not open: {}", port.port.name, port.trouble);
+  if (progress && progress->is_waiting_for_line) return "waits for its line";
+  if (progress && progress->is_held) return "held by the operator";
+  if (progress && port.line.awaits_start) {
+    return fmt::format("waits for the operator to start it at the control ({})",
+                       port.line.waiting_for);
+  }
+  if (progress && port.line.is_stopped) return "the control holds the line";
+  if (progress && port.transfer && progress->id == port.transfer->id) return what_it_does(port);
+  if (port.request) return request_words(*port.request);
+  if (port.line.is_stopped && !port.line.waiting_for.empty()) return "the control holds the line";
+  if (!port.line.waiting_for.empty()) return fmt::format("waits for {}", port.line.waiting_for);
+  return port.trouble;
+}
+
+}  // namespace
+
+SerialFeed::SerialFeed(storage::Store& store, const Clock& clock, const LineDirectory& directory,
+                       const machines::FeedListener& listener)
+    : store_(store),
+      clock_(clock),
+      directory_(directory),
+      listener_(listener),
+      runs_(store, clock) {}
+
+machines::MachineView SerialFeed::view_of(const PortLine& line) const {
+  const PortView port = line.view();
+  const auto progress = line.progress();
+  machines::MachineView view;
+  view.machine.name = port.port.machine;
+  if (auto stored = store_.machine(port.port.machine)) view.machine = *std::move(stored);
+  view.is_connected = port.is_open;
+  dds::Status status;
+  status.machine = port.port.machine;
+  status.time = clock_.now();
+  status.execution = execution_of(port, progress);
+  status.message = message_of(port, progress);
+  if (progress) {
+    if (is_run(progress->id)) status.run = progress->id;
+    status.sent = progress->sent.bytes;
+    status.accepted = progress->is_checked ? progress->sent.blocks : 0;
+    status.total_bytes = progress->size;
+    status.offset = progress->sent.bytes;
+    if (const auto run = store_.run(progress->id)) status.program = run->program;
+  }
+  view.status = std::move(status);
+  return view;
+}
+
+std::vector<machines::MachineView> SerialFeed::machines() const {
+  std::vector<machines::MachineView> views;
+  for (const auto& line : directory_.lines()) views.push_back(view_of(*line));
+  return views;
+}
+
+Result<machines::MachineView> SerialFeed::machine(const std::string& name) const {
+  const auto line = directory_.line_of(name);
+  if (!line) return fail(Errc::NotFound, "machine '{}' has no port", name);
+  return view_of(*line);
+}
+
+Result<storage::Run> SerialFeed::start(const machines::StartRequest& request) {
+  auto promise = std::make_shared<std::promise<Result<storage::Run>>>();
+  auto answer = promise->get_future();
+  start_later(request, [promise](const Result<storage::Run>& run) { promise->set_value(run); });
+  return wait_for<storage::Run>(std::move(answer), "start on machine '" + request.machine + "'");
+}
+
+void SerialFeed::start_later(const machines::StartRequest& request, Started started,
+                             const std::string& wire_name) {
+  const auto line = directory_.line_of(request.machine);
+  if (!line) return started(fail(Errc::NotFound, "machine '{}' has no port", request.machine));
+  line->strand().post([this, line, request, started = std::move(started), wire_name] {
+    begin(line, request, started, wire_name);
+  });
+}
+
+void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const machines::StartRequest& request,
+                       const Started& started, const std::string& wire_name) {
+  const PortView port = line->view();
+  if (!port.is_open) {
+    return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
+                        request.machine, port.port.name,
+                        port.trouble.empty() ? "not yet" : port.trouble));
+  }
+  line->drop_answer();
+  if (line->is_busy()) {
+    return started(
+        fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port)));
+  }
+  if (auto fits = check_protocol(store_, request.machine, port.settings.flow); !fits) {
+    return started(fail(fits.error()));
+  }
+  const auto machine = store_.machine(request.machine);
+  if (!machine) return started(fail(machine.error()));
+  const auto run = runs_.create(request, *machine);
+  if (!run) return started(run);
+  announce(run->id);
+  auto job = runs_.job(*run, request);
+  if (!job) return started(conclude(*run, fail(job.error())));
+  if (!job->head.empty()) line->note("sent before the program: " + job->head);
+  if (!wire_name.empty()) {
+    job->name = wire_name;
+  } else if (has_numbered_programs(port.settings.flow)) {
+    job->name = program_number(run->program);
+  }
+  line->begin(*std::move(job), [this, run = *run, started](const Result<void>& begun) {
+    started(conclude(run, begun));
+  });
+}
+
+Result<storage::Run> SerialFeed::conclude(const storage::Run& run, const Result<void>& begun) {
+  if (begun) {
+    runs_.started(run, *directory_.records_of(run.machine));
+    return store_.run(run.id);
+  }
+  runs_.refused(run, begun.error());
+  announce(run.id);
+  return fail(begun.error());
+}
+
+Result<void> SerialFeed::command(const machines::CommandRequest& request) {
+  if (request.run.empty()) {
+    return fail(Errc::Unsupported, "machine '{}' hangs on a line: its panel is out of reach",
+                request.machine);
+  }
+  const auto run = store_.run(request.run);
+  if (!run) return fail(run.error());
+  if (run->state != storage::RunState::Ordered && run->state != storage::RunState::Active) {
+    return fail(Errc::Conflict, "run {} has ended: {}", run->id,
+                storage::to_string(run->state));
+  }
+  const auto line = directory_.line_of(run->machine);
+  if (!line) return fail(Errc::NotFound, "machine '{}' has no port", run->machine);
+  auto promise = std::make_shared<std::promise<Result<void>>>();
+  auto answer = promise->get_future();
+  const auto answered = [promise](const Result<void>& result) { promise->set_value(result); };
+  if (request.action == dds::CommandAction::Hold) {
+    line->hold(run->id, answered);
+  } else if (request.action == dds::CommandAction::Resume) {
+    line->resume(run->id, answered);
+  } else if (request.action == dds::CommandAction::Abort) {
+    line->abort(run->id, "aborted by order", answered);
+  } else {
+    return fail(Errc::Unsupported,
+                "machine '{}' hangs on a line: it can be held, resumed and "
+                "aborted, not told to {}",
+                run->machine, dds::to_string(request.action));
+  }
+  spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
+               run->machine, run->id, run->program);
+  auto done = wait_for<void>(std::move(answer), "run " + run->id);
+  on_change(run->machine);
+  return done;
+}
+
+void SerialFeed::on_sent(const std::string& machine, const SendEnd& end) {
+  runs_.ended(end, *directory_.records_of(machine));
+  on_change(machine);
+}
+
+void SerialFeed::on_change(const std::string& machine) {
+  if (const auto view = this->machine(machine)) listener_.on_machine(*view);
+}
+
+void SerialFeed::save_progress(const PortLine& line) {
+  const auto progress = line.progress();
+  if (!progress || !is_run(progress->id)) return;
+  runs_.progressed(line.port().machine, *progress);
+  on_change(line.port().machine);
+}
+
+void SerialFeed::announce(const std::string& run) const {
+  if (const auto stored = store_.run(run)) listener_.on_run(*stored);
+}
+
+}  // namespace dripline::ports

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "server/machines/machine_control.hpp"
+#include "server/ports/line_directory.hpp"
+#include "server/ports/line_runs.hpp"
+
+namespace dripline::ports {
+
+/// The machines at the ends of lines: a run is a program sent over its machine's line. `connected`
+/// means that the line is open; of the machine itself a line tells nothing, so its status is made
+/// of what the line does.
+class SerialFeed final : public machines::MachineControl {
+ public:
+  using Started = std::function<void(const Result<storage::Run>&)>;
+  /// How long `start` and `order` wait for the line's thread.
+  static constexpr std::chrono::seconds kAnswerLimit{10};
+
+  SerialFeed(storage::Store& store, const Clock& clock, const LineDirectory& directory,
+             const machines::FeedListener& listener);
+
+  std::vector<machines::MachineView> machines() const override;
+  /// Errors: NotFound (no enabled port has it).
+  Result<machines::MachineView> machine(const std::string& name) const override;
+  Result<storage::Run> start(const machines::StartRequest& request) override;
+  /// Hold, Resume and Abort; others are Unsupported.
+  Result<void> command(const machines::CommandRequest& request) override;
+
+  /// As `start`, for whoever must not wait: `started` is called on the machine's strand.
+  /// `wire_name` is what the control calls the program; empty: as the library does.
+  void start_later(const machines::StartRequest& request, Started started,
+                   const std::string& wire_name = "");
+  /// On the strand of that line.
+  void on_sent(const std::string& machine, const SendEnd& end);
+  void on_change(const std::string& machine);
+  void save_progress(const PortLine& line);
+  LineRuns& runs() { return runs_; }
+  /// Tells the listener what the store says of it now.
+  void announce(const std::string& run) const;
+
+ private:
+  void begin(const std::shared_ptr<PortLine>& line, const machines::StartRequest& request,
+             const Started& started, const std::string& wire_name);
+  Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
+  machines::MachineView view_of(const PortLine& line) const;
+
+  storage::Store& store_;
+  const Clock& clock_;
+  const LineDirectory& directory_;
+  const machines::FeedListener& listener_;
+  LineRuns runs_;
+};
+
+}  // namespace dripline::ports

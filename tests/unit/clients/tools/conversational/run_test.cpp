@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/clients/tools/conversational/posted_run.hpp"
+
+/// What is posted runs. Expected moves are worked out from the events, not from the text.
+namespace dripline::conversational {
+namespace {
+
+const std::string kTool = event("tool_call",
+                                "tool = 2\nfeed_per = \"minute\"\nfeed = 10\nspindle = \"rpm\"\n"
+                                "speed = 500\nrestart = \"cw\"");
+const std::string kOn = "spindle cw\n";
+
+TEST(PostedRun, MovesToPositionsAndAlongGeometry) {  // CEN-232, CEN-233, CEN-244
+  // Polar from X2 (radius 1), 2 long at 90 degrees: radius 3.
+  EXPECT_EQ(run_of(kTool + event("position", "x = 2\nz = 0.5") +
+                   event("line", "feed = 5\nz = \"-5/16\"") +
+                   event("line", "coordinates = \"polar\"\nlength = 2\nangle = 90") +
+                   event("arc",
+                         "direction = \"cw\"\ncenter = \"absolute\"\nradius = 3\nxc = 0\n"
+                         "zc = -0.3125\nx = 0\nz = 2.6875") +
+                   event("arc", "direction = \"ccw\"\nk = 1\nend = \"incremental\"\nw = 2")),
+            kOn +
+                "rapid X2 Z.5\nline X2 Z-.3125\nline X6 Z-.3125\n"
+                "arc cw X0 Z2.6875 about X0 Z-.3125 by 90\n"
+                "arc ccw X0 Z4.6875 about X0 Z3.6875 by 180\n");
+}
+
+TEST(PostedRun, CutsBoxesByCyclesAAndB) {  // CEN-238
+  EXPECT_EQ(run_of(kTool + event("cycle_a",
+                                 "feed = 8\nstart_x = 3\nstart_z = 0.1\nx = 2.5\n"
+                                 "z = -1")),
+            kOn + "rapid X3 Z.1\nrapid X2.5 Z.1\nline X2.5 Z-1\nline X3 Z-1\nrapid X3 Z.1\n");
+  EXPECT_EQ(run_of(kTool + event("cycle_b",
+                                 "feed = 8\nstart_x = 3\nstart_z = 0.1\n"
+                                 "dimensions = \"incremental\"\nu = -2\nw = -0.2")),
+            kOn + "rapid X3 Z.1\nrapid X3 Z-.1\nline X1 Z-.1\nline X1 Z.1\nrapid X3 Z.1\n");
+}
+
+/// A step of X1 by 1 long in a bar of X2.
+std::string step_pattern(const std::string& cycle, const std::string& fields) {
+  return event(cycle, "start_x = 2.1\nstart_z = 0.1\npattern = 3\n" + fields) +
+         event("line", "feed = \"rapid\"\nx = 1") + event("line", "feed = 6\nz = -1") +
+         event("line", "x = 2.1") + event("end_cycle", "");
+}
+
+TEST(PostedRun, RoughsAndFinishesAPattern) {  // CEN-236, CEN-237
+  // .05 are left at first, so the profile is at radius .55. Cuts at 1.05 + .05 - .2 = .9 and .7,
+  // out along the shoulder to the cut before and .02 further; then the pattern, then back to the
+  // start.
+  EXPECT_EQ(run_of(kTool +
+                   step_pattern("rough_turning",
+                                "x_rough_stock = 0.05\nz_rough_stock = 0\n"
+                                "cut_increment = 0.2\nclearance = 0.02") +
+                   event("finish_turning", "pattern = 3\nstart_x = 2.2\nstart_z = 0.2")),
+            kOn +
+                "rapid X2.1 Z.1\n"
+                "rapid X1.8 Z.1\nline X1.8 Z-1\nline X2.1 Z-1\nrapid X2.14 Z-1\nrapid X2.14 Z.1\n"
+                "rapid X1.4 Z.1\nline X1.4 Z-1\nline X1.8 Z-1\nrapid X1.84 Z-1\nrapid X1.84 Z.1\n"
+                "rapid X1 Z.1\nline X1 Z-1\nline X2.1 Z-1\nrapid X2.1 Z.1\n"
+                "rapid X2.2 Z.2\nrapid X1 Z.2\nline X1 Z-1\nline X2.1 Z-1\n"
+                "rapid X2.2 Z-1\nrapid X2.2 Z.2\n");
+}
+
+TEST(PostedRun, RepeatsAPatternAndFinishesAFace) {  // CEN-236, CEN-237
+  // Two passes take .1: the first is .05 off in radius. The finish retracts Z first, then X.
+  EXPECT_EQ(
+      run_of(kTool + step_pattern("pattern_repeat_facing", "x_rough_stock = 0.1\npasses = 2") +
+             event("finish_facing", "pattern = 3\nstart_x = 2.2\nstart_z = 0.2")),
+      kOn +
+          "rapid X2.1 Z.1\n"
+          "rapid X1.1 Z.1\nline X1.1 Z-1\nline X2.2 Z-1\nrapid X2.1 Z.1\n"
+          "rapid X1 Z.1\nline X1 Z-1\nline X2.1 Z-1\nrapid X2.1 Z.1\n"
+          "rapid X2.2 Z.2\nrapid X1 Z.2\nline X1 Z-1\nline X2.1 Z-1\n"
+          "rapid X2.1 Z.2\nrapid X2.2 Z.2\n");
+}
+
+TEST(PostedRun, ThreadsByCycleOneAndByThreadLine) {  // CEN-238, CEN-240
+  EXPECT_EQ(run_of(kTool + event("cycle_1",
+                                 "start_x = 1.5\nstart_z = 0.25\nx = 1.2\nz = -0.75\n"
+                                 "lead = \"1/8\"\nchamfer_length = 0\n"
+                                 "chamfer_angle = 0")),
+            kOn +
+                "rapid X1.5 Z.25\nrapid X1.2 Z.25\nthread X1.2 Z-.75 lead .125\n"
+                "rapid X1.5 Z-.75\nrapid X1.5 Z.25\n");
+  EXPECT_EQ(run_of(kTool + event("position", "x = 1\nz = 0.2") +
+                   event("thread_line", "z = -1\nthreads_per_unit = 20")),
+            kOn + "rapid X1 Z.2\nthread X1 Z-1 lead .05\n");
+}
+
+TEST(PostedRun, DrillsBoresAndTaps) {  // CEN-241
+  const std::string at = event("position", "x = 0\nz = 0.5");
+  const std::string hole = "clearance = 0.1\nz = -0.4\nfeed = 4\n";
+  const std::string there = kOn + "rapid X0 Z.5\nrapid X0 Z.1\nline X0 Z-.4\n";
+  EXPECT_EQ(run_of(kTool + at + event("drill", hole)), there + "rapid X0 Z.1\n");
+  EXPECT_EQ(run_of(kTool + at + event("drill", hole + "return = \"initial\"")),
+            there + "rapid X0 Z.5\n");
+  EXPECT_EQ(run_of(kTool + at + event("drill_dwell", hole + "dwell = 0.5")),
+            there + "dwell .5\nrapid X0 Z.1\n");
+  EXPECT_EQ(run_of(kTool + at + event("bore", hole)), there + "line X0 Z.1\n");
+  EXPECT_EQ(run_of(kTool + at + event("bore_dwell", hole + "dwell = 1")),
+            there + "dwell 1\nline X0 Z.1\n");
+  // First to -.1, then .2 deeper, the rest last; each time back to R and down to .05 above.
+  EXPECT_EQ(run_of(kTool + at +
+                   event("drill_peck", hole + "first_depth = -0.1\nincrement = 0.2\n"
+                                              "peck_clearance = 0.05")),
+            kOn +
+                "rapid X0 Z.5\nrapid X0 Z.1\nline X0 Z-.1\nrapid X0 Z.1\nrapid X0 Z-.05\n"
+                "line X0 Z-.3\nrapid X0 Z.1\nrapid X0 Z-.25\nline X0 Z-.4\nrapid X0 Z.1\n");
+}
+
+TEST(PostedRun, CutsGrooves) {  // CEN-241
+  // Pecks of .03 in radius from R: X2.04, 1.98, 1.92, the rest to 1.9; up .01, down to .005 above.
+  EXPECT_EQ(run_of(kTool + event("position", "x = 2.2\nz = -1") +
+                   event("diameter_grooving",
+                         "feed = 2\nclearance = 2.1\nx = 1.9\n"
+                         "increment = 0.03\npeck_up = 0.01\n"
+                         "peck_clearance = 0.005")),
+            kOn +
+                "rapid X2.2 Z-1\nrapid X2.1 Z-1\nline X2.04 Z-1\nrapid X2.06 Z-1\n"
+                "rapid X2.05 Z-1\nline X1.98 Z-1\nrapid X2 Z-1\nrapid X1.99 Z-1\n"
+                "line X1.92 Z-1\nrapid X1.94 Z-1\nrapid X1.93 Z-1\nline X1.9 Z-1\n"
+                "rapid X2.1 Z-1\n");
+}
+
+TEST(PostedRun, Taps) {  // CEN-241
+  EXPECT_EQ(run_of(kTool + event("position", "x = 0\nz = 0.5") +
+                   event("right_tap",
+                         "threads_per_unit = 16\nspeed = 200\nclearance = 0.25\n"
+                         "z = -0.5\nreturn = \"initial\"")),
+            kOn +
+                "rapid X0 Z.5\nspindle cw\nrapid X0 Z.25\nline X0 Z-.5\n"
+                "spindle ccw\nline X0 Z.25\nspindle cw\nrapid X0 Z.5\n");
+}
+
+const std::string kThread =
+    "start_z = 0.2\nz = -1\nlead = 0.1\nminimum_cut = 0.001\n"
+    "finish_passes = 1\nmethod = 3\nchamfer_length = 0\nchamfer_angle = 0\n";
+
+/// One pass: down at its shifted start, along, out and back.
+std::string pass(const std::string& x, const std::string& z, const std::string& start_x) {
+  return "rapid X" + x + " Z" + z + "\nthread X" + x + " Z-1 lead .1\nrapid X" + start_x +
+         " Z-1\nrapid X" + start_x + " Z.2\n";
+}
+
+TEST(PostedRun, CutsAThreadInPasses) {  // CEN-239
+  // Depths .02, .04, .05 below the crest of X2; a 90 degree nose shifts the start by what is left.
+  EXPECT_EQ(run_of(kTool + event("multiple_thread", kThread + "root_x = 1.9\nheight = 0.05\n"
+                                                              "start_x = 2.2\nfirst_cut = 0.02\n"
+                                                              "nose_angle = 90")),
+            kOn + "rapid X2.2 Z.2\n" + pass("1.96", ".23", "2.2") + pass("1.92", ".21", "2.2") +
+                pass("1.9", ".2", "2.2"));
+}
+
+const std::string kNose = "[[tool]]\nnumber = 2\nradius = 0.01\ntip = 8\n";
+const std::string kThreadTool =
+    event("tool_change", "tool = 2\nspindle = \"rpm\"\nspeed = 500\nrestart = \"cw\"");
+const std::string kChanged = "spindle off\ncoolant off\ntool 2\nstop\ntool 2\nspindle cw\n";
+
+TEST(PostedRun, WorksOutTheRootFromCrestAndNose) {  // CEN-239
+  // A nose of .01 in a 60 degree groove stays .01/sin 30 - .01 = .01 off its point; a sharp thread
+  // is .1/(2 tan 30) = .0866 high, so the height is .0766. Two cuts: .04 and the rest, the first
+  // shifted by .0366 tan 30 = .0211. Outside the root is at 2 - .1532, inside at 1 + .1532.
+  const std::string crest = kThread + "entry = \"crest\"\nfirst_cut = 0.04\nnose_angle = 60\n";
+  EXPECT_EQ(
+      run_of(kThreadTool + event("multiple_thread", crest + "start_x = 2.2\ncrest_x = 2"), kNose),
+      kChanged + "rapid X2.2 Z.2\n" + pass("1.92", ".2211", "2.2") + pass("1.8468", ".2", "2.2"));
+  EXPECT_EQ(
+      run_of(kThreadTool + event("multiple_thread", crest + "start_x = 0.8\ncrest_x = 1"), kNose),
+      kChanged + "rapid X.8 Z.2\n" + pass("1.08", ".2211", ".8") + pass("1.1532", ".2", ".8"));
+}
+
+TEST(PostedRun, ChangesToolsWithTheirMessage) {  // CEN-242
+  // The spindle and the coolant go off first; T0404 then takes the tool's offsets.
+  EXPECT_EQ(run_of(event("tool_change",
+                         "tool = 4\ndescription = \"BORE\"\nfeed = 0.01\n"
+                         "speed = 300\nrestart = \"ccw\"\ncoolant = \"on\"")),
+            "spindle off\ncoolant off\ntool 4\nmessage BORE\nstop\ntool 4\nspindle ccw\n"
+            "coolant on\n");
+}
+
+TEST(PostedRun, TransformsWhatFollows) {  // CEN-243
+  const std::string at = event("position", "x = 2\nz = 1");
+  EXPECT_EQ(run_of(event("scaling", "i = 0\nk = 0\nx = 0.5\nz = 0.25") + at), "rapid X1 Z.25\n");
+  EXPECT_EQ(run_of(event("rotation", "x = 0\nz = 0\naa = 90") + event("position", "x = 0\nz = 1")),
+            "rapid X2 Z0\n");
+  EXPECT_EQ(run_of(event("mirror", "z = 0") + at + event("mirror", "state = \"off\"") + at),
+            "rapid X2 Z-1\nrapid X2 Z1\n");
+  EXPECT_EQ(run_of(at + event("floating_zero", "x = 0\nz = 0") + event("position", "x = 1\nz = 0")),
+            "rapid X2 Z1\nrapid X3 Z1\n");
+}
+
+TEST(PostedRun, StopsSwitchesAndCallsPrograms) {  // CEN-243
+  EXPECT_EQ(run_of(event("miscellaneous",
+                         "spindle_mode = \"rpm\"\nspeed = 100\nspindle = \"ccw\"\n"
+                         "coolant = \"on\"\nstop = \"program\"") +
+                       event("program_call", "program = 3\nrepeats = 2"),
+                   "", "M30\nO0003\nG91 G0 X1\nG93\nM99\n"),
+            "spindle ccw\ncoolant on\nstop\nrapid X1 Z0\nrapid X2 Z0\nspindle off\ncoolant off\n");
+}
+
+}  // namespace
+}  // namespace dripline::conversational

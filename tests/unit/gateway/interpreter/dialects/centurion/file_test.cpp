@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/dialects/centurion/reading/chart_index.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/program_extraction.hpp"
+
+/// Files of the control that are no program: several programs in one text, and help pages.
+namespace dripline::interpreter::centurion {
+namespace {
+
+/// CEN-202.
+TEST(Extraction, SplitsAtEachLineThatBeginsWithO) {
+  const auto programs =
+      extract_programs("%\r\nO12 (FIRST)\r\nG0 X1\r\nO0007\r\n o 15\r\nX[P1]\r\n%\r\n");
+  ASSERT_EQ(programs.size(), 3U);
+  EXPECT_EQ(programs[0].number, 12U);
+  EXPECT_EQ(programs[0].text, "O12 (FIRST)\r\nG0 X1\r\n");
+  EXPECT_EQ(programs[1].number, 7U);
+  EXPECT_EQ(programs[1].text, "O0007\r\n");
+  EXPECT_EQ(programs[2].number, 15U);
+  EXPECT_EQ(programs[2].text, " o 15\r\nX[P1]\r\n");
+}
+
+TEST(Extraction, KeepsTheBytesOfAProgramWhateverEndsItsLines) {
+  for (const std::string end : {"\r", "\n", "\r\n"}) {
+    const std::string first = "O1" + end + end + "X1 (O9 IN A COMMENT)" + end;
+    const std::string second = "O2" + end + "G65 P5 A1" + end;
+    const std::string both = first + second;
+    const auto programs = extract_programs(both);
+    ASSERT_EQ(programs.size(), 2U);
+    EXPECT_EQ(programs[0].text, first);
+    EXPECT_EQ(programs[1].text, second);
+  }
+}
+
+TEST(Extraction, TellsTextInFrontOfTheFirstNumber) {
+  const auto programs = extract_programs("X1\nO3\nX2\n");
+  ASSERT_EQ(programs.size(), 2U);
+  EXPECT_EQ(programs[0].number, 0U);
+  EXPECT_EQ(programs[0].text, "X1\n");
+  EXPECT_TRUE(extract_programs("").empty());
+  EXPECT_TRUE(extract_programs("\r\n % \r\n").empty());
+  EXPECT_EQ(extract_programs("O5").size(), 1U) << "the last line may have no end";
+}
+
+TEST(Extraction, LeavesCommentsInFrontToTheFirstProgram) {
+  const auto programs = extract_programs("%\n\n(SHIFT 2)\nO3\nX2\n%\nO4\n");
+  ASSERT_EQ(programs.size(), 2U);
+  EXPECT_EQ(programs[0].number, 3U);
+  EXPECT_EQ(programs[0].text, "(SHIFT 2)\nO3\nX2\n");
+  EXPECT_EQ(programs[1].text, "O4\n");
+}
+
+TEST(Extraction, TellsLineByLine) {
+  ProgramSplitter splitter;
+  EXPECT_FALSE(splitter.begins_next("%"));
+  EXPECT_FALSE(splitter.begins_next("(A)"));
+  EXPECT_FALSE(splitter.begins_next("O1 (FIRST)"));
+  EXPECT_EQ(splitter.number(), 1U);
+  EXPECT_FALSE(splitter.begins_next("G65 P5 (O9)"));
+  EXPECT_TRUE(splitter.begins_next("O1"));
+  ProgramSplitter after_blocks;
+  EXPECT_FALSE(after_blocks.begins_next("G0 X1"));
+  EXPECT_TRUE(after_blocks.begins_next("O2"));
+  EXPECT_FALSE(after_blocks.begins_next("O"));
+  EXPECT_FALSE(after_blocks.begins_next(std::string(5000, 'O')));
+}
+
+/// CEN-230.
+TEST(Charts, TheFirstTwelveCharactersNameThePage) {
+  const auto lines = parse_chart_index(
+      "            SHOP CHARTS\r\nTAPS.DAT    * Tapping\r\n\r\nFITS.DAT\r\n  ODD.DAT   x  \r\n");
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0].file, "");
+  EXPECT_EQ(lines[0].text, "SHOP CHARTS");
+  EXPECT_EQ(lines[1].file, "TAPS.DAT");
+  EXPECT_EQ(lines[1].text, "* Tapping");
+  EXPECT_EQ(lines[2].file + lines[2].text, "");
+  EXPECT_EQ(lines[3].file, "FITS.DAT");
+  EXPECT_EQ(lines[4].file, "ODD.DAT");
+  EXPECT_EQ(lines[4].text, "x");
+}
+
+TEST(Charts, APageHasSixteenLines) {
+  std::string page;
+  for (int line = 1; line <= 20; ++line) page += std::to_string(line) + "\n";
+  EXPECT_TRUE(first_chart_page(page).ends_with("15\n16\n"));
+  EXPECT_EQ(first_chart_page("one\ntwo"), "one\ntwo");
+}
+
+}  // namespace
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
+#include "tests/support/program_run.hpp"
+
+namespace dripline::interpreter::centurion {
+
+using ProgramRun = DialectRun<kCenturionDialect>;
+
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include "gateway/interpreter/dialects/centurion/execution/start_search.hpp"
+#include "gateway/interpreter/core/setup.hpp"
+#include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
+
+/// Starts elsewhere than at the first block, MDI, and what the control refuses in DNC.
+namespace dripline::interpreter::centurion {
+namespace {
+
+using ControlSetup = interpreter::Setup;  // gtest keeps a private member named Setup
+
+ControlSetup with_control(const std::string& options) {
+  auto setup = parse_setup("[control]\n" + options, Units::Inch);
+  EXPECT_TRUE(setup) << setup.error().what;
+  return *setup;
+}
+
+/// CEN-163, CEN-206.
+TEST(StartAt, IsABlockAToolALineAByteOrACount) {
+  EXPECT_EQ(parse_start_at("N120")->kind, StartAt::Kind::Block);
+  EXPECT_EQ(parse_start_at("N120")->number, 120U);
+  EXPECT_EQ(parse_start_at("T3")->kind, StartAt::Kind::Tool);
+  EXPECT_EQ(parse_start_at("L40")->kind, StartAt::Kind::Line);
+  EXPECT_EQ(parse_start_at("B4096")->kind, StartAt::Kind::Byte);
+  EXPECT_EQ(parse_start_at("+25")->kind, StartAt::Kind::Count);
+  for (const char* text : {"", "N", "120", "N12X", "X3", "N-1", "n5"}) {
+    EXPECT_FALSE(parse_start_at(text)) << text;
+  }
+}
+
+TEST(StartAt, LineIsTheFirstBlockFromThereOn) {
+  ProgramRun run("G0 X1\nGOTO 5\nX2\nX3\nN5 X4\nX5\n", with_control("start_at = \"L3\""));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.events("rapid"), (std::vector<std::string>{"X12.7 Z0", "X50.8", "X63.5"}))
+      << "over to X1 (radius .5 inch), then N5 and what follows";
+}
+
+/// A start inside a called program is found in the order of execution, when the pass is named.
+TEST(StartAt, BlockMayStandInACalledProgram) {
+  ProgramRun run("O1\nG0 X1\nM98 P2\nX3\nM30\nO2\nX7\nN70 X2\n",
+                 with_control("start_at = \"N70\"\nstart_pass = 1"));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.events("rapid").size(), 3U) << "to where O2 was by then, N70, X3";
+}
+
+TEST(StartAt, AfterAProbeMoveIsAnAlarmBeforeAnythingMoves) {
+  ProgramRun run("G98 F5\nPROBE1 G1 Z-1\nN9 X1\n", with_control("start_at = \"N9\""));
+  EXPECT_EQ(run.step(), StepState::Alarmed);
+  EXPECT_TRUE(run.alarm().starts_with("CEN1011 2:0")) << run.alarm();
+}
+
+/// An answer decides the way, so it is still asked for.
+TEST(StartAt, InputsBeforeItAreAsked) {
+  ProgramRun run("INPUT (N) P1\nP1=P1*2\nN9 PRINT[#1[10]]\n", with_control("start_at = \"N9\""));
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ASSERT_TRUE(run.interpreter().answer(PromptAnswer{"4"}));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.printed(), std::vector<std::string>{"8"});
+  EXPECT_TRUE(run.events("prompt").empty());
+}
+
+struct ModeCase {
+  std::string name;
+  std::string control;
+  std::string text;
+  std::string verdict;  ///< empty: it runs
+};
+
+class RunMode : public testing::TestWithParam<ModeCase> {};
+
+/// CEN-203, CEN-207, CEN-223.
+TEST_P(RunMode, RefusesWhatItDoesNotHave) {
+  ProgramRun run(GetParam().text, with_control(GetParam().control));
+  if (GetParam().verdict.empty()) {
+    EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();
+    return;
+  }
+  EXPECT_EQ(run.step(), StepState::Alarmed);
+  EXPECT_TRUE(run.alarm().starts_with(GetParam().verdict + " ")) << run.alarm();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RunMode,
+    testing::Values(
+        ModeCase{"loop", "dnc_refusals = true", "WHILE P1<2\nP1=P1+1\nWEND\n", "CEN1008 1:1"},
+        ModeCase{"gosub", "dnc_refusals = true", "GOSUB 5\nM30\nN5 RETURN\n", "CEN1008 1:1"},
+        ModeCase{"call", "dnc_refusals = true", "CALL 5\n", "CEN1008 1:1"},
+        ModeCase{"m98", "dnc_refusals = true", "M98 P5\n", "CEN1008 1:0"},
+        ModeCase{"goto_is_resolved", "dnc_refusals = true", "GOTO 5\nX1\nN5 M30\n", ""},
+        ModeCase{"goto_is_not_resolved", "dnc_refusals = true\nresolve_dnc = false",
+                 "GOTO 5\nN5 M30\n", "CEN1008 1:1"},
+        ModeCase{"ours_knows_no_limits", "resolve_dnc = false",
+                 "GOTO 5\nN5 WHILE P1<2\nP1=P1+1\nWEND\n", ""},
+        ModeCase{"fast_compensation", "dnc_mode = \"fast\"", "G41\n", "CEN1008 1:0"},
+        ModeCase{"fast_scaling", "dnc_mode = \"fast\"", "G551 P2\n", "CEN1008 1:0"},
+        ModeCase{"fast_units", "dnc_mode = \"fast\"", "G20\n", "CEN0609 1:0"},
+        ModeCase{"mdi_call", "mode = \"mdi\"", "M98 P5\n", "CEN0518 1:0"},
+        ModeCase{"mdi_second_block", "mode = \"mdi\"", "G0 X1\nX2\n", "CEN0518 2:0"},
+        ModeCase{"mdi_empty_lines", "mode = \"mdi\"", "G0 X1\n\n\n", ""}),
+    [](const auto& i) { return i.param.name; });
+
+}  // namespace
+}  // namespace dripline::interpreter::centurion

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+#include "tests/support/program_run.hpp"
+
+namespace dripline::interpreter::fanuc {
+
+using ProgramRun = DialectRun<kFanucDialect>;
+
+}  // namespace dripline::interpreter::fanuc

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/interpreter/dialects/fanuc/program_run.hpp"
+
+/// A question suspends the block; the answer takes it up without doing anything twice.
+namespace dripline::interpreter::fanuc {
+namespace {
+
+TEST(FanucQuestions, EveryInputIsAskedForOnceAndTheBlockIsExecutedOnce) {
+  ProgramRun run("POPEN\n#1=#1000*10+#1001\nDPRNT[#1[20]]\nPCLOS\nM30\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  EXPECT_EQ(std::get<InputQuestion>(run.interpreter().question()).pin, 1000);
+  ASSERT_TRUE(run.interpreter().answer(true));
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  EXPECT_EQ(std::get<InputQuestion>(run.interpreter().question()).pin, 1001);
+  ASSERT_TRUE(run.interpreter().answer(true));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  ASSERT_EQ(run.events("output").size(), 1U);
+  EXPECT_NE(run.events("output")[0].find(" 11"), std::string::npos);
+}
+
+TEST(FanucQuestions, TheStepAsksAgainUntilItIsAnswered) {
+  ProgramRun run("G00 X[#1005]\nM30\n");
+  EXPECT_EQ(run.step(), StepState::NeedsAnswer);
+  EXPECT_EQ(run.step(), StepState::NeedsAnswer);
+  EXPECT_EQ(run.interpreter().blocks(), 0U);
+}
+
+TEST(FanucQuestions, AnAnswerOfAnotherKindLeavesTheQuestionOpen) {
+  ProgramRun run("#1=#3012\nM30\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  EXPECT_FALSE(run.interpreter().answer(true));
+  EXPECT_FALSE(run.interpreter().answer(PromptAnswer{"1"}));
+  ASSERT_TRUE(run.interpreter().answer(LocalTime{2026, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(run.step(), StepState::Ended);
+}
+
+TEST(FanucQuestions, ASkipMoveWhoseTargetNeededAnInputAsksForBoth) {
+  ProgramRun run("G01 F100\nG31 X[10*#1002]\nM30\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ASSERT_TRUE(run.interpreter().answer(true));
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  const Probe probe = std::get<ProbeQuestion>(run.interpreter().question()).probe;
+  EXPECT_DOUBLE_EQ(probe.to.linear(Axis::X).mm(), 10);
+  ProbeResult result{true, probe.from};
+  result.at.set(Axis::X, Length::mm(4));
+  ASSERT_TRUE(run.interpreter().answer(result));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_EQ(run.events("probe").size(), 1U);
+}
+
+}  // namespace
+}  // namespace dripline::interpreter::fanuc

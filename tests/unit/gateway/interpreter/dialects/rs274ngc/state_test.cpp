@@ -1,0 +1,76 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/interpreter/dialects/rs274ngc/control_run.hpp"
+
+/// Rows: NGC-050, NGC-086, NGC-090, NGC-091
+namespace dripline::interpreter::rs274ngc {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr std::string_view kLater =
+    "[control]\nprofile = \"linuxcnc\"\n[[tool]]\nnumber = 1\nradius = 2.0\n";
+
+TEST(Rs274State, APinIsAskedForInTheMiddleOfALine) {
+  ControlRun run("G21 S100 M66 P4 G0 X7 M3\nG0 Y#5399\nM2\n", kLater);
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ASSERT_TRUE(std::holds_alternative<InputQuestion>(run.interpreter().question()));
+  EXPECT_EQ(std::get<InputQuestion>(run.interpreter().question()).pin, 4);
+  EXPECT_FALSE(run.interpreter().answer(ProbeResult{}));
+  ASSERT_TRUE(run.interpreter().answer(true));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr("rapid 2:")).Times(1));
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X7 Y1")).Times(1));
+}
+
+TEST(Rs274State, AProbeAnswerMovesTheTool) {
+  ControlRun run("G21 F50 G0 Z9\nG38.2 Z-9\nG0 X#5063\nM2\n");
+  ASSERT_EQ(run.step(), StepState::NeedsAnswer);
+  ProbeResult result{true, {}};
+  result.at.set(Axis::Z, Length::mm(-2));
+  ASSERT_TRUE(run.interpreter().answer(result));
+  EXPECT_EQ(run.step(), StepState::Ended);
+  EXPECT_THAT(run.log().lines(), Contains(HasSubstr(" X-2 Z-2")));
+}
+
+TEST(Rs274State, MovesThatWaitSurviveASnapshot) {
+  const std::string program =
+      "G21 F100 G0 X0 Y0\nG41 D1 G1 X10\nM8\nG4 P1\n(DEBUG,waits)\nY20\nG40\nG0 X0\nM2\n";
+  ControlRun whole(program, kLater);
+  ASSERT_EQ(whole.step(), StepState::Ended);
+  ControlRun first(program, kLater);
+  ASSERT_EQ(first.step(5), StepState::Ran);
+  ControlRun second(program, kLater);
+  ASSERT_TRUE(second.interpreter().restore(first.interpreter().snapshot()));
+  EXPECT_EQ(second.step(), StepState::Ended);
+  std::vector<std::string> both = first.log().lines();
+  both.insert(both.end(), second.log().lines().begin(), second.log().lines().end());
+  EXPECT_EQ(both, whole.log().lines());
+}
+
+TEST(Rs274State, ADamagedSnapshotChangesNothing) {
+  ControlRun run("#7=3 #8=4\nG0 X#7\nG0 X#8\nM2\n");
+  ASSERT_EQ(run.step(2), StepState::Ran);
+  const Snapshot good = run.interpreter().snapshot();
+  for (std::size_t size = 0; size < good.bytes.size(); size += 13) {
+    Snapshot cut = good;
+    cut.bytes.resize(size);
+    EXPECT_FALSE(run.interpreter().restore(cut)) << size;
+  }
+  EXPECT_EQ(run.interpreter().snapshot().digest(), good.digest());
+  EXPECT_EQ(run.step(), StepState::Ended);
+}
+
+TEST(Rs274Detection, FilesOfThisKindAreKnown) {
+  const auto by_name = detect_dialect("G20\nG0 X1\n", "part.ngc");
+  ASSERT_FALSE(by_name.empty());
+  EXPECT_EQ(by_name.front()->name, "rs274ngc");
+  const auto by_words = detect_dialect("G20\no1 while [#1 lt 2]\no1 endwhile\n", "part");
+  ASSERT_FALSE(by_words.empty());
+  EXPECT_EQ(by_words.front()->name, "rs274ngc");
+}
+
+}  // namespace
+}  // namespace dripline::interpreter::rs274ngc

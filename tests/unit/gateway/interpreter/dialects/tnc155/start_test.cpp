@@ -1,0 +1,156 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/interpreter/dialects/tnc155/path_run.hpp"
+
+/// A start in the middle of a program finds the state that the program has there, or is refused.
+namespace dripline::interpreter {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+PathRun from_block(int block, const std::vector<std::string>& blocks,
+                   const std::string& setup = "") {
+  std::string text = "0 BEGIN PGM 5 MM\n";
+  std::size_t at = 1;
+  for (const std::string& each : blocks) text += std::to_string(at++) + " " + each + "\n";
+  text += std::to_string(at) + " END PGM 5 MM\n";
+  return run_text(text, {setup + "\n[control]\nstart_block = " + std::to_string(block), {}});
+}
+
+/// The reason for a refusal, of which nothing may have moved, turned or changed before.
+std::string refusal(const PathRun& run) {
+  if (run.events.size() != 1 || !run.events[0].starts_with("! PROGRAM START UNDEFINED")) {
+    return "not refused: " + testing::PrintToString(run.events);
+  }
+  return run.events[0];
+}
+
+const std::vector<std::string> kContour{"TOOL DEF 1 L+20 R+5",
+                                        "TOOL CALL 1 Z S1000",
+                                        "CYCL DEF 7.0 DATUM SHIFT",
+                                        "CYCL DEF 7.1 X+100",
+                                        "L X+0 Y-20 R0 F MAX M13",
+                                        "L X+0 Y+0 RR F500",
+                                        "STOP",
+                                        "L X+0 Y+50 RR",
+                                        "L X+60 Y+50",
+                                        "L X+60 Y-20 R0",
+                                        "L X+70 Y-20"};
+
+// HD-192: tool, datum shift, spindle, coolant and feed are those of the program at that block; the
+// operator is asked before anything turns or moves.
+TEST(TncStart, RebuildsWhatTheProgramHadInForce) {
+  EXPECT_THAT(from_block(11, kContour, "start = { X = 160.0, Y = -20.0 }").events,
+              ElementsAre("T1 L20 R5", "stop", "S cw 1000", "coolant on", "L X170 Y-20 F500",
+                          StartsWith("end")));
+}
+
+// HD-192: the contour is made as by a run from the beginning.
+TEST(TncStart, BeginsTheContourWithItsTool) {
+  const auto whole = run_text(
+      "0 BEGIN PGM 5 MM\n1 TOOL DEF 1 L+0 R+5\n2 TOOL CALL 1 Z S1000\n"
+      "3 L X+0 Y-20 R0 F MAX M03\n4 L X+0 Y+0 RR F500\n5 L X+0 Y+50\n"
+      "6 L X+60 Y+50\n7 L X+60 Y-20 R0\n8 END PGM 5 MM\n",
+      {"start = { Y = -20.0 }", {}});
+  const auto late =
+      from_block(4,
+                 {"TOOL DEF 1 L+0 R+5", "TOOL CALL 1 Z S1000", "L X+0 Y-20 R0 F MAX M03",
+                  "L X+0 Y+0 RR F500", "L X+0 Y+50", "L X+60 Y+50", "L X+60 Y-20 R0"},
+                 "start = { Y = -20.0 }");
+  ASSERT_EQ(whole.alarm_id, "");
+  ASSERT_EQ(late.alarm_id, "");
+  const auto tail = [](const PathRun& run) {
+    return std::vector(run.events.end() - 5, run.events.end());
+  };
+  EXPECT_EQ(tail(late), tail(whole));
+}
+
+// HD-192: the datum that M94 moves is kept from run to run, and would move once more.
+TEST(TncStart, IsRefusedAfterADatumThatM94HasMoved) {
+  EXPECT_THAT(refusal(from_block(3, {"L C+730 R0 F9999", "L C+740 M94", "L C+20"})),
+              HasSubstr("the datum of C, which it has moved by +720"));
+  EXPECT_THAT(from_block(3, {"L C+30 R0 F9999", "L C+40 M94", "L C+20"}).events,
+              Not(testing::Contains(HasSubstr("M94"))));
+}
+
+// HD-192: CC, the polar coordinates that refer to it, and the cycle defined last.
+TEST(TncStart, RebuildsThePoleAndTheCycle) {
+  EXPECT_THAT(
+      from_block(4, {"CC X+20 Y+10", "L X+0 Y+0 R0 F100", "L X+1 Y+1", "LP PR+10 PA+0 R0 F100"},
+                 "start = { X = 1.0, Y = 1.0 }")
+          .events,
+      ElementsAre("stop", "L X30 Y10 F100", StartsWith("end")))
+      << "an offline start is where the program began";
+  const std::vector<std::string> cycle{
+      "TOOL DEF 1 L+0 R+2",    "CYCL DEF 1.0 PECKING",  "CYCL DEF 1.1 SET-UP -2",
+      "CYCL DEF 1.2 DEPTH -5", "CYCL DEF 1.3 PECKG -5", "CYCL DEF 1.4 DWELL 0",
+      "CYCL DEF 1.5 F80",      "TOOL CALL 1 Z S 100",   "L X+3 Y+3 R0 F MAX M03",
+      "CYCL CALL M",           "L X+9 Y+9 R0 F MAX M99"};
+  EXPECT_EQ(from_block(8, cycle).alarm_id, "");
+  EXPECT_EQ(from_block(11, cycle).alarm_id, "");
+  EXPECT_THAT(from_block(11, cycle).events, testing::Contains("L X9 Y9 Z-7 F80"));
+  EXPECT_THAT(from_block(10, cycle).events.back(),
+              HasSubstr("a cycle call after GOTO, before the first positioning block"));
+  EXPECT_THAT(refusal(from_block(4, cycle)), HasSubstr("CYCL DEF 1"));
+}
+
+// HD-193: repeats, return addresses and the contour cannot be rebuilt: which pass was meant, and
+// on which side the tool is, nobody knows. Each is named.
+TEST(TncStart, RefusesWhatItWouldLose) {
+  EXPECT_THAT(refusal(from_block(9, kContour)), HasSubstr("block 6 on: start there"));
+  EXPECT_THAT(
+      refusal(from_block(2, {"LBL 1", "L X+1 Y+1 R0 F MAX", "L IX+1 F MAX", "CALL LBL 1 REP 2/2"})),
+      HasSubstr("how often block 4 has come back over it"));
+  EXPECT_THAT(refusal(from_block(
+                  4, {"CALL LBL 5 REP", "STOP M02", "LBL 5", "L X+1 Y+1 R0 F MAX", "LBL 0"})),
+              HasSubstr("repeats and return address of LBL 5, which line 2 calls"));
+  EXPECT_THAT(refusal(from_block(3, {"FN 0: Q1 = +0", "LBL 2", "L X+1 Y+1 R0 F MAX",
+                                     "FN 1: Q1 = +Q1 + +1", "FN 12: IF +Q1 LT +3 GOTO LBL 2"})),
+              HasSubstr("how often block 5 has come back over it"));
+  EXPECT_THAT(refusal(from_block(3, {"L X+1 Y+1 R0 F100", "RND R2", "L X+9 Y+1", "L X+9 Y+9"})),
+              HasSubstr("the corner from block 1 on"));
+  EXPECT_THAT(refusal(from_block(2, {"L X+1 Y+1 R0 F100", "RND R2", "L X+9 Y+1", "L X+9 Y+9"})),
+              HasSubstr("the corner from block 1 on"));
+  EXPECT_THAT(refusal(from_block(2, {"FN 1: Q1 = +Q1 + +1", "L X+1 Y+1 R0 F MAX"})),
+              HasSubstr("lose Q1, whose value continues that of the run before"));
+  EXPECT_THAT(refusal(from_block(4, {"TOOL CALL 0 Z S100", "TCH PROBE 0.0 REF. PLANE Q5 Z-",
+                                     "TCH PROBE 0.1 X+0 Y+0 Z+0", "L X+1 Y+1 R0 F MAX"})),
+              HasSubstr("what the probe has measured"));
+  const std::string changer =
+      "[[tool]]\nnumber = 1\nradius = 2.0\npocket = 1\n[[tool]]\nnumber = 2\nradius = 3.0\n"
+      "pocket = 2\n[control]\ncentral_tool_file = true\nrandom_changer = true\n"
+      "magazine_pockets = 4\nstart_block = 2\n";
+  EXPECT_THAT(refusal(run_text("0 BEGIN PGM 5 MM\n1 TOOL CALL 1 Z S100\n2 L X+1 Y+1 R0 F MAX\n"
+                               "3 END PGM 5 MM\n",
+                               {changer, {}})),
+              HasSubstr("which pockets the tools are in"));
+}
+
+// HD-193: labels that do not come back over the block do no harm.
+TEST(TncStart, PassesFinishedRepeatsAndSubprograms) {
+  const std::vector<std::string> blocks{
+      "LBL 1",          "L X+1 Y+1 R0 F MAX", "L IX+1 F MAX",   "CALL LBL 1 REP 2/2",
+      "CALL LBL 7 REP", "L X+9 Y+9 F MAX",    "CALL LBL 7 REP", "STOP M02",
+      "LBL 7",          "L X+5 Y+5 F MAX",    "LBL 0"};
+  EXPECT_THAT(from_block(6, blocks, "start = { X = 5.0, Y = 5.0 }").events,
+              ElementsAre("stop", "R X9 Y9", "R X5 Y5", StartsWith("end")));
+}
+
+// HD-194: an axis that the first positioning leaves alone must be where the program has it.
+TEST(TncStart, RefusesAMachineThatIsElsewhere) {
+  const std::vector<std::string> blocks{"L X+0 Y+0 Z+50 R0 F MAX", "L Z-5 F100", "L X+9 Y+9"};
+  const PathRun elsewhere = from_block(3, blocks);
+  EXPECT_THAT(elsewhere.events.back(),
+              HasSubstr("Z is at 0.000 and the program has it at -5.000 here"));
+  EXPECT_THAT(elsewhere.events, Each(Not(StartsWith("L "))));
+  EXPECT_EQ(from_block(3, blocks, "start = { Z = -5.0 }").alarm_id, "");
+  EXPECT_EQ(from_block(1, blocks).alarm_id, "");
+}
+
+}  // namespace
+}  // namespace dripline::interpreter

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "server/api/api.hpp"
+#include "tests/unit/server/api/fake_feeds.hpp"
+#include "tests/unit/server/api/fake_ports.hpp"
+#include "tests/unit/server/api/server_fixture.hpp"
+
+namespace dripline::server_test {
+
+inline constexpr const char* kSecret = "0123456789abcdef0123456789abcdef";
+
+struct Call {
+  std::string body;
+  std::map<std::string, std::string> headers;
+  std::string token = kSecret;
+};
+
+/// The API on a real store and fake feeds, without sockets.
+class ApiTest : public ServerTest {
+ protected:
+  using Json = nlohmann::json;
+
+  ApiTest() { make_api(&ports_); }
+
+  void make_api(ports::PortControl* ports) {
+    api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
+                                                    .setups = *setups_,
+                                                    .feeds = feeds_,
+                                                    .store = *store_,
+                                                    .audit = *audit_,
+                                                    .events = events_,
+                                                    .clock = clock_,
+                                                    .facts = {.name = "office",
+                                                              .version = "1",
+                                                              .data_dir = "/data",
+                                                              .started = clock_.now(),
+                                                              .dds_domain = 3},
+                                                    .dds_rejected = [] { return std::uint64_t{4}; },
+                                                    .ports = ports,
+                                                    .health = &health_},
+                                      api::Token{.name = "admin", .secret = kSecret});
+  }
+
+  api::Response call(const std::string& method, const std::string& target, Call call = {}) {
+    auto parsed = api::parse_target(target);
+    EXPECT_TRUE(parsed) << target;
+    api::Request request;
+    request.method = method;
+    request.target = parsed.value_or(api::Target{});
+    request.headers = call.headers;
+    request.headers["authorization"] = "Bearer " + call.token;
+    request.body = call.body;
+    return api_->handle(std::move(request));
+  }
+  api::Response get(const std::string& target) { return call("GET", target); }
+  api::Response post(const std::string& target, const Json& body) {
+    return call("POST", target, {.body = body.dump(), .headers = {}});
+  }
+  static Json json(const api::Response& response) {
+    return Json::parse(body(response), nullptr, false);
+  }
+  /// The whole body, pulled when it comes in pieces.
+  static std::string body(const api::Response& response) {
+    if (!response.source) return response.body;
+    std::string text;
+    for (;;) {
+      auto piece = response.source();
+      EXPECT_TRUE(piece) << piece.error().what;
+      if (!piece || !*piece) return text;
+      text += **piece;
+    }
+  }
+  static std::string header(const api::Response& response, const std::string& name) {
+    for (const auto& [key, value] : response.headers) {
+      if (key == name) return value;
+    }
+    return {};
+  }
+  static void expect_error(const api::Response& response, int status, const std::string& code,
+                           const std::string& part) {
+    EXPECT_EQ(response.status, status) << response.body;
+    const Json answer = json(response);
+    ASSERT_TRUE(answer.contains("error")) << response.body;
+    EXPECT_EQ(answer["error"]["code"], code);
+    EXPECT_NE(answer["error"].value("message", "").find(part), std::string::npos) << response.body;
+  }
+  void show_machine(const std::string& name) {
+    add_machine(name);
+    machines::MachineView view;
+    view.machine = store_->machine(name).value();
+    view.is_connected = true;
+    feeds_.views.push_back(std::move(view));
+  }
+  /// A run of O0100 with some output lines and its end, as it would be stored.
+  std::string stored_run(std::uint64_t outputs) {
+    const auto revision = push("O0100", "O0100\nM30\n");
+    show_machine("lathe-1");
+    Run run;
+    run.id = "run-1";
+    run.machine = "lathe-1";
+    run.program = revision.program;
+    run.revision = revision.number;
+    run.content = revision.content;
+    run.size = revision.size;
+    run.control = "centurion";
+    run.author = "admin";
+    run.created = clock_.now();
+    EXPECT_TRUE(store_->create_run(run));
+    storage::RecordBatch batch;
+    batch.machine = "lathe-1";
+    batch.epoch = 7;
+    for (std::uint64_t n = 1; n <= outputs; ++n) {
+      storage::Record record;
+      record.machine = "lathe-1";
+      record.epoch = 7;
+      record.number = n;
+      record.time = clock_.now();
+      record.run = run.id;
+      record.kind = "output";
+      record.block = n;
+      record.line = n;
+      record.device = "port1";
+      record.text = fmt::format("X{}, \"Z\"", n);
+      batch.records.push_back(record);
+    }
+    EXPECT_TRUE(store_->store_records(batch));
+    feeds_.run = store_->run(run.id).value();
+    return run.id;
+  }
+
+  FakeFeeds feeds_;
+  FakePorts ports_;
+  library::Health health_{clock_};
+  api::EventHub events_;
+  std::unique_ptr<api::Api> api_;
+};
+
+}  // namespace dripline::server_test

@@ -1,0 +1,386 @@
+// What the handlers answer, without sockets.
+#include "tests/unit/server/api/api_fixture.hpp"
+
+#include "server/api/views.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+class ApiHandlers : public ApiTest {};
+
+TEST_F(ApiHandlers, AskForTheToken) {
+  expect_error(call("GET", "/api/v1/server", {.body = {}, .headers = {}, .token = "wrong"}), 401,
+               "denied", "token");
+  expect_error(call("GET", "/api/v1/nothing", {.body = {}, .headers = {}, .token = ""}), 401,
+               "denied", "token");
+  EXPECT_EQ(get("/api/v1/server").status, 200);
+}
+
+TEST_F(ApiHandlers, TellTheirHealthToEverybody) {
+  EXPECT_EQ(call("GET", "/api/v1/health", {.body = {}, .headers = {}, .token = ""}).status, 200);
+  EXPECT_EQ(call("GET", "/api/v1/openapi.json", {.body = {}, .headers = {}, .token = ""}).status,
+            200);
+}
+
+TEST_F(ApiHandlers, SayWhatIsWrongWithAPathOrAMethod) {
+  expect_error(get("/api/v1/nothing"), 404, "not_found", "/api/v1/nothing");
+  const auto response = call("PATCH", "/api/v1/programs/O1");
+  expect_error(response, 405, "unsupported", "PATCH");
+  EXPECT_EQ(header(response, "Allow"), "GET, DELETE");
+}
+
+TEST_F(ApiHandlers, TakeAProgramThroughAnUpload) {
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  ASSERT_EQ(upload.status, 201) << upload.body;
+  EXPECT_EQ(json(upload)["max_piece"], api::Api::kMaxPiece);
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  const auto piece = call("PUT", path + "/content?offset=0", {.body = "O1\nM30\n", .headers = {}});
+  ASSERT_EQ(piece.status, 200) << piece.body;
+  EXPECT_EQ(json(get(path))["received"], 7);
+  const auto commit = post(path + "/commit", {{"sha256", sha256("O1\nM30\n").hex()}});
+  ASSERT_EQ(commit.status, 201) << commit.body;
+  EXPECT_EQ(json(commit)["revision"], 1);
+  EXPECT_EQ(json(commit)["author"], "admin");
+  EXPECT_FALSE(json(commit).contains("unchanged"));
+}
+
+TEST_F(ApiHandlers, SayThatACommitChangedNothing) {
+  push("O1", "O1\n");
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  call("PUT", path + "/content?offset=0", {.body = "O1\n", .headers = {}});
+  const auto commit = call("POST", path + "/commit");
+  EXPECT_EQ(commit.status, 200) << commit.body;
+  EXPECT_EQ(json(commit)["unchanged"], true);
+}
+
+TEST_F(ApiHandlers, RefusePiecesThatAreTooLongOrWithoutAPlace) {
+  const auto upload = post("/api/v1/uploads", {{"program", "O1"}, {"control", "centurion"}});
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "") + "/content";
+  expect_error(call("PUT", path, {.body = "X", .headers = {}}), 400, "syntax", "offset");
+  expect_error(call("PUT", path + "?offset=-1", {.body = "X", .headers = {}}), 400, "syntax", "-1");
+  expect_error(call("PUT", path + "?offset=0",
+                    {.body = std::string(api::Api::kMaxPiece + 1, 'X'), .headers = {}}),
+               413, "limit_exceeded", "4194304");
+}
+
+TEST_F(ApiHandlers, ListAndShowPrograms) {
+  push("O1", "one\n");
+  push("O1", "two\n");
+  push("O2", "three\n");
+  const Json list = json(get("/api/v1/programs"))["programs"];
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["name"], "O1");
+  EXPECT_EQ(list[0]["revisions"], 2);
+  EXPECT_EQ(json(get("/api/v1/programs?limit=1&offset=1"))["programs"][0]["name"], "O2");
+  const Json program = json(get("/api/v1/programs/O1"));
+  EXPECT_EQ(program["revisions"].size(), 2u);
+  expect_error(get("/api/v1/programs/O9"), 404, "not_found", "O9");
+}
+
+TEST_F(ApiHandlers, RefuseListingsWithBadPages) {
+  expect_error(get("/api/v1/programs?limit=1001"), 413, "limit_exceeded", "1000");
+  expect_error(get("/api/v1/programs?limit=x"), 400, "syntax", "limit");
+  expect_error(get("/api/v1/programs?color=red"), 400, "syntax", "color");
+}
+
+TEST_F(ApiHandlers, RemoveAProgramAndAuditIt) {
+  push("O1", "one\n");
+  EXPECT_EQ(call("DELETE", "/api/v1/programs/O1").status, 204);
+  expect_error(get("/api/v1/programs/O1"), 404, "not_found", "O1");
+  expect_error(call("DELETE", "/api/v1/programs/O1"), 404, "not_found", "O1");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["action"], "program.remove");
+}
+
+TEST_F(ApiHandlers, GiveContentInPieces) {
+  std::string text;
+  while (text.size() < 700'000) text += fmt::format("N{} G01 X1\n", text.size());
+  push("O1", text);
+  const auto response = get("/api/v1/programs/O1/content");
+  EXPECT_EQ(response.source_length, text.size());
+  EXPECT_EQ(header(response, "Dripline-Sha256"), sha256(text).hex());
+  EXPECT_EQ(header(response, "Dripline-Revision"), "1");
+  EXPECT_EQ(header(response, "Dripline-Size"), std::to_string(text.size()));
+  EXPECT_EQ(body(response), text);
+}
+
+TEST_F(ApiHandlers, GiveARangeOfTheContent) {
+  push("O1", "0123456789");
+  const auto response = call("GET", "/api/v1/programs/O1/content?revision=1",
+                             {.body = {}, .headers = {{"range", "bytes=3-5"}}});
+  EXPECT_EQ(response.status, 206);
+  EXPECT_EQ(header(response, "Content-Range"), "bytes 3-5/10");
+  EXPECT_EQ(body(response), "345");
+  const auto outside =
+      call("GET", "/api/v1/programs/O1/content", {.body = {}, .headers = {{"range", "bytes=10-"}}});
+  expect_error(outside, 416, "limit_exceeded", "10 bytes");
+  EXPECT_EQ(header(outside, "Content-Range"), "bytes */10");
+}
+
+TEST_F(ApiHandlers, StartARunAndAuditIt) {
+  const std::string run = stored_run(0);
+  const auto response = post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}});
+  ASSERT_EQ(response.status, 201) << response.body;
+  EXPECT_EQ(json(response)["id"], run);
+  EXPECT_EQ(feeds_.started.at(0).author, "admin");
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["subject"], run);
+}
+
+TEST_F(ApiHandlers, SayWhyARunWasNotStarted) {
+  stored_run(0);
+  expect_error(post("/api/v1/runs", {{"machine", "lathe-9"}, {"program", "O0100"}}), 404,
+               "not_found", "lathe-9");
+  feeds_.refusal = Error{Errc::Timeout, "machine 'lathe-1' is not connected"};
+  expect_error(post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}), 504, "timeout",
+               "not connected");
+}
+
+TEST_F(ApiHandlers, PassOrdersOn) {
+  const std::string run = stored_run(0);
+  const auto response =
+      post("/api/v1/runs/" + run + "/commands", {{"action", "feed_override"}, {"value", 0.5}});
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(json(response)["accepted"], true);
+  EXPECT_EQ(feeds_.ordered.at(0).run, run);
+  EXPECT_EQ(feeds_.ordered.at(0).action, dds::CommandAction::FeedOverride);
+  EXPECT_EQ(feeds_.ordered.at(0).value, 0.5);
+}
+
+/// HD-195: the emergency stop is pressed and released where no run is.
+TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
+  show_machine("lathe-1");
+  const auto response = post("/api/v1/machines/lathe-1/commands",
+                             {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
+  EXPECT_EQ(response.status, 200) << response.body;
+  EXPECT_EQ(feeds_.ordered.at(0).run, "");
+  EXPECT_EQ(feeds_.ordered.at(0).machine, "lathe-1");
+  EXPECT_EQ(feeds_.ordered.at(0).argument, "emergency_stop");
+  const Json entry = json(get("/api/v1/audit"))["entries"][0];
+  EXPECT_EQ(entry["subject"], "lathe-1");
+  EXPECT_EQ(entry["action"], "machine.switch");
+  expect_error(post("/api/v1/machines/lathe-1/commands", {{"action", "resume"}}), 422, "unsupported",
+               "resume");
+  EXPECT_EQ(feeds_.ordered.size(), 1u);
+}
+
+TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
+  const std::string run = stored_run(3);
+  EXPECT_EQ(json(get("/api/v1/runs/" + run))["outputs"], 3);
+  EXPECT_EQ(json(get("/api/v1/runs?state=ordered&machine=lathe-1"))["runs"].size(), 1u);
+  EXPECT_EQ(json(get("/api/v1/runs?state=completed"))["runs"].size(), 0u);
+  expect_error(get("/api/v1/runs?state=lost"), 400, "syntax", "lost");
+  const Json records = json(get("/api/v1/runs/" + run + "/records?kind=output&limit=2"))["records"];
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[1]["number"], 2);
+  expect_error(get("/api/v1/runs/none/records"), 404, "not_found", "none");
+}
+
+TEST_F(ApiHandlers, TellHowTheServerIs) {
+  using Level = library::Health::Level;
+  const auto health = [this] {
+    return call("GET", "/api/v1/health", {.body = {}, .headers = {}, .token = ""});
+  };
+  EXPECT_EQ(json(health())["status"], "ok");
+  health_.report("", {Level::Degraded, "disk", "the disk is nearly full", "40 MiB of /secret"});
+  EXPECT_EQ(health().status, 200);
+  EXPECT_EQ(json(health())["status"], "degraded");
+  health_.report("", {Level::Failed, "store", "the store cannot be written", "disk full"});
+  const auto failed = health();
+  EXPECT_EQ(failed.status, 503);
+  EXPECT_EQ(json(failed)["status"], "failed");
+  EXPECT_EQ(json(failed)["reasons"][1]["subject"], "store");
+  EXPECT_EQ(failed.body.find("secret"), std::string::npos) << "fit for anybody";
+  EXPECT_EQ(json(get("/api/v1/server"))["health"]["reasons"][0]["detail"], "40 MiB of /secret");
+}
+
+TEST_F(ApiHandlers, DefuseFormulasInCsvButNotNumbers) {
+  const std::string run = stored_run(0);
+  storage::RecordBatch batch;
+  batch.machine = "lathe-1";
+  batch.epoch = 7;
+  for (const char* text : {"=1+1", "+cmd", "-2.5", "@sum", "-X1", "X1"}) {
+    storage::Record record;
+    record.machine = "lathe-1";
+    record.epoch = 7;
+    record.number = batch.records.size() + 1;
+    record.time = clock_.now();
+    record.run = run;
+    record.kind = "output";
+    record.text = text;
+    batch.records.push_back(record);
+  }
+  ASSERT_TRUE(store_->store_records(batch));
+  const std::string csv = body(get("/api/v1/reports/" + run + "?format=csv"));
+  for (const char* end :
+       {",'=1+1\r\n", ",'+cmd\r\n", ",-2.5\r\n", ",'@sum\r\n", ",'-X1\r\n", ",X1\r\n"}) {
+    EXPECT_NE(csv.find(end), std::string::npos) << end << " in " << csv;
+  }
+}
+
+TEST_F(ApiHandlers, WriteReportsAsTextCsvAndJson) {
+  const std::string run = stored_run(2);
+  const std::string path = "/api/v1/reports/" + run + "?format=";
+  EXPECT_EQ(body(get(path + "text")), "X1, \"Z\"\nX2, \"Z\"\n");
+  const std::string csv = body(get(path + "csv"));
+  EXPECT_EQ(csv.substr(0, csv.find('\r')), "number,time,device,block,line,sequence,text");
+  EXPECT_NE(csv.find(",port1,2,2,,\"X2, \"\"Z\"\"\"\r\n"), std::string::npos) << csv;
+  const Json report = json(get(path + "json"));
+  EXPECT_EQ(report["lines"][1]["text"], "X2, \"Z\"");
+  expect_error(get(path + "pdf"), 422, "unsupported", "text, csv, json");
+  EXPECT_EQ(json(get("/api/v1/reports"))["reports"][0]["lines"], 2);
+}
+
+TEST_F(ApiHandlers, WriteWhatAMachinePrintedOutsideRuns) {
+  stored_run(2);
+  EXPECT_EQ(json(get("/api/v1/machine-reports"))["reports"].size(), 0u);
+  storage::RecordBatch batch{
+      .machine = "lathe-1", .epoch = 8, .records = {}, .beginnings = {}, .endings = {}};
+  storage::Record record;
+  record.machine = "lathe-1";
+  record.epoch = 8;
+  record.number = 1;
+  record.time = clock_.now();
+  record.kind = "output";
+  record.device = "line-1";
+  record.text = "B 2";
+  batch.records.push_back(record);
+  ASSERT_TRUE(store_->store_records(batch));
+  const Json listed = json(get("/api/v1/machine-reports"))["reports"];
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0]["machine"], "lathe-1");
+  EXPECT_EQ(listed[0]["lines"], 1);
+  EXPECT_EQ(body(get("/api/v1/machines/lathe-1/report")), "B 2\n");
+  const Json report = json(get("/api/v1/machines/lathe-1/report?format=json"));
+  EXPECT_TRUE(report["run"].is_null());
+  EXPECT_EQ(report["lines"][0]["device"], "line-1");
+  expect_error(get("/api/v1/machines/none/report"), 404, "not_found", "none");
+}
+
+TEST_F(ApiHandlers, WriteAReportOfManyPages) {
+  const std::string text = body(get("/api/v1/reports/" + stored_run(2500) + "?format=json"));
+  const Json report = Json::parse(text, nullptr, false);
+  ASSERT_EQ(report["lines"].size(), 2500u);
+  EXPECT_EQ(report["lines"][2499]["number"], 2500);
+}
+
+TEST_F(ApiHandlers, OpenAnEventStreamWithTheMachinesAsTheyAre) {
+  show_machine("lathe-1");
+  show_machine("lathe-2");
+  const auto response = get("/api/v1/events?machine=lathe-2");
+  ASSERT_TRUE(response.events);
+  const std::string first = response.events->take();
+  EXPECT_EQ(first.find("lathe-1"), std::string::npos);
+  EXPECT_NE(first.find("event: machine\ndata: {"), std::string::npos) << first;
+  const auto listener = api::publish_to(events_);
+  listener.on_machine(feeds_.views[1]);
+  EXPECT_NE(response.events->take().find("lathe-2"), std::string::npos);
+}
+
+TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
+  show_machine("lathe-1");
+  EXPECT_TRUE(json(get("/api/v1/machines/lathe-1"))["status"].is_null());
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.execution = dds::Execution::FeedHold;
+  status.position = {1.5, 0, -3, 0, 0, 90};
+  status.axes = 0b100101;  // X, Z and C
+  feeds_.views[0].status = status;
+  const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
+  EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Z", -3.0}, {"C", 90.0}}));
+  EXPECT_TRUE(shown["run"].is_null());
+  EXPECT_TRUE(shown["sequence"].is_null());
+  EXPECT_TRUE(shown["coordinates"].is_null()) << "an older gateway";
+  EXPECT_EQ(shown["emergency_stop"], false);
+  EXPECT_TRUE(shown["remote_enable"].is_null());
+}
+
+/// HD-082, HD-084.
+TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
+  show_machine("lathe-1");
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.position = {1, 2, 3};
+  status.axes = 0b111;
+  status.emergency_stop = true;
+  status.remote_enable = dds::RemoteEnable::NotGiven;
+  status.waits_for = dds::WaitsFor::CycleStart;
+  status.modes.emplace().tool_axis = 2;
+  status.modes->spindle = dds::SpindleState::Clockwise;
+  status.coordinates = dds::Coordinates{
+      .target = {5, 2, -3}, .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{}};
+  dds::ProgramFrame& frame = *status.coordinates->program;
+  frame.position = {11, 12, 13};
+  frame.shift = {-10, -10, -10};
+  frame.rotation = 30;
+  frame.scale = {0.5, 0.5, 1};
+  frame.mirrored = 0b10;
+  frame.pole_axes = 0b101;
+  frame.pole = {7, 0, 9};
+  feeds_.views[0].status = status;
+  const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
+  EXPECT_EQ(shown["emergency_stop"], true);
+  EXPECT_EQ(shown["remote_enable"], "not_given");
+  EXPECT_EQ(shown["waits_for"], "cycle_start");
+  EXPECT_EQ(shown["modes"]["tool_axis"], "Z");
+  EXPECT_EQ(shown["modes"]["spindle"], "clockwise");
+  const Json& coordinates = shown["coordinates"];
+  EXPECT_EQ(coordinates["distance_to_go"], (Json{{"X", 4.0}, {"Y", 0.0}, {"Z", -6.0}}));
+  EXPECT_EQ(coordinates["lag"], (Json{{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}));
+  EXPECT_EQ(coordinates["program"]["position"], (Json{{"X", 11.0}, {"Y", 12.0}, {"Z", 13.0}}));
+  EXPECT_EQ(coordinates["program"]["shift"]["X"], -10);
+  EXPECT_EQ(coordinates["program"]["scale"]["Y"], 0.5);
+  EXPECT_EQ(coordinates["program"]["mirrored"], Json{"Y"});
+  EXPECT_EQ(coordinates["program"]["pole"], (Json{{"X", 7.0}, {"Z", 9.0}}));
+}
+
+/// CEN-211.
+TEST_F(ApiTest, CopiesAndRenamesPrograms) {
+  push("O0001", "O0001 (BUSH)\nM30\n");
+  const auto copied = post("/api/v1/programs/O0001/copy", {{"to", "O0002"}});
+  ASSERT_EQ(copied.status, 201) << copied.body;
+  EXPECT_EQ(json(copied)["program"], "O0002");
+  EXPECT_EQ(json(copied)["revision"], 1);
+  EXPECT_EQ(json(copied)["comment"], "copy of O0001 revision 1");
+  const auto renamed = post("/api/v1/programs/O0001/rename", {{"to", "O0003"}});
+  ASSERT_EQ(renamed.status, 200) << renamed.body;
+  EXPECT_EQ(json(renamed)["name"], "O0003");
+  EXPECT_EQ(json(renamed)["revisions"].size(), 1u);
+  EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["who"], "admin");
+  expect_error(post("/api/v1/programs/O0003/copy", {{"to", "O0002"}}), 409, "conflict",
+               "O0002 exists already");
+  expect_error(post("/api/v1/programs/O0009/rename", {{"to", "O0010"}}), 404, "not_found", "O0009");
+  expect_error(post("/api/v1/programs/O0003/rename", {{"to", ".hidden"}}), 400, "syntax",
+               ".hidden");
+  expect_error(post("/api/v1/programs/O0003/copy", Json::object()), 400, "syntax", "'to'");
+}
+
+/// CEN-212.
+TEST_F(ApiTest, ShowsWhatProgramsCallThemselves) {
+  push("O0001", "O0001 (BUSH 12)\nM30\n");
+  push("O0002", "O0002\nM30\n");
+  const Json list = json(get("/api/v1/programs"))["programs"];
+  EXPECT_EQ(list[0]["title"], "BUSH 12");
+  EXPECT_TRUE(list[1]["title"].is_null());
+  EXPECT_EQ(json(get("/api/v1/programs/O0001"))["revisions"][0]["title"], "BUSH 12");
+}
+
+/// CEN-213: for whoever knows the control's messages.
+TEST_F(ApiTest, RefusesMovesOfProgramsInTheWordsOfTheirControlToo) {
+  push("O0001", "O0001\n");
+  push("O0002", "O0002\n");
+  push("1.h", "0 BEGIN PGM 1 MM\n", "tnc155");
+  const auto message = [&](const std::string& from, const std::string& to) {
+    const auto refused = post("/api/v1/programs/" + from + "/rename", {{"to", to}});
+    return json(refused)["error"].value("message", "");
+  };
+  EXPECT_EQ(message("O0001", "O0002"),
+            "program O0002 exists already, with 1 revision (centurion error 300: program already "
+            "exists)");
+  EXPECT_NE(message("O0001", "O0001").find("(centurion error 309: can't copy or rename"),
+            std::string::npos);
+  EXPECT_EQ(message("1.h", "O0002"), "program O0002 exists already, with 1 revision")
+      << "another control has no such number";
+}
+
+}  // namespace
+}  // namespace dripline::server_test

@@ -1,0 +1,224 @@
+// The description of the API against the API: every route is described, everything described is a
+// route, and the real answers follow the schemas.
+#include <set>
+
+#include "tests/support/json_schema.hpp"
+#include "tests/unit/server/api/api_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+class OpenApi : public ApiTest {
+ protected:
+  OpenApi() : document_(json(get("/api/v1/openapi.json"))) {}
+
+  /// The schema of an answer; null when it is described as something other than JSON.
+  Json schema_of(const std::string& method, const std::string& pattern, int status) {
+    std::string verb;
+    for (const char c : method) verb += static_cast<char>(c - 'A' + 'a');
+    const Json& responses = document_["paths"][pattern][verb]["responses"];
+    const std::string own = std::to_string(status);
+    const std::string key = status < 400 || responses.contains(own) ? own : "default";
+    EXPECT_TRUE(responses.contains(key)) << method << " " << pattern << " " << status;
+    const Json content = responses.value(key, Json::object()).value("content", Json::object());
+    return content.value("application/json", Json::object()).value("schema", Json(nullptr));
+  }
+  void expect_described(const std::string& method, const std::string& pattern,
+                        const api::Response& response) {
+    covered_.insert(method + " " + pattern);
+    const Json schema = schema_of(method, pattern, response.status);
+    if (schema.is_null() || response.status == 204) return;
+    const Json answer = json(response);
+    EXPECT_EQ(test_support::schema_violation(document_, schema, answer), "")
+        << method << " " << pattern << " " << answer.dump();
+  }
+
+  void expect_ports_described() {
+    const auto put =
+        call("PUT", "/api/v1/ports/line-1",
+             {.body = R"({"machine":"mill-3","address":"/dev/ttyS0"})", .headers = {}});
+    EXPECT_EQ(put.status, 201) << put.body;
+    expect_described("PUT", "/api/v1/ports/{name}", put);
+    ports_.traffic.push_back({"line-1", clock_.now(), "sent", "M30", ""});
+    expect_described("GET", "/api/v1/ports", get("/api/v1/ports"));
+    expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
+    expect_described("POST", "/api/v1/ports/{name}/test",
+                     call("POST", "/api/v1/ports/line-1/test"));
+    expect_described("POST", "/api/v1/ports/{name}/transfers",
+                     post("/api/v1/ports/line-1/transfers", {{"programs", {"O1", "O2@3"}}}));
+    ports_.views[0].transfer =
+        ports::PortTransfer{.id = "transfer-1", .programs = {"O1 revision 1"}};
+    expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
+    expect_described("DELETE", "/api/v1/ports/{name}/transfers",
+                     call("DELETE", "/api/v1/ports/line-1/transfers"));
+    expect_described("POST", "/api/v1/ports/{name}/receive",
+                     call("POST", "/api/v1/ports/line-1/receive"));
+    expect_described("POST", "/api/v1/ports/{name}/test-rules",
+                     post("/api/v1/ports/line-1/test-rules", {{"text", "O1"}}));
+    expect_described("GET", "/api/v1/ports/{name}/recording",
+                     get("/api/v1/ports/line-1/recording"));
+    expect_line_described("Traffic", body(get("/api/v1/ports/line-1/recording")));
+    expect_described("GET", "/api/v1/ports/{name}/traffic", get("/api/v1/ports/line-1/traffic"));
+    expect_described("GET", "/api/v1/port-templates", get("/api/v1/port-templates"));
+    expect_described("DELETE", "/api/v1/ports/{name}", call("DELETE", "/api/v1/ports/line-1"));
+  }
+  /// What comes as lines or events is described by a schema without being an answer.
+  void expect_line_described(const std::string& schema, const std::string& line) {
+    EXPECT_EQ(test_support::schema_violation(document_, document_["components"]["schemas"][schema],
+                                             Json::parse(line)),
+              "");
+  }
+  void expect_setups_described() {
+    const std::string path = "/api/v1/machines/lathe-1/setup";
+    const Call text{.body = "[[tool]]\nnumber = 1\n", .headers = {}};
+    for (const int status : {201, 200}) {
+      const auto put = call("PUT", path + "?comment=first", text);
+      EXPECT_EQ(put.status, status) << put.body;
+      expect_described("PUT", "/api/v1/machines/{name}/setup", put);
+    }
+    expect_described("GET", "/api/v1/machines/{name}/setup", get(path));
+    expect_described("GET", "/api/v1/machines/{name}/setups", get(path + "s"));
+  }
+  void expect_memory_described() {
+    storage::Record record;
+    record.machine = "lathe-1";
+    record.epoch = 77;
+    record.number = 1;
+    record.time = clock_.now();
+    record.run = "line-1";
+    record.kind = "message";
+    record.device = "memory";
+    record.text = R"({"part":1,"parts":1,"cells":{"P10":[7.5,0],"#500":[null,null]}})";
+    storage::RecordBatch batch;
+    batch.machine = "lathe-1";
+    batch.epoch = 77;
+    batch.records = {record};
+    ASSERT_TRUE(store_->store_records(batch));
+    const std::string path = "/api/v1/machines/lathe-1/memory";
+    const Json memories = json(get(path))["memories"];
+    ASSERT_EQ(memories.size(), 1u);
+    EXPECT_EQ(memories[0]["run"], "line-1");
+    EXPECT_EQ(memories[0]["program"], nullptr);
+    EXPECT_EQ(memories[0]["cells"].size(), 2u);
+    expect_described("GET", "/api/v1/machines/{name}/memory", get(path));
+    EXPECT_EQ(get(path + "?run=line-1").status, 200);
+    EXPECT_EQ(get(path + "?run=r9").status, 404);
+    EXPECT_EQ(get("/api/v1/machines/nobody/memory").status, 404);
+  }
+  void expect_judgement_described() {
+    for (const std::string number : {"1", "2"}) {
+      const auto upload = programs_->begin(
+          {.program = "O3", .control = "centurion", .comment = {}, .is_held = true}, "mill-3");
+      ASSERT_TRUE(programs_->append(upload->id, 0, bytes_of("N" + number + "\n")));
+      ASSERT_TRUE(programs_->commit(upload->id, std::nullopt, "mill-3"));
+    }
+    expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
+    const std::string path = "/api/v1/programs/{name}/revisions/{number}/";
+    expect_described("POST", path + "accept",
+                     call("POST", "/api/v1/programs/O3/revisions/1/accept"));
+    expect_described("POST", path + "reject",
+                     call("POST", "/api/v1/programs/O3/revisions/2/reject"));
+  }
+
+  Json document_;
+  std::set<std::string> covered_;
+};
+
+TEST_F(OpenApi, DescribesEveryRouteAndNothingElse) {
+  std::set<std::string> described;
+  for (const auto& [path, item] : document_["paths"].items()) {
+    for (const auto& [verb, operation] : item.items()) {
+      std::string method;
+      for (const char c : verb) method += static_cast<char>(c - 'a' + 'A');
+      described.insert(method + " " + path);
+      EXPECT_TRUE(operation.contains("summary")) << method << " " << path;
+    }
+  }
+  std::set<std::string> routed;
+  for (const auto& route : api_->router().routes())
+    routed.insert(route.method + " " + route.pattern);
+  EXPECT_EQ(described, routed);
+}
+
+TEST_F(OpenApi, FitsTheRealAnswers) {
+  const std::string run = stored_run(3);
+  dds::Status status;
+  status.machine = "lathe-1";
+  status.run = run;
+  status.axes = 0b111;
+  status.modes.emplace().tool_axis = 2;
+  status.modes->spindle = dds::SpindleState::Clockwise;
+  status.coordinates = dds::Coordinates{
+      .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};
+  feeds_.views[0].status = status;
+
+  expect_described("GET", "/api/v1/health", get("/api/v1/health"));
+  health_.report("", {library::Health::Level::Failed, "store", "not written", "disk full"});
+  expect_described("GET", "/api/v1/health", get("/api/v1/health"));
+  expect_described("GET", "/api/v1/openapi.json", get("/api/v1/openapi.json"));
+  expect_described("GET", "/api/v1/server", get("/api/v1/server"));
+  expect_described("GET", "/api/v1/programs", get("/api/v1/programs"));
+  expect_described("GET", "/api/v1/programs/{name}", get("/api/v1/programs/O0100"));
+  expect_described("GET", "/api/v1/programs/{name}/content", get("/api/v1/programs/O0100/content"));
+  const auto upload = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
+  expect_described("POST", "/api/v1/uploads", upload);
+  const std::string path = "/api/v1/uploads/" + json(upload).value("id", "");
+  expect_described("GET", "/api/v1/uploads/{id}", get(path));
+  expect_described("PUT", "/api/v1/uploads/{id}/content",
+                   call("PUT", path + "/content?offset=0", {.body = "M30\n", .headers = {}}));
+  const auto commit = call("POST", path + "/commit");
+  EXPECT_EQ(commit.status, 201);
+  expect_described("POST", "/api/v1/uploads/{id}/commit", commit);
+  const auto given_up = post("/api/v1/uploads", {{"program", "O2"}, {"control", "centurion"}});
+  expect_described("DELETE", "/api/v1/uploads/{id}",
+                   call("DELETE", "/api/v1/uploads/" + json(given_up).value("id", "")));
+  expect_described("GET", "/api/v1/machines", get("/api/v1/machines"));
+  expect_described("GET", "/api/v1/machines/{name}", get("/api/v1/machines/lathe-1"));
+  expect_described("POST", "/api/v1/machines/{name}/commands",
+                   post("/api/v1/machines/lathe-1/commands",
+                        {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}}));
+  expect_described("POST", "/api/v1/runs",
+                   post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}));
+  expect_described("GET", "/api/v1/runs", get("/api/v1/runs"));
+  expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/" + run));
+  expect_described("POST", "/api/v1/runs/{id}/commands",
+                   post("/api/v1/runs/" + run + "/commands", {{"action", "hold"}}));
+  expect_described("GET", "/api/v1/runs/{id}/records", get("/api/v1/runs/" + run + "/records"));
+  expect_described("GET", "/api/v1/machine-reports", get("/api/v1/machine-reports"));
+  expect_described("GET", "/api/v1/machines/{name}/report",
+                   get("/api/v1/machines/lathe-1/report?format=json"));
+  expect_described("GET", "/api/v1/reports", get("/api/v1/reports"));
+  expect_described("GET", "/api/v1/reports/{run}", get("/api/v1/reports/" + run + "?format=json"));
+  expect_described("GET", "/api/v1/audit", get("/api/v1/audit"));
+  expect_described("GET", "/api/v1/events", get("/api/v1/events"));
+  expect_setups_described();
+  expect_memory_described();
+  expect_ports_described();
+  expect_judgement_described();
+  expect_described("POST", "/api/v1/programs/{name}/copy",
+                   post("/api/v1/programs/O2/copy", {{"to", "O20"}, {"revision", 1}}));
+  expect_described("POST", "/api/v1/programs/{name}/rename",
+                   post("/api/v1/programs/O20/rename", {{"to", "O21"}}));
+  expect_described("DELETE", "/api/v1/programs/{name}", call("DELETE", "/api/v1/programs/O2"));
+  for (const auto& route : api_->router().routes()) {
+    EXPECT_TRUE(covered_.contains(route.method + " " + route.pattern))
+        << route.method << " " << route.pattern << " is not covered by this test";
+  }
+}
+
+TEST_F(OpenApi, FitsTheErrorsOfEveryStatus) {
+  expect_described("GET", "/api/v1/server",
+                   call("GET", "/api/v1/server", {.body = {}, .headers = {}, .token = "wrong"}));
+  expect_described("GET", "/api/v1/runs/{id}", get("/api/v1/runs/none"));
+  expect_described("POST", "/api/v1/runs", call("POST", "/api/v1/runs"));
+  expect_described("POST", "/api/v1/uploads",
+                   post("/api/v1/uploads", {{"program", "O1"}, {"control", "fagor"}}));
+}
+
+TEST_F(OpenApi, IsRefusedWithAKeywordNobodyChecks) {
+  EXPECT_NE(test_support::schema_violation(document_, Json{{"type", "string"}, {"oneOf", 1}}, "x"),
+            "");
+}
+
+}  // namespace
+}  // namespace dripline::server_test

@@ -1,0 +1,83 @@
+// The files below deploy/examples are what users begin with: they must be taken as they are.
+#include <gtest/gtest.h>
+#include <fstream>
+#include <sstream>
+
+#include "server/app/settings.hpp"
+#include "server/library/dialect_catalog.hpp"
+#include "server/ports/port_settings.hpp"
+#include "server/ports/requests/rule_reader.hpp"
+
+namespace dripline {
+namespace {
+
+std::string read(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
+  app::Settings settings;
+  const auto taken =
+      app::apply_toml(settings, read("deploy/examples/ports.toml"), "deploy/examples");
+  ASSERT_TRUE(taken) << taken.error().what;
+  ASSERT_EQ(settings.ports.size(), 3u);
+  for (const auto& port : settings.ports) {
+    const auto line = ports::effective_settings(port);
+    EXPECT_TRUE(line) << port.name << ": " << line.error().what;
+    const auto rules = ports::read_rules(port.rules);
+    EXPECT_TRUE(rules) << port.name << ": " << rules.error().what;
+  }
+  EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
+}
+
+TEST(Examples, BaudOfAPortChangesWhatItsLineSays) {
+  app::Settings settings;
+  const auto taken = app::apply_toml(
+      settings, "[[port]]\nmachine='m'\naddress='/dev/x'\nbaud=4800\nline='9600e72'\n");
+  ASSERT_TRUE(taken) << taken.error().what;
+  const auto line = ports::effective_settings(settings.ports.at(0));
+  EXPECT_EQ(wire::short_form(line.value()), "4800e72");
+}
+
+// HD-217: a port with a TNC's template has the rates of its MOD function.
+TEST(Ports, OfATncHaveItsEightRates) {
+  storage::Port port;
+  port.name = "line-1";
+  port.line_template = "tnc155-bcc";
+  for (const char* baud : {"110", "150", "300", "600", "1200", "2400", "4800", "9600"}) {
+    port.settings = {{"baud", baud}};
+    EXPECT_TRUE(ports::effective_settings(port)) << baud;
+  }
+  port.settings = {{"line", "19200e71"}};
+  EXPECT_EQ(ports::effective_settings(port).error().what,
+            "port 'line-1': baud 19200: a TNC 151/155 has 110, 150, 300, 600, 1200, 2400, 4800, "
+            "9600");
+  port.line_template = "plain";
+  EXPECT_TRUE(ports::effective_settings(port)) << "other controls of the family are quicker";
+}
+
+TEST(Examples, CallsDoWhatTheirCommentsSay) {
+  const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
+  ASSERT_TRUE(rules) << rules.error().what;
+  const auto verdict = [&](const std::string& text) {
+    const auto found = rules->explain(text);
+    return found.action + " " + found.argument;
+  };
+  EXPECT_EQ(verdict("%\nO9999\n(PRG=0042)\nM30\n%\n"), "send O0042");
+  EXPECT_TRUE(verdict("%\nO9999\n(DIR=)\nM30\n%\n").starts_with("directory"));
+  EXPECT_TRUE(verdict("%\nO9999\n(BLOCK=N1200)\nM30\n%\n").starts_with("restart"));
+  EXPECT_TRUE(verdict("PROBE X1.5\n").starts_with("report"));
+}
+
+// HD-081, HD-086: every option of the control is in it.
+TEST(Examples, SetupOfATncIsTaken) {
+  const std::string text = read("deploy/examples/tnc155.toml");
+  ASSERT_FALSE(text.empty());
+  const auto taken = library::DialectCatalog().check_setup("tnc155", text);
+  EXPECT_TRUE(taken) << taken.error().what;
+}
+
+}  // namespace
+}  // namespace dripline

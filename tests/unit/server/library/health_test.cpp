@@ -1,0 +1,76 @@
+#include "server/library/health.hpp"
+
+#include <gtest/gtest.h>
+
+#include "server/library/health_watch.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/server/api/server_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using library::Health;
+using Level = Health::Level;
+
+constexpr std::uint64_t kMega = 1024 * 1024;
+
+class HealthState : public ServerTest {
+ protected:
+  Health health_{clock_};
+};
+
+TEST_F(HealthState, IsAsBadAsTheWorstOfItsFindings) {
+  EXPECT_EQ(health_.state().level, Level::Ok);
+  health_.report("lathe-1", {Level::Degraded, "records", "a", "lathe-1"});
+  health_.report("lathe-2", {Level::Degraded, "records", "a", "lathe-2"});
+  EXPECT_EQ(health_.state().level, Level::Degraded);
+  health_.report("", {Level::Failed, "store", "b", ""});
+  EXPECT_EQ(health_.state().level, Level::Failed);
+  EXPECT_EQ(health_.state().findings.size(), 3u);
+  health_.report("", {Level::Ok, "store", "", ""});
+  health_.report("lathe-1", {Level::Ok, "records", "", ""});
+  const auto state = health_.state();
+  EXPECT_EQ(state.level, Level::Degraded);
+  ASSERT_EQ(state.findings.size(), 1u);
+  EXPECT_EQ(state.findings[0].detail, "lathe-2");
+}
+
+TEST_F(HealthState, AWatchThatNoLongerLooksIsAFailure) {
+  health_.looked();
+  clock_.advance(Health::kSilence);
+  EXPECT_EQ(health_.state().level, Level::Ok);
+  clock_.advance(std::chrono::seconds(1));
+  EXPECT_EQ(health_.state().level, Level::Failed);
+  EXPECT_EQ(health_.state().findings.at(0).subject, "store");
+}
+
+TEST_F(HealthState, TheWatchTellsWhatTheStoreSays) {
+  const test_support::TemporaryFolder folder;
+  {
+    auto opened = storage::SqliteStore::open({.file = folder.path() / "store.sqlite"}, clock_);
+    ASSERT_TRUE(opened);
+    const auto store = *std::move(opened);
+    const library::HealthWatch watch(
+        {.health = health_, .probe = [&] { return store->probe(); }, .folder = folder.path()});
+    for (const auto& finding : health_.state().findings) EXPECT_NE(finding.subject, "store");
+  }
+  const library::HealthWatch watch(
+      {.health = health_,
+       .probe = []() -> Result<void> { return fail(Errc::Io, "disk full: /somewhere"); },
+       .folder = folder.path()});
+  const auto state = health_.state();
+  EXPECT_EQ(state.level, Level::Failed);
+  EXPECT_EQ(state.findings.back().detail, "disk full: /somewhere");
+  EXPECT_EQ(state.findings.back().what.find("/"), std::string::npos);
+}
+
+TEST(HealthDisk, WarnsBeforeItIsFull) {
+  EXPECT_EQ(library::judge_disk(1'000'000 * kMega, 3000 * kMega).level, Level::Ok);
+  EXPECT_EQ(library::judge_disk(1'000'000 * kMega, 2000 * kMega).level, Level::Degraded);
+  EXPECT_EQ(library::judge_disk(1000 * kMega, 100 * kMega).level, Level::Ok);
+  EXPECT_EQ(library::judge_disk(1000 * kMega, 40 * kMega).level, Level::Degraded);
+  EXPECT_EQ(library::judge_disk(1000 * kMega, 7 * kMega).level, Level::Failed);
+}
+
+}  // namespace
+}  // namespace dripline::server_test

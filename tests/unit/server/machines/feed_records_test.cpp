@@ -1,0 +1,243 @@
+// What the machines report, and when it is acknowledged.
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/machines/feed_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+/// A store on a disk that is full while `is_full`.
+struct FullDiskStore final : test_support::StoreDecorator {
+  using StoreDecorator::StoreDecorator;
+  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+    if (is_full && !batch.records.empty()) {
+      ++refused;
+      return fail(Errc::Io, "database or disk is full");
+    }
+    return StoreDecorator::store_records(batch);
+  }
+  std::atomic<bool> is_full{false};
+  std::atomic<int> refused{0};
+};
+
+class FeedRecords : public FeedTest {
+ protected:
+  std::string running(const std::string& text) {
+    push("O0100", text);
+    if (!service_) start_service();
+    announce();
+    answer_commands(true);
+    const auto run = start("O0100");
+    EXPECT_TRUE(run) << run.error().what;
+    return run ? run->id : "";
+  }
+};
+
+TEST_F(FeedRecords, AreAcknowledgedOnceTheyAreStored) {
+  const std::string run = running("M30\n");
+  for (std::uint64_t n = 1; n <= 100; ++n) {
+    record(n, run, dds::RecordKind::Output, fmt::format("LINE {}", n));
+  }
+  ASSERT_TRUE(wait_ack(100));
+  const auto stored = store_->records(run, "output", {.limit = 1000, .offset = 0});
+  ASSERT_TRUE(stored);
+  ASSERT_EQ(stored->size(), 100u);
+  EXPECT_EQ(stored->back().text, "LINE 100");
+}
+
+TEST_F(FeedRecords, AreStoredOnceHoweverOftenTheyCome) {
+  const std::string run = running("M30\n");
+  for (int i = 0; i < 3; ++i) {
+    for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
+  }
+  ASSERT_TRUE(wait_ack(5));
+  service_->end();
+  EXPECT_EQ(store_->records(run, "output", {.limit = 1000, .offset = 0})->size(), 5u);
+}
+
+TEST_F(FeedRecords, AfterAGapAreNotAcknowledged) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::Output, "one");
+  record(3, run, dds::RecordKind::Output, "three");
+  ASSERT_TRUE(wait_ack(1));
+  record(2, run, dds::RecordKind::Output, "two");
+  record(3, run, dds::RecordKind::Output, "three");
+  ASSERT_TRUE(wait_ack(3));
+  EXPECT_EQ(store_->records(run, "output", {})->size(), 3u);
+}
+
+TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
+  start_service();
+  announce();
+  record(1, "a-run-of-another-server", dds::RecordKind::Output, "X");
+  record(2, "a-run-of-another-server", dds::RecordKind::RunEnded, completed("X", 1));
+  EXPECT_TRUE(wait_ack(2));
+}
+
+TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
+  FullDiskStore store(*store_);
+  start_service(store);
+  const std::string run = running("M30\n");
+  store.is_full = true;
+  for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (store.refused == 0 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+  EXPECT_GT(store.refused, 0);
+  EXPECT_TRUE(written_->acks.empty());
+  store.is_full = false;
+  EXPECT_TRUE(wait_ack(5));
+  EXPECT_EQ(store_->records(run, "output", {})->size(), 5u);
+  service_.reset();  // before the store it uses
+}
+
+TEST_F(FeedRecords, ThatCanNeverBeStoredDoNotHoldUpTheOthers) {
+  const std::string run = running("M30\n");
+  dds::Record impossible;
+  impossible.machine = "lathe-1";
+  impossible.epoch = 1ULL << 63;
+  impossible.number = 1;
+  network_.on_record(impossible);
+  record(1, run, dds::RecordKind::Output, "X");
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(written_->acks.back().epoch, kEpoch);
+}
+
+TEST_F(FeedRecords, TellANewcomerWhatIsOnDiskAlready) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::Output, "X");
+  ASSERT_TRUE(wait_ack(1));
+  {
+    const std::lock_guard lock(written_->mutex);
+    written_->acks.clear();
+  }
+  announce();
+  EXPECT_TRUE(wait_ack(1));
+}
+
+TEST_F(FeedRecords, EndARunWithItsCountersAndAVerdictOnItsBytes) {
+  const std::string text = "O1\nM30\n";
+  const std::string run = running(text);
+  record(1, run, dds::RecordKind::RunStarted,
+         dds::encode(dds::RunStartText{
+             .program = "O0100", .revision = sha256(text).hex(), .control = "centurion"}));
+  record(2, run, dds::RecordKind::RunEnded, completed(text, 2));
+  ASSERT_TRUE(wait_ack(2));
+  const auto ended = store_->run(run);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->state, storage::RunState::Completed);
+  EXPECT_EQ(ended->counters.executed, 2u);
+  EXPECT_TRUE(ended->started.has_value());
+  EXPECT_EQ(ended->content_verified, true);
+  EXPECT_TRUE(
+      wait_told(runs_, [](const Run& r) { return r.state == storage::RunState::Completed; }));
+}
+
+TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
+  const std::string text = "O1\nG0 X1\nM30\n";
+  const std::string run = running(text);
+  dds::RunEndText cut;
+  cut.outcome = dds::RunOutcome::Interrupted;
+  cut.reason = "interrupted at block 1";
+  cut.executed = 1;
+  cut.content_length = 5;
+  cut.content_sha256 = sha256(text.substr(0, 5)).hex();
+  record(1, run, dds::RecordKind::RunEnded, dds::encode(cut));
+  ASSERT_TRUE(wait_ack(1));
+  const auto ended = store_->run(run);
+  EXPECT_EQ(ended->state, storage::RunState::Interrupted);
+  EXPECT_EQ(ended->reason, "interrupted at block 1");
+  EXPECT_EQ(ended->content_verified, true);
+}
+
+/// The gateway's clock is an hour off; what the run shows is in our time.
+TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
+  const std::string run = running("M30\n");
+  const UtcTime created = store_->run(run)->created;
+  gateway_ahead_ = std::chrono::hours(-1);
+  for (int i = 0; i < 4; ++i) heartbeat();
+  clock_.advance(std::chrono::seconds(10));
+  record(1, run, dds::RecordKind::RunStarted, dds::encode(dds::RunStartText{}));
+  clock_.advance(std::chrono::seconds(10));
+  record(2, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  ASSERT_TRUE(wait_ack(2));
+  const auto ended = store_->run(run);
+  ASSERT_TRUE(ended->started && ended->ended);
+  EXPECT_GE(*ended->started, created);
+  EXPECT_EQ(*ended->ended, created + std::chrono::seconds(20));
+  EXPECT_EQ(store_->records(run, "", {})->at(1).time, *ended->ended - std::chrono::hours(1))
+      << "the record keeps the gateway's own";
+}
+
+TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
+  const std::string run = running("M30\n");
+  announce("mill-9");
+  dds::Record forged;
+  forged.machine = "mill-9";
+  forged.epoch = kEpoch;
+  forged.number = 1;
+  forged.time = clock_.now();
+  forged.run = run;
+  forged.kind = dds::RecordKind::Output;
+  forged.text = "FORGED";
+  network_.on_record(forged);
+  forged.number = 2;
+  forged.kind = dds::RecordKind::RunEnded;
+  forged.text = completed("M30\n", 1);
+  network_.on_record(forged);
+  ASSERT_TRUE(wait_ack(2)) << "kept";
+  dds::Status status;
+  status.machine = "mill-9";
+  status.session = kSession;
+  status.run = run;
+  status.sent = 1000;
+  status.executed = 77;
+  network_.on_status(status);
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
+  EXPECT_TRUE(store_->records(run, "", {})->empty());
+  record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  EXPECT_TRUE(wait_told(
+      runs_, [&](const Run& r) { return r.id == run && r.state == storage::RunState::Completed; }));
+  service_->end();
+  EXPECT_EQ(store_->run(run)->counters.executed, 1u);
+  for (const auto& told : records_) EXPECT_NE(told.text, "FORGED");
+}
+
+/// A list of chunks that is not the revision's: nothing is begun.
+TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
+  const auto revision = push("O0100", "O1\nM30\n");
+  ASSERT_TRUE(revision.size > 0);
+  struct DamagedStore final : test_support::StoreDecorator {
+    using StoreDecorator::StoreDecorator;
+    Result<void> verify_content(const Digest& content) override {
+      return fail(Errc::Corrupt, "content {}: chunk 3 is not the one that was stored there",
+                  content.hex());
+    }
+  };
+  DamagedStore damaged(*store_);
+  start_service(damaged);
+  announce();
+  answer_commands(true);
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Corrupt);
+  EXPECT_NE(run.error().what.find("chunk 3"), std::string::npos);
+  EXPECT_TRUE(written_->commands.empty());
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+  service_.reset();
+}
+
+TEST_F(FeedRecords, SayWhenTheMachineExecutedOtherBytes) {
+  const std::string run = running("O1\nM30\n");
+  record(1, run, dds::RecordKind::RunEnded, completed("O1\nM31\n", 2));
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(store_->run(run)->content_verified, false);
+}
+
+TEST_F(FeedRecords, WithATextNobodyUnderstandsAreStoredAllTheSame) {
+  const std::string run = running("M30\n");
+  record(1, run, dds::RecordKind::RunEnded, "{broken");
+  ASSERT_TRUE(wait_ack(1));
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
+}
+
+}  // namespace
+}  // namespace dripline::server_test

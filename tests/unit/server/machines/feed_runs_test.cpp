@@ -1,0 +1,440 @@
+// Starting runs, ordering, and bringing stored states and machines together.
+#include "server/machines/machine_notices.hpp"
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/machines/feed_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class FeedRuns : public FeedTest {
+ protected:
+  void status(const std::string& run, std::uint32_t outbox = 0) {
+    dds::Status status;
+    status.machine = "lathe-1";
+    status.time = clock_.now();
+    status.run = run;
+    status.outbox = outbox;
+    network_.on_status(status);
+  }
+  /// An Ordered run of a former life of the server.
+  std::string stored_run() {
+    const auto revision = push("O0100", "M30\n");
+    add_machine("lathe-1");
+    Run run;
+    run.id = "old-run";
+    run.machine = "lathe-1";
+    run.program = revision.program;
+    run.revision = revision.number;
+    run.content = revision.content;
+    run.size = revision.size;
+    run.control = "centurion";
+    run.created = clock_.now();
+    EXPECT_TRUE(store_->create_run(run));
+    return run.id;
+  }
+  /// Waits until the stored run is in this state; the service compares every two seconds.
+  bool wait_state(const std::string& run, storage::RunState state) {
+    return wait_told(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
+  }
+};
+
+TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
+  const auto revision = push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const auto run = start("O0100");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(run->state, storage::RunState::Active);
+  EXPECT_EQ(run->author, "cam");
+  const dds::Command& command = written_->commands.at(0);
+  EXPECT_EQ(command.action, dds::CommandAction::Start);
+  EXPECT_EQ(command.run, run->id);
+  EXPECT_EQ(command.revision, revision.content.hex());
+  EXPECT_EQ(command.size, 4u);
+  EXPECT_EQ(command.session, kSession);
+  EXPECT_NE(command.server, 0u);
+  EXPECT_EQ(command.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
+}
+
+TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
+  push("O0100", "N5 M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  machines::StartRequest elsewhere;
+  elsewhere.machine = "lathe-1";
+  elsewhere.program = "O0100";
+  elsewhere.author = "cam";
+  elsewhere.from.tool = 12;
+  elsewhere.from.pass = 3;
+  elsewhere.memory = machines::StartMemory::Begin;
+  ASSERT_TRUE(service_->start(elsewhere));
+  EXPECT_EQ(written_->commands.at(0).argument, "T12 pass=3 memory=begin");
+}
+
+TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(false, "the door is open");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Busy);
+  EXPECT_NE(run.error().what.find("the door is open"), std::string::npos);
+  const auto runs = store_->runs({}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().state, storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLate) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_EQ(store_->runs({}, {})->front().state, storage::RunState::Refused);
+  const dds::Command command = written_->commands.at(0);
+  network_.on_command_result(
+      {.machine = command.machine, .id = command.id, .accepted = true, .reason = {}});
+  ASSERT_TRUE(written_->wait([&] { return written_->commands.size() == 2; }));
+  EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
+  EXPECT_EQ(written_->commands[1].run, command.run);
+}
+
+TEST_F(FeedRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  ASSERT_FALSE(start("O0100"));  // taken by the gateway, but its answer was lost with the link
+  const std::string run = store_->runs({}, {})->front().id;
+  status(run);
+  ASSERT_TRUE(written_->wait([&] { return written_->commands.size() >= 2; }));
+  EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
+  EXPECT_EQ(written_->commands[1].run, run);
+}
+
+TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
+  push("O0100", "M30\n");
+  start_service();
+  EXPECT_EQ(start("O0100").error().code, Errc::NotFound);
+  announce();
+  network_.on_lost("lathe-1");
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Timeout);
+  EXPECT_NE(run.error().what.find("last seen 2023-11-14T"), std::string::npos) << run.error().what;
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+}
+
+TEST_F(FeedRuns, AreOnlyOfProgramsForTheMachinesControl) {
+  push("H1", "0 BEGIN PGM\n", "tnc155");
+  start_service();
+  announce();
+  const auto run = start("H1");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("tnc155"), std::string::npos);
+}
+
+TEST_F(FeedRuns, AreOneAtATimeOnAMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  ASSERT_TRUE(start("O0100"));
+  EXPECT_EQ(start("O0100").error().code, Errc::Busy);
+}
+
+TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const std::string run = start("O0100")->id;
+  ASSERT_TRUE(service_->command(
+      {.run = run, .action = dds::CommandAction::FeedOverride, .argument = {}, .value = 0.5}));
+  EXPECT_EQ(written_->commands.back().value, 0.5);
+  EXPECT_EQ(written_->commands.back().run, run);
+  record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
+  ASSERT_TRUE(wait_ack(1));
+  const auto late =
+      service_->command({.run = run, .action = dds::CommandAction::Hold, .argument = {}, .value = 0});
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().code, Errc::Conflict);
+  machines::CommandRequest stray;
+  stray.run = "none";
+  EXPECT_EQ(service_->command(stray).error().code, Errc::NotFound);
+}
+
+/// A switch of the panel is there without a run.
+TEST_F(FeedRuns, AreNotNeededToOrderSomethingOfAMachinesPanel) {
+  start_service();
+  machines::CommandRequest request;
+  request.machine = "lathe-1";
+  request.action = dds::CommandAction::Switch;
+  request.argument = "emergency_stop";
+  request.value = 1;
+  EXPECT_EQ(service_->command(request).error().code, Errc::NotFound);
+  announce();
+  answer_commands(true);
+  ASSERT_TRUE(service_->command(request));
+  EXPECT_EQ(written_->commands.back().machine, "lathe-1");
+  EXPECT_EQ(written_->commands.back().run, "");
+  EXPECT_EQ(written_->commands.back().argument, "emergency_stop");
+  EXPECT_EQ(written_->commands.back().value, 1);
+  network_.on_lost("lathe-1");
+  EXPECT_EQ(service_->command(request).error().code, Errc::Timeout);
+}
+
+TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
+  const std::string run = stored_run();
+  start_service();
+  announce();
+  status(run);
+  EXPECT_TRUE(wait_state(run, storage::RunState::Active));
+}
+
+TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThem) {
+  const std::string run = stored_run();
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
+  std::mutex state_mutex;
+  machines::RunWatch watch({.store = *store_,
+                         .clock = clock_,
+                         .desk = desk,
+                         .state_mutex = state_mutex,
+                         .on_change = [](const Run&) {},
+                         .on_unwanted = [](const Run&) {}});
+  ASSERT_TRUE(watch.load());
+  machines::MachineView view;
+  view.machine.name = "lathe-1";
+  view.is_connected = true;
+  view.status.emplace();
+  view.status->outbox = 3;
+  const auto compare_twice = [&] {
+    watch.compare({view});
+    clock_.advance(machines::RunWatch::kAbsence);
+    watch.compare({view});
+    return store_->run(run)->state;
+  };
+  EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
+  view.is_connected = false;
+  view.status->outbox = 0;
+  EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
+  view.is_connected = true;
+  EXPECT_EQ(compare_twice(), storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
+  struct FullDisk final : test_support::StoreDecorator {
+    using StoreDecorator::StoreDecorator;
+    Result<void> set_run_state(const std::string& id, storage::RunState state,
+                               const std::string& reason) override {
+      if (is_full) return fail(Errc::Io, "disk full");
+      return StoreDecorator::set_run_state(id, state, reason);
+    }
+    bool is_full = true;
+  };
+  const std::string run = stored_run();
+  FullDisk store(*store_);
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
+  std::mutex state_mutex;
+  machines::RunWatch watch({.store = store,
+                         .clock = clock_,
+                         .desk = desk,
+                         .state_mutex = state_mutex,
+                         .on_change = [](const Run&) {},
+                         .on_unwanted = [](const Run&) {}});
+  ASSERT_TRUE(watch.load());
+  machines::MachineView view;
+  view.machine.name = "lathe-1";
+  view.is_connected = true;
+  view.status.emplace();
+  watch.compare({view});
+  clock_.advance(machines::RunWatch::kAbsence);
+  watch.compare({view});
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Ordered);
+  store.is_full = false;
+  watch.compare({view});
+  EXPECT_EQ(store_->run(run)->state, storage::RunState::Refused);
+}
+
+TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  machines::CommandDispatcher::Options options;
+  options.repeat = std::chrono::milliseconds(5);
+  options.gateway_of = [](const std::string&) {
+    return machines::CommandDispatcher::Options::Gateway{2, std::chrono::microseconds{0}};
+  };
+  machines::CommandDispatcher desk(endpoint, clock_, options, [](const dds::Command&) {});
+  written_->on_command = [&](const dds::Command& heard) {
+    if (heard.session != 2) return;  // the first is gone
+    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Command command;
+  command.machine = "lathe-1";
+  command.action = dds::CommandAction::Start;
+  command.session = 1;
+  EXPECT_TRUE(desk.carry_out(command));
+  EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id) << "the same order, said again";
+}
+
+TEST_F(FeedRuns, AreOrderedInSequence) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  answer_commands(true);
+  const std::string run = start("O0100")->id;
+  for (const auto action : {dds::CommandAction::Hold, dds::CommandAction::Resume}) {
+    ASSERT_TRUE(service_->command({.run = run, .action = action, .argument = {}, .value = 0}));
+  }
+  const auto& commands = written_->commands;
+  ASSERT_EQ(commands.size(), 3u);
+  EXPECT_LT(commands[0].number, commands[1].number);
+  EXPECT_LT(commands[1].number, commands[2].number);
+  EXPECT_EQ(commands[2].session, kSession);
+  EXPECT_EQ(commands[2].server, commands[0].server);
+}
+
+/// A deadline by the gateway's clock needs to know that clock; a stop has none.
+TEST_F(FeedRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
+  auto endpoint = test_support::FakeServerEndpoint(written_);
+  std::atomic<bool> is_told = false;
+  machines::CommandDispatcher::Options options;
+  options.expiry = 300ms;
+  options.grace = 0ms;
+  options.repeat = 5ms;
+  options.gateway_of = [&](const std::string&) {
+    machines::CommandDispatcher::Options::Gateway gateway{.session = 2, .steady_ahead = {}};
+    if (is_told) gateway.steady_ahead = kSteadyAhead;
+    return gateway;
+  };
+  machines::CommandDispatcher desk(endpoint, clock_, options, [](const dds::Command&) {});
+  written_->on_command = [&](const dds::Command& heard) {
+    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+  };
+  dds::Command command;
+  command.machine = "lathe-1";
+  command.action = dds::CommandAction::Abort;
+  EXPECT_TRUE(desk.carry_out(command));
+  command.action = dds::CommandAction::Resume;
+  EXPECT_EQ(desk.carry_out(command).error().code, Errc::Timeout);
+  EXPECT_EQ(written_->commands.size(), 1u);
+  is_told = true;
+  EXPECT_TRUE(desk.carry_out(command));
+  EXPECT_EQ(written_->commands.back().deadline, gateway_steady() + 300ms);
+}
+
+TEST_F(FeedRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsTold) {
+  push("O0100", "M30\n");
+  start_service();
+  protocol_ = 4711;
+  announce();
+  ASSERT_TRUE(written_->wait([&] { return !written_->commands.empty(); }));
+  EXPECT_EQ(written_->commands[0].action, dds::CommandAction::Refuse);
+  EXPECT_NE(written_->commands[0].argument.find("protocol 4711"), std::string::npos);
+  const auto run = start("O0100");
+  ASSERT_FALSE(run);
+  EXPECT_EQ(run.error().code, Errc::Unsupported);
+  EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
+  EXPECT_TRUE(store_->runs({}, {})->empty());
+  answer_commands(true);
+  machines::CommandRequest stop;
+  stop.machine = "lathe-1";
+  stop.action = dds::CommandAction::Switch;
+  stop.argument = "emergency_stop";
+  stop.value = 1;
+  EXPECT_TRUE(service_->command(stop)) << "stopping always works";
+  stop.value = 0;
+  EXPECT_EQ(service_->command(stop).error().code, Errc::Unsupported);
+}
+
+TEST_F(FeedRuns, ShowHowFarTheGatewaysClockIsOff) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  EXPECT_EQ(service_->machine("lathe-1")->clock_ahead, std::nullopt);
+  for (const auto ahead : {std::chrono::hours(1), std::chrono::hours(-1)}) {
+    gateway_ahead_ = ahead;
+    for (int i = 0; i < 4; ++i) heartbeat();
+    const auto view = service_->machine("lathe-1");
+    EXPECT_EQ(view->clock_ahead, ahead);
+    EXPECT_EQ(machines::notices_of(*view).at(0),
+              fmt::format("the gateway's clock is 3600.0 s {} the server's",
+                          ahead.count() > 0 ? "ahead of" : "after"));
+  }
+  gateway_ahead_ = 300ms;
+  for (int i = 0; i < 4; ++i) heartbeat();
+  EXPECT_TRUE(machines::notices_of(*service_->machine("lathe-1")).empty());
+}
+
+TEST_F(FeedRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
+  push("O0100", "M30\n");
+  start_service();
+  announce();
+  network_.on_rival("lathe-1", true);
+  answer_commands(true);
+  ASSERT_TRUE(start("O0100"))
+      << "the successor of a killed gateway waits, and the killed is silent";
+  heartbeat();
+  EXPECT_TRUE(service_->machine("lathe-1")->is_contested);
+  network_.on_rival("lathe-1", false);
+  clock_.advance(machines::MachineRegistry::kContested);
+  EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
+}
+
+TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
+  start_service();
+  announce();
+  status("", 5);
+  EXPECT_TRUE(wait_told(machines_, [](const machines::MachineView& view) {
+    return view.is_connected && view.status && view.status->outbox == 5;
+  }));
+  service_->end();  // saves at the latest now
+  const auto machine = store_->machine("lathe-1");
+  ASSERT_TRUE(machine);
+  EXPECT_EQ(machine->control, "centurion");
+}
+
+// HD-052, HD-053: only where the setup says that the control keeps its programs.
+TEST_F(FeedRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
+  std::string called = "BEGIN PGM 8 MM\n";
+  for (int i = 1; i < 1000; ++i) called += "CC\n";
+  push("8.h", called, "tnc155");
+  push("7.h", "0 BEGIN PGM 7 MM\n1 CALL PGM 8\n2 END PGM 7 MM\n", "tnc155");
+  add_machine("mill-1", "tnc155");
+  start_service();
+  dds::Announce mill;
+  mill.machine = "mill-1";
+  mill.control = "tnc155";
+  mill.version = "1";
+  mill.epoch = kEpoch;
+  mill.session = kSession;
+  network_.on_announce(mill);
+  heartbeat("mill-1");
+  answer_commands(true);
+  const auto set = [&](const std::string& text) {
+    EXPECT_TRUE(setups_->save({"mill-1", "tnc155", text, ""}, "cam"));
+  };
+  const auto start_it = [&] {
+    return service_->start(
+        {.machine = "mill-1", .program = "7.h", .revision = {}, .author = "cam"});
+  };
+  set("[control]\nmemory_limits = true\n");
+  const auto refused = start_it();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::LimitExceeded);
+  EXPECT_EQ(refused.error().what,
+            "machine 'mill-1' cannot keep program '7.h': line 2: PROGRAM MEMORY EXCEEDED: program "
+            "8 has 1000 blocks, 999 is most (in program 8, which is called here)");
+  set("[control]\nmemory_limits = false\n");
+  EXPECT_TRUE(start_it());
+}
+
+}  // namespace
+}  // namespace dripline::server_test

@@ -1,0 +1,249 @@
+#include "server/ports/machine_feeds.hpp"
+#include "tests/unit/server/api/fake_feeds.hpp"
+#include "tests/unit/server/ports/serial_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using storage::RunState;
+
+TEST_F(SerialTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
+  start_ports();
+  add_port(mill());
+  const std::string text = blocks(100);
+  push("O1", text);
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(line().read_until("N1000 G1 X100.5 Y-100.25\n"), text);
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  const auto stored = store_->run(run->id);
+  EXPECT_EQ(stored->counters.sent, text.size());
+  EXPECT_EQ(stored->counters.accepted, 0u);  // nobody acknowledges on such a line
+  EXPECT_EQ(stored->counters.executed, 0u);  // and nobody tells what was executed
+  EXPECT_TRUE(stored->started);
+  EXPECT_EQ(records_of(run->id, "run_started").size(), 1u);
+  EXPECT_EQ(records_of(run->id, "run_ended").size(), 1u);
+}
+
+TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
+  start_ports();
+  add_port(mill());
+  const std::string text = blocks(300);
+  push("O1", text);
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  std::string came = line().read_until("N20 ");
+  line().write("\x13");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
+  came += line().read_for(std::chrono::milliseconds(50));  // what was on its way
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
+  EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
+  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
+  EXPECT_EQ(ports_->port("com1")->run, run->id);
+  line().write("\x11");
+  came += line().read_until("N3000 G1 X300.5 Y-300.25\n");
+  EXPECT_TRUE(came == text) << came.size();
+  EXPECT_TRUE(wait_state(run->id, RunState::Completed));
+  EXPECT_FALSE(ports_->port("com1")->waiting_since);
+}
+
+TEST_F(SerialTest, IsHeldResumedAndAborted) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(20000));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  line().read_until("N50 ");
+  ASSERT_TRUE(command(run->id, dds::CommandAction::Hold));
+  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::FeedHold);
+  // What was offered already leaves, half a second's worth; then the line is silent.
+  ASSERT_TRUE(wait([&] { return line().read_for(std::chrono::milliseconds(40)).empty(); }));
+  ASSERT_TRUE(command(run->id, dds::CommandAction::Resume));
+  EXPECT_NE(line().read_for(std::chrono::milliseconds(200)), "");
+  ASSERT_TRUE(command(run->id, dds::CommandAction::Abort));
+  ASSERT_TRUE(wait_state(run->id, RunState::Aborted));
+  const auto stored = store_->run(run->id);
+  EXPECT_GT(stored->counters.sent, 0u);
+  EXPECT_LT(stored->counters.sent, stored->size);
+  EXPECT_NE(stored->reason.find("the last block sent is line"), std::string::npos)
+      << stored->reason;
+  EXPECT_EQ(command(run->id, dds::CommandAction::Hold).error().code, Errc::Conflict);
+  EXPECT_EQ(command("nobody", dds::CommandAction::Hold).error().code, Errc::NotFound);
+}
+
+TEST_F(SerialTest, RefusesWhatALineCannotCarry) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(20000));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(command(run->id, dds::CommandAction::FeedOverride).error().code, Errc::Unsupported);
+  machines::CommandRequest panel;
+  panel.machine = "mill";
+  panel.action = dds::CommandAction::Switch;
+  EXPECT_EQ(ports_->feed().command(panel).error().code, Errc::Unsupported);
+}
+
+TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(20000));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  line().read_until("N100 ");
+  line().pull();
+  ASSERT_TRUE(wait_state(run->id, RunState::Interrupted));
+  const auto stored = store_->run(run->id);
+  EXPECT_NE(stored->reason.find("the cable is pulled"), std::string::npos) << stored->reason;
+  EXPECT_NE(stored->reason.find("line"), std::string::npos) << stored->reason;
+  EXPECT_GE(stored->counters.sent, 100u);
+  EXPECT_FALSE(ports_->feed().machine("mill")->is_connected);
+  EXPECT_NE(ports_->feed().machine("mill")->status->message.find("com1"), std::string::npos);
+  EXPECT_EQ(start("O1").error().code, Errc::Timeout);
+  line().put_back();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_TRUE(start("O1"));
+}
+
+machines::StartPoint at_sequence(std::uint64_t number) {
+  machines::StartPoint point;
+  point.sequence = number;
+  return point;
+}
+machines::StartPoint at_line(std::uint64_t number) {
+  machines::StartPoint point;
+  point.line = number;
+  return point;
+}
+
+TEST_F(SerialTest, BeginsWhereItIsTold) {
+  start_ports();
+  add_port(mill());
+  const std::string text = blocks(30);
+  push("O1", text);
+  const auto from_block = start("O1", at_sequence(290));
+  ASSERT_TRUE(from_block) << from_block.error().what;
+  EXPECT_EQ(line().read_until("N300 G1 X30.5 Y-30.25\n"),
+            "N290 G1 X29.5 Y-29.25\nN300 G1 X30.5 Y-30.25\n");
+  ASSERT_TRUE(wait_state(from_block->id, RunState::Completed));
+  EXPECT_EQ(store_->run(from_block->id)->counters.sent, 44u);
+  const auto from_line = start("O1", at_line(30));
+  ASSERT_TRUE(from_line);
+  EXPECT_EQ(line().read_until("25\n"), "N300 G1 X30.5 Y-30.25\n");
+  ASSERT_TRUE(wait_state(from_line->id, RunState::Completed));
+  const auto nowhere = start("O1", at_sequence(7));
+  ASSERT_FALSE(nowhere);
+  EXPECT_EQ(nowhere.error().code, Errc::NotFound);
+  EXPECT_NE(nowhere.error().what.find("N7"), std::string::npos);
+}
+
+TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  add_port(mill());
+  const std::string text =
+      "O1\nN1 G21 G90 G17\nN2 T2 M6\nN3 S1000 M3\nN4 G0 X0 Y0\nN5 G1 X1. F200\nN6 Y2.\nM30\n";
+  push("O1", text, "fanuc");
+  const auto refused = start("O1", at_sequence(6));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Errc::Conflict);
+  EXPECT_EQ(refused.error().what,
+            "line 7 and what follows rely on G21 (line 2), G17 (line 2), G90 (line 2), T2 M6 (line "
+            "3), S1000 (line 4), M3 (line 4), G1 (line 6), F200 (line 6), which would not be sent: "
+            "--send-head sends 'G21 G17 G90 / T2 M6 / S1000 M3 / G1 F200' first, --modes-set says "
+            "that all of it is in force at the control");
+  EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
+  machines::StartRequest request{
+      .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = at_sequence(6)};
+  request.memory = machines::StartMemory::Now;
+  EXPECT_EQ(ports_->feed().start(request).error().code, Errc::Unsupported);
+  request.memory = machines::StartMemory::Ask;
+  request.head = machines::StartHead::Send;
+  const auto sent = ports_->feed().start(request);
+  ASSERT_TRUE(sent) << sent.error().what;
+  EXPECT_EQ(line().read_until("M30\n"), "G21 G17 G90\nT2 M6\nS1000 M3\nG1 F200\nN6 Y2.\nM30\n");
+  ASSERT_TRUE(wait_state(sent->id, RunState::Completed));
+  EXPECT_EQ(store_->run(sent->id)->counters.sent, 11u) << "the head is none of the program";
+  request.head = machines::StartHead::Set;
+  const auto bare = ports_->feed().start(request);
+  ASSERT_TRUE(bare) << bare.error().what;
+  EXPECT_EQ(line().read_until("M30\n"), "N6 Y2.\nM30\n");
+}
+
+TEST_F(SerialTest, RefusesASecondRunAndAHeldRevision) {
+  start_ports();
+  add_port(mill());
+  push("O1", blocks(20000));
+  ASSERT_TRUE(start("O1"));
+  const auto second = start("O1");
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::Busy);
+  EXPECT_NE(second.error().what.find("com1"), std::string::npos);
+  const auto changed = ports_->save(mill());
+  ASSERT_FALSE(changed);
+  EXPECT_EQ(changed.error().code, Errc::Busy);
+  EXPECT_EQ(ports_->remove("com1").error().code, Errc::Busy);
+  EXPECT_EQ(ports_->test("com1").error().code, Errc::Busy);
+}
+
+TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
+  start_ports();
+  add_port(mill());
+  add_machine("mill");
+  push("O1", blocks(20000));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  line().read_until("N5000 ");
+  ASSERT_TRUE(wait([&] { return store_->run(run->id)->counters.sent > 1000; }));
+  storage::Run left = *store_->run(run->id);
+  EXPECT_EQ(left.state, RunState::Active);
+  ports_.reset();
+  EXPECT_EQ(store_->run(run->id)->state, RunState::Interrupted);  // a clean stop says so too
+  storage::Run other = left;                                      // as a kill would leave it
+  other.id = "cut-off";
+  other.state = RunState::Ordered;
+  other.counters = {};
+  ASSERT_TRUE(store_->create_run(other));
+  ASSERT_TRUE(store_->set_run_state(other.id, RunState::Active, ""));
+  ASSERT_TRUE(store_->update_counters(other.machine, other.id,
+                                      {.sent = 1234, .accepted = 5, .executed = 0}, 0, -1));
+  start_ports();
+  ASSERT_TRUE(wait_state(other.id, RunState::Interrupted));
+  EXPECT_EQ(store_->run(other.id)->counters.sent, 1234u);
+  EXPECT_NE(store_->run(other.id)->reason.find("1234"), std::string::npos);
+}
+
+TEST_F(SerialTest, ListsMachinesOfBothKinds) {
+  start_ports();
+  add_port(mill());
+  FakeFeeds gateways;
+  machines::MachineView lathe;
+  lathe.machine.name = "lathe";
+  lathe.is_connected = true;
+  machines::MachineView mill_of_gateways;
+  mill_of_gateways.machine.name = "mill";
+  gateways.views = {lathe, mill_of_gateways};
+  ports::MachineFeeds machines(*store_, gateways, ports_->feed());
+  auto views = machines.machines();
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[0].machine.name, "lathe");
+  EXPECT_EQ(views[1].machine.name, "mill");
+  EXPECT_TRUE(views[1].is_connected);
+  EXPECT_FALSE(views[1].is_contested);
+  push("O1", blocks(1));
+  const auto run =
+      machines.start({.machine = "mill", .program = "O1", .revision = {}, .author = "cam"});
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  EXPECT_TRUE(gateways.started.empty());
+  // One writer per machine.
+  gateways.views[1].is_connected = true;
+  EXPECT_TRUE(machines.machine("mill")->is_contested);
+  const auto contested =
+      machines.start({.machine = "mill", .program = "O1", .revision = {}, .author = "cam"});
+  ASSERT_FALSE(contested);
+  EXPECT_EQ(contested.error().code, Errc::Busy);
+}
+
+}  // namespace
+}  // namespace dripline::server_test

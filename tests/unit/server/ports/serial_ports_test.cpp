@@ -1,0 +1,160 @@
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/ports/serial_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+TEST_F(SerialTest, KeepsPortsAndOpensThemAgain) {
+  start_ports();
+  add_port(mill());
+  ports_.reset();
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(ports_->ports().size(), 1u);
+  EXPECT_EQ(ports_->port("com1")->settings.baud, 115200u);
+  ASSERT_TRUE(ports_->remove("com1"));
+  EXPECT_EQ(ports_->port("com1").error().code, Errc::NotFound);
+  EXPECT_EQ(ports_->feed().machine("mill").error().code, Errc::NotFound);
+}
+
+TEST_F(SerialTest, HasOneOwnerForALineAndOneLineForAMachine) {
+  start_ports();
+  add_port(mill());
+  auto other = mill();
+  other.name = "com2";
+  other.machine = "lathe";
+  const auto same_line = ports_->save(other);
+  ASSERT_FALSE(same_line);
+  EXPECT_EQ(same_line.error().code, Errc::Busy);
+  EXPECT_NE(same_line.error().what.find("port 'com1' of machine 'mill'"), std::string::npos);
+  other.machine = "mill";
+  other.address = "/dev/line2";
+  const auto same_machine = ports_->save(other);
+  ASSERT_FALSE(same_machine);
+  EXPECT_EQ(same_machine.error().code, Errc::Busy);
+  other.is_enabled = false;
+  EXPECT_TRUE(ports_->save(other));
+  EXPECT_EQ(ports_->ports().size(), 2u);
+}
+
+TEST_F(SerialTest, RefusesBadPortsAndChangesNothing) {
+  start_ports();
+  const auto code = [&](auto change) {
+    auto port = mill();
+    change(port);
+    const auto saved = ports_->save(port);
+    return saved ? std::optional<Errc>{} : saved.error().code;
+  };
+  EXPECT_EQ(code([](auto& port) { port.address = "pigeon://roof"; }), Errc::Syntax);
+  EXPECT_EQ(code([](auto& port) { port.line_template = "abacus"; }), Errc::NotFound);
+  EXPECT_EQ(code([](auto& port) { port.settings.emplace_back("colour", "red"); }), Errc::NotFound);
+  EXPECT_EQ(code([](auto& port) { port.settings = {{"baud", "1"}}; }), Errc::LimitExceeded);
+  EXPECT_EQ(code([](auto& port) {
+              port.settings = {{"flow", "xmodem"}, {"data_bits", "7"}};
+            }),
+            Errc::Unsupported);
+  EXPECT_EQ(code([](auto& port) { port.rules = "[[rule]]"; }), Errc::Syntax);
+  EXPECT_EQ(code([](auto& port) { port.machine = "Mill!"; }), Errc::Syntax);
+  EXPECT_TRUE(ports_->ports().empty());
+  EXPECT_TRUE(store_->ports()->empty());
+}
+
+TEST_F(SerialTest, TakesPortsFromTheConfiguration) {
+  auto port = mill();
+  port.line_template = "centurion";
+  start_ports(*store_, {port});
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(store_->ports()->size(), 1u);
+  EXPECT_EQ(store_->machine("mill")->control, "centurion");
+}
+
+/// A store in which no machine can be entered: its disk is full.
+class ClosedStore final : public test_support::StoreDecorator {
+ public:
+  using StoreDecorator::StoreDecorator;
+  Result<void> save_machine(const storage::Machine& machine) override {
+    if (is_full_) return fail(Errc::Io, "the disk is full");
+    return StoreDecorator::save_machine(machine);
+  }
+  std::atomic<bool> is_full_{false};
+};
+
+TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
+  ASSERT_TRUE(store_->save_port(mill()));
+  ClosedStore store(*store_);
+  store.is_full_ = true;
+  start_ports(store);
+  EXPECT_EQ(ports_->port("com1")->trouble, "the disk is full");
+  ports_->open_due();
+  EXPECT_FALSE(ports_->port("com1")->is_open);
+  store.is_full_ = false;
+  ports_->open_due();
+  EXPECT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  EXPECT_EQ(ports_->port("com1")->trouble, "");
+  ports_.reset();  // before the store
+}
+
+TEST_F(SerialTest, ChangesAnOpenPort) {
+  start_ports();
+  add_port(mill());
+  auto port = mill();
+  port.settings[0].second = "9600";
+  add_port(port);
+  EXPECT_EQ(ports_->port("com1")->settings.baud, 9600u);
+  push("O1", "G0\n");
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  EXPECT_EQ(line().read_until("\n"), "G0\n");
+}
+
+TEST_F(SerialTest, TestsALineInWords) {
+  start_ports();
+  add_port(mill());
+  const auto quiet = ports_->test("com1");
+  ASSERT_TRUE(quiet);
+  EXPECT_TRUE(quiet->is_passed);
+  line().write("\x13");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->line.is_stopped; }));
+  const auto held = ports_->test("com1");
+  ASSERT_TRUE(held);
+  EXPECT_FALSE(held->is_passed);
+  bool is_named = false;
+  for (const auto& words : held->findings) is_named |= words.find("XOFF") != std::string::npos;
+  EXPECT_TRUE(is_named);
+  EXPECT_EQ(ports_->test("com9").error().code, Errc::NotFound);
+}
+
+TEST_F(SerialTest, RecordsWhatPassesAndTellsIt) {
+  start_ports();
+  std::mutex mutex;
+  std::string sent;
+  ports_->on_traffic([&](const ports::PortTraffic& entry) {
+    const std::lock_guard lock(mutex);
+    if (entry.what == "sent") sent += entry.bytes;
+  });
+  add_port(mill());
+  push("O1", "G0 X1\n");
+  ASSERT_TRUE(start("O1"));
+  line().read_until("\n");
+  ASSERT_TRUE(wait([&] {
+    const std::lock_guard lock(mutex);
+    return sent == "G0 X1\n";
+  }));
+  std::string recorded;
+  for (const auto& entry : recording()) {
+    if (entry.what == "sent") recorded += entry.bytes;
+  }
+  EXPECT_EQ(recorded, "G0 X1\n");
+  EXPECT_EQ(ports_->port("com1")->sent, 6u);
+  ports_->on_traffic({});
+}
+
+TEST_F(SerialTest, JudgesATextByThePortsRules) {
+  start_ports();
+  add_port(mill("[[rule]]\nname = \"all\"\nmatches = \"^X\"\naction = \"ignore\"\n"));
+  EXPECT_EQ(ports_->test_rules("com1", "X1\n")->rule, "all");
+  EXPECT_EQ(ports_->test_rules("com9", "X1\n").error().code, Errc::NotFound);
+}
+
+}  // namespace
+}  // namespace dripline::server_test

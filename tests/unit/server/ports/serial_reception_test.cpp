@@ -1,0 +1,345 @@
+#include "tests/support/store_decorator.hpp"
+#include "tests/unit/server/ports/serial_fixture.hpp"
+
+namespace dripline::server_test {
+namespace {
+
+using storage::RunState;
+
+constexpr const char* kCalls = R"(
+reply = "O9998"
+[[set]]
+name = "calls"
+program = "O9999"
+[[set.rule]]
+name = "send"
+trigger = "PRG"
+action = "send"
+[[set.rule]]
+name = "list"
+trigger = "DIR"
+action = "directory"
+[[set.rule]]
+name = "again"
+trigger = "FROM"
+action = "restart"
+[[rule]]
+matches = "^PROBE "
+action = "report"
+probe = true
+)";
+
+TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
+  start_ports();
+  add_port(mill(kCalls));
+  push("O1", blocks(3));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  line().read_until("N30 G1 X3.5 Y-3.25\n");
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  line().write("X1.5\tY2.25\r\nPROBE Z-1.");
+  line().write("125\r\n");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "probe").size() == 1; }));
+  const auto outputs = records_of(run->id, "output");
+  ASSERT_EQ(outputs.size(), 1u);
+  EXPECT_EQ(outputs[0].text, "X1.5\tY2.25");
+  EXPECT_EQ(outputs[0].device, "com1");
+  EXPECT_EQ(records_of(run->id, "probe")[0].text, "PROBE Z-1.125");
+  EXPECT_EQ(store_->run(run->id)->outputs, 1u);
+}
+
+std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
+  std::vector<std::string> texts;
+  for (const auto& record : records) texts.push_back(record.text);
+  return texts;
+}
+
+TEST_F(SerialTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
+  start_ports();
+  add_port(mill(kCalls));
+  line().write("B 2\nPROBE Z-1.125\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
+  EXPECT_EQ(texts_of(*store_->machine_report("mill", {})),
+            (std::vector<std::string>{"B 2", "PROBE Z-1.125"}));
+  ports_.reset();  // the server stops, and starts again
+  start_ports();
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
+  line().write("B 3\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 3; }));
+  EXPECT_EQ(store_->machine_report("mill", {})->back().text, "B 3");
+  EXPECT_EQ(store_->machine_reports()->at(0).lines, 3u);
+}
+
+TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  line().write(
+      "\x12"
+      "B 2\n\x14\x12"
+      "B 3\n\x14");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
+  EXPECT_EQ(ports_->port("com1")->trouble, "") << "nothing is wrong with it";
+}
+
+TEST_F(SerialTest, KeepsWhatAFanucPrintsWhileItIsFed) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  const std::string text = blocks(40);
+  push("O1", text, "fanuc");
+  line().write("\x11");
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  std::string came = line().read_until("N50 ");
+  line().write("\x13");
+  came += line().read_for(std::chrono::milliseconds(50));
+  line().write("\x12PROBE 3.14\n\x14");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 1; }));
+  EXPECT_EQ(records_of(run->id, "output")[0].text, "PROBE 3.14");
+  line().write("\x11");
+  came += line().read_until("-40.25\n%");
+  EXPECT_EQ(came, "%\n" + text + "%");
+  line().write("\x13");
+  EXPECT_TRUE(wait_state(run->id, RunState::Completed));
+}
+
+TEST_F(SerialTest, BeginsARunInSpiteOfStrayCharacters) {
+  start_ports();
+  add_machine("mill", "fanuc");
+  auto port = mill();
+  port.line_template = "fanuc";
+  port.settings = {{"baud", "115200"}, {"answer_limit_ms", "none"}};
+  add_port(port);
+  push("O1", "O1\nM30\n", "fanuc");
+  line().write("\x12");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->line.is_stray; }));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  line().write("\x11");
+  EXPECT_EQ(line().read_until("M30\n%"), "%\nO1\nM30\n%");
+}
+
+TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
+  start_ports();
+  add_machine("mill", "prototrak-plus");
+  auto port = mill();
+  port.line_template = "prototrak";
+  port.settings = {{"baud", "115200"}};
+  add_port(port);
+  line().write("PN7 G20 ;\r\nN1 G100 X1. Y1. ;\r\n%");
+  ASSERT_TRUE(wait([&] { return store_->revision("PN7", 1).has_value(); }));
+  EXPECT_TRUE(store_->revision("PN7", 1)->is_held);
+  EXPECT_EQ(store_->revision("PN7", 1)->content, sha256("PN7 G20 ;\nN1 G100 X1. Y1. ;\n%\n"));
+  line().write("N5 G100 X1. Y1. ;\r\n%");  // one without a header is a program too
+  ASSERT_TRUE(wait([&] { return store_->revision("mill-punched", 1).has_value(); }));
+  EXPECT_TRUE(store_->machine_reports()->empty());
+}
+
+TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
+  storage::Machine machine;
+  machine.name = "mill";
+  machine.first_seen = machine.last_seen = system_clock_.now();
+  machine.epoch = static_cast<std::uint64_t>(
+      (system_clock_.now() + std::chrono::hours(1)).time_since_epoch().count());
+  ASSERT_TRUE(store_->save_machine(machine));
+  start_ports();
+  add_port(mill());
+  add_port(mill());  // changed: the same epoch
+  line().write("B 2\n");
+  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 1; }));
+  EXPECT_EQ(store_->machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
+}
+
+TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
+  start_ports();
+  add_machine("mill");
+  add_port(mill());
+  line().write("%\r\nO0042(POCKET)\r\nG0 X0\r\nM30\r\n%\r\n");
+  ASSERT_TRUE(wait([&] { return store_->revision("O0042", 1).has_value(); }));
+  const auto revision = store_->revision("O0042", 1);
+  EXPECT_TRUE(revision->is_held);
+  const auto bytes = store_->read_content(revision->content, 0, 1000);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
+            "%\nO0042(POCKET)\nG0 X0\nM30\n%\n");
+  // Once the control has been silent long enough for the line to be free.
+  EXPECT_TRUE(wait([&] { return start("O0042").error().code == Errc::Conflict; }));
+  ASSERT_TRUE(store_->accept_revision("O0042", 1, "cam"));
+  EXPECT_TRUE(wait([&] { return start("O0042").has_value(); }));
+}
+
+TEST_F(SerialTest, KeepsAPunchedProgramOfAnySize) {
+  start_ports();
+  add_machine("mill");
+  auto port = mill();
+  port.settings[0].second = "4000000";
+  add_port(port);
+  const std::string text = "%\nO0043\n" + blocks(15000) + "%\n";
+  line().write(text);
+  ASSERT_TRUE(wait([&] { return store_->revision("O0043", 1).has_value(); }));
+  EXPECT_EQ(store_->revision("O0043", 1)->content, sha256(text));
+}
+
+TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill());
+  line().write("%\nO0044\nG0 X");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 8; }));
+  line().pull();
+  ASSERT_TRUE(wait([&] {
+    for (const auto& entry : recording()) {
+      if (entry.text.find("cut off") != std::string::npos) return true;
+    }
+    return false;
+  }));
+  EXPECT_FALSE(store_->revision("O0044", 1));
+}
+
+TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill());
+  line().write("%\nO0045\nG0 X");
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 10; }));
+  line().fault(wire::LineFault::Parity);
+  line().write("1\nM30\n%\n");
+  ASSERT_TRUE(wait([&] { return store_->revision("O0045", 1).has_value(); }));
+  const auto revision = store_->revision("O0045", 1);
+  EXPECT_NE(revision->comment.find("DAMAGED"), std::string::npos) << revision->comment;
+  EXPECT_TRUE(revision->is_held);
+}
+
+TEST_F(SerialTest, SendsWhatIsCalledFromTheControl) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill(kCalls));
+  push("O1234", "N1 G0 X1\n");
+  line().write("%\nO9999\n(PRG=1234)\nM30\n%\n");
+  EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+  const auto runs = store_->runs({.machine = "mill", .program = {}, .state = {}}, {});
+  ASSERT_EQ(runs->size(), 1u);
+  EXPECT_EQ(runs->front().program, "O1234");
+  EXPECT_EQ(runs->front().author, "call from the control");
+  ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
+  line().write("%\nO9999\n(FROM=N1)\nM30\n%\n");
+  EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
+}
+
+TEST_F(SerialTest, SaysWhatCouldNotBeDoneAsAProgramOfComments) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill(kCalls));
+  line().write("%\nO9999\n(PRG=77)\nM30\n%\n");
+  const std::string answer = line().read_until("M30\n%\n");
+  EXPECT_NE(answer.find("O9998\n(PROGRAM 77 IS NOT IN THE LIBRARY)\n"), std::string::npos)
+      << answer;
+}
+
+TEST_F(SerialTest, ListsProgramsForTheControl) {
+  start_ports();
+  add_machine("mill");
+  add_port(mill(kCalls));
+  push("O7", "G0\n");
+  push("part.h", "0 BEGIN PGM 1 MM\n", "tnc155");
+  line().write("%\nO9999\n(DIR)\nM30\n%\n");
+  EXPECT_EQ(line().read_until("M30\n%\n"), "%\nO9998\n(O7 3)\nM30\n%\n");
+}
+
+/// Commits, and then says that it did not know.
+class ForgetfulStore final : public test_support::StoreDecorator {
+ public:
+  using StoreDecorator::StoreDecorator;
+  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+    auto stored = StoreDecorator::store_records(batch);
+    if (!batch.records.empty() && failures_ > 0) {
+      --failures_;
+      return fail(Errc::Io, "power fails after the commit");
+    }
+    return stored;
+  }
+  std::atomic<int> failures_{0};
+};
+
+TEST_F(SerialTest, StoresEveryLineOnceWhateverTheStoreSays) {
+  ForgetfulStore store(*store_);
+  start_ports(store);
+  add_port(mill());
+  push("O1", blocks(1));
+  const auto run = start("O1");
+  ASSERT_TRUE(run);
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  store.failures_ = 2;
+  line().write("LINE 1\nLINE 2\n");
+  ASSERT_TRUE(wait([&] { return store.failures_ < 2; }));
+  line().write("LINE 3\n");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 3; }));
+  ASSERT_TRUE(wait([&] { return store.failures_ == 0; }));
+  const auto outputs = records_of(run->id, "output");
+  ASSERT_EQ(outputs.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(outputs[i].text, fmt::format("LINE {}", i + 1));
+}
+
+/// A store whose disk is full.
+class FullStore final : public test_support::StoreDecorator {
+ public:
+  using StoreDecorator::StoreDecorator;
+  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+    if (is_full_ && !batch.records.empty()) return fail(Errc::Io, "the disk is full");
+    return StoreDecorator::store_records(batch);
+  }
+  std::atomic<bool> is_full_{false};
+};
+
+TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
+  FullStore store(*store_);
+  start_ports(store);
+  add_port(mill());
+  store.is_full_ = true;
+  std::string text;
+  for (int i = 0; i < 200; ++i) text += fmt::format("POINT {}\n", i);
+  line().write(text);
+  EXPECT_NE(line().read_until("\x13").find('\x13'), std::string::npos);
+  EXPECT_TRUE(wait([&] {
+    return ports_->port("com1")->trouble == "what comes in cannot be stored: the disk is full";
+  }));
+  store.is_full_ = false;
+  EXPECT_NE(line().read_until("\x11").find('\x11'), std::string::npos);
+  ASSERT_TRUE(wait([&] {
+    const std::lock_guard lock(told_mutex_);
+    return records_.size() == 200;
+  }));
+  EXPECT_TRUE(wait([&] { return ports_->port("com1")->trouble.empty(); }));
+  ports_.reset();  // before the store
+  EXPECT_EQ(faults_.front(), "mill: the disk is full");
+  EXPECT_EQ(faults_.back(), "mill: ") << "taken back";
+}
+
+/// A control that prints without end must not keep programs from its line.
+TEST_F(SerialTest, BeginsARunWhileTheControlPrints) {
+  start_ports();
+  auto port = mill();
+  port.settings = {{"baud", "115200"}, {"idle_end_ms", "60000"}, {"eob", "lf"}};
+  add_port(port);
+  push("O1", blocks(1));
+  line().write("LINE 1\nLINE 2\nLI");
+  ASSERT_TRUE(wait([&] {
+    const std::lock_guard lock(told_mutex_);
+    return records_.size() == 2;
+  }));
+  const auto run = start("O1");
+  ASSERT_TRUE(run) << run.error().what;
+  ASSERT_TRUE(wait_state(run->id, RunState::Completed));
+  line().write("NE 3\nO7\n");
+  ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 1; }));
+  ASSERT_TRUE(wait([&] { return !start("O1").has_value(); })) << "a program is coming in";
+}
+
+}  // namespace
+}  // namespace dripline::server_test

@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+
+#include "server/machines/start_point.hpp"
+#include "server/ports/programs/inbound_splitter.hpp"
+#include "server/ports/programs/program_head.hpp"
+#include "server/ports/programs/uploaded_program.hpp"
+#include "server/ports/requests/rule_reader.hpp"
+
+namespace dripline::ports {
+namespace {
+
+RuleSet rules(std::string_view toml) {
+  auto read = read_rules(toml);
+  EXPECT_TRUE(read) << read.error().what;
+  return read ? *std::move(read) : RuleSet{};
+}
+
+std::string error_of(std::string_view toml) {
+  const auto read = read_rules(toml);
+  return read ? "read" : read.error().what;
+}
+
+TEST(Rules, FireInOrderAndTheFirstDecides) {
+  const auto set = rules(R"(
+[[set]]
+name = "calls"
+program = "O9999"
+[[set.rule]]
+name = "send"
+trigger = "prg"
+action = "send"
+argument = "O{}"
+[[set.rule]]
+action = "directory"
+[[set]]
+name = "reports"
+[[set.rule]]
+name = "noise"
+matches = "^READY"
+action = "ignore"
+[[set.rule]]
+name = "probe"
+matches = "^P([0-9]+) "
+kind = "line"
+action = "report"
+probe = true
+)");
+  EXPECT_EQ(set.size(), 4u);
+  auto hit = set.judge(TextKind::Program, "%\nO09999\n( PRG = 12 )\nM30\n");
+  EXPECT_EQ(hit.action, RuleAction::Send);
+  EXPECT_EQ(hit.argument, "O12");
+  EXPECT_EQ(hit.rule->name, "calls/send");
+  hit = set.judge(TextKind::Program, "O9999\nM30\n");
+  EXPECT_EQ(hit.action, RuleAction::Directory);
+  EXPECT_EQ(hit.rule->name, "calls/rule 2");
+  EXPECT_EQ(set.judge(TextKind::Program, "O9998\n(PRG=12)\n").action, RuleAction::Program);
+  EXPECT_EQ(set.judge(TextKind::Line, "READY.").action, RuleAction::Ignore);
+  hit = set.judge(TextKind::Line, "P17 X1.5");
+  EXPECT_TRUE(hit.is_probe);
+  EXPECT_EQ(hit.argument, "17");
+  hit = set.judge(TextKind::Line, "X1.5");
+  EXPECT_EQ(hit.rule, nullptr);
+  EXPECT_EQ(hit.action, RuleAction::Report);
+}
+
+TEST(Rules, SayWhyEachOneFiresOrNot) {
+  const auto set = rules(R"(
+[[rule]]
+name = "call"
+program = "O9999"
+action = "send"
+[[rule]]
+name = "point"
+matches = "^X"
+action = "report"
+)");
+  const auto verdict = set.explain("X1.5 Y2\n");
+  EXPECT_EQ(verdict.rule, "point");
+  EXPECT_EQ(verdict.action, "report");
+  ASSERT_EQ(verdict.why.size(), 3u);
+  EXPECT_EQ(verdict.why[1], "call: it is no program");
+  EXPECT_EQ(verdict.why[2], "point: fires");
+  const auto other = set.explain("%\nO15\nM30\n%\n");
+  EXPECT_EQ(other.rule, "");
+  EXPECT_EQ(other.action, "program");
+  EXPECT_EQ(other.argument, "O15");
+  EXPECT_EQ(other.why[1], "call: the program is O15, not O9999");
+  EXPECT_EQ(set.explain("").action, "ignore");
+}
+
+TEST(Rules, AreRefusedWithLineAndWord) {
+  EXPECT_NE(error_of("[[rule]]\naction = \"fly\"").find("line 2: action 'fly'"), std::string::npos);
+  EXPECT_NE(error_of("[[rule]]\ncolour = \"red\"\naction = \"ignore\"").find("'colour'"),
+            std::string::npos);
+  EXPECT_NE(error_of("[[rule]]\nname = \"a\"").find("no action"), std::string::npos);
+  EXPECT_NE(error_of("[[rule]]\nmatches = \"(\"\naction = \"ignore\"").find("line 2: matches"),
+            std::string::npos);
+  EXPECT_NE(error_of("[[rule]]\nname = 3\naction = \"ignore\"").find("name must be a string"),
+            std::string::npos);
+  EXPECT_NE(error_of("rule = 3").find("[[rule]]"), std::string::npos);
+  EXPECT_NE(error_of("reply = ").find("line 1"), std::string::npos);
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += "[[rule]]\naction = \"ignore\"\n";
+  EXPECT_NE(error_of(many).find("more than 64 rules"), std::string::npos);
+  EXPECT_EQ(error_of(""), "read");
+}
+
+TEST(Rules, FindTriggersInCommentsOnly) {
+  EXPECT_EQ(find_trigger("(PRG=12)", "PRG"), "12");
+  EXPECT_EQ(find_trigger("G0 (a) ( prg = part 7 )", "PRG"), "part 7");
+  EXPECT_EQ(find_trigger("(DIR)", "DIR"), "");
+  EXPECT_EQ(find_trigger("; PRG=9\nG0", "PRG"), "9");
+  EXPECT_FALSE(find_trigger("PRG=12", "PRG"));
+  EXPECT_FALSE(find_trigger("(PRGX=12)", "PRG"));
+  EXPECT_FALSE(find_trigger("(", "PRG"));
+}
+
+TEST(Rules, TellProgramsFromWhatIsPrinted) {
+  EXPECT_TRUE(begins_program("O1234 (PART)", false));
+  EXPECT_TRUE(begins_program(":1234", false));
+  EXPECT_TRUE(begins_program("%PART-7", false));
+  EXPECT_TRUE(begins_program("0 BEGIN PGM 15 MM", false));
+  EXPECT_TRUE(begins_program("N10 G0", true));
+  EXPECT_FALSE(begins_program("N10 G0", false));
+  EXPECT_FALSE(begins_program("X1.5 Y2", true));
+  EXPECT_FALSE(begins_program("OK", false));
+  EXPECT_EQ(program_name("%\n(HEAD)\nO0015(A)\n"), "O0015");
+  EXPECT_EQ(program_name("%\n:15\n"), "O15");
+  EXPECT_EQ(program_name("0 BEGIN PGM 77 MM\n"), "77");
+  EXPECT_EQ(program_name("G0\nO15\n"), "");
+  EXPECT_TRUE(is_same_program("O0015", "15"));
+  EXPECT_FALSE(is_same_program("O15", "O150"));
+}
+
+TEST(Rules, NameBlocksToBeginAt) {
+  EXPECT_EQ(machines::parse_start_point("120")->sequence, 120u);
+  EXPECT_EQ(machines::parse_start_point("N120")->sequence, 120u);
+  EXPECT_EQ(machines::parse_start_point("l7")->line, 7u);
+  EXPECT_EQ(machines::parse_start_point("B4096")->byte, 4096u);
+  EXPECT_EQ(machines::parse_start_point("t3")->tool, 3u);
+  EXPECT_EQ(machines::parse_start_point("+25")->skipped, 25u);
+  for (const char* text : {"N120", "L7", "B4096", "T3", "+25"}) {
+    EXPECT_EQ(machines::start_text(*machines::parse_start_point(text)), text);
+  }
+  for (const char* bad : {"", "N", "X5", "12a", "N-1"})
+    EXPECT_FALSE(machines::parse_start_point(bad)) << bad;
+}
+
+TEST(Rules, MakeNamesFitForTheLibrary) {
+  EXPECT_EQ(fit_program_name("O15"), "O15");
+  EXPECT_EQ(fit_program_name("../etc/passwd"), "-etc-passwd");
+  EXPECT_EQ(fit_program_name(" .a/b "), "a-b");
+  EXPECT_EQ(fit_program_name(" ."), "");
+  EXPECT_EQ(fit_program_name(std::string(300, 'a')).size(), 128u);
+}
+
+std::string told(std::vector<Intake::Item> items) {
+  std::string text;
+  for (const auto& item : items) {
+    using What = Intake::Item::What;
+    if (item.what == What::Line) text += "L<" + item.text + ">";
+    if (item.what == What::ProgramBegan) text += "P<" + item.text + ":";
+    if (item.what == What::ProgramText) text += item.text;
+    if (item.what == What::ProgramEnded) text += ">";
+    if (item.what == What::ProgramFailed) text += "!";
+  }
+  return text;
+}
+
+std::string whole(Intake& intake, std::string_view text) {
+  std::string all = told(intake.take(text));
+  return all += told(intake.end());
+}
+
+std::string cut_off(Intake& intake, std::string_view text) {
+  std::string all = told(intake.take(text));
+  return all += told(intake.fail());
+}
+
+TEST(Intake, CutsTheSameHoweverTheTextArrives) {
+  static constexpr char kText[] =
+      "X1\r\n%\nO1\nG0\n%\nREADY\n%\nDPRNT 1\nN2\n%\n\0%\n(A)\nM30\n%\nO2\nG1";
+  const std::string text(kText, sizeof kText - 1);
+  const RuleSet none;
+  for (std::size_t step = 1; step <= text.size(); ++step) {
+    Intake intake(none);
+    std::string all;
+    for (std::size_t at = 0; at < text.size(); at += step) {
+      all += told(intake.take(std::string_view(text).substr(at, step)));
+    }
+    all += told(intake.end());
+    EXPECT_EQ(all, "L<X1>P<:%\nO1\nG0\n%\n>L<READY>L<DPRNT 1>L<N2>P<:%\n(A)\nM30\n%\n>P<:O2\nG1\n>")
+        << step;
+  }
+}
+
+TEST(Intake, TakesWhatAProtocolNamesAsAProgram) {
+  const RuleSet none;
+  Intake intake(none);
+  intake.begin("15");
+  EXPECT_EQ(whole(intake, "X1\n%\n%\n"), "P<15:X1\n%\n%\n>");
+  EXPECT_EQ(told(intake.take("X1\n")), "L<X1>");
+}
+
+TEST(Intake, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
+  const RuleSet none;
+  Intake intake(none);
+  EXPECT_EQ(cut_off(intake, "O1\nG0\nG1"), "P<:O1\nG0\n!");
+  EXPECT_EQ(cut_off(intake, "X1"), "L<X1>");
+}
+
+TEST(Intake, DropsAProgramThatIsCutOffInItsFirstLine) {
+  const RuleSet none;
+  Intake intake(none);
+  EXPECT_EQ(cut_off(intake, "O1 G0 X1"), "P<:!");
+  intake.take_programs_only(true);
+  EXPECT_EQ(cut_off(intake, "PN8 G20 ;G01 X1 Y1 F5 ;"), "P<:!");
+}
+
+TEST(Intake, TakesAProgramInOneLongLineForAProgram) {
+  const RuleSet none;
+  Intake intake(none);
+  intake.take_programs_only(true);
+  std::string text = "PN8 G20 ;";
+  while (text.size() < 3 * Intake::kMaxLine) text += "G01 X1 Y1 F5 ;";
+  EXPECT_EQ(whole(intake, text), "P<:" + text + "\n%\n>");
+}
+
+TEST(Intake, KnowsPrintedLinesFromWhatMayBeAProgram) {
+  const RuleSet none;
+  Intake intake(none);
+  (void)intake.take("V 1\nV 2");
+  EXPECT_FALSE(intake.may_be_program());
+  (void)intake.take("\nO12");
+  EXPECT_TRUE(intake.may_be_program());
+  (void)intake.take("\nG0\n");
+  EXPECT_TRUE(intake.may_be_program());
+}
+
+TEST(Intake, BoundsALine) {
+  const RuleSet none;
+  Intake intake(none);
+  const auto items = intake.take(std::string(10'000, 'X') + "\n");
+  ASSERT_EQ(items.size(), 3u);
+  for (const auto& item : items) EXPECT_LE(item.text.size(), Intake::kMaxLine);
+}
+
+TEST(Intake, LetsRulesSayWhatALineIs) {
+  const auto set = rules(R"(
+[[rule]]
+matches = "^START "
+action = "program"
+[[rule]]
+matches = "^O[0-9]+ READY"
+action = "report"
+)");
+  Intake intake(set);
+  EXPECT_EQ(whole(intake, "O12 READY\nSTART A\nX1\n"), "L<O12 READY>P<:START A\nX1\n>");
+}
+
+}  // namespace
+}  // namespace dripline::ports
