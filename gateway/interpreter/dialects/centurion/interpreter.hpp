@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "gateway/interpreter/dialects/centurion/execution/dry_run.hpp"
+#include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/status_window.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/status_window.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
 #include "gateway/interpreter/core/event.hpp"
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says

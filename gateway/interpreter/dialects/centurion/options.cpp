@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 #include "gateway/interpreter/core/option.hpp"

@@ -8,7 +8,7 @@
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 

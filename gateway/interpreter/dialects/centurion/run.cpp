@@ -1,6 +1,6 @@
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 
 namespace dripline::interpreter::centurion {
 

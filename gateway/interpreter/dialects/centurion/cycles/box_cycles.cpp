@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
 
 namespace dripline::interpreter::centurion {

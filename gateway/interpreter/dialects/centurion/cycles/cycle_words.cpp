@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_moves.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/core/override_inhibit.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -6,7 +6,7 @@
 
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_moves.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

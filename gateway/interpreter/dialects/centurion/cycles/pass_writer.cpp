@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/execution/flow.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 
 /// The cycles that follow a pattern, blocks N P to N Q of the program (spec 11.3-11.6).
 ///

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/core/override_inhibit.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 /// What the words and parameters of a thread say, shared by lines and cycles. Each reader keeps
 /// the value where programs find it (P101-P108, P123-P125) and gives false with an alarm.

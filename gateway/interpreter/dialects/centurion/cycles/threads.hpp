@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 /// Threads (spec 10.4-10.6): single lines (G32, G34-G36), cycle 1 (G92), the multiple cycle (G76).
 /// The lead is along the path; F and E of these blocks never change the feed.

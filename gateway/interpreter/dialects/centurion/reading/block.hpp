@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/execution/g_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/g_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/words.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"

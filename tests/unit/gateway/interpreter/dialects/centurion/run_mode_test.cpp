@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 

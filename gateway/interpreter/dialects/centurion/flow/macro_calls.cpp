@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "gateway/interpreter/dialects/centurion/compensation/geometry_statements.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/number.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/output_text.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 #include "protocol/base/decimal.hpp"
 

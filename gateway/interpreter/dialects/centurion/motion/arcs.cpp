@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 
 #include <algorithm>
 #include <cmath>

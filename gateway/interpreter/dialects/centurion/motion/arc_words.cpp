@@ -1,9 +1,9 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 
 namespace dripline::interpreter::centurion {

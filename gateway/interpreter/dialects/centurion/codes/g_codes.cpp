@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/g_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/g_codes.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

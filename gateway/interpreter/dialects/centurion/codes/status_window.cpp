@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/status_window.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/status_window.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/start_search.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 
 #include <fmt/core.h>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -1,9 +1,9 @@
-#include "gateway/interpreter/dialects/centurion/execution/reference_points.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 /// M functions, spindle, coolant and tools (spec 9, 10, 12).

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 
 #include <array>
 

@@ -1,11 +1,11 @@
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/centurion/execution/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/reference_points.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

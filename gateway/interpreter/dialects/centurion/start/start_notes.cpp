@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/start_notes.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_notes.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/output_text.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 
 #include <fmt/core.h>
 #include <array>

@@ -1,16 +1,16 @@
-#include "gateway/interpreter/dialects/centurion/execution/g_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/coordinates.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/reference_points.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -1,12 +1,12 @@
-#include "gateway/interpreter/dialects/centurion/execution/flow.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/m_codes.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/macro_calls.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/output_text.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 
 namespace dripline::interpreter::centurion {

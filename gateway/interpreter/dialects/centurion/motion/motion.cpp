@@ -1,12 +1,12 @@
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/travel_guard.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/travel_guard.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>

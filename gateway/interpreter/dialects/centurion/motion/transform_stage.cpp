@@ -1,8 +1,8 @@
-#include "gateway/interpreter/dialects/centurion/execution/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {

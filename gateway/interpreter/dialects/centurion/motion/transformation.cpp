@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 /// Moves to places of the machine (spec 8.5, 8.6, 8.8). They are made without compensation and
 /// without mirror, scaling and rotation.

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
 #include "gateway/interpreter/stages/event_filter.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -1,18 +1,18 @@
-#include "gateway/interpreter/dialects/centurion/execution/execution.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/execution.hpp"
 
 #include <fmt/format.h>
 
 #include "gateway/interpreter/dialects/centurion/cycles/box_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/drilling_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/flow.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/g_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/groove_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/macro_calls.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/execution/reference_points.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 
 namespace dripline::interpreter::centurion {
