@@ -1,53 +1,12 @@
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/interpreter/core/panel_tables.hpp"
-#include "gateway/interpreter/core/program_storage.hpp"
-#include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 
 namespace dripline::interpreter {
-
-/// What the control moves: decides the axes of a simulated machine.
-enum class MachineKind : std::uint8_t { Mill, Lathe };
-
-/// The knob for feeds on a control's panel.
-struct FeedOverrideSwitch {
-  double step = 0;  ///< between its positions, as a factor; 0: turns freely
-  double most = 2;
-  std::optional<Length> fastest;  ///< per minute; no position goes beyond it
-};
-
-/// One control family. A new dialect is a new folder and one line in registry.cpp.
-struct Dialect {
-  std::string_view name;   ///< as in configurations and `--control`
-  std::string_view title;  ///< for people
-  /// 0 = certainly not this control's text, 100 = certainly. `head` is the first bytes of the
-  /// program.
-  int (*likelihood)(std::string_view head, std::string_view file_name);
-  /// Errors: Syntax, Unsupported (an option or record of the setup that this control does not
-  /// have).
-  Result<std::unique_ptr<Interpreter>> (*make)(const Setup& setup, ProgramSource& source,
-                                               EventSink& sink);
-  /// Units of the control's own memory at power on: of a setup file that names none.
-  Units units = Units::Millimetre;
-  MachineKind machine = MachineKind::Mill;
-  FeedOverrideSwitch feed_override_switch = {};
-  bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START goes on
-  /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
-  /// Syntax.
-  Result<std::string> (*list)(std::string_view text) = nullptr;
-  /// Switches of the panel that a setup can be given tables for; nullptr: the panel is as
-  /// `feed_override_switch` says. Errors: Syntax, LimitExceeded.
-  Result<PanelTables> (*panel_tables)(const Setup& setup) = nullptr;
-  /// Of a control that keeps programs in numbered blocks; nullptr: a program is its lines.
-  const ProgramStorage* keeping = nullptr;
-};
 
 std::span<const Dialect> dialects();
 /// Errors: NotFound, naming the known ones.

@@ -5,7 +5,7 @@
 
 #include "protocol/wire/impl/line_character.hpp"
 #include "protocol/wire/impl/protocols.hpp"
-#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/setting_value.hpp"
 #include "protocol/wire/tape_code.hpp"
 
 namespace dripline::wire {

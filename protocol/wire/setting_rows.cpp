@@ -1,7 +1,7 @@
 #include <array>
 
 #include "protocol/wire/impl/line_limits.hpp"
-#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/setting_value.hpp"
 #include "protocol/wire/line_settings.hpp"
 
 /// The keys of a port's settings: one row each.

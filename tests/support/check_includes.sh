@@ -12,8 +12,15 @@ protocol/serial: protocol/base protocol/wire protocol/serial
 protocol/dds: protocol/base protocol/dds
 storage/sqlite: protocol/base storage/sqlite
 storage: protocol/base storage
+gateway/interpreter/core: protocol/base gateway/interpreter/core
+gateway/interpreter/stages: protocol/base gateway/interpreter/core gateway/interpreter/stages
+gateway/interpreter/dialects/centurion: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/centurion
+gateway/interpreter/dialects/fanuc: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/fanuc
+gateway/interpreter/dialects/prototrak: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/prototrak
+gateway/interpreter/dialects/rs274ngc: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/rs274ngc
+gateway/interpreter/dialects/tektronix1704: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/tektronix1704
+gateway/interpreter/dialects/tnc155: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/tnc155
 gateway/interpreter: protocol/base gateway/interpreter
-clients/tools/graphics: protocol/base gateway/interpreter clients/tools/graphics
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
@@ -23,7 +30,9 @@ server/machines: protocol storage gateway/interpreter server/library server/mach
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/api
 server/app: protocol storage server
-clients: protocol/base protocol/wire protocol/serial gateway/interpreter clients/tools/graphics clients
+clients/lib: protocol/base clients/lib
+clients/tools: protocol/base protocol/wire gateway/interpreter clients/tools
+clients/cli: protocol/base protocol/wire protocol/serial gateway/interpreter clients
 '
 declare -A allowed_by
 while IFS=: read -r row folders; do

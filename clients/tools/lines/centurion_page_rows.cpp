@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "clients/tools/lines/centurion_page.hpp"
-#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/setting_value.hpp"
 
 /// The entries of the Centurion's serial page: one row each.
 namespace dripline::wire {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "protocol/wire/impl/tnc_frames.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 
 namespace dripline::wire {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "protocol/wire/impl/discipline_base.hpp"
-#include "protocol/wire/impl/tnc_frames.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 #include "protocol/wire/tnc_program.hpp"
 
 namespace dripline::wire {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "protocol/wire/impl/protocols.hpp"
-#include "protocol/wire/impl/tnc_frames.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 #include "protocol/wire/tape_code.hpp"
 
 namespace dripline::wire {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/registry.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
 
 namespace dripline::interpreter {
 

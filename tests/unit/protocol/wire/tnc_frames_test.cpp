@@ -1,4 +1,4 @@
-#include "protocol/wire/impl/tnc_frames.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 
 #include <gtest/gtest.h>
 #include <vector>

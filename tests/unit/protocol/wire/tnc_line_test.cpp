@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "protocol/wire/impl/tnc_frames.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 #include "tests/support/line/line_simulator.hpp"
 
 namespace dripline::wire {

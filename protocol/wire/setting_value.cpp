@@ -1,4 +1,4 @@
-#include "protocol/wire/impl/setting_value.hpp"
+#include "protocol/wire/setting_value.hpp"
 
 #include <fmt/ranges.h>
 #include <array>
