@@ -122,7 +122,8 @@ struct Record {
   std::uint64_t block = 0, line = 0;
   std::int64_t sequence = -1;
   std::string device, text;
-  std::optional<UtcTime> received = {};  ///< by the server; absent: now, or stored by an older version
+  std::optional<UtcTime> received =
+      {};  ///< by the server; absent: now, or stored by an older version
 };
 
 /// How much a machine printed outside any run, and when.
@@ -306,8 +307,8 @@ class Store {
   /// Stores what is new and contiguous, in one transaction; returns the highest number stored
   /// without a gap in this epoch. Records already stored are skipped; those after a gap are left
   /// out (the gateway sends them again), and so is a beginning or ending whose record (run_started,
-  /// run_ended) is left out. An ending never changes a run that has ended, and no run ends before it
-  /// began. A machine not known yet is added; a run not known is no error. A record that names
+  /// run_ended) is left out. An ending never changes a run that has ended, and no run ends before
+  /// it began. A machine not known yet is added; a run not known is no error. A record that names
   /// another machine's run is kept, changes nothing of that run and is not among its records.
   /// Errors: Syntax, LimitExceeded (epoch over 2^63).
   virtual Result<std::uint64_t> store_records(const RecordBatch& batch) = 0;

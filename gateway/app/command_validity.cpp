@@ -5,7 +5,8 @@
 
 namespace dripline::gateway {
 
-std::optional<std::string> CommandValidity::refusal(const dds::Command& command, SteadyTime now) const {
+std::optional<std::string> CommandValidity::refusal(const dds::Command& command,
+                                                    SteadyTime now) const {
   using std::chrono::microseconds;
   if (command.deadline == microseconds{0} || command.server == 0 || command.session != session_) {
     return fmt::format(

@@ -33,7 +33,8 @@ Result<ExecutionProbe> ExecutionProbe::open(const std::filesystem::path& file) {
   return ExecutionProbe(static_cast<Counts*>(mapped));
 }
 
-ExecutionProbe::ExecutionProbe(ExecutionProbe&& other) noexcept : counts_(std::exchange(other.counts_, nullptr)) {}
+ExecutionProbe::ExecutionProbe(ExecutionProbe&& other) noexcept
+    : counts_(std::exchange(other.counts_, nullptr)) {}
 
 ExecutionProbe::~ExecutionProbe() {
   if (counts_ != nullptr) ::munmap(counts_, sizeof(Counts));

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "gateway/app/run_texts.hpp"
 #include "gateway/app/execution_probe.hpp"
+#include "gateway/app/run_texts.hpp"
 #include "gateway/machine/execution_sink.hpp"
 #include "gateway/report/outbox.hpp"
 #include "gateway/report/run_journal.hpp"

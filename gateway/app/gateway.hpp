@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "gateway/app/command_validity.hpp"
 #include "gateway/app/consent.hpp"
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/options.hpp"
-#include "gateway/app/command_validity.hpp"
 #include "gateway/app/run_session.hpp"
 #include "gateway/app/start_argument.hpp"
 #include "gateway/feed/control_line.hpp"
@@ -76,7 +76,7 @@ class Gateway {
   Reply carry_out(const dds::Command& command, bool is_stop);
   Reply start(const dds::Command& command);
   struct StartedBy {
-    std::string command;        ///< what is answered; empty: nobody
+    std::string command;      ///< what is answered; empty: nobody
     std::string setup;        ///< what the server knows of tools, offsets and variables, TOML
     StartArgument from = {};  ///< where it begins; without a place at the beginning
   };
@@ -165,7 +165,7 @@ class Gateway {
   std::deque<dds::CommandResult> results_;
   bool announcement_is_due_ = true, is_connected_ = false, stop_requested_ = false;
   bool is_ending_ = false;              ///< the run's last records are staged, not yet on disk
-  bool is_held_by_fault_ = false;     ///< not by the operator
+  bool is_held_by_fault_ = false;       ///< not by the operator
   bool was_emergency_stopped_ = false;  ///< the run; it ends when the switch is released
   SteadyTime last_step_{}, next_commit_{}, next_sync_{}, next_rejected_log_{};
   std::uint64_t rejected_logged_ = 0;

@@ -71,8 +71,8 @@ void Gateway::keep_result(const dds::Command& command, const Reply& reply) {
 
 void Gateway::answer(const dds::Command& command, const Reply& reply) {
   if (results_.size() >= kMaxResults) results_.pop_front();
-  results_.push_back(
-      {parts_.options.machine, command.id, reply.is_accepted, valid_text(reply.reason, kMaxReason)});
+  results_.push_back({parts_.options.machine, command.id, reply.is_accepted,
+                      valid_text(reply.reason, kMaxReason)});
 }
 
 void Gateway::send_results() {
@@ -109,7 +109,8 @@ std::optional<Gateway::Reply> Gateway::refusal_of_start(const dds::Command& comm
   if (command.control != parts_.options.control)
     return refuse(fmt::format("this machine's control is {}, the program is for '{}'",
                               parts_.options.control, command.control));
-  if (const auto name = check_program_name(command.program); !name) return refuse(name.error().what);
+  if (const auto name = check_program_name(command.program); !name)
+    return refuse(name.error().what);
   if (const auto digest = parse_digest(command.revision); !digest)
     return refuse(fmt::format("revision: {}", digest.error().what));
   if (command.size == 0 || command.size > kMaxProgramBytes)
@@ -127,8 +128,9 @@ Gateway::Reply Gateway::start(const dds::Command& command) {
       feed::PullFeedOptions{}, [this](const dds::BlockRequest& request) {
         return parts_.endpoint.write(request).has_value();
       });
-  const auto done = begin_run({command.run, command.program, command.revision, command.control, command.size},
-                              std::move(feed), {command.id, command.setup, *std::move(from)});
+  const auto done =
+      begin_run({command.run, command.program, command.revision, command.control, command.size},
+                std::move(feed), {command.id, command.setup, *std::move(from)});
   return done ? Reply{} : refuse(done.error().what);
 }
 

@@ -28,8 +28,8 @@ std::string_view state_text(bool is_on) {
 }  // namespace
 
 std::optional<Gateway::Reply> Gateway::refusal_without_consent(const dds::Command& command) const {
-  const bool releases =
-      command.action == CommandAction::Switch && command.argument == "emergency_stop" && command.value == 0;
+  const bool releases = command.action == CommandAction::Switch &&
+                        command.argument == "emergency_stop" && command.value == 0;
   if (releases && is_stopped_at_panel_)
     return refuse("the emergency stop was pressed at the machine's panel: release it there");
   if (consent_.is_given() || !needs_consent(command, machine_.panel())) return std::nullopt;

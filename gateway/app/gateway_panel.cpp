@@ -114,14 +114,16 @@ std::optional<std::string> Gateway::refusal_of_feed(double factor) const {
 std::optional<std::string> Gateway::refusal_of_spindle(double factor) const {
   if (!panel_tables_.spindle.empty()) return refusal_of(panel_tables_.spindle, factor);
   if (factor >= kLeastSpindle && factor <= kMaxSpindle) return std::nullopt;
-  return fmt::format("{:.4g} %: expected {}", factor * 100, range_of(CommandAction::SpindleOverride));
+  return fmt::format("{:.4g} %: expected {}", factor * 100,
+                     range_of(CommandAction::SpindleOverride));
 }
 
 Gateway::Reply Gateway::set_override(const dds::Command& command) {
   OperatorPanel panel = machine_.panel();
   dds::override_of(command.action, panel) = command.value;
   if (!std::isfinite(command.value) || panel.clamped() != panel)
-    return refuse(fmt::format("{:.4g} %: expected {}", command.value * 100, range_of(command.action)));
+    return refuse(
+        fmt::format("{:.4g} %: expected {}", command.value * 100, range_of(command.action)));
   std::optional<std::string> refusal;
   if (command.action == CommandAction::FeedOverride) refusal = refusal_of_feed(command.value);
   if (command.action == CommandAction::SpindleOverride) refusal = refusal_of_spindle(command.value);
@@ -134,7 +136,8 @@ Gateway::Reply Gateway::set_override(const dds::Command& command) {
 Gateway::Reply Gateway::turn_handwheel(const dds::Command& command) {
   if (!machine_.panel().handwheel)
     return refuse("the handwheel does not drive the program: switch handwheel on first");
-  if (!(command.value >= 1 && command.value <= kMaxClicks) || command.value != std::floor(command.value))
+  if (!(command.value >= 1 && command.value <= kMaxClicks) ||
+      command.value != std::floor(command.value))
     return refuse(fmt::format("{} clicks: expected a whole number from 1 to {}, forward only",
                               command.value, kMaxClicks));
   const auto& clicks = panel_tables_.click_seconds;

@@ -84,8 +84,7 @@ void Gateway::commit_reports() {
   if (!outbox_.has_staged_records() || !may_commit || !recorder_.trouble().empty()) return;
   (void)recorder_.commit();
   if (recorder_.trouble().empty()) return;
-  spdlog::error("reports cannot be kept, the machine is held: {} {}", recorder_.trouble(),
-                label());
+  spdlog::error("reports cannot be kept, the machine is held: {} {}", recorder_.trouble(), label());
 }
 
 /// True: records cannot be written. The machine stands until they can.

@@ -19,8 +19,8 @@ struct StopRequested {
 };
 /// The line has something to be taken.
 struct LineChanged {};
-using Incoming = std::variant<dds::Command, dds::RecordAck, dds::BlockData, ServerSeen, StopRequested,
-                              LineChanged, PanelRequest>;
+using Incoming = std::variant<dds::Command, dds::RecordAck, dds::BlockData, ServerSeen,
+                              StopRequested, LineChanged, PanelRequest>;
 
 /// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
 /// beyond the bound are dropped, and both are sent again by whoever misses the answer. Requests of

@@ -140,7 +140,8 @@ Result<void> run(const GatewayOptions& options) {
   if (!outbox) return fail(outbox.error());
   auto journal = report::RunJournal::open(folder->journal());
   if (!journal) return fail(journal.error());
-  auto execution_probe = options.execution_probe ? ExecutionProbe::open(*options.execution_probe) : Result<ExecutionProbe>(ExecutionProbe());
+  auto execution_probe = options.execution_probe ? ExecutionProbe::open(*options.execution_probe)
+                                                 : Result<ExecutionProbe>(ExecutionProbe());
   if (!execution_probe) return fail(execution_probe.error());
 
   const sigset_t signals = process::block_stop_signals();  // before DDS starts its threads
@@ -158,8 +159,8 @@ Result<void> run(const GatewayOptions& options) {
       options.state, [&](PanelRequest request) { inbox.post(std::move(request)); });
   if (!panel) return fail(panel.error());
   const SignalWatch watch(inbox, signals);
-  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal, *execution_probe,
-                   clock, new_session(), line->get()});
+  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal,
+                   *execution_probe, clock, new_session(), line->get()});
   if (const auto done = gateway.recover(); !done) return done;
   spdlog::info(
       "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",

@@ -21,7 +21,7 @@ struct LineItem {
     Failed,   ///< no more of it comes; `text` says why
     Offered,  ///< the host wants to send one, `text` is its name: answer with `expect`
     Asked,    ///< the host wants one, `text` is its name
-    Fault,  ///< something else was wrong; `text` says what
+    Fault,    ///< something else was wrong; `text` says what
     Channel,  ///< the line is open (empty text), or why it is not
   };
   What what = What::Text;

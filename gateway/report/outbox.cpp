@@ -235,7 +235,8 @@ void Outbox::end_run() {
   run_change_ = RunChange::Ends;
 }
 
-void Outbox::add_command_result(const std::string& id, bool is_accepted, const std::string& reason) {
+void Outbox::add_command_result(const std::string& id, bool is_accepted,
+                                const std::string& reason) {
   staged_results_.push_back({id, {is_accepted, reason}});
 }
 
@@ -323,7 +324,8 @@ Result<void> Outbox::write_command_results() {
     if (const auto done = insert->run(); !done) return done;
   }
   auto drop = database_.prepare(
-      "DELETE FROM command_result WHERE position <= (SELECT max(position) FROM command_result) - ?1");
+      "DELETE FROM command_result WHERE position <= (SELECT max(position) FROM command_result) - "
+      "?1");
   if (!drop) return fail(drop.error());
   return drop->bind(kKeptCommandResults).run();
 }

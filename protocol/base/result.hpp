@@ -11,7 +11,7 @@ namespace dripline {
 /// What kind of failure a caller may have to tell apart; the words are for people.
 enum class Errc {
   Syntax,         ///< outside text or bytes that do not follow their grammar
-  Conflict,  ///< two words or settings that exclude each other
+  Conflict,       ///< two words or settings that exclude each other
   Unsupported,    ///< understood, but this control, version or build does not do it
   LimitExceeded,  ///< over a stated bound
   NotFound,

@@ -25,7 +25,7 @@ template <class Overrides>
 auto& override_of(CommandAction action, Overrides& now) {
   return action == CommandAction::FeedOverride    ? now.feed_override
          : action == CommandAction::RapidOverride ? now.rapid_override
-                                                : now.spindle_override;
+                                                  : now.spindle_override;
 }
 
 /// `value` is less than the override in force; never so of a NaN.

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "protocol/wire/impl/line_limits.hpp"
-#include "protocol/wire/setting_value.hpp"
 #include "protocol/wire/line_settings.hpp"
+#include "protocol/wire/setting_value.hpp"
 
 /// The keys of a port's settings: one row each.
 namespace dripline::wire {

@@ -7,11 +7,11 @@
 #include "server/api/event_hub.hpp"
 #include "server/api/router.hpp"
 #include "server/api/token.hpp"
-#include "server/machines/machine_control.hpp"
 #include "server/library/audit_trail.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
 #include "server/library/setups.hpp"
+#include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
 #include "storage/store.hpp"
 

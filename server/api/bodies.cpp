@@ -176,9 +176,10 @@ Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
   auto command = decode_command(body);
   if (!command) return command;
   using dds::CommandAction;
-  const bool is_of_panel =
-      command->action == CommandAction::Switch || command->action == CommandAction::FeedOverride ||
-      command->action == CommandAction::RapidOverride || command->action == CommandAction::SpindleOverride;
+  const bool is_of_panel = command->action == CommandAction::Switch ||
+                           command->action == CommandAction::FeedOverride ||
+                           command->action == CommandAction::RapidOverride ||
+                           command->action == CommandAction::SpindleOverride;
   if (is_of_panel) return command;
   return fail(Errc::Unsupported,
               "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "

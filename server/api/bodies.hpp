@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "protocol/base/digest.hpp"
-#include "server/machines/machine_control.hpp"
 #include "server/library/programs.hpp"
+#include "server/machines/machine_control.hpp"
 
 /// The JSON bodies the API takes, decoded and checked. Pure. Errors: Syntax, LimitExceeded,
 /// Unsupported (an unknown action); each names the member.

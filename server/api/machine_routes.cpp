@@ -49,7 +49,8 @@ void add_machine_routes(Router& router, Services& services) {
              [&](const Request& request) { return show_machine(services, request); });
   router.add(
       "POST", "/api/v1/machines/{name}/commands",
-      [&](const Request& request) { return command_machine(services, request); }, Waits::ForMachine);
+      [&](const Request& request) { return command_machine(services, request); },
+      Waits::ForMachine);
 }
 
 }  // namespace dripline::api

@@ -24,8 +24,9 @@ bool may_stop(const dds::Command& command) {
 
 }  // namespace
 
-CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
-                     std::function<void(const dds::Command&)> on_late_start)
+CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock,
+                                     Options options,
+                                     std::function<void(const dds::Command&)> on_late_start)
     : session_(random_number() | 1),
       endpoint_(endpoint),
       clock_(clock),

@@ -36,7 +36,7 @@ class CommandDispatcher {
   };
   /// `on_late_start`: a start was accepted after its sender gave up; called on a DDS thread.
   CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
-            std::function<void(const dds::Command&)> on_late_start);
+                    std::function<void(const dds::Command&)> on_late_start);
 
   /// Gives the order an id and an expiry, sends it and waits. Any thread but DDS's. Errors: Busy
   /// (refused: the gateway's reason), Timeout (nothing heard in time), NotFound (never announced),

@@ -67,9 +67,9 @@ struct StartRequest {
 struct CommandRequest {
   std::string run;  ///< empty: `machine` is told, with a run or without
   dds::CommandAction action = dds::CommandAction::Hold;  ///< any but Start
-  std::string argument;                              ///< answer: its text; switch: its name
-  double value = 0;                                  ///< overrides: factor; switch: 0 or 1
-  std::string machine = {};                          ///< where `run` is empty: its panel
+  std::string argument;                                  ///< answer: its text; switch: its name
+  double value = 0;                                      ///< overrides: factor; switch: 0 or 1
+  std::string machine = {};                              ///< where `run` is empty: its panel
 };
 
 /// What happened at the machines, told to whoever shows it. Called on worker threads, never two

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "protocol/base/clock.hpp"
-#include "server/machines/machine_control.hpp"
-#include "server/machines/gateway_clocks.hpp"
 #include "server/machines/command_dispatcher.hpp"
+#include "server/machines/gateway_clocks.hpp"
+#include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
 
 namespace dripline::machines {

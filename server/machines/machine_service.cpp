@@ -32,7 +32,7 @@ MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpo
                .on_stored = [&service](const auto& batch) { service.on_stored(batch); },
                .on_fault = service.options_.on_fault}),
       commands(endpoint, service.clock_, service.command_options(),
-             [&service](const dds::Command& command) { service.on_late_start(command); }),
+               [&service](const dds::Command& command) { service.on_late_start(command); }),
       watch({.store = service.store_,
              .clock = service.clock_,
              .desk = commands,
@@ -47,7 +47,7 @@ CommandDispatcher::Options MachineService::command_options() const {
 }
 
 MachineService::MachineService(storage::Store& store, const Clock& clock, Options options,
-                         FeedListener listener)
+                               FeedListener listener)
     : store_(store),
       clock_(clock),
       options_(std::move(options)),
@@ -164,7 +164,8 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
               to_iso8601(view->machine.last_seen));
 }
 
-Result<storage::Run> MachineService::make_run(const StartRequest& request, const MachineView& view) {
+Result<storage::Run> MachineService::make_run(const StartRequest& request,
+                                              const MachineView& view) {
   auto revision = store_.revision(request.program, request.revision);
   if (!revision) return fail(revision.error());
   if (!revision->control.empty() && revision->control != view.machine.control) {
@@ -234,7 +235,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
 }
 
 Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
-                                                 const Result<void>& outcome) {
+                                                    const Result<void>& outcome) {
   if (outcome) {
     spdlog::info("run started machine={} run={} program={} revision={}", run.machine, run.id,
                  run.program, run.revision);
@@ -283,8 +284,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   const auto run = store_.run(request.run);
   if (!run) return fail(run.error());
   if (has_ended(*run)) {
-    return fail(Errc::Conflict, "run {} has ended: {}", run->id,
-                storage::to_string(run->state));
+    return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
   }
   const auto view = connected_machine(run->machine);
   if (!view) return fail(view.error());

@@ -89,7 +89,7 @@ void RunWatch::give_up(const std::string& id) {
   if (!was_commanded && !was_active) return forget(id);
   const auto state = was_commanded ? storage::RunState::Refused : storage::RunState::Interrupted;
   const std::string reason = was_commanded ? "the gateway never confirmed the start"
-                                         : "the gateway does not know this run any more";
+                                           : "the gateway does not know this run any more";
   spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
                reason);
   if (auto set = parts_.store.set_run_state(id, state, reason); !set) {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
-#include "server/machines/machine_control.hpp"
 #include "server/machines/command_dispatcher.hpp"
+#include "server/machines/machine_control.hpp"
 
 namespace dripline::machines {
 

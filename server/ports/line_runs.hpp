@@ -28,7 +28,8 @@ class LineRuns {
 
   /// A run that is Ordered. Errors: NotFound, Unsupported (the program is for another control),
   /// Conflict (nothing but held revisions), Busy (the machine has a run).
-  Result<storage::Run> create(const machines::StartRequest& request, const storage::Machine& machine);
+  Result<storage::Run> create(const machines::StartRequest& request,
+                              const storage::Machine& machine);
   /// What is to be sent for it. Reads the program up to there. Errors: NotFound (no such line, byte
   /// or N number), Conflict (start_head), Corrupt.
   Result<SendJob> job(const storage::Run& run, const machines::StartRequest& request);

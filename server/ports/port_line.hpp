@@ -7,9 +7,9 @@
 #include <string>
 
 #include "protocol/serial/line_driver.hpp"
-#include "server/ports/recording/flight_recorder.hpp"
 #include "server/ports/line_session.hpp"
 #include "server/ports/port_control.hpp"
+#include "server/ports/recording/flight_recorder.hpp"
 #include "server/ports/strand.hpp"
 
 namespace dripline::ports {

@@ -252,17 +252,18 @@ void PortService::open(Entry& entry) {
 
 PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
   const std::string& name = entry.port.machine;
-  RemoteRequestHandler::Parts calls{.store = store_,
-                        .feed = feed_,
-                        .directory = *this,
-                        .clock = clock_,
-                        .machine = name,
-                        .rules = entry.rules,
-                        .offer = entry.settings.offer,
-                        .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
-                        .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
-                                        entry.settings.flow == wire::Flow::HeidenhainBcc ||
-                                        entry.settings.flow == wire::Flow::Xmodem};
+  RemoteRequestHandler::Parts calls{
+      .store = store_,
+      .feed = feed_,
+      .directory = *this,
+      .clock = clock_,
+      .machine = name,
+      .rules = entry.rules,
+      .offer = entry.settings.offer,
+      .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
+      .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
+                      entry.settings.flow == wire::Flow::HeidenhainBcc ||
+                      entry.settings.flow == wire::Flow::Xmodem};
   const auto reception = std::make_shared<Reception>(Reception::Parts{
       .store = store_,
       .programs = programs_,

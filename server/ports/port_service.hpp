@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
-#include "server/library/programs.hpp"
 #include "server/ports/line_directory.hpp"
 #include "server/ports/port_control.hpp"
 #include "server/ports/requests/rule_set.hpp"

@@ -158,8 +158,7 @@ Result<void> SerialFeed::command(const machines::CommandRequest& request) {
   const auto run = store_.run(request.run);
   if (!run) return fail(run.error());
   if (run->state != storage::RunState::Ordered && run->state != storage::RunState::Active) {
-    return fail(Errc::Conflict, "run {} has ended: {}", run->id,
-                storage::to_string(run->state));
+    return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
   }
   const auto line = directory_.line_of(run->machine);
   if (!line) return fail(Errc::NotFound, "machine '{}' has no port", run->machine);

@@ -180,8 +180,8 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
     if (!run) return fail(run.error());
     if (run->state == state) return {};
     if (is_finished(run->state) || state == RunState::Ordered) {
-      return fail(Errc::Conflict, "run {} is {} and cannot become {}", id,
-                  to_string(run->state), to_string(state));
+      return fail(Errc::Conflict, "run {} is {} and cannot become {}", id, to_string(run->state),
+                  to_string(state));
     }
     if (state == RunState::Active) {
       return sqlite::run(database,
@@ -211,8 +211,7 @@ Result<void> RunRepository::update_counters(const std::string& machine, const Pr
     const auto run = find_run(database, progress.run);  // ended: ignored
     if (!run) return fail(run.error());
     if (run->machine == machine) return {};
-    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
-                machine);
+    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine, machine);
   };
   // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.
   return connections_.write(update, sqlite::Synchronous::Normal);

@@ -78,8 +78,7 @@ Result<std::int64_t> settle_content(sqlite::Database& database, const ContentRow
 
 Result<void> check_unchanged(const UploadRow& row, const UploadProgress& progress) {
   if (row.content.size == progress.received) return {};
-  return fail(Errc::Conflict, "upload {} was changed by someone else meanwhile",
-              row.upload.id);
+  return fail(Errc::Conflict, "upload {} was changed by someone else meanwhile", row.upload.id);
 }
 
 }  // namespace
@@ -146,9 +145,8 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
   const std::lock_guard lock((*progress)->mutex);
   const std::uint64_t received = (*progress)->received;
   if (offset > received) {
-    return fail(Errc::Conflict,
-                "upload {}: the piece begins at {}, but only {} bytes are here", id, offset,
-                received);
+    return fail(Errc::Conflict, "upload {}: the piece begins at {}, but only {} bytes are here", id,
+                offset, received);
   }
   if (offset < received) return check_resent(id, **progress, offset, bytes);
   auto stored = store_piece(id, **progress, bytes);
@@ -183,8 +181,8 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
                                               std::uint64_t offset,
                                               std::span<const std::byte> bytes) {
   if (bytes.size() > progress.received - offset) {
-    return fail(Errc::Conflict, "upload {}: bytes {} to {} overlap what is here: go on at {}",
-                id, offset, offset + bytes.size(), progress.received);
+    return fail(Errc::Conflict, "upload {}: bytes {} to {} overlap what is here: go on at {}", id,
+                offset, offset + bytes.size(), progress.received);
   }
   return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
@@ -192,8 +190,7 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
     const auto known = load_range(database, row->content, offset, bytes.size(), label_of(id));
     if (!known) return fail(known.error());
     if (!std::ranges::equal(*known, bytes)) {
-      return fail(Errc::Conflict, "upload {}: other bytes than before were sent at {}", id,
-                  offset);
+      return fail(Errc::Conflict, "upload {}: other bytes than before were sent at {}", id, offset);
     }
     return std::move(row->upload);
   });

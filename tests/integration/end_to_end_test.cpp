@@ -80,7 +80,8 @@ TEST_F(EndToEnd, HoldStopsMotionAndResumeGoesOn) {
   system->push("O0300", report_program(60, 9));
   const std::string id = system->start_run("O0300");
   const auto command = [&](const char* action) {
-    const auto reply = system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
+    const auto reply =
+        system->rest().post("/api/v1/runs/" + id + "/commands", {{"action", action}});
     EXPECT_EQ(reply.status, 200) << reply.body;
   };
   const auto execution = [&] {

@@ -6,8 +6,8 @@
 #include "tests/integration/line_shop.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/line/host_line.hpp"
-#include "tests/support/program_generator.hpp"
 #include "tests/support/line/pty.hpp"
+#include "tests/support/program_generator.hpp"
 
 /// End to end: a real server feeds a real gateway, which plays a control at the other end of a
 /// line; what the program prints comes back over the line into the report.

@@ -6,8 +6,8 @@
 #include "tests/integration/line_shop.hpp"
 #include "tests/support/line/device_server.hpp"
 #include "tests/support/line/host_line.hpp"
-#include "tests/support/program_generator.hpp"
 #include "tests/support/line/pty.hpp"
+#include "tests/support/program_generator.hpp"
 
 /// A drip feed over a line: a host in the test's hands, a real gateway in the place of a Centurion.
 namespace dripline::integration {

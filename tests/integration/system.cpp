@@ -196,7 +196,8 @@ System::ExecutionProbe System::execution_probe() const {
   const std::string bytes = read_file(folder() / "gateway.execution_probe");
   ExecutionProbe execution_probe;
   static_assert(std::is_trivially_copyable_v<ExecutionProbe>);
-  if (bytes.size() >= sizeof execution_probe) std::memcpy(&execution_probe, bytes.data(), sizeof execution_probe);
+  if (bytes.size() >= sizeof execution_probe)
+    std::memcpy(&execution_probe, bytes.data(), sizeof execution_probe);
   return execution_probe;
 }
 

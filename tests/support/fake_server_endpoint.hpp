@@ -19,8 +19,9 @@ struct WrittenMessages {
   std::vector<dds::RecordAck> acks;
   std::vector<dds::Command> commands;
   std::vector<dds::BlockData> blocks;
-  std::atomic<int> refusals{0};                     ///< so many writes of blocks fail with Timeout
-  std::function<void(const dds::Command&)> on_command;  ///< plays the gateway, on the writer's thread
+  std::atomic<int> refusals{0};  ///< so many writes of blocks fail with Timeout
+  std::function<void(const dds::Command&)>
+      on_command;  ///< plays the gateway, on the writer's thread
 
   /// Waits until `holds` is true, at most some seconds. The lock is held while it is asked.
   bool wait(const std::function<bool()>& holds) {

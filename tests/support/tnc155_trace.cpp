@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "gateway/interpreter/core/memory_source.hpp"
 #include "clients/tools/offline/offline_run.hpp"
 #include "clients/tools/offline/trace_writer.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -3,10 +3,10 @@
 #include <charconv>
 #include <memory>
 
-#include "clients/cli/offline/check_report.hpp"
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/offline/check_report.hpp"
 #include "clients/cli/offline/offline_options.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/tools/offline/event_tee.hpp"
 #include "clients/tools/offline/offline_run.hpp"

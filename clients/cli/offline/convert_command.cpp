@@ -3,15 +3,15 @@
 #include <memory>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/offline/form_conversion.hpp"
 #include "clients/cli/interrupt.hpp"
+#include "clients/cli/offline/form_conversion.hpp"
+#include "clients/cli/offline/tape_conversion.hpp"
 #include "clients/cli/text/progress.hpp"
 #include "clients/cli/text/standard_output.hpp"
-#include "clients/cli/offline/tape_conversion.hpp"
 #include "clients/lib/byte_source.hpp"
 #include "clients/lib/output_file.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "clients/tools/lines/tape_listing.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 namespace dripline::cli {
 namespace {

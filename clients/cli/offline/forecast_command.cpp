@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/offline/offline_options.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/tools/offline/forecast.hpp"

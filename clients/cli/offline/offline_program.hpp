@@ -4,10 +4,10 @@
 #include <string>
 
 #include "clients/cli/offline/mapped_file.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
-#include "gateway/interpreter/registry.hpp"
-#include "gateway/interpreter/core/setup.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::cli {

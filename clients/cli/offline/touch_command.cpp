@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/offline/touch_setup.hpp"
+#include "clients/cli/text/json_text.hpp"
 
 namespace dripline::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string_view>
 
-#include "protocol/serial/channel.hpp"
 #include "clients/tools/lines/line_diagnosis.hpp"
+#include "protocol/serial/channel.hpp"
 
 namespace dripline::cli {
 

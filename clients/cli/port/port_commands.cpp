@@ -1,13 +1,13 @@
 #include <memory>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/port/port_listing.hpp"
 #include "clients/cli/port/port_monitor.hpp"
 #include "clients/cli/port/port_parameters.hpp"
 #include "clients/cli/port/port_text.hpp"
 #include "clients/cli/port/port_trial.hpp"
+#include "clients/cli/text/json_text.hpp"
 
 namespace dripline::cli {
 namespace {

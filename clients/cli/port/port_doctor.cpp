@@ -4,8 +4,8 @@
 
 #include "clients/cli/commands.hpp"
 #include "clients/cli/interrupt.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/port/line_examination.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/live_area.hpp"
 
 namespace dripline::cli {

@@ -1,7 +1,7 @@
 #include "clients/cli/port/port_listing.hpp"
 
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/port/port_text.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "protocol/base/clock.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/port/port_line.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"

@@ -4,11 +4,11 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
-#include "gateway/interpreter/registry.hpp"
+#include "clients/tools/lines/line_replay.hpp"
 #include "clients/tools/offline/check_summary.hpp"
 #include "clients/tools/offline/offline_run.hpp"
-#include "clients/tools/lines/line_replay.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/registry.hpp"
 
 namespace dripline::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include "clients/cli/port/port_trial.hpp"
 
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/port/port_file.hpp"
+#include "clients/cli/text/json_text.hpp"
 
 namespace dripline::cli {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <map>
 
-#include "clients/cli/setup/change_log.hpp"
 #include "clients/cli/interrupt.hpp"
+#include "clients/cli/server/machine_text.hpp"
+#include "clients/cli/setup/change_log.hpp"
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/live_area.hpp"
-#include "clients/cli/server/machine_text.hpp"
 #include "clients/lib/event_stream.hpp"
 
 namespace dripline::cli {

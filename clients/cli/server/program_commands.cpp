@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/server/program_transfer.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/value_text.hpp"
 
 namespace dripline::cli {

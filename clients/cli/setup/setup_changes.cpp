@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
-#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/setup/setup_edit.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"

@@ -2,14 +2,14 @@
 #include <memory>
 
 #include "clients/cli/commands.hpp"
-#include "clients/cli/text/json_text.hpp"
+#include "clients/cli/offline/tnc_version.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/setup/setup_forms.hpp"
 #include "clients/cli/setup/setup_menu.hpp"
 #include "clients/cli/setup/setup_text.hpp"
+#include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
-#include "clients/cli/offline/tnc_version.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/output_file.hpp"
 

@@ -6,8 +6,8 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/pull.hpp"
-#include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 namespace dripline::cli {
 namespace {

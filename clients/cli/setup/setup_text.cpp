@@ -4,8 +4,8 @@
 
 #include "clients/cli/text/table.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 
 namespace dripline::cli {
 namespace {

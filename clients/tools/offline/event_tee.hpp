@@ -31,7 +31,9 @@ class EventTee final : public EventSink {
   void on_message(const Message& event) override { both(&EventSink::on_message, event); }
   void on_prompt(const Prompt& event) override { both(&EventSink::on_prompt, event); }
   void on_stop(const Stop& event) override { both(&EventSink::on_stop, event); }
-  void on_override_inhibit(const OverrideInhibit& event) override { both(&EventSink::on_override_inhibit, event); }
+  void on_override_inhibit(const OverrideInhibit& event) override {
+    both(&EventSink::on_override_inhibit, event);
+  }
   void on_warning(const Warning& event) override { both(&EventSink::on_warning, event); }
   void on_alarm(const Alarm& event) override { both(&EventSink::on_alarm, event); }
   void on_end(const End& event) override { both(&EventSink::on_end, event); }

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/registry.hpp"
 #include "clients/tools/offline/stop_point.hpp"
+#include "gateway/interpreter/registry.hpp"
 
 namespace dripline::interpreter {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/event_words.hpp"
 #include "clients/tools/offline/number_text.hpp"
+#include "gateway/interpreter/core/event_words.hpp"
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter {
 namespace {

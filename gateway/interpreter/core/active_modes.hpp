@@ -22,8 +22,8 @@ struct ActiveModes {
   Length tool_length_x;           ///< wear included, a radius
   Length tool_length_z;           ///< wear included
   Length tool_radius;
-  Feed feed;               ///< as programmed
-  std::string_view cycle;  ///< a name that lives for ever; empty: no cycle
+  Feed feed;                        ///< as programmed
+  std::string_view cycle;           ///< a name that lives for ever; empty: no cycle
   std::optional<Axis> tool_axis;    ///< the spindle's, where programs choose it
   std::uint32_t frame_changes = 0;  ///< another number: Interpreter::frame says something new
   friend bool operator==(const ActiveModes&, const ActiveModes&) = default;

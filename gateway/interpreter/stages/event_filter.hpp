@@ -30,7 +30,9 @@ class EventFilter : public EventSink {
   void on_message(const Message& event) override { out_.on_message(event); }
   void on_prompt(const Prompt& event) override { out_.on_prompt(event); }
   void on_stop(const Stop& event) override { out_.on_stop(event); }
-  void on_override_inhibit(const OverrideInhibit& event) override { out_.on_override_inhibit(event); }
+  void on_override_inhibit(const OverrideInhibit& event) override {
+    out_.on_override_inhibit(event);
+  }
   void on_warning(const Warning& event) override { out_.on_warning(event); }
   void on_alarm(const Alarm& event) override { out_.on_alarm(event); }
   void on_end(const End& event) override { out_.on_end(event); }
@@ -70,7 +72,9 @@ class EventGate : public EventFilter {
   void on_message(const Message& event) override { pass(&EventSink::on_message, event); }
   void on_prompt(const Prompt& event) override { pass(&EventSink::on_prompt, event); }
   void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
-  void on_override_inhibit(const OverrideInhibit& event) override { pass(&EventSink::on_override_inhibit, event); }
+  void on_override_inhibit(const OverrideInhibit& event) override {
+    pass(&EventSink::on_override_inhibit, event);
+  }
   void on_warning(const Warning& event) override { pass(&EventSink::on_warning, event); }
   void on_alarm(const Alarm& event) override { pass(&EventSink::on_alarm, event); }
   void on_end(const End& event) override { pass(&EventSink::on_end, event); }

@@ -34,7 +34,9 @@ class Intake final : public interpreter::EventSink {
   void on_close(const interpreter::Close& event) override;
   void on_message(const interpreter::Message& event) override;
   void on_stop(const interpreter::Stop& event) override;
-  void on_override_inhibit(const interpreter::OverrideInhibit& event) override { lock_ = lock_of(event); }
+  void on_override_inhibit(const interpreter::OverrideInhibit& event) override {
+    lock_ = lock_of(event);
+  }
   void on_warning(const interpreter::Warning& event) override;
   void on_alarm(const interpreter::Alarm& event) override;
   void on_end(const interpreter::End& event) override;

@@ -23,8 +23,8 @@ struct ServerTopics {
 };
 
 /// The server's entities for one machine, in the machine's partition. They stay when the machine is
-/// lost, so that one that comes back finds them; their number is bounded by kMaxMachines, and then a
-/// lost machine gives way. The state is the watcher's.
+/// lost, so that one that comes back finds them; their number is bounded by kMaxMachines, and then
+/// a lost machine gives way. The state is the watcher's.
 struct Attachment {
   Entity publisher, subscriber;
   std::unique_ptr<Writer<RecordAck>> ack;

@@ -39,8 +39,8 @@ class Cell {
   Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
 
  private:
-  /// What happened to one machine since the watcher looked: nobody announced it any more, then these
-  /// did, the latest of each writer.
+  /// What happened to one machine since the watcher looked: nobody announced it any more, then
+  /// these did, the latest of each writer.
   struct MachineNews {
     bool is_gone = false;
     std::map<dds_instance_handle_t, Arrived> announced;

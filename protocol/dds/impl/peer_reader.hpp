@@ -25,15 +25,15 @@ class PeerReader {
                rejections.add(Topic<Message>::kName, "from a participant that is not the peer");
              },
          .on_waiting = options.wake}));
-    auto created = Reader<Message>::create(
-        subscriber, topic, std::move(options.machine), rejections,
-        {.on_message =
-             [sources = &reader->sources_](Message message, const auto&,
-                                           dds_instance_handle_t writer) {
-               sources->take(writer, std::move(message));
-             },
-         .on_gone = {},
-         .on_matched = options.wake});
+    auto created =
+        Reader<Message>::create(subscriber, topic, std::move(options.machine), rejections,
+                                {.on_message =
+                                     [sources = &reader->sources_](Message message, const auto&,
+                                                                   dds_instance_handle_t writer) {
+                                       sources->take(writer, std::move(message));
+                                     },
+                                 .on_gone = {},
+                                 .on_matched = options.wake});
     if (!created) return fail(created.error());
     reader->reader_ = std::move(*created);
     return reader;

@@ -41,8 +41,8 @@ bool PlainLine::take_dc(char dc, LineTime now) {
   }
   if (dc == kDc1 && !has_started_ && std::exchange(is_release_due_, false)) {
     emit_fault({Errc::Conflict,
-                  "DC1 came for the program that was broken off, and starts nothing: reset the "
-                  "control and start again"});
+                "DC1 came for the program that was broken off, and starts nothing: reset the "
+                "control and start again"});
     return true;
   }
   set_stopped(dc == kDc3, now);

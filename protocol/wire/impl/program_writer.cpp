@@ -44,8 +44,8 @@ Result<void> ProgramWriter::check(std::string_view text) {
     const bool was_ended = checked_place_.is_ended;
     const bool ends = checked_place_.ends(text[i], settings_);
     if (was_ended && !is_blank(text[i])) {
-      return fail(Errc::Syntax, "line {}: text after '{}', which ends a program on this line",
-                  line, *settings_.end_character);
+      return fail(Errc::Syntax, "line {}: text after '{}', which ends a program on this line", line,
+                  *settings_.end_character);
     }
     const bool is_control = !is_printable(text[i]) && !is_blank(text[i]);
     if (was_ended || (ends && is_control)) continue;

@@ -65,8 +65,7 @@ void TncBlockwise::on_block_answer(bool is_good, LineTime now) {
   is_garbled_ = false;
   if (!is_good) {
     const auto text = block_.substr(1, block_.find(settings_.heidenhain.etb) - 1);
-    emit_fault(
-        {Errc::Corrupt, fmt::format("the other end refused the block '{}'", text_of(text))});
+    emit_fault({Errc::Corrupt, fmt::format("the other end refused the block '{}'", text_of(text))});
     if (may_try_again()) return resend_block(now);
     return give_up({Errc::Corrupt, fmt::format("a block was refused {} times", tries_ + 1)}, now);
   }

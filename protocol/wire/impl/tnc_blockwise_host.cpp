@@ -100,7 +100,7 @@ class TncBlockwiseHost final : public TncBlockwise {
     const bool is_wanted = (heading.kind == TransferRequest::Kind::SendProgram) == is_sending();
     if (is_wanted && is_same_program(armed_, heading.name)) return accept(now);
     emit_fault({Errc::NotFound, fmt::format("the control asked for '{}', ready is program '{}'",
-                                              heading_, armed_)});
+                                            heading_, armed_)});
     refuse_heading(fmt::format("{} NOT READY", heading.name));
   }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "protocol/wire/impl/protocols.hpp"
-#include "protocol/wire/tnc_frames.hpp"
 #include "protocol/wire/tape_code.hpp"
+#include "protocol/wire/tnc_frames.hpp"
 
 namespace dripline::wire {
 namespace {
@@ -308,8 +308,8 @@ void TncStandard::fault(LineFault fault, LineTime now) {
   static constexpr std::string_view kWords[] = {"parity", "framing", "overrun", "break"};
   if (phase_ == Phase::Idle) spoiled_ = now;
   if (!is_receiving()) return;
-  emit_fault({Errc::Corrupt, fmt::format("{} error after '{}'",
-                                           kWords[static_cast<std::size_t>(fault)], line_)});
+  emit_fault({Errc::Corrupt,
+              fmt::format("{} error after '{}'", kWords[static_cast<std::size_t>(fault)], line_)});
   if (!has_received_ && line_.empty()) return;  // most likely a blank of the leader
   restart_silence(now);
   add('?', now);

@@ -42,8 +42,8 @@ class XmodemLine final : public DisciplineBase {
     InBlock,
     AfterBlock,  ///< a good one; one character more and it was not (a character came twice)
     AfterEot,    ///< silence proves that it was one
-    Purge,        ///< nonsense came: silence, then NAK
-    Withhold,     ///< a good block, but no room: ACK later
+    Purge,       ///< nonsense came: silence, then NAK
+    Withhold,    ///< a good block, but no room: ACK later
   };
   bool is_sender_step() const { return step_ >= Step::AwaitStart && step_ <= Step::AwaitEnd; }
 

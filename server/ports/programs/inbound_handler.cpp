@@ -117,8 +117,8 @@ std::string Reception::machine_control() const {
 
 void Reception::begin_program(const std::string& name) {
   program_name_ = name;
-  program_.emplace(parts_.programs,
-                   UploadedProgram::Origin{.machine = parts_.machine, .control = machine_control()});
+  program_.emplace(parts_.programs, UploadedProgram::Origin{.machine = parts_.machine,
+                                                            .control = machine_control()});
   if (!early_damage_.empty()) program_->damage(std::exchange(early_damage_, {}));
 }
 

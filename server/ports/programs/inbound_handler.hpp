@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "server/library/programs.hpp"
-#include "server/ports/requests/remote_request_handler.hpp"
 #include "server/ports/programs/inbound_splitter.hpp"
 #include "server/ports/programs/uploaded_program.hpp"
+#include "server/ports/requests/remote_request_handler.hpp"
 
 namespace dripline::ports {
 

@@ -69,8 +69,8 @@ class Intake {
   std::string name_;
   bool is_program_ = false;
   bool is_after_percent_ = false;  ///< a line of % alone came, and nothing since
-  bool is_printing_ = false;        ///< what is between two % is printed
-  std::uint64_t blocks_ = 0;        ///< of the program
+  bool is_printing_ = false;       ///< what is between two % is printed
+  std::uint64_t blocks_ = 0;       ///< of the program
 };
 
 }  // namespace dripline::ports

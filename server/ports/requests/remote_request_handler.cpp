@@ -5,13 +5,13 @@
 
 #include "gateway/interpreter/core/called_program_names.hpp"
 #include "protocol/base/random.hpp"
-#include "server/machines/start_point.hpp"
 #include "server/library/control_words.hpp"
-#include "server/ports/requests/answer_text.hpp"
+#include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
+#include "server/ports/requests/answer_text.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -197,7 +197,8 @@ Result<void> RemoteRequestHandler::list_offers() {
   return {};
 }
 
-void RemoteRequestHandler::say_no(const std::string& why, bool is_request, library::Refusal refusal) const {
+void RemoteRequestHandler::say_no(const std::string& why, bool is_request,
+                                  library::Refusal refusal) const {
   spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;

@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "gateway/interpreter/stages/compensation/compensator.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 /// What the compensation stage costs a block: moves through it while it is off, and while it
 /// offsets a pocket of lines and arcs. The difference of the times per block is its price.

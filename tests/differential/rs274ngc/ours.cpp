@@ -5,10 +5,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "clients/tools/offline/offline_run.hpp"
 #include "tests/differential/rs274ngc/peer.hpp"
 
 namespace dripline::differential {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "protocol/wire/tape_image.hpp"
 #include "clients/tools/lines/tape_listing.hpp"
+#include "protocol/wire/tape_image.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/core/memory_source.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
 
 /// The probing macros of deploy/macros on a simulated control and workpiece. The simulated probe
 /// has no ball: a surface stands where the center of the ball would be when it touches.
@@ -63,7 +63,7 @@ double number_after(const std::string& line, std::string_view word) {
 }
 
 Value value_of(const std::string& line) {
-  return {line.substr(0, 1),          static_cast<int>(number_after(line, line.substr(0, 1))),
+  return {line.substr(0, 1),         static_cast<int>(number_after(line, line.substr(0, 1))),
           number_after(line, "NOM"), number_after(line, "ACT"),
           number_after(line, "DEV"), static_cast<int>(number_after(line, "OUT"))};
 }

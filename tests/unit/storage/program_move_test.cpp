@@ -77,8 +77,7 @@ TEST_F(ProgramMoveTest, ARenameKeepsRevisionsAndRuns) {
 TEST_F(ProgramMoveTest, RefusesANameThatExists) {
   ASSERT_TRUE(push("O1", "G0 X1\n"));
   ASSERT_TRUE(push("O2", "G0 X2\n"));
-  expect_refused(copy("O1", "O2"), Errc::Conflict,
-                 "program O2 exists already, with 1 revision");
+  expect_refused(copy("O1", "O2"), Errc::Conflict, "program O2 exists already, with 1 revision");
   expect_refused(rename("O1", "O2"), Errc::Conflict, "program O2 exists already");
   expect_refused(copy("O1", "O1"), Errc::Conflict, "O1 cannot be copied to itself");
   expect_refused(rename("O1", "O1"), Errc::Conflict, "O1 cannot be renamed to itself");

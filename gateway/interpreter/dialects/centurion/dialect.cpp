@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
 
 namespace dripline::interpreter {

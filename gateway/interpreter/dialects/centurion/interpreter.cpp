@@ -1,12 +1,12 @@
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 
-#include "gateway/interpreter/dialects/centurion/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/execution.hpp"
-#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/snapshot.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/centurion/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::centurion {

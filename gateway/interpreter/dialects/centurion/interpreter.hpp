@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
-#include "gateway/interpreter/dialects/centurion/run.hpp"
+#include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/status_window.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
-#include "gateway/interpreter/core/retained_memory.hpp"
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+#include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says
 /// which), X is a radius, positions are machine coordinates with the tool length left out, unless

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/option.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
-#include "gateway/interpreter/core/option.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

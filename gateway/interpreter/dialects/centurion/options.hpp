@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
-#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 #include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"
-#include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -4,21 +4,21 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/dialects/centurion/reading/block.hpp"
-#include "gateway/interpreter/dialects/centurion/errors.hpp"
-#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
-#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
-#include "gateway/interpreter/dialects/centurion/options.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/pattern_recorder.hpp"
-#include "gateway/interpreter/dialects/centurion/start/start_notes.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/travel_guard.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
 #include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_recorder.hpp"
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/travel_guard.hpp"
+#include "gateway/interpreter/dialects/centurion/options.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/block.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_notes.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -2,12 +2,12 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::fanuc {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/fanuc/run.hpp"
-#include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
 #include "gateway/interpreter/core/retained_memory.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/interpreter/dialects/fanuc/state.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/fanuc/state.hpp"
 
 namespace dripline::interpreter::fanuc {
 

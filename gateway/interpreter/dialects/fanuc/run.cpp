@@ -25,7 +25,8 @@ void Run::deliver_header() {
   header.units = state.units;
   sink.on_program(header);
   const OverrideInhibit lock = override_inhibit(*this);
-  const bool locks = lock.feed_override || lock.single_block || lock.hold != FeedHoldInhibit::AtOnce;
+  const bool locks =
+      lock.feed_override || lock.single_block || lock.hold != FeedHoldInhibit::AtOnce;
   if (locks) sink.on_override_inhibit(lock);
 }
 

@@ -5,15 +5,15 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/stages/compensation/compensator.hpp"
-#include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
+#include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/language/word_ledger.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/errors.hpp"
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
-#include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/block.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
-#include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/interpreter/core/language/word_ledger.hpp"
+#include "gateway/interpreter/dialects/fanuc/state.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/interpreter/stages/compensation/compensator.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
 #include "gateway/interpreter/dialects/prototrak/contour.hpp"
 #include "gateway/interpreter/dialects/prototrak/diagnostics.hpp"
 #include "gateway/interpreter/dialects/prototrak/options.hpp"
 #include "gateway/interpreter/dialects/prototrak/program_event.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::prototrak {
 

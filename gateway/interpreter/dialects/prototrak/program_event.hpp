@@ -31,7 +31,7 @@ struct ProgramEvent {
   EventKind kind = EventKind::Position;
   bool is_metric = false;
   bool is_counterclockwise = false;  ///< arcs; pockets and frames: DR2
-  bool is_connected = false;          ///< CR is not negative
+  bool is_connected = false;         ///< CR is not negative
   XY begin;   ///< position; begin of mill and arc; center of bolt hole and circles; first corner
   XY end;     ///< of mill and arc; opposite corner of rectangles; offsets of a repeat
   XY center;  ///< of an arc

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <string>
 
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/interpreter.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 

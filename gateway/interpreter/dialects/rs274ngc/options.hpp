@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/memory/parameters.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/state.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/state.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 

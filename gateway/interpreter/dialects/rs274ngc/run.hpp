@@ -8,11 +8,11 @@
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/core/language/word_ledger.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/block.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/errors.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/compensation/held_events.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/errors.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/names.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/block.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/state.hpp"
 
 namespace dripline::interpreter::rs274ngc {

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
-#include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
-#include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter {

@@ -6,10 +6,10 @@
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
-#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/status_window.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
+#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::tnc155 {

@@ -4,16 +4,16 @@
 #include <string>
 #include <string_view>
 
-#include "gateway/interpreter/stages/compensation/compensator.hpp"
 #include "gateway/interpreter/core/interpreter.hpp"
-#include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
 #include "gateway/interpreter/core/language/word_ledger.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/errors.hpp"
-#include "gateway/interpreter/dialects/tnc155/options.hpp"
-#include "gateway/interpreter/dialects/tnc155/state.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/travel_limits.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/tnc155/state.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::tnc155 {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycle_state.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 /// Everything that stays from one block to the next. Lengths are millimetres, angles degrees.
 /// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
@@ -107,7 +107,13 @@ struct LastMove {
 };
 
 /// A corner that RND or a chamfer asked for and that the next move decides.
-enum class BlendKind : std::uint8_t { None, Round, Chamfer, TangentialApproach, TangentialDeparture };
+enum class BlendKind : std::uint8_t {
+  None,
+  Round,
+  Chamfer,
+  TangentialApproach,
+  TangentialDeparture
+};
 struct Blend {
   BlendKind kind = BlendKind::None;
   bool is_stated = false;  ///< G25: a corner and nothing else

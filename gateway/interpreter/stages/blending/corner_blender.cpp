@@ -38,7 +38,8 @@ CornerBlender::CornerBlender(const Policy& policy, EventSink& sink, const Positi
   reset(start);
 }
 
-CornerBlender::CornerBlender(const Policy& policy, compensation::Compensator& after, const Position& start)
+CornerBlender::CornerBlender(const Policy& policy, compensation::Compensator& after,
+                             const Position& start)
     : policy_(policy), sink_(&after), compensator_(&after) {
   reset(start);
 }
@@ -92,7 +93,7 @@ void CornerBlender::chamfer_next_corner(Length size, Chamfer measure, std::optio
 }
 
 void CornerBlender::shape_waiting(CornerShape::Kind kind, const Origin& origin, Length size,
-                           std::optional<Feed> feed) {
+                                  std::optional<Feed> feed) {
   if (fault_) return;
   if (!state_.has_element) return refuse(FaultKind::NoElement, origin, origin);
   if (size.mm() == 0) return;
@@ -105,7 +106,7 @@ void CornerBlender::round_corner(const Origin& origin, Length radius, std::optio
 }
 
 void CornerBlender::chamfer_corner(const Origin& origin, Length size, Chamfer measure,
-                            std::optional<Feed> feed) {
+                                   std::optional<Feed> feed) {
   shape_waiting(kind_of(measure), origin, size, feed);
 }
 

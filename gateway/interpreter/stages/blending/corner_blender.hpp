@@ -3,12 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/interpreter/stages/compensation/compensator.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/stages/blending/fault.hpp"
 #include "gateway/interpreter/stages/blending/impl/corner.hpp"
 #include "gateway/interpreter/stages/blending/impl/state.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter::blending {

@@ -1,7 +1,7 @@
 #include <type_traits>
 
-#include "gateway/interpreter/stages/blending/impl/path_writer.hpp"
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
+#include "gateway/interpreter/stages/blending/impl/path_writer.hpp"
 
 /// The events that only pass through: at once, or after the move that waits.
 namespace dripline::interpreter::blending {

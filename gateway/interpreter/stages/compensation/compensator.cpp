@@ -299,7 +299,8 @@ void Compensator::take(Element& element) {
   }
   if (fault_) return;
   state_.programmed = element.to;
-  if (element.role == Role::Cancel || element.role == Role::Parallel) return end_compensation(element);
+  if (element.role == Role::Cancel || element.role == Role::Parallel)
+    return end_compensation(element);
   state_.swap_elements();
   state_.has_element = true;
   state_.idle_blocks = 0;

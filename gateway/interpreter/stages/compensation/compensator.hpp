@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/stages/compensation/fault.hpp"
 #include "gateway/interpreter/stages/compensation/impl/state.hpp"
 #include "gateway/interpreter/stages/compensation/policy.hpp"
-#include "gateway/interpreter/core/event.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter::compensation {

@@ -18,7 +18,7 @@ std::optional<PlaneVector> Compensator::last_direction() const {
 }
 
 bool Compensator::round_outside_corner(const Origin& origin, Feed feed,
-                                  std::optional<PlaneVector> along) {
+                                       std::optional<PlaneVector> along) {
   if (fault_ || state_.offset == 0) return true;
   const auto direction = last_direction();
   if (!direction || state_.phase != Phase::On) return false;

@@ -110,12 +110,12 @@ TEST_F(DncOnline, GivesOrders) {
             "lathe-1 took emergency_stop off\n");
   const std::lock_guard lock(mutex);
   EXPECT_EQ(commands, (std::vector<std::string>{
-                        R"(aa11 {"action":"hold"})", R"(aa11 {"action":"answer","text":"16.5"})",
-                        R"(aa11 {"action":"feed_override","value":0.5})",
-                        R"(aa11 {"action":"rapid_override","value":0.25})",
-                        R"(aa11 {"action":"switch","name":"single_block","value":1.0})",
-                        R"(aa11 {"action":"switch","name":"emergency_stop","value":1.0})",
-                        R"(lathe-1 {"action":"switch","name":"emergency_stop","value":0.0})"}));
+                          R"(aa11 {"action":"hold"})", R"(aa11 {"action":"answer","text":"16.5"})",
+                          R"(aa11 {"action":"feed_override","value":0.5})",
+                          R"(aa11 {"action":"rapid_override","value":0.25})",
+                          R"(aa11 {"action":"switch","name":"single_block","value":1.0})",
+                          R"(aa11 {"action":"switch","name":"emergency_stop","value":1.0})",
+                          R"(lathe-1 {"action":"switch","name":"emergency_stop","value":0.0})"}));
 }
 
 TEST_F(DncOnline, ExportsAReport) {

@@ -226,9 +226,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& i) { return std::string(i.param.name); });
 
 TEST_F(DncSetup, DoesNotGoOverWhatSomebodyElseHasStored) {
-  server.set_answer(
-      std::string("PUT ") + kSetupPath, 409,
-      R"({"error":{"code":"conflict","message":"made from 4, and 5 is newer"}})");
+  server.set_answer(std::string("PUT ") + kSetupPath, 409,
+                    R"({"error":{"code":"conflict","message":"made from 4, and 5 is newer"}})");
   const auto late = dnc({"setup", "parameter", "mill-3", "1", "3"});
   EXPECT_EQ(late.status, 1);
   EXPECT_EQ(late.err, "dnc: made from 4, and 5 is newer\n");

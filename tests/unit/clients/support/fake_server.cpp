@@ -296,7 +296,8 @@ class FakeServer::Impl {
     server_.Post(R"(/api/v1/(?:runs|machines)/([\w-]+)/orders)",
                  [this](const Request& request, Response& response) {
                    const std::lock_guard lock(mutex);
-                   if (command_handler) command_handler(request.matches[1], json::parse(request.body));
+                   if (command_handler)
+                     command_handler(request.matches[1], json::parse(request.body));
                    answer(response, 200, {{"accepted", true}});
                  });
   }

@@ -6,8 +6,8 @@
 namespace dripline::gateway {
 namespace {
 
-using dds::Execution;
 using dds::CommandAction;
+using dds::Execution;
 using std::chrono::hours;
 using std::chrono::seconds;
 

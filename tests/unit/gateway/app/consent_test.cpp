@@ -9,8 +9,8 @@
 namespace dripline::gateway {
 namespace {
 
-using dds::Execution;
 using dds::CommandAction;
+using dds::Execution;
 using dds::RemoteEnable;
 using dds::RunOutcome;
 using dds::WaitsFor;

@@ -8,8 +8,8 @@
 namespace dripline::gateway {
 namespace {
 
-using dds::Execution;
 using dds::CommandAction;
+using dds::Execution;
 using dds::RecordKind;
 using dds::RunOutcome;
 using std::chrono::milliseconds;

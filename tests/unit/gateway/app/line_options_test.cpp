@@ -2,8 +2,8 @@
 
 #include "gateway/app/options.hpp"
 #include "gateway/app/setup_line.hpp"
-#include "gateway/interpreter/registry.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {

@@ -8,8 +8,8 @@
 namespace dripline::gateway {
 namespace {
 
-using dds::Execution;
 using dds::CommandAction;
+using dds::Execution;
 using dds::RunOutcome;
 
 constexpr double kInch = 25.4;

@@ -10,8 +10,8 @@
 namespace dripline::gateway {
 namespace {
 
-using dds::Execution;
 using dds::CommandAction;
+using dds::Execution;
 using dds::RunOutcome;
 
 interpreter::Setup setup_of(const std::string& toml) {

@@ -158,8 +158,8 @@ TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
   const Json entry = json(get("/api/v1/audit"))["entries"][0];
   EXPECT_EQ(entry["subject"], "lathe-1");
   EXPECT_EQ(entry["action"], "machine.switch");
-  expect_error(post("/api/v1/machines/lathe-1/commands", {{"action", "resume"}}), 422, "unsupported",
-               "resume");
+  expect_error(post("/api/v1/machines/lathe-1/commands", {{"action", "resume"}}), 422,
+               "unsupported", "resume");
   EXPECT_EQ(feeds_.ordered.size(), 1u);
 }
 

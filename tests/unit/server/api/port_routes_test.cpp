@@ -222,8 +222,7 @@ TEST_F(HeldRoutes, AcceptOneAndRejectAnother) {
 
 TEST_F(HeldRoutes, SayWhyOneCannotBeJudged) {
   push("O1", "one\n");
-  expect_error(call("POST", "/api/v1/programs/O1/revisions/1/reject"), 409, "conflict",
-               "in force");
+  expect_error(call("POST", "/api/v1/programs/O1/revisions/1/reject"), 409, "conflict", "in force");
   expect_error(call("POST", "/api/v1/programs/O1/revisions/9/accept"), 404, "not_found", "9");
   expect_error(call("POST", "/api/v1/programs/O1/revisions/x/accept"), 400, "syntax", "'x'");
 }

@@ -25,12 +25,13 @@ class FeedTest : public ServerTest {
     machines::MachineService::Options options;
     options.workers = 3;
     options.commands = {.expiry = std::chrono::milliseconds(200),
-                      .grace = std::chrono::milliseconds(50)};
+                        .grace = std::chrono::milliseconds(50)};
     machines::FeedListener listener{
         .on_machine = [this](const machines::MachineView& view) { keep(machines_, view); },
         .on_run = [this](const storage::Run& run) { keep(runs_, run); },
         .on_record = [this](const storage::Record& record) { keep(records_, record); }};
-    service_ = std::make_unique<machines::MachineService>(store, clock_, options, std::move(listener));
+    service_ =
+        std::make_unique<machines::MachineService>(store, clock_, options, std::move(listener));
     network_ = service_->handlers();
     auto begun = service_->begin(std::make_unique<test_support::FakeServerEndpoint>(written_));
     ASSERT_TRUE(begun) << begun.error().what;

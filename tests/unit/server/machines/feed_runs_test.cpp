@@ -161,8 +161,8 @@ TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
   EXPECT_EQ(written_->commands.back().run, run);
   record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
   ASSERT_TRUE(wait_ack(1));
-  const auto late =
-      service_->command({.run = run, .action = dds::CommandAction::Hold, .argument = {}, .value = 0});
+  const auto late = service_->command(
+      {.run = run, .action = dds::CommandAction::Hold, .argument = {}, .value = 0});
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().code, Errc::Conflict);
   machines::CommandRequest stray;
@@ -204,11 +204,11 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
   machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
   machines::RunWatch watch({.store = *store_,
-                         .clock = clock_,
-                         .desk = desk,
-                         .state_mutex = state_mutex,
-                         .on_change = [](const Run&) {},
-                         .on_unwanted = [](const Run&) {}});
+                            .clock = clock_,
+                            .desk = desk,
+                            .state_mutex = state_mutex,
+                            .on_change = [](const Run&) {},
+                            .on_unwanted = [](const Run&) {}});
   ASSERT_TRUE(watch.load());
   machines::MachineView view;
   view.machine.name = "lathe-1";
@@ -245,11 +245,11 @@ TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
   machines::RunWatch watch({.store = store,
-                         .clock = clock_,
-                         .desk = desk,
-                         .state_mutex = state_mutex,
-                         .on_change = [](const Run&) {},
-                         .on_unwanted = [](const Run&) {}});
+                            .clock = clock_,
+                            .desk = desk,
+                            .state_mutex = state_mutex,
+                            .on_change = [](const Run&) {},
+                            .on_unwanted = [](const Run&) {}});
   ASSERT_TRUE(watch.load());
   machines::MachineView view;
   view.machine.name = "lathe-1";
@@ -281,7 +281,8 @@ TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   command.action = dds::CommandAction::Start;
   command.session = 1;
   EXPECT_TRUE(desk.carry_out(command));
-  EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id) << "the same order, said again";
+  EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id)
+      << "the same order, said again";
 }
 
 TEST_F(FeedRuns, AreOrderedInSequence) {

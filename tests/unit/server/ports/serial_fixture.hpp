@@ -36,12 +36,12 @@ class SerialTest : public ServerTest {
       faults_.push_back(machine + ": " + trouble);
     };
     machines::FeedListener listener{.on_machine = [](const machines::MachineView&) {},
-                                 .on_run = [](const storage::Run&) {},
-                                 .on_record =
-                                     [this](const storage::Record& record) {
-                                       const std::lock_guard lock(told_mutex_);
-                                       records_.push_back(record);
-                                     }};
+                                    .on_run = [](const storage::Run&) {},
+                                    .on_record =
+                                        [this](const storage::Record& record) {
+                                          const std::lock_guard lock(told_mutex_);
+                                          records_.push_back(record);
+                                        }};
     ports_ = std::make_unique<ports::PortService>(store, *programs_, system_clock_, options,
                                                   std::move(listener));
     const auto begun = ports_->begin(configured);

@@ -2,18 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/box_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/drilling_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/groove_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -6,12 +6,12 @@
 #include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
-#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
-#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
-#include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -273,7 +273,8 @@ void show_machine_state(Run& run) {
   }
   if (run.state.spindle.state != SpindleState::Off) emit_spindle(run);
   if (run.state.coolant.flood) emit_coolant(run);
-  if (run.state.modes.path == PathMode::Tapping) run.events().on_override_inhibit(override_inhibit(run));
+  if (run.state.modes.path == PathMode::Tapping)
+    run.events().on_override_inhibit(override_inhibit(run));
 }
 
 OverrideInhibit override_inhibit(const Run& run) {

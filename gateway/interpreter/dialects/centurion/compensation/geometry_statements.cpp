@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/tangents.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

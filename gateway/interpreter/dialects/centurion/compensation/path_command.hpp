@@ -8,11 +8,11 @@ namespace dripline::interpreter::centurion {
 /// it, which holds moves back, holds these in their place among them.
 struct PathCommand {
   enum class Kind : std::uint8_t {
-    TurnOn,      ///< from the next move on, with `cutter`
-    TurnOff,     ///< the next move is the cancel move
-    Leave,       ///< off at once; the next move goes straight to its programmed end
+    TurnOn,          ///< from the next move on, with `cutter`
+    TurnOff,         ///< the next move is the cancel move
+    Leave,           ///< off at once; the next move goes straight to its programmed end
     SuppressOutput,  ///< moves only say where the program is (G65)
-    Go,          ///< moves are carried out again
+    Go,              ///< moves are carried out again
   };
   Kind kind = Kind::TurnOn;
   compensation::Cutter cutter;

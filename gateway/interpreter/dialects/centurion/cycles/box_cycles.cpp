@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/override_inhibit.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_moves.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
-#include "gateway/interpreter/core/override_inhibit.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

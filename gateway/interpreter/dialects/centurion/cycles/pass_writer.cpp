@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

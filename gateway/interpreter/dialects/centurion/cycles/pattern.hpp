@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/plane_point.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
-#include "gateway/interpreter/core/event.hpp"
 
 /// What the cycles that follow a pattern (G70-G73) keep from block to block. Part of the run's
 /// state: a cycle goes on from any snapshot.
@@ -31,7 +31,7 @@ struct PatternMove {
   SpindleState spindle = SpindleState::Off;
   double revolutions = 0;
   double surface = -1;     ///< millimetres a minute; -1: `revolutions` counts
-  double max_turns = -1;  ///< -1: no limit
+  double max_turns = -1;   ///< -1: no limit
   std::uint64_t line = 0;  ///< of its block
   std::int64_t sequence = Origin::kNone;
 };

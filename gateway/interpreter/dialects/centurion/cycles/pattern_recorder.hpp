@@ -25,7 +25,9 @@ class PatternRecorder final : public EventFilter {
     pass(&EventSink::on_miscellaneous, event);
   }
   void on_pin(const PinChange& event) override { pass(&EventSink::on_pin, event); }
-  void on_override_inhibit(const OverrideInhibit& event) override { pass(&EventSink::on_override_inhibit, event); }
+  void on_override_inhibit(const OverrideInhibit& event) override {
+    pass(&EventSink::on_override_inhibit, event);
+  }
   void on_stop(const Stop& event) override { pass(&EventSink::on_stop, event); }
 
  private:

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/core/override_inhibit.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

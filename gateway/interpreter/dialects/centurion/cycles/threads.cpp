@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
-#include "gateway/interpreter/core/language/expression.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

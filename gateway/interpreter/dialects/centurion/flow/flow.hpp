@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/run.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
+#include "gateway/interpreter/dialects/centurion/run.hpp"
 
 /// Where the program goes on: jumps, loops, subroutines, calls, ends (spec 13).
 namespace dripline::interpreter::centurion {

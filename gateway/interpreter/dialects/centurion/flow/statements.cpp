@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/geometry_statements.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter::centurion {

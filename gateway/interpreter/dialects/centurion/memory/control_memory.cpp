@@ -1,7 +1,7 @@
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 
-#include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "gateway/interpreter/core/option.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
-#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 
 /// The rest of the AXIS and POWER pages (spec 23.3, 23.4): what tunes drives and describes the
 /// machine. Data, checked and kept with the setup as `[control.machine]`; of it the interpreter

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
-#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/machine_parameters.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

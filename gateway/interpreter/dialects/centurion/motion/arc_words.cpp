@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

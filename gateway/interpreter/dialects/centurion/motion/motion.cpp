@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

@@ -43,9 +43,9 @@ bool TravelGuard::is_within_limits(const Origin& origin, const Spot& at) {
     return least < most && !(value >= least - kRounding && value <= most + kRounding);
   };
   if (is_outside(at.x, limits_.least_x, limits_.max_x)) {
-    return refuse(ErrorCode::TravelOfX, origin,
-                  fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.least_x,
-                              limits_.max_x));
+    return refuse(
+        ErrorCode::TravelOfX, origin,
+        fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.least_x, limits_.max_x));
   }
   if (is_outside(at.z, limits_.least_z, limits_.max_z)) {
     return refuse(

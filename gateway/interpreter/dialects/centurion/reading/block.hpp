@@ -87,7 +87,7 @@ struct Block {
 
   Words words;
   Parts parts;
-  JoinWords joins;                           ///< when `Parts::has_joins`
+  JoinWords joins;                          ///< when `Parts::has_joins`
   std::array<std::uint8_t, kMaxCodes> g{};  ///< row indexes, in the order written
   std::array<std::uint8_t, kMaxCodes> m{};  ///< numbers
 };

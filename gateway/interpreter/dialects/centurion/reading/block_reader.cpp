@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {

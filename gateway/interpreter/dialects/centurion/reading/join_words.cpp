@@ -158,7 +158,8 @@ void announce_back(Run& run) {
 }
 
 void announce_arc(Run& run, std::optional<double> radius) {
-  if (radius) run.blender.approximate_end(run.length(arc_tolerance(run)), transformed(run, *radius));
+  if (radius)
+    run.blender.approximate_end(run.length(arc_tolerance(run)), transformed(run, *radius));
   if (run.block.parts.has_joins) announce_corner(run);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 #include "gateway/interpreter/core/language/number.hpp"
+#include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 
 /// Numbers as this control reads them: calculator format, a whole number means whole units, blanks
 /// may stand anywhere, also between digits (spec 3.1, 3.4).

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
-#include "gateway/interpreter/core/event.hpp"
 
 namespace dripline::interpreter::centurion {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/cycle_words.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {

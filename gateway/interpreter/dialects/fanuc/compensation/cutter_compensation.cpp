@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/run.hpp"
-#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/stages/compensation/policy.hpp"
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
+#include "gateway/interpreter/stages/compensation/policy.hpp"
 
 /// Cutter compensation C: how G40, G41, G42 and D drive the shared stage that offsets the path.
 namespace dripline::interpreter::fanuc {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <span>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
+#include "gateway/interpreter/core/override_inhibit.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
-#include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/core/override_inhibit.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

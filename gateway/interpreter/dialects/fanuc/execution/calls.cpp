@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

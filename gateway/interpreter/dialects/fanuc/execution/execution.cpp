@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 #include <bit>
 
-#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/cycles/hole_cycles.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/reference.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
-#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/fanuc/run.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// Where a block leads: jumps and calls are taken, loops and programs come to their ends.
 namespace dripline::interpreter::fanuc {

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 #include <bit>
 
+#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
-#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

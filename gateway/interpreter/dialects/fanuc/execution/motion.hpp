@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/fanuc/run.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// Where a block's words lead, and G00, G01, G31, G33, G53, G60.
 namespace dripline::interpreter::fanuc {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -108,8 +108,7 @@ void append_decimal(std::string& text, double value, const DecimalField& field) 
   const auto power =
       static_cast<std::uint64_t>(kPowersOfTen[static_cast<std::size_t>(field.decimals)]);
   const double exact = std::fabs(value) * static_cast<double>(power);
-  const auto scaled =
-      static_cast<std::uint64_t>(std::floor(std::fmin(exact, kMax) + 0.5 + kNudge));
+  const auto scaled = static_cast<std::uint64_t>(std::floor(std::fmin(exact, kMax) + 0.5 + kNudge));
   std::uint64_t whole = scaled / power;
   const std::uint64_t fraction = scaled % power;
   if (!field.expands) {

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
-#include "gateway/interpreter/core/geometry/plane_axes.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/output_text.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

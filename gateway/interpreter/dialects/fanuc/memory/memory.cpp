@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/options.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/retained_memory.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+#include "gateway/interpreter/dialects/fanuc/options.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter::fanuc {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
-#include "gateway/interpreter/core/retained_memory.hpp"
 
 /// What the control keeps when a program is over (spec 11.2, 11.9, 8): #500 and up, tool offsets,
 /// work offsets, part counters and settings, by battery; #100 and up until power off, where reset

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -102,8 +102,7 @@ bool read_control(Run& run, int number, std::uint32_t column, double& value) {
     case 3003:
     case 3004:
     case 3006:
-      return run.fail(ErrorCode::WriteProtected, column,
-                      fmt::format("#{} cannot be read", number));
+      return run.fail(ErrorCode::WriteProtected, column, fmt::format("#{} cannot be read", number));
     default:
       return refuse(run, number, column);
   }

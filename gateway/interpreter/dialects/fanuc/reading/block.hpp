@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "gateway/interpreter/dialects/fanuc/errors.hpp"
-#include "gateway/interpreter/dialects/fanuc/state.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/words.hpp"
+#include "gateway/interpreter/dialects/fanuc/state.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/core/language/number.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/call_arguments.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/expression_reader.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
-#include "gateway/interpreter/core/language/number.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
-#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
 #include "gateway/interpreter/core/language/number.hpp"
+#include "gateway/interpreter/dialects/fanuc/memory/variables.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/keywords.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string>
 
-#include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
 #include "gateway/interpreter/core/language/line_window.hpp"
+#include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -88,8 +88,7 @@ class ThreadPasses {
     while (depth < cycle_.full_depth * (1 - kRounding)) {
       make_pass(depth);
       if (++pass > kMaxPasses) {
-        return run_.fail(ErrorCode::ThreadWords, 0,
-                         fmt::format("more than {} passes", kMaxPasses));
+        return run_.fail(ErrorCode::ThreadWords, 0, fmt::format("more than {} passes", kMaxPasses));
       }
       depth = cycle_.first_depth * std::pow(pass, 1 / cycle_.degression);
     }

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
 
 /// Flow: sub, call, return, and M98 with M99.
 namespace dripline::interpreter::rs274ngc {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "gateway/interpreter/core/retained_memory.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameters.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
 /// What the control keeps when a program is over (spec 3.5, 15.4). In its parameter file: the
 /// points of G28 and G30, G92, the coordinate systems, and of the free parameters those that the

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "gateway/interpreter/core/event.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/names.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/codes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
 namespace dripline::interpreter::rs274ngc {

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/comments.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

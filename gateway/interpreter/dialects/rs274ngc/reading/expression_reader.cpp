@@ -5,10 +5,10 @@
 #include <cstdlib>
 
 #include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/functions.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/number_reader.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/memory/parameter_access.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {

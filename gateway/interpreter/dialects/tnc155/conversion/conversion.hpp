@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/tnc155/options.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/text_layout.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "protocol/base/result.hpp"
 
 /// Whole programs from text to text. Pure; memory is a small multiple of the text.

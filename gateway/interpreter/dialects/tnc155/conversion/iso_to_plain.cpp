@@ -4,10 +4,10 @@
 #include <bit>
 
 #include "gateway/interpreter/dialects/tnc155/conversion/conversion_parts.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/mode_flow.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/rounding_use.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/version_check.hpp"
 
 namespace dripline::interpreter::tnc155 {

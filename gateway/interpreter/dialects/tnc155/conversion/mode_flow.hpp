@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "gateway/interpreter/dialects/tnc155/reading/iso_modes.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_text.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_modes.hpp"
 
 namespace dripline::interpreter::tnc155 {
 

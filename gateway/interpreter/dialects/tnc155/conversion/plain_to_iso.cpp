@@ -4,9 +4,9 @@
 
 #include "gateway/interpreter/dialects/tnc155/conversion/conversion_parts.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/cycle_to_iso.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_words.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/rounding_use.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/start_plane.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_words.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -198,7 +198,7 @@ class PlainToIso {
     }
     return convert_corner(block, use == RoundingUse::TangentialApproach    ? 26
                                  : use == RoundingUse::TangentialDeparture ? 27
-                                                              : 25);
+                                                                           : 25);
   }
 
   Result<void> convert_center(const Block& block) {

@@ -1,6 +1,6 @@
-#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/text_layout.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/value_text.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

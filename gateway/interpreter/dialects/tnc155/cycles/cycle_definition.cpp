@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -14,8 +14,7 @@ namespace dripline::interpreter::tnc155 {
 struct BlockWord {
   /// Plain language: "X", "IX", "F", "TOOL CALL", "="; ISO: "X", "G41", "P01".
   std::string_view address;
-  std::string_view
-      value;  ///< empty: none, as of "R" in "L X+5,000 R F M"; may stand after a blank
+  std::string_view value;  ///< empty: none, as of "R" in "L X+5,000 R F M"; may stand after a blank
   std::size_t begin = 0, end = 0;  ///< of both, in the block's text
 };
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gateway/interpreter/core/program_edit.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/text_layout.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -16,8 +16,8 @@ namespace dripline::interpreter::tnc155 {
 /// A block as it stands in the text.
 struct TextBlock {
   const char* begin = nullptr;
-  const char* end = nullptr;     ///< without what ends it and blanks in front of that
-  const char* stop = nullptr;    ///< the character that ends it, as a reader wants it
+  const char* end = nullptr;    ///< without what ends it and blanks in front of that
+  const char* stop = nullptr;   ///< the character that ends it, as a reader wants it
   const char* after = nullptr;  ///< where the next block begins
   std::int64_t number = kNoNumber;
 

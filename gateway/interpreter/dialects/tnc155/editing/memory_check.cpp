@@ -2,10 +2,10 @@
 #include <deque>
 #include <set>
 
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/tnc155/options.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
+#include "gateway/interpreter/dialects/tnc155/options.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/cut_program.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_end.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
 
 namespace dripline::interpreter::tnc155 {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/tnc155/editing/program_text.hpp"
 #include "gateway/interpreter/dialects/tnc155/conversion/text_layout.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_text.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -86,7 +86,7 @@ std::string name_of(const StoredProgram& program) {
 std::string blocks_text(const StoredProgram& program) {
   constexpr std::size_t kMax = MemoryLimits::kMaxCounted;
   return program.blocks > kMax ? fmt::format("more than {} blocks", kMax)
-                                : fmt::format("{} blocks", program.blocks);
+                               : fmt::format("{} blocks", program.blocks);
 }
 
 }  // namespace

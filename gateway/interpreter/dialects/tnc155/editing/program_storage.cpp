@@ -1,8 +1,8 @@
 #include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 
 #include "gateway/interpreter/core/memory_source.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -19,11 +19,11 @@ bool is_protected(std::string_view head) {
 }  // namespace
 
 const ProgramStorage kTncProgramStorage{.fit = &check_memory,
-                                 .is_protected = &is_protected,
-                                 .protect = &with_protection,
-                                 .edit = &edit_program,
-                                 .change_words = &change_words,
-                                 .search = &search_words,
-                                 .renumber = &renumbered};
+                                        .is_protected = &is_protected,
+                                        .protect = &with_protection,
+                                        .edit = &edit_program,
+                                        .change_words = &change_words,
+                                        .search = &search_words,
+                                        .renumber = &renumbered};
 
 }  // namespace dripline::interpreter::tnc155

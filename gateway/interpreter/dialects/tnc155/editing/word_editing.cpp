@@ -4,9 +4,9 @@
 
 #include "gateway/interpreter/dialects/tnc155/editing/block_words.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/cut_program.hpp"
+#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/plain_reader.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -96,8 +96,7 @@ class WordEditor {
                   number_, old->address);
     }
     if (std::ranges::find(set_, word->address) != set_.end()) {
-      return fail(Errc::Conflict, "{} of block {} is given two values", word->address,
-                  number_);
+      return fail(Errc::Conflict, "{} of block {} is given two values", word->address, number_);
     }
     set_.push_back(word->address);
     const bool is_apart = !old->value.empty() && old->value.data() != after(old->address);
@@ -153,8 +152,8 @@ class WordEditor {
     for (const BlockWord& word : words) {
       const bool goes = &word == &from || (is_shortened && word.begin > from.begin);
       if (goes && std::ranges::find(set_, word.address) != set_.end()) {
-        return fail(Errc::Conflict, "{} of block {} is given a value and left out",
-                    word.address, number_);
+        return fail(Errc::Conflict, "{} of block {} is given a value and left out", word.address,
+                    number_);
       }
     }
     return {};

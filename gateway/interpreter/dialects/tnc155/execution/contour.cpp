@@ -115,8 +115,8 @@ bool start_again(Run& run, const Block& block) {
 void finish_contour(Run& run) {
   State& state = run.state;
   Blend& blend = state.blend;
-  const bool by_arc =
-      blend.kind == BlendKind::TangentialDeparture || (blend.kind == BlendKind::Round && !blend.is_stated);
+  const bool by_arc = blend.kind == BlendKind::TangentialDeparture ||
+                      (blend.kind == BlendKind::Round && !blend.is_stated);
   state.compensation = Compensation::Off;
   if (!by_arc && blend.kind != BlendKind::None) return run.blender.turn_off();
   if (by_arc) run.blender.drop_corner();
@@ -272,14 +272,14 @@ bool make_blend(Run& run, const Block& block) {
   const LastMove& last = state.last;
   Blend blend;
   if (state.blend.kind != BlendKind::None) {
-    return run.fail(ErrorCode::PlaneWronglyDefined,
-                    "RND and chamfers stand directly after a move");
+    return run.fail(ErrorCode::PlaneWronglyDefined, "RND and chamfers stand directly after a move");
   }
   blend.origin = run.origin;
   blend.size = run.length(block.radius);
   blend.kind = block.kind == BlockKind::Chamfer ? BlendKind::Chamfer : BlendKind::Round;
   const bool is_first = state.is_compensating() && last.starts_contour;
-  if (block.rounding == RoundingUse::TangentialDeparture) blend.kind = BlendKind::TangentialDeparture;
+  if (block.rounding == RoundingUse::TangentialDeparture)
+    blend.kind = BlendKind::TangentialDeparture;
   if (block.rounding == RoundingUse::TangentialApproach ||
       (blend.kind == BlendKind::Round && block.rounding == RoundingUse::Unstated && is_first)) {
     blend.kind = BlendKind::TangentialApproach;

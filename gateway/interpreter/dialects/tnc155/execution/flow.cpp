@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 #include <algorithm>
 
-#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/tnc155/run.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/run.hpp"
 
 /// Labels, repeats, subprograms, program calls, jumps and ends. A block only asks for a jump; it is
 /// taken before the next block, because its place may not have arrived yet.

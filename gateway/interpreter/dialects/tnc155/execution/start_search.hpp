@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gateway/interpreter/stages/event_filter.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
+#include "gateway/interpreter/stages/event_filter.hpp"
 
 /// A start in the middle of a program (GOTO before the start). On the control a run that was
 /// terminated leaves tool, transformations, CC and cycle in force (spec 20.4); here they are

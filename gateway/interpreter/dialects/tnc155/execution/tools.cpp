@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
-#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
-#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/ahead_search.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/word_check.hpp"
 
 namespace dripline::interpreter::tnc155 {

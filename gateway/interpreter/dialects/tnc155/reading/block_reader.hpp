@@ -6,9 +6,9 @@
 
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/core/language/line_window.hpp"
+#include "gateway/interpreter/dialects/tnc155/errors.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
-#include "gateway/interpreter/dialects/tnc155/errors.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 

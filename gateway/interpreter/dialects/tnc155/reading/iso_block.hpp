@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "gateway/interpreter/dialects/tnc155/errors.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 
 namespace dripline::interpreter::tnc155 {

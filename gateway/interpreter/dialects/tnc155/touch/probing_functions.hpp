@@ -6,8 +6,8 @@
 
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "protocol/base/result.hpp"
 
 /// The touch probe's functions of the manual and handwheel modes: what an operator measures before

@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
-#include "gateway/interpreter/stages/compensation/policy.hpp"
 #include "gateway/interpreter/stages/blending/impl/element.hpp"
+#include "gateway/interpreter/stages/compensation/policy.hpp"
 #include "gateway/interpreter/stages/look_ahead/held_events.hpp"
 
 namespace dripline::interpreter::blending::impl {

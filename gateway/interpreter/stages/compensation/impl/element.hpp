@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "gateway/interpreter/stages/compensation/policy.hpp"
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/stages/compensation/policy.hpp"
 
 /// Raw doubles inside this folder: millimetres and radians in the compensated plane. The path of
 /// the nose center is meant; the way to a lathe's tool tip is added when a move is put out.

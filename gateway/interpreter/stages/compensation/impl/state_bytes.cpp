@@ -68,7 +68,8 @@ void visit(Archive& archive, Element& element) {
 template <class Archive>
 void visit_state(Archive& archive, State& state) {
   up_to(archive, state.phase, Phase::Parallel);
-  visit_all(archive, state.has_element, state.is_displaced, state.is_output_suppressed, state.idle_blocks);
+  visit_all(archive, state.has_element, state.is_displaced, state.is_output_suppressed,
+            state.idle_blocks);
   visit(archive, state.offset);
   up_to(archive, state.plane, Plane::YZ);
   visit(archive, state.tip);

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "gateway/interpreter/dialects/centurion/dialect.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
 #include "clients/tools/offline/offline_run.hpp"
+#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/dialects/centurion/dialect.hpp"
 #include "tests/unit/clients/tools/conversational/posted.hpp"
 
 namespace dripline::conversational {

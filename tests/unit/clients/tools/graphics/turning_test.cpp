@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "clients/tools/graphics/turned_views.hpp"
+#include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "clients/tools/offline/offline_run.hpp"
 
 /// Turned parts: CEN-227. Volumes are those of the bodies that geometry books have.
 namespace dripline::graphics {

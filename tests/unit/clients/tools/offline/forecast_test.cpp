@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
+#include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "clients/tools/offline/offline_run.hpp"
 
 /// Reader limitation, on any line. Rows: TK-52, TK-53.
 namespace dripline::interpreter {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "clients/tools/offline/offline_run.hpp"
 
 /// Programs that repeat without end. Rows: FAN-062, NGC-088.
 namespace dripline::interpreter {

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/errors.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
 /// Waits for inputs, called programs and the list of errors, where a trace cannot show them.

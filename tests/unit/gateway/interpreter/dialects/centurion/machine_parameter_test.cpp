@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
-#include "gateway/interpreter/dialects/centurion/options.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameter_text.hpp"
+#include "gateway/interpreter/dialects/centurion/options.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
 /// The AXIS and POWER pages: CEN-214, CEN-215; and the way they travel: CEN-200.

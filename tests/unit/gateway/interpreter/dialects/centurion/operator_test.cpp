@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/options.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
+#include "gateway/interpreter/dialects/centurion/options.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
 /// What a program says to the panel, what the panel's tables hold, and data mode.

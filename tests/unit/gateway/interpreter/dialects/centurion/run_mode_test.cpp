@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/dialects/centurion/start/start_search.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
 /// Starts elsewhere than at the first block, MDI, and what the control refuses in DNC.

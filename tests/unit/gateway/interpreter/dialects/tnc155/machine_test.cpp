@@ -260,7 +260,7 @@ TEST(TncMachine, TheBlankLiesAtTheDatum) {
   // mirroring, rotation and scaling are about the path
   EXPECT_THAT(
       run_blocks(after({"CYCL DEF 8.0 MIRROR IMAGE", "CYCL DEF 8.1 X", "CYCL DEF 10.0 ROTATION",
-                         "CYCL DEF 10.1 ROT +90", "CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2"}),
+                        "CYCL DEF 10.1 ROT +90", "CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2"}),
                  datum)
           .events,
       testing::Contains("blank Z X200 Y0 Z-27 to X300 Y50 Z-7"));

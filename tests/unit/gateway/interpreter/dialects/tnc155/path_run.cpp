@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
+#include "clients/tools/offline/offline_run.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "clients/tools/offline/offline_run.hpp"
 
 namespace dripline::interpreter {
 namespace {

@@ -2,8 +2,8 @@
 #include <tuple>
 
 #include "gateway/interpreter/core/memory_source.hpp"
-#include "gateway/interpreter/registry.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/registry.hpp"
 
 /// What the status window shows of datum, ROT, SCL, mirrored axes, CC and the tool's axis, and the
 /// position display's program coordinates. Rows: HD-082, HD-084.

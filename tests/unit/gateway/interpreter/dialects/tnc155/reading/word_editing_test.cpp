@@ -1,7 +1,6 @@
 // HD-062, HD-064, HD-065: searching by address; words with new values, left out, shortened blocks.
 #include <gtest/gtest.h>
 
-
 #include "gateway/interpreter/dialects/tnc155/editing/block_words.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/cut_program.hpp"
 #include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
