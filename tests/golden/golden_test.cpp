@@ -148,7 +148,7 @@ class Stepper {
   std::size_t answers_used_;
 };
 
-/// What a machine counts as executed: the block that ends the program, too, is finished.
+/// The machine reports the block that ends the program as executed, too.
 TEST_P(Golden, TheLastBlockEnds) {
   MemorySource whole(program_, loader_of(GetParam()));
   EventLog log;

@@ -5,7 +5,7 @@
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
 
-/// Blocks per second of an interpreter that nobody holds up, and how that compares with merely
+/// Blocks per second of an interpreter that nothing holds up, and how that compares with merely
 /// reading the same bytes in the same run.
 namespace dripline::interpreter {
 namespace {
@@ -25,7 +25,7 @@ class CountingSink final : public EventSink {
   std::string alarm;
 };
 
-/// `G1X12.3456Z-0.1234` and `X1.2345Z-2.3456` in turns.
+/// `G1X12.3456Z-0.1234` and `X1.2345Z-2.3456` alternating.
 std::string straight_blocks() {
   constexpr std::int64_t kBlocks = 1'000'000;
   std::string text = "G98F30\n";

@@ -14,10 +14,10 @@ namespace {
 class MoveSink final : public EventSink {
  public:
   void on_line(const Line& event) override { travel += event.to.linear(Axis::X).mm(); }
-  void on_warning(const Warning& event) override { trouble = event.diagnostic.text; }
-  void on_alarm(const Alarm& event) override { trouble = event.diagnostic.text; }
+  void on_warning(const Warning& event) override { fault = event.diagnostic.text; }
+  void on_alarm(const Alarm& event) override { fault = event.diagnostic.text; }
   double travel = 0;
-  std::string trouble;
+  std::string fault;
 };
 
 /// Blocks per second.
@@ -30,7 +30,7 @@ double rate_of(std::string_view control, const std::string& text) {
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   benchmark::DoNotOptimize(sink.travel);
-  if (!sink.trouble.empty()) fmt::print(stderr, "{}: {}\n", control, sink.trouble);
+  if (!sink.fault.empty()) fmt::print(stderr, "{}: {}\n", control, sink.fault);
   return static_cast<double>((*interpreter)->blocks()) / elapsed.count();
 }
 

@@ -18,9 +18,9 @@ class MoveSink final : public EventSink {
  public:
   void on_line(const Line& event) override { travel += event.to.linear(Axis::X).mm(); }
   void on_arc(const Arc& event) override { travel += event.to.linear(Axis::X).mm(); }
-  void on_alarm(const Alarm& event) override { trouble = event.diagnostic.text; }
+  void on_alarm(const Alarm& event) override { fault = event.diagnostic.text; }
   double travel = 0;
-  std::string trouble;
+  std::string fault;
 };
 
 /// Blocks per second; a program that alarms makes the bench fail.
@@ -33,7 +33,7 @@ double rate_of(benchmark::State& state, std::string_view control, const std::str
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   benchmark::DoNotOptimize(sink.travel);
-  if (!sink.trouble.empty()) state.SkipWithError(sink.trouble.c_str());
+  if (!sink.fault.empty()) state.SkipWithError(sink.fault.c_str());
   return static_cast<double>((*interpreter)->blocks()) / elapsed.count();
 }
 

@@ -85,7 +85,7 @@ void BM_DripFeed(benchmark::State& state) {
         continue;
       }
       if (count++ == 0) first = now;
-      // A reader woken late has not held up the line: its clock goes on from where it was due.
+      // A reader woken late has not held up the line: its clock continues from the time it was due.
       free_at = std::max(free_at, now - 10 * character) + character;
     }
     const auto elapsed = Clock::now() - first;

@@ -142,7 +142,7 @@ void Maker::later_subprogram() {
   known_position();
 }
 
-/// Called by M98, ended by M99; now and then mixed with the other way.
+/// Called by M98, ended by M99; now and then mixed with the other form.
 void Maker::fanuc_subprogram() {
   const std::uint64_t number = static_cast<std::uint64_t>(++label_);
   const bool is_mixed = below(6) == 0;

@@ -19,7 +19,7 @@ bool is_near(const std::array<double, 6>& a, const std::array<double, 6>& b, dou
 bool is_same(const Move& a, const Move& b, double tolerance) {
   if (a.kind != b.kind || !is_near(a.to, b.to, tolerance)) return false;
   if (a.kind != Move::Kind::Arc) return true;
-  return a.plane == b.plane && a.turns == b.turns &&
+  return a.plane == b.plane && a.circles == b.circles &&
          std::fabs(a.center[0] - b.center[0]) <= tolerance &&
          std::fabs(a.center[1] - b.center[1]) <= tolerance;
 }
@@ -31,8 +31,8 @@ std::string text_of(const Move& move) {
   std::string text =
       fmt::format("{} {:.6f}", kKinds[static_cast<int>(move.kind)], fmt::join(move.to, " "));
   if (move.kind == Move::Kind::Arc) {
-    text += fmt::format(" about {:.6f} plane {} turns {}", fmt::join(move.center, " "), move.plane,
-                        move.turns);
+    text += fmt::format(" about {:.6f} plane {} circles {}", fmt::join(move.center, " "),
+                        move.plane, move.circles);
   }
   return text;
 }

@@ -12,7 +12,7 @@ struct Move {
   std::array<double, 6> to{};      ///< X Y Z A B C
   std::array<double, 2> center{};  ///< of an arc, in the plane's axes
   int plane = 0;                   ///< 0 XY, 1 ZX, 2 YZ
-  int turns = 0;                   ///< of an arc: 1, 2.. counter-clockwise, -1, -2.. clockwise
+  int circles = 0;                 ///< of an arc: 1, 2.. counter-clockwise, -1, -2.. clockwise
 };
 std::string text_of(const Move& move);
 

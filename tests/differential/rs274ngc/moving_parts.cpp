@@ -230,7 +230,7 @@ void Maker::nurbs() {
   line("G5.3");
 }
 
-/// A way around with room for the tool, mostly.
+/// A closed path, mostly with room for the tool.
 void Maker::compensation() {
   known_position();
   const bool is_left = below(2) == 0;
@@ -297,7 +297,7 @@ void Maker::cycles() {
   known_position();
 }
 
-/// Bolt circles and spirals: each repeat goes on from the hole before.
+/// Bolt circles and spirals: each repeat continues from the hole before.
 void Maker::polar_cycles() {
   known_position();
   line(below(3) == 0 ? "G90" : "G91");

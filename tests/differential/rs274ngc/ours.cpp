@@ -44,8 +44,8 @@ class MoveSink final : public EventSink {
     Move& move = behaviour.moves.back();
     move.center = {event.center_first.mm(), event.center_second.mm()};
     move.plane = static_cast<int>(event.plane);
-    const int turns = static_cast<int>(std::ceil(event.sweep.degrees() / 360 - 1e-6));
-    move.turns = event.turn == Turn::Clockwise ? -turns : turns;
+    const int circles = static_cast<int>(std::ceil(event.sweep.degrees() / 360 - 1e-6));
+    move.circles = event.turn == Turn::Clockwise ? -circles : circles;
   }
   void on_alarm(const Alarm& event) override {
     behaviour.complaint = fmt::format("{} line {}: {}", event.diagnostic.id, event.diagnostic.line,

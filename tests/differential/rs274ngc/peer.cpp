@@ -88,7 +88,7 @@ class CallReader {
     move.to = machine(at_);
     moves.push_back(move);
   }
-  /// first end, second end, first center, second center, turns, end along the third, A, B, C
+  /// first end, second end, first center, second center, circles, end along the third, A, B, C
   void arc(const std::vector<double>& values) {
     constexpr std::array<std::array<std::size_t, 3>, 3> kAxes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
     const auto [first, second, third] = kAxes[static_cast<std::size_t>(plane_)];
@@ -104,7 +104,7 @@ class CallReader {
     center[second] = values.at(3) * mm_;
     const Point turned = machine(center);
     move.center = {turned[first], turned[second]};
-    move.turns = static_cast<int>(values.at(4));
+    move.circles = static_cast<int>(values.at(4));
     move.to = machine(at_);
     moves.push_back(move);
   }

@@ -66,7 +66,7 @@ class SampleReader {
     block_.assign(bytes.begin(), bytes.end());
     s.bytes._maximum = s.bytes._length = static_cast<std::uint32_t>(block_.size());
     s.bytes._buffer = block_.data();
-    // A fuzzer does not find checksums: zero stands for the right one.
+    // A fuzzer does not find checksums: zero is replaced by the right one.
     one(s.crc);
     if (s.crc == 0) s.crc = crc32(std::as_bytes(std::span(block_)));
     one(s.reason);

@@ -2,7 +2,7 @@
 
 /// Any text is executed or refused, in a bounded number of steps, and the windows it comes in can
 /// not be seen in what it does; no axis word vanishes. The first byte chooses the windows, and the
-/// form: what follows stands after a start that makes the text plain language or ISO.
+/// form: the rest follows a start that makes the text plain language or ISO.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::interpreter;
   if (size == 0) return 0;

@@ -10,7 +10,7 @@ namespace dripline::interpreter {
 
 /// Runs at most 2,000 blocks of `text`, given in windows of at most `spare` bytes more than asked
 /// for, each after one NotYet; questions get fixed answers. The events as text. Traps when the
-/// program neither goes on nor ends, and when a snapshot does not restore.
+/// program neither continues nor ends, and when a snapshot does not restore.
 std::vector<std::string> run_in_windows(const Dialect& dialect, std::string_view text,
                                         std::size_t spare, const Setup& setup = {});
 

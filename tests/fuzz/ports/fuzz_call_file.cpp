@@ -13,18 +13,18 @@ namespace {
 using namespace dripline::ports;
 using What = Intake::Item::What;
 
-void add(std::vector<Intake::Item> items, std::string& told) {
+void add(std::vector<Intake::Item> items, std::string& reported) {
   for (const auto& item : items) {
     if (item.what == What::Line && item.text.size() > Intake::kMaxLine) std::abort();
     // Pieces of a program may be cut anywhere.
     if (item.what != What::ProgramText)
-      told += static_cast<char>('A' + static_cast<int>(item.what));
-    told += item.text;
-    if (item.what != What::ProgramText) told += '\0';
+      reported += static_cast<char>('A' + static_cast<int>(item.what));
+    reported += item.text;
+    if (item.what != What::ProgramText) reported += '\0';
   }
 }
 
-std::string told(const RuleSet& rules, std::string_view text, std::size_t step) {
+std::string reported(const RuleSet& rules, std::string_view text, std::size_t step) {
   Intake intake(rules);
   std::string all;
   for (std::size_t at = 0; at < text.size(); at += step) {
@@ -43,8 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const RuleSet rules = read ? *read : RuleSet{};
   if (end == std::string_view::npos) return 0;
   const auto text = input.substr(end + 1);
-  const std::string whole = told(rules, text, text.size() + 1);
-  if (told(rules, text, 1) != whole || told(rules, text, 7) != whole) std::abort();
+  const std::string whole = reported(rules, text, text.size() + 1);
+  if (reported(rules, text, 1) != whole || reported(rules, text, 7) != whole) std::abort();
   if (rules.explain(std::string(text)).action.empty()) std::abort();
   return 0;
 }

@@ -1,4 +1,5 @@
-// Both ends of a plain line; the first two bytes say how it is held and what stands around a text.
+// Both ends of a plain line; the first two bytes select its flow control and the characters around
+// a text.
 #include "tests/fuzz/wire/line_script.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

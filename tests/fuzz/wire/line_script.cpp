@@ -160,7 +160,7 @@ class Player {
       log_ += "|" + std::to_string(event.index());
       if (const auto* failed = std::get_if<wire::TransferFailed>(&event))
         log_ += failed->error.what;
-      if (const auto* trouble = std::get_if<wire::LineError>(&event)) log_ += trouble->error.what;
+      if (const auto* error = std::get_if<wire::LineError>(&event)) log_ += error->error.what;
       if (const auto* asked = std::get_if<wire::TransferRequest>(&event)) log_ += asked->name;
     }
   }

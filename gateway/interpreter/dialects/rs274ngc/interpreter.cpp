@@ -145,7 +145,7 @@ Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::meet_no_line(LineState state) 
   }
 }
 
-/// The first line of a program that is not blank says how its end is told (2.1).
+/// The first line of a program that is not blank shows how its end is marked (2.1).
 bool Rs274NgcInterpreter::meet_percent(const char* at, bool& is_end) {
   State& state = run_.state;
   is_end = false;
@@ -195,7 +195,7 @@ bool Rs274NgcInterpreter::execute() {
 bool Rs274NgcInterpreter::execute_words(const char* at, bool is_skipped) {
   if (!read_items(run_, at) || !check_line(run_)) [[unlikely]]
     return false;
-  if (is_skipped) [[unlikely]] {  // read, so that its errors are told, and left out
+  if (is_skipped) [[unlikely]] {  // read, so that its errors are reported, and left out
     run_.block.clear();
     return true;
   }
@@ -269,7 +269,7 @@ Result<void> Rs274NgcInterpreter::restore(const Snapshot& snapshot) {
   run_.block.clear();
   run_.answer.reset();
   run_.pause = Pause::None;
-  flow_.forget();
+  flow_.reset();
   ++run_.frame_changes;
   is_asking_ = false;
   return {};

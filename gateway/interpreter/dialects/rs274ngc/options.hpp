@@ -38,7 +38,7 @@ struct ControlOptions {
   double spline_tolerance = 0.001;       ///< mm, of the pieces of G5 to G5.3
   double mm_per_machine_unit = 1;        ///< of stored parameters
   std::vector<std::int64_t> pins;
-  bool answers_pins = false;  ///< `pins` was given: nobody need be asked
+  bool answers_pins = false;  ///< `pins` was given: no operator need be asked
 
   bool is_linuxcnc() const { return profile == Profile::LinuxCnc; }
 };

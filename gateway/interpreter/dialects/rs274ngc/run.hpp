@@ -65,7 +65,7 @@ struct Run {
   HeldEvents held;
 
   TextPlace here;                 ///< of the line
-  TextPlace next;                 ///< where the run goes on after it
+  TextPlace next;                 ///< where the run continues after it
   const char* line_begin = "\n";  ///< the line; its end can be read and is an end of line
   const char* line_end = line_begin;
   std::array<char, kMaxLine + 2> last_line{};  ///< a last line without end, with one

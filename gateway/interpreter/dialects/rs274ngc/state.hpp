@@ -76,7 +76,7 @@ struct Compensation {
   double x = 0, y = 0;           ///< end of the last move as programmed, along the plane's axes
   std::array<double, 3> left{};  ///< with `was_on`: machine X Y Z of the tool
   std::uint8_t orientation = 0;  ///< of a lathe tool's tip, 1 to 8; its nose's center else
-  double held_sweep = 0;         ///< degrees of the held arc as programmed, whole turns left out
+  double held_sweep = 0;         ///< degrees of the held arc as programmed, without full circles
 };
 
 inline constexpr int kLeastOrder = 3;
@@ -130,7 +130,7 @@ struct CallFrame {
   SavedModes modes;
 };
 
-/// Where a label was met first: each stands for one thing within its subprogram.
+/// Where a label was met first: each names one thing within its subprogram.
 struct KnownLabel {
   Label scope;  ///< the subprogram, or none
   Label label;

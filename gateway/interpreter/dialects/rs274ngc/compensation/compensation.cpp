@@ -103,10 +103,10 @@ bool compensated_line(Run& run, const Target& target, bool is_rapid, const Feed&
                            : nist_line(run, target, is_rapid, feed);
 }
 
-bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
-                     const Feed& feed) {
-  return run.is_linuxcnc() ? trimmed_arc(run, target, center, turn, turns, feed)
-                           : nist_arc(run, target, center, turn, turns, feed);
+bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn turn,
+                     double full_circles, const Feed& feed) {
+  return run.is_linuxcnc() ? trimmed_arc(run, target, center, turn, full_circles, feed)
+                           : nist_arc(run, target, center, turn, full_circles, feed);
 }
 
 void release_held(Run& run) {
@@ -114,7 +114,7 @@ void release_held(Run& run) {
   run.held.release(run.sink);
 }
 
-// What both ways share.
+// Shared by both methods.
 
 PlanePoint point_of(const Run& run, const Axes& axes) {
   const PlaneAxes plane = axes_of(run.state.modes.plane);

@@ -18,14 +18,14 @@ inline bool shifts_moves(const Run& run) {
 }
 bool compensated_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
 /// `center` is that of the programmed path; with the NIST entry by radius it is not yet known.
-bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
-                     const Feed& feed);
+bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn turn,
+                     double full_circles, const Feed& feed);
 
 /// After G40 the next move begins at the end of the path as programmed. A tool change takes the
 /// tool's real place over instead, and axes that are not named stay there.
 void go_on_from_tool(Run& run);
 
-/// Lets go of moves that are held back: the path ends or goes on without compensation.
+/// Lets go of moves that are held back: the path ends or continues without compensation.
 void release_held(Run& run);
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -10,8 +10,8 @@ namespace {
 PlanePoint tip_of(const Compensation& compensation) {
   constexpr std::array<double, 9> kAlongZ{0, 1, -1, -1, 1, 1, 0, -1, 0};
   constexpr std::array<double, 9> kAlongX{0, -1, -1, 1, 1, 0, -1, 0, 1};
-  const std::size_t way = compensation.orientation;
-  return {compensation.radius * kAlongZ[way], compensation.radius * kAlongX[way]};
+  const std::size_t quadrant = compensation.orientation;
+  return {compensation.radius * kAlongZ[quadrant], compensation.radius * kAlongX[quadrant]};
 }
 
 void shift(Position& to, PlanePoint by) {

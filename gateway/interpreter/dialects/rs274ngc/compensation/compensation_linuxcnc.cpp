@@ -102,11 +102,11 @@ bool end_arc(const Run& run, Arc& arc, PlanePoint end) {
   const double slack = run.state.units == Units::Inch ? 0.001 : 0.0254;  // radians
   const PlanePoint center{arc.center_first.mm(), arc.center_second.mm()};
   const PlanePoint start = plane_point(run, run.held.start());
-  const double turns = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
+  const double whole = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
   const double sweep = sweep_of(center, start, end, arc.turn);
   if (sweep > run.state.compensation.held_sweep + slack * (180 / Angle::kPi)) return false;
   put(run, arc.to, end);
-  arc.sweep = Angle::degrees(sweep + turns);
+  arc.sweep = Angle::degrees(sweep + whole);
   return true;
 }
 
@@ -117,7 +117,7 @@ bool is_reversed(const Run& run, PlanePoint end, double travel) {
          0;
 }
 
-/// A corner may only shorten the move before it. Where the way turns straight back into an arc,
+/// A corner may only shorten the move before it. Where the path doubles straight back into an arc,
 /// the curves may meet far past the end instead.
 bool is_past(PlanePoint end, PlanePoint corner, double travel) {
   constexpr double kSlack = 0.0254;  // mm
@@ -140,7 +140,7 @@ bool finish_held(Run& run, PlanePoint end, double travel) {
     }
     put(run, to, end);
   }
-  // Moves after it that do not move in the plane stand over the same point.
+  // Moves after it that do not move in the plane are over the same point.
   for (auto& event : events) {
     if (auto* line = std::get_if<Line>(&event)) put(run, line->to, end);
     if (auto* rapid = std::get_if<Rapid>(&event)) put(run, rapid->to, end);
@@ -158,7 +158,7 @@ struct Entry {
   std::optional<Turn> next_turn;  ///< of an arc
 };
 
-/// A way straight back leads into a valley, not around a point, where the arc beside it (the next
+/// A path straight back leads into a valley, not around a point, where the arc beside it (the next
 /// move, or else the held one) bulges towards the tool.
 bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
   if (next_turn) return !is_inside(run, *next_turn);
@@ -287,7 +287,7 @@ bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& fe
 }
 
 /// The offset arc must begin where the tool is: its center moves along the end's normal.
-bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
                   const Feed& feed) {
   if (run.state.compensation.orientation != 0) {
     return run.fail(ErrorCode::CompLathe, 0, "the entry move is an arc");
@@ -306,7 +306,7 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
   if (std::fabs(cosine) < 1e-6) return run.fail(ErrorCode::CompArcRadius, 0);
   const PlanePoint moved = along(stop, toward_center, distance(tool, stop) / 2 / cosine);
   const double once = sweep_of(moved, tool, stop, turn);
-  const double sweep = once + 360 * (turns - 1);
+  const double sweep = once + 360 * (full_circles - 1);
   run.state.compensation.held_sweep = once;
   if (!Hold(run).arc(moved_to(run, target, stop), {moved.first, moved.second, turn, sweep}, feed)) {
     return false;
@@ -340,11 +340,11 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   return true;
 }
 
-bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
                  const Feed& feed) {
   const Compensation& compensation = run.state.compensation;
   if (!check_room(run)) return false;
-  if (compensation.is_first) return enter_on_arc(run, target, center, turn, turns, feed);
+  if (compensation.is_first) return enter_on_arc(run, target, center, turn, full_circles, feed);
   const PlanePoint start = programmed_point(run);
   const PlanePoint end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
@@ -358,7 +358,7 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
   const Curve next{true, machine_point(run, center), 0, path};
   if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
   const PlanePoint stop = along(center, direction(center, end), path);
-  const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (turns - 1);
+  const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (full_circles - 1);
   if (!Hold(run).arc(moved_to(run, target, stop), {center.first, center.second, turn, sweep},
                      feed)) {
     return false;

@@ -14,7 +14,7 @@ constexpr double kStraightOn = 0.01;
 
 enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
 
-/// The tool's normal turns from where it is to `normal`.
+/// Rotates the tool's normal from where it is to `normal`.
 Corner corner_to(const Run& run, double normal) {
   const double old_normal = direction(programmed_point(run), tool_point(run));
   const double turn = turned_into(side_sign(run) * (old_normal - normal), -kStraightOn);
@@ -144,7 +144,7 @@ bool entry_center_of_radius(Run& run, PlanePoint end, Turn turn, PlanePoint& cen
   return true;
 }
 
-bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
                   const Feed& feed) {
   const double tool_radius = run.state.compensation.radius;
   const PlanePoint tool = tool_point(run);
@@ -165,7 +165,7 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
         fmt::format("the first arc with compensation is off by {}", off / run.state.mm_per_unit()));
   }
   const PlanePoint stop = along(center, direction(center, end), wanted);
-  const double sweep = sweep_of(center, tool, stop, turn) + 360 * (turns - 1);
+  const double sweep = sweep_of(center, tool, stop, turn) + 360 * (full_circles - 1);
   if (!arc_to(run, moved_to(run, target, stop), {center.first, center.second, turn, sweep}, feed)) {
     return false;
   }
@@ -175,10 +175,10 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
 
 }  // namespace
 
-bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
               const Feed& feed) {
   const Compensation& compensation = run.state.compensation;
-  if (compensation.is_first) return enter_on_arc(run, target, center, turn, turns, feed);
+  if (compensation.is_first) return enter_on_arc(run, target, center, turn, full_circles, feed);
   const PlanePoint start = programmed_point(run);
   const PlanePoint end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
@@ -189,7 +189,7 @@ bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, doub
   const Corner corner = compensation.radius == 0 ? Corner::StraightOn : corner_to(run, normal);
   if (corner == Corner::Concave) return run.fail(ErrorCode::ConcaveCorner, 0);
   const CornerArc arc = plan_corner(run, corner, normal);
-  const double sweep = sweep_of(center, start, end, turn) + 360 * (turns - 1);
+  const double sweep = sweep_of(center, start, end, turn) + 360 * (full_circles - 1);
   const double path = inside ? radius - compensation.radius : radius + compensation.radius;
   const double length = path * sweep * (Angle::kPi / 180);
   const double arc_length = corner_length(run, arc);

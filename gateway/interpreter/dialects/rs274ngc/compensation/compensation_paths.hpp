@@ -4,15 +4,15 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 
-/// The two ways of compensation, chosen by the profile; private to compensation*.cpp. Points are
+/// The two methods of compensation, chosen by the profile; private to compensation*.cpp. Points are
 /// program coordinates along the axes of the plane, in millimetres.
 namespace dripline::interpreter::rs274ngc {
 
 bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
-bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
               const Feed& feed);
 bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
-bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double turns,
+bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
                  const Feed& feed);
 /// Ends the path where the tool is. Errors: the last move cannot be made.
 bool stop_trimming(Run& run);

@@ -151,7 +151,7 @@ bool CycleRun::read_words() {
     cycle.k = words().value_or('K', cycle.k);
   }
   spindle_ = run_.state.spindle.state;
-  const bool turns =
+  const bool is_turning =
       spindle_ == SpindleState::Clockwise || spindle_ == SpindleState::Counterclockwise;
   if (row_.code == 840 && spindle_ != SpindleState::Clockwise) {
     return run_.fail(ErrorCode::SpindleG84, 0);
@@ -159,7 +159,7 @@ bool CycleRun::read_words() {
   if (row_.code == 740 && spindle_ != SpindleState::Counterclockwise) {
     return run_.fail(ErrorCode::SpindleCycle, 0, "G74 needs it counterclockwise");
   }
-  if (row_.needs_spindle && !turns) {
+  if (row_.needs_spindle && !is_turning) {
     return run_.fail(ErrorCode::SpindleCycle, 0, fmt::format("G{}", row_.code / 10.0));
   }
   return place_heights();

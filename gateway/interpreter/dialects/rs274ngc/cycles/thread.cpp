@@ -117,8 +117,8 @@ class ThreadPasses {
     const double length = cycle_.taper_length;
     return cycle_.pitch * std::hypot(length, cycle_.full_depth) / length;
   }
-  /// The flank that cuts is chosen by moving the pass along Z. The tool keeps the same way out of
-  /// every pass: in deep ones to the drive line.
+  /// The flank that cuts is chosen by moving the pass along Z. The tool keeps the same retract out
+  /// of every pass: in deep ones to the drive line.
   void make_pass(double depth) {
     const double toward = cycle_.end_z < cycle_.start_z ? -1 : 1;
     const double slope = toward * std::tan(cycle_.angle);

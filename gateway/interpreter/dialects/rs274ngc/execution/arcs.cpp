@@ -148,8 +148,8 @@ bool has_other_user_of_p(const Run& run) {
 
 /// P of an arc. One that is a dwell, a tolerance or an input's number at the same time would turn
 /// the arc that often, without a word of it.
-bool read_turns(Run& run, double& turns) {
-  turns = 1;
+bool read_full_circles(Run& run, double& full_circles) {
+  full_circles = 1;
   const Words& words = run.block.words;
   if (!words.has('P')) return true;
   if (has_other_user_of_p(run)) {
@@ -157,9 +157,11 @@ bool read_turns(Run& run, double& turns) {
     return run.fail_word(ErrorCode::ArcTurns, 'P',
                          fmt::format("P{} is of another code of the block as well", words['P']));
   }
-  turns = std::round(words['P']);
-  constexpr double kMaxTurns = 1e6;
-  if (std::fabs(words['P'] - turns) <= 0.0001 && turns >= 1 && turns <= kMaxTurns) return true;
+  full_circles = std::round(words['P']);
+  constexpr double kMaxFullCircles = 1e6;
+  if (std::fabs(words['P'] - full_circles) <= 0.0001 && full_circles >= 1 &&
+      full_circles <= kMaxFullCircles)
+    return true;
   return run.fail_word(ErrorCode::ArcTurns, 'P', fmt::format("P{}", words['P']));
 }
 
@@ -190,8 +192,8 @@ bool arc_move(Run& run, bool is_clockwise) {
   const OffsetWords offsets = offset_words(state.modes.plane);
   const bool names_plane = (target.named & (bit_of(axes.first) | bit_of(axes.second))) != 0;
   if (!check_words(run, offsets, names_plane)) return false;
-  double turns = 1;
-  if (!read_turns(run, turns)) return false;
+  double full_circles = 1;
+  if (!read_full_circles(run, full_circles)) return false;
   PlanePoint start{state[axes.first], state[axes.second]};
   const Compensation& compensation = state.compensation;
   const bool is_compensated = shifts_moves(run);
@@ -207,9 +209,9 @@ bool arc_move(Run& run, bool is_clockwise) {
     return false;
   }
   run.state.passes = 0;
-  if (is_compensated) return compensated_arc(run, target, center, turn, turns, feed);
+  if (is_compensated) return compensated_arc(run, target, center, turn, full_circles, feed);
   if (compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
-  const double sweep = sweep_of(center, start, end, turn) + 360 * (turns - 1);
+  const double sweep = sweep_of(center, start, end, turn) + 360 * (full_circles - 1);
   target.named = static_cast<AxisBits>(target.named | bit_of(axes.first) | bit_of(axes.second));
   return arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
 }

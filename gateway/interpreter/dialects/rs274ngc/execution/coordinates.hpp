@@ -2,13 +2,13 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Program coordinates and machine coordinates, and the codes that change how they hang together
-/// (7.2 to 7.5, 8, 15.4). machine = rotated(program + G92 offset) + origin of the system.
+/// Program coordinates and machine coordinates, and the codes that change how they depend on each
+/// other (7.2 to 7.5, 8, 15.4). machine = rotated(program + G92 offset) + origin of the system.
 namespace dripline::interpreter::rs274ngc {
 
 /// Machine coordinates of a program point; no axis is marked as moved that was not.
 Position to_machine(const Run& run, const Axes& program);
-/// The other way; `machine` in millimetres and degrees.
+/// The inverse; `machine` in millimetres and degrees.
 Axes to_program(const Run& run, const Axes& machine);
 
 /// What the screen shows of offsets and rotation.

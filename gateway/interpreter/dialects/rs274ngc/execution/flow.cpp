@@ -50,7 +50,7 @@ bool is_wanted(SkipFor until, Oword word) {
   }
 }
 
-/// Words of the same label that may stand between.
+/// Words of the same label that may appear between.
 bool is_passed(SkipFor until, Oword word) {
   if (word == Oword::Break || word == Oword::Continue || word == Oword::Return) return true;
   if (until == SkipFor::EndOfIf) return word == Oword::ElseIf || word == Oword::Else;
@@ -241,7 +241,7 @@ bool Flow::look_up_file() {
   return true;
 }
 
-void Flow::forget() {
+void Flow::reset() {
   places_.clear();
   label_index_.clear();
 }

@@ -18,7 +18,7 @@ class Flow {
   bool execute(const char* at);
   /// M98 and M99 of the line.
   bool execute_fanuc(int m_code);
-  /// One line that is passed over: Run::next tells where the run goes on.
+  /// One line that is passed over: Run::next is where the run continues.
   bool pass_over();
   /// The text of a program is over. False: an alarm, or the source has yet to answer.
   bool end_of_text();
@@ -27,7 +27,7 @@ class Flow {
   bool look_up_file();
 
   /// Drops what was learned about another run's text and state.
-  void forget();
+  void reset();
 
  private:
   bool begin_sub(const OwordHead& head);
@@ -74,7 +74,7 @@ class Flow {
   static constexpr std::size_t kMaxPlaces = 4096;
 
   Run& run_;
-  std::unordered_map<TextPlace, TextPlace, PlaceHash> places_;  ///< only ever a faster way
+  std::unordered_map<TextPlace, TextPlace, PlaceHash> places_;  ///< only a cache
   std::unordered_map<std::pair<std::int64_t, std::int64_t>, std::size_t, LabelHash> label_index_;
   std::array<double, kArguments> arguments_{};
   std::size_t argument_count_ = 0;

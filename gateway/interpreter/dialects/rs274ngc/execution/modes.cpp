@@ -41,7 +41,7 @@ bool select_path(Run& run, int code) {
   return true;
 }
 
-/// Those that stand on few lines.
+/// Those that few lines have.
 bool apply_rare_modes(Run& run) {
   const Block& block = run.block;
   if (const int code = block.g(GGroup::Plane); code >= 0 && !select_plane(run, code)) return false;

@@ -16,7 +16,7 @@ struct Target {
   AxisBits named = 0;
 };
 
-/// @ and ^ stand without X and Y, in G17.
+/// @ and ^ appear without X and Y, in G17.
 bool check_polar_words(Run& run);
 /// The end of the line's move out of its words, G53 and distance mode.
 bool read_target(Run& run, Target& target);

@@ -14,7 +14,7 @@ namespace dripline::interpreter::rs274ngc {
 bool add_control_point(Run& run);
 /// G5.3. No motion mode is in force after it.
 bool make_nurbs(Run& run);
-/// Whether the codes of the line may stand between G5.2 and G5.3: none that moves the tool or its
+/// Whether the codes of the line may appear between G5.2 and G5.3: none that moves the tool or its
 /// coordinates.
 bool fits_in_nurbs(Run& run);
 /// At the program's end.

@@ -35,13 +35,14 @@ bool read_cubic(Run& run, Cubic& curve) {
   const double q = run.mm(words['Q']);
   curve.first = {curve.start.first + i, curve.start.second + j};
   curve.second = {curve.end.first + p, curve.end.second + q};
-  state.spline_i = -p;  // the next one goes on smoothly
+  state.spline_i = -p;  // the next one continues smoothly
   state.spline_j = -q;
   state.follows_spline = true;
   return true;
 }
 
-/// A quadratic curve is the cubic whose two pulling points lie two thirds of the way to its one.
+/// A quadratic curve is the cubic whose two control points lie at two thirds of the distance to its
+/// one.
 bool read_quadratic(Run& run, Cubic& curve) {
   const Words& words = run.block.words;
   if (!words.has('I') && !words.has('J')) {

@@ -18,7 +18,7 @@ bool is_defined(Run& run, std::string_view name);
 /// The number under which a name can be set; alarms on those that only show the state.
 bool name_to_set(Run& run, std::string_view name, std::uint32_t column, NameId& id);
 
-/// For the texts of comments: what stands after a #, without alarms.
+/// For the texts of comments: the value after a #, without alarms.
 std::optional<double> parameter_for_text(Run& run, int index);
 std::optional<double> named_for_text(Run& run, std::string_view name);
 

@@ -52,7 +52,7 @@ ToolPlace place_in(const Run& run, bool is_fixture) {
   return place;
 }
 
-/// X and Y of a turned system hang together: the one without a word keeps its part.
+/// X and Y of a rotated system depend on each other: the one without a word keeps its part.
 void measure(Run& run, const ToolPlace& place, Axes& length) {
   const Words& words = run.block.words;
   Axes wanted = place.at;

@@ -107,7 +107,7 @@ void put_g(Run& run, const GRow& row) {
   if (row.takes_axes) block.axis_user = &row;
 }
 
-/// The later program lets G80 stand beside a motion code, before or after it: the motion is made.
+/// The later program accepts G80 beside a motion code, before or after it: the motion is made.
 bool is_overruled(Run& run, const GRow& row) {
   constexpr std::int16_t kMotionOff = 800;
   if (!run.is_linuxcnc() || row.group != GGroup::Motion) return false;
@@ -164,7 +164,7 @@ bool add_setting(Run& run, Setting setting, const char* start) {
   }
   for (std::uint8_t i = 0; i < block.setting_count; ++i) {
     if (block.settings[i].index == setting.index) {
-      run.warn(kDuplicateSetting, "a parameter is set twice on one line; the last value counts");
+      run.warn(kDuplicateSetting, "a parameter is set twice on one line; the last value applies");
       break;
     }
   }
@@ -193,7 +193,7 @@ bool read_setting(Run& run, const char* start, const char*& at) {
   return read_value(run, at, setting.value) && add_setting(run, setting, start);
 }
 
-/// `at` is on the bracket. Of several comments of a line the last one counts.
+/// `at` is on the bracket. The last of several comments of a line applies.
 bool read_comment(Run& run, const char*& at) {
   const char* start = at;
   Block& block = run.block;
@@ -202,7 +202,7 @@ bool read_comment(Run& run, const char*& at) {
     if (is_end_of_line(*at)) return run.fail(ErrorCode::UnclosedComment, run.column(start));
   }
   if (block.comment_begin != nullptr && is_message(block.comment_begin, block.comment_end)) {
-    run.warn(kCommentLost, "a message is followed by another comment, which counts instead of it");
+    run.warn(kCommentLost, "a message is followed by another comment, which applies instead");
   }
   block.comment_begin = start + 1;
   block.comment_end = at;

@@ -9,7 +9,7 @@ namespace dripline::interpreter::rs274ngc {
 /// Reads the line at `at`, after slash and line number, to its end.
 bool read_items(Run& run, const char* at);
 
-/// Moves after the slash and the line number that may begin a line; `is_skip` tells of the slash.
+/// Moves after the slash and the line number that may begin a line; `is_skip` reports the slash.
 bool read_line_head(Run& run, const char*& at, bool& is_skip);
 
 /// Moves after blanks and comments.

@@ -16,7 +16,7 @@ bool read_expression(Run& run, const char*& at, double& value);
 /// Reads `<name>` at `at` (on the `<`), blanks removed, in small letters.
 bool read_name(Run& run, const char*& at, std::string& name);
 
-/// Whether `word` (capitals) stands at `at`, blanks between its letters allowed; then `at` moves
+/// Whether `word` (capitals) is at `at`, blanks between its letters allowed; then `at` moves
 /// after it.
 bool take_word(const char*& at, const char* word);
 

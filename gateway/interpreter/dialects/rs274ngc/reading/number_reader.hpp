@@ -6,7 +6,7 @@
 /// Numbers without parameters and expressions (3.1).
 namespace dripline::interpreter::rs274ngc {
 
-/// One to nine digits and nothing that goes on with them: most indexes, labels and constants.
+/// One to nine digits and nothing that continues them: most indexes, labels and constants.
 inline bool take_small_number(const char*& at, double& value) {
   const char* s = at;
   int number = 0;

@@ -39,7 +39,7 @@ Oword take_oword(const char*& at) {
   return Oword::None;
 }
 
-/// Names stand after the numbers, by their place among the names met so far.
+/// Names come after the numbers, by their place among the names met so far.
 constexpr std::int64_t kFirstName = std::int64_t{1} << 40;
 
 bool name_label(Run& run, std::uint32_t column, Label& label) {

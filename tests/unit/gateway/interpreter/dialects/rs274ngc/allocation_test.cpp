@@ -44,16 +44,16 @@ TEST_P(Rs274OrdinaryBlocks, DoNotAllocate) {
 
 INSTANTIATE_TEST_SUITE_P(
     , Rs274OrdinaryBlocks,
-    testing::Values(BlockCase{"straight", "G21 G91 G1 F100\n", "X1.5 Y-.25\n"},
-                    BlockCase{"rapid", "G91 G0\n", "N10 X1.5 Z.1\n"},
-                    BlockCase{"arc", "G91 F10\n", "G2 X2 Y0 I1 J0\n"},
-                    BlockCase{"turned", "G10 L2 P1 R30\nG91 G1 F10\n", "X1 Y2\n"},
-                    BlockCase{"hole", "G21 F10 G0 Z9\n", "G81 X1 Z-1 R1\nX2\n"},
-                    BlockCase{"compensated", "G91 F10\nG41.1 D1\n", "G1 X9\nY9\nX9\nY-9\n"},
-                    BlockCase{"computed", "#<way>=2 #7=1\nG91 G1 F10\n", "X[#7+#<way>*SIN[30]]\n"},
-                    BlockCase{"looped",
-                              "#1=0 G91 G0\no1 while [#1 lt 9999]\n#1=[#1+1]\nX#1\no1 endwhile\n",
-                              "\n"}),
+    testing::Values(
+        BlockCase{"straight", "G21 G91 G1 F100\n", "X1.5 Y-.25\n"},
+        BlockCase{"rapid", "G91 G0\n", "N10 X1.5 Z.1\n"},
+        BlockCase{"arc", "G91 F10\n", "G2 X2 Y0 I1 J0\n"},
+        BlockCase{"turned", "G10 L2 P1 R30\nG91 G1 F10\n", "X1 Y2\n"},
+        BlockCase{"hole", "G21 F10 G0 Z9\n", "G81 X1 Z-1 R1\nX2\n"},
+        BlockCase{"compensated", "G91 F10\nG41.1 D1\n", "G1 X9\nY9\nX9\nY-9\n"},
+        BlockCase{"computed", "#<path>=2 #7=1\nG91 G1 F10\n", "X[#7+#<path>*SIN[30]]\n"},
+        BlockCase{"looped", "#1=0 G91 G0\no1 while [#1 lt 9999]\n#1=[#1+1]\nX#1\no1 endwhile\n",
+                  "\n"}),
     [](const auto& each) { return each.param.name; });
 
 }  // namespace
