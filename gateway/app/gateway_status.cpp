@@ -85,7 +85,7 @@ dds::SpindleState spindle_of(interpreter::SpindleState state) {
     case interpreter::SpindleState::Oriented:
       return dds::SpindleState::Oriented;
   }
-  return dds::SpindleState::NotTold;
+  return dds::SpindleState::Unknown;
 }
 
 CoordinateFrame::Values values_of(const interpreter::Position& position) {

@@ -5,18 +5,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "protocol/base/clock.hpp"
 
-/// The messages of dripline.idl as C++ values, already checked: enumerators are in range, names
-/// well formed, text is UTF-8. MTConnect words where it has them. Members mean what the IDL says.
+/// The messages of dripline.idl as C++ values, already checked: enumerators are in range, names are
+/// well formed, text is UTF-8. Words and values are MTConnect's where it has them; dripline.idl
+/// states the meaning of each member. A new member also gets its row in members.hpp, from which
+/// encoding, decoding, checks and the JSON of the API come.
 namespace dripline::dds {
 
-/// 2: orders carry number and deadline. Gateways of other versions are shown and heard, but started
-/// by nobody.
+/// 2: commands carry number and deadline. A gateway of another version is shown, and its records
+/// are stored, but the server starts no program there.
 inline constexpr std::uint32_t kProtocolVersion = 2;
 inline constexpr std::size_t kMaxBlockBytes = 32 * 1024;
 inline constexpr std::uint32_t kMaxRequestBytes = 1024 * 1024;
@@ -32,11 +35,11 @@ enum class Execution : std::uint8_t {
   ProgramCompleted,
   OptionalStop,
   Waiting,
-};  ///< Waiting: for text (a starved feed), an answer or a connection; `message` says for what
+};  ///< Waiting: for text (a starved feed), an answer or a connection; `message` names which
 enum class ControllerMode : std::uint8_t { Automatic, ManualDataInput, Manual };
 enum class RecordKind : std::uint8_t {
   RunStarted,  ///< text: JSON {"program","revision","control"}
-  RunEnded,    ///< text: JSON RunEnd, see server/machines and gateway/report
+  RunEnded,    ///< text: JSON RunEnd (record_text.hpp)
   Output,      ///< text: the line; device: where it went
   Probe,       ///< text: JSON {"to":{},"until":"","tripped":true,"at":{}}
   Message,
@@ -57,29 +60,41 @@ enum class CommandAction : std::uint8_t {
   RapidOverride,
   SpindleOverride,
   Handwheel,
-  Refuse,  ///< no order: the server does not command this gateway; `argument` says why
+  Refuse,  ///< the server does not command this gateway; `argument` is the reason
 };
 enum class MotionKind : std::uint8_t { None, Rapid, Line, Clockwise, Counterclockwise, Thread };
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 enum class FeedUnit : std::uint8_t { PerMinute, PerRevolution, InverseTime };
-enum class SpindleState : std::uint8_t { NotTold, Off, Clockwise, Counterclockwise, Oriented };
+enum class SpindleState : std::uint8_t { Unknown, Off, Clockwise, Counterclockwise, Oriented };
 /// Whether the machine's side lets the network start it.
-enum class RemoteEnable : std::uint8_t { NotTold, Unattended, Given, NotGiven };
-/// What a run goes on with. CycleStart: at the machine's panel, or a resume where that may.
-enum class WaitsFor : std::uint8_t { NotTold, Nothing, CycleStart, Text, Answer, Disk };
+enum class RemoteEnable : std::uint8_t { Unknown, Unattended, Given, NotGiven };
+/// The event that continues a run. CycleStart: at the machine's panel, or a resume command where
+/// that is permitted.
+enum class WaitsFor : std::uint8_t { Unknown, Nothing, CycleStart, Text, Answer, Disk };
 enum class BlockStatus : std::uint8_t { Ok, NoSuchRun, NoSuchProgram, OutOfRange, Corrupt, Failed };
 
-std::string_view to_string(Execution value);
-std::string_view to_string(ControllerMode value);
-std::string_view to_string(RecordKind value);
-std::string_view to_string(CommandAction value);
-std::string_view to_string(BlockStatus value);
-std::string_view to_string(MotionKind value);
-std::string_view to_string(CompensationSide value);
-std::string_view to_string(FeedUnit value);
-std::string_view to_string(SpindleState value);
-std::string_view to_string(RemoteEnable value);
-std::string_view to_string(WaitsFor value);
+/// The words of an enumeration, in the order of its enumerators; a value from the network is in
+/// range when it has a word.
+std::span<const std::string_view> words_of(Execution);
+std::span<const std::string_view> words_of(ControllerMode);
+std::span<const std::string_view> words_of(RecordKind);
+std::span<const std::string_view> words_of(CommandAction);
+std::span<const std::string_view> words_of(BlockStatus);
+std::span<const std::string_view> words_of(MotionKind);
+std::span<const std::string_view> words_of(CompensationSide);
+std::span<const std::string_view> words_of(FeedUnit);
+std::span<const std::string_view> words_of(SpindleState);
+std::span<const std::string_view> words_of(RemoteEnable);
+std::span<const std::string_view> words_of(WaitsFor);
+
+template <class T>
+concept Enumeration = requires(T value) {
+  words_of(value);
+};
+
+std::string_view to_string(Enumeration auto value) {
+  return words_of(value)[static_cast<std::size_t>(value)];
+}
 
 struct Announce {
   std::string machine, control, version;
@@ -108,11 +123,11 @@ struct ActiveModes {
   std::optional<double> spindle_load;
   bool flood = false, mist = false;
   std::optional<std::uint8_t> tool_axis;  ///< 0 = X, 8 = W; below nine
-  SpindleState spindle = SpindleState::NotTold;
+  SpindleState spindle = SpindleState::Unknown;
   friend bool operator==(const ActiveModes&, const ActiveModes&) = default;
 };
 
-/// What depends on the program and on what the operator has set for it.
+/// Program coordinates and how they lie on the machine.
 struct ProgramFrame {
   std::array<double, 9> position{}, target{};  ///< program coordinates
   std::array<double, 9> datum{}, shift{};
@@ -148,12 +163,12 @@ struct Status {
   std::uint32_t outbox = 0;
   std::uint16_t axes = 0;  ///< bit set over `position`, bit 0 = X
   std::uint64_t session = 0;
-  std::optional<ActiveModes> modes;        ///< older gateways say none
+  std::optional<ActiveModes> modes;        ///< none from an older gateway
   std::optional<Coordinates> coordinates;  ///< likewise
   bool emergency_stop = false;
   std::chrono::microseconds steady{0};  ///< 0: from an older gateway
-  RemoteEnable remote_enable = RemoteEnable::NotTold;
-  WaitsFor waits_for = WaitsFor::NotTold;
+  RemoteEnable remote_enable = RemoteEnable::Unknown;
+  WaitsFor waits_for = WaitsFor::Unknown;
   friend bool operator==(const Status&, const Status&) = default;
 };
 
@@ -185,7 +200,7 @@ struct Command {
   std::uint64_t size = 0;
   std::string control, argument;
   double value = 0;
-  std::uint64_t session = 0;  ///< 0: whichever gateway hears it
+  std::uint64_t session = 0;  ///< 0: any gateway of the machine
   std::string setup;          ///< start: TOML, at most kMaxCommandSetup; empty: the gateway's own
   std::uint64_t server = 0, number = 0;
   std::chrono::microseconds deadline{0};  ///< by the gateway's steady clock; 0: none
@@ -215,7 +230,7 @@ struct BlockData {
   BlockStatus status = BlockStatus::Ok;
   std::uint64_t offset = 0, total_bytes = 0;
   bool ends = false;
-  std::vector<std::byte> bytes;  ///< the CRC was right, or the message was dropped and counted
+  std::vector<std::byte> bytes;  ///< a message with a wrong CRC was dropped
   std::string reason;
   friend bool operator==(const BlockData&, const BlockData&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/api/status_view.hpp"
 #include "server/machines/machine_notices.hpp"
 
 namespace dripline::api {
@@ -20,118 +21,6 @@ json optional_time(const std::optional<UtcTime>& time) {
 
 json sequence_number(std::int64_t sequence) {
   return sequence < 0 ? json(nullptr) : json(sequence);
-}
-
-constexpr std::string_view kAxes = "XYZABCUVW";
-
-/// By axis letter, for the axes whose bit is set; bit 0 is X.
-template <std::size_t N>
-json axes_json(unsigned axes, const std::array<double, N>& values) {
-  json object = json::object();
-  for (std::size_t i = 0; i < N; ++i) {
-    if ((axes >> i & 1) != 0) object[std::string(1, kAxes[i])] = values[i];
-  }
-  return object;
-}
-
-json axis_letters(unsigned axes) {
-  json letters = json::array();
-  for (std::size_t i = 0; i < kAxes.size(); ++i) {
-    if ((axes >> i & 1) != 0) letters.push_back(std::string(1, kAxes[i]));
-  }
-  return letters;
-}
-
-json number_or_null(const std::optional<std::int32_t>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json modes_json(const dds::ActiveModes& modes) {
-  return {{"motion", dds::to_string(modes.motion)},
-          {"compensation", dds::to_string(modes.compensation)},
-          {"units", modes.is_inch ? "inch" : "mm"},
-          {"incremental", modes.is_incremental},
-          {"feed_unit", dds::to_string(modes.feed_unit)},
-          {"feed", modes.feed},
-          {"feed_limited", modes.is_feed_limited},
-          {"tool", number_or_null(modes.tool)},
-          {"next_tool", number_or_null(modes.next_tool)},
-          {"tool_offset", number_or_null(modes.tool_offset)},
-          {"tool_length_x", modes.tool_length_x},
-          {"tool_length_z", modes.tool_length_z},
-          {"tool_radius", modes.tool_radius},
-          {"work_system", optional_text(modes.work_system)},
-          {"cycle", optional_text(modes.cycle)},
-          {"dwell_seconds", modes.dwell_seconds},
-          {"surface_speed", modes.is_surface_speed},
-          {"spindle_speed", modes.spindle_speed},
-          {"spindle_load", modes.spindle_load ? json(*modes.spindle_load) : json(nullptr)},
-          {"flood", modes.flood},
-          {"mist", modes.mist},
-          {"tool_axis",
-           modes.tool_axis ? json(std::string(1, kAxes[*modes.tool_axis])) : json(nullptr)},
-          {"spindle", modes.spindle == dds::SpindleState::NotTold
-                          ? json(nullptr)
-                          : json(dds::to_string(modes.spindle))}};
-}
-
-json frame_json(const dds::ProgramFrame& frame, unsigned axes) {
-  constexpr unsigned kMainAxes = 7;
-  return {{"position", axes_json(axes, frame.position)},
-          {"target", axes_json(axes, frame.target)},
-          {"datum", axes_json(axes, frame.datum)},
-          {"shift", axes_json(axes, frame.shift)},
-          {"rotation", frame.rotation},
-          {"basic_rotation", frame.basic_rotation},
-          {"scale", axes_json(axes & kMainAxes, frame.scale)},
-          {"mirrored", axis_letters(frame.mirrored)},
-          {"pole", frame.pole_axes != 0 ? axes_json(frame.pole_axes, frame.pole) : json(nullptr)}};
-}
-
-json coordinates_json(const dds::Status& status) {
-  if (!status.coordinates) return nullptr;
-  const dds::Coordinates& all = *status.coordinates;
-  std::array<double, 9> distance{};
-  for (std::size_t i = 0; i < distance.size(); ++i)
-    distance[i] = all.target[i] - status.position[i];
-  return {{"target", axes_json(status.axes, all.target)},
-          {"distance_to_go", axes_json(status.axes, distance)},
-          {"lag", all.lag ? axes_json(status.axes, *all.lag) : json(nullptr)},
-          {"program", all.program ? frame_json(*all.program, status.axes) : json(nullptr)}};
-}
-
-json status_json(const dds::Status& status) {
-  return {{"time", to_iso8601(status.time)},
-          {"execution", dds::to_string(status.execution)},
-          {"mode", dds::to_string(status.mode)},
-          {"run", optional_text(status.run)},
-          {"program", optional_text(status.program)},
-          {"sent", status.sent},
-          {"accepted", status.accepted},
-          {"executed", status.executed},
-          {"total_bytes", status.total_bytes},
-          {"offset", status.offset},
-          {"line", status.line},
-          {"sequence", sequence_number(status.sequence)},
-          {"position", axes_json(status.axes, status.position)},
-          {"feed_mm_per_min", status.feed_mm_per_min},
-          {"spindle_rpm", status.spindle_rpm},
-          {"feed_override", status.feed_override},
-          {"rapid_override", status.rapid_override},
-          {"spindle_override", status.spindle_override},
-          {"buffered_seconds", status.buffered_seconds},
-          {"single_block", status.single_block},
-          {"message", optional_text(status.message)},
-          {"outbox", status.outbox},
-          {"modes", status.modes ? modes_json(*status.modes) : json(nullptr)},
-          {"coordinates", coordinates_json(status)},
-          {"emergency_stop", status.emergency_stop},
-          {"remote_enable", status.remote_enable == dds::RemoteEnable::NotTold
-                                ? json(nullptr)
-                                : json(dds::to_string(status.remote_enable))},
-          {"waits_for", status.waits_for == dds::WaitsFor::NotTold
-                            ? json(nullptr)
-                            : json(dds::to_string(status.waits_for))}};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using Sample = dds::SampleOf<dds::FUZZED_MESSAGE>;
   Sample sample{};
   dds::fuzz::SampleReader reader({data, size});
-  reader.read(sample);
+  reader.read<dds::FUZZED_MESSAGE>(sample);
   const auto message = dds::decode(sample);
   if (!message) {
     if (message.error().what.empty()) __builtin_trap();

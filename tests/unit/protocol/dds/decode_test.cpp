@@ -77,7 +77,7 @@ TEST(Decode, RefusesEnumeratorsWithoutMeaning) {
 TEST(Decode, TakesAStatusWithoutModes) {
   const Status message = status();
   auto sample = sample_of(message);
-  EXPECT_FALSE(sample.modes.is_told);
+  EXPECT_FALSE(sample.modes.is_present);
   sample.modes = {};
   EXPECT_EQ(*decode(sample), message);
 }

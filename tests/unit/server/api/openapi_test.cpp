@@ -206,6 +206,27 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   }
 }
 
+TEST_F(OpenApi, ListsTheWordsOfEveryEnumeration) {
+  const auto expect_words = [this](const std::string& schema, const std::string& member,
+                                   std::span<const std::string_view> words) {
+    Json expected = Json::array();
+    for (const std::string_view word : words) {
+      if (word != "unknown") expected.push_back(word);  // shown as null
+    }
+    EXPECT_EQ(document_["components"]["schemas"][schema]["properties"][member]["enum"], expected)
+        << schema << "." << member;
+  };
+  expect_words("Status", "execution", words_of(dds::Execution{}));
+  expect_words("Status", "mode", words_of(dds::ControllerMode{}));
+  expect_words("Status", "remote_enable", words_of(dds::RemoteEnable{}));
+  expect_words("Status", "waits_for", words_of(dds::WaitsFor{}));
+  expect_words("ActiveModes", "motion", words_of(dds::MotionKind{}));
+  expect_words("ActiveModes", "compensation", words_of(dds::CompensationSide{}));
+  expect_words("ActiveModes", "feed_unit", words_of(dds::FeedUnit{}));
+  expect_words("ActiveModes", "spindle", words_of(dds::SpindleState{}));
+  expect_words("Record", "kind", words_of(dds::RecordKind{}));
+}
+
 TEST_F(OpenApi, FitsTheErrorsOfEveryStatus) {
   expect_described("GET", "/api/v1/server",
                    call("GET", "/api/v1/server", {.body = {}, .headers = {}, .token = "wrong"}));
@@ -215,7 +236,7 @@ TEST_F(OpenApi, FitsTheErrorsOfEveryStatus) {
                    post("/api/v1/uploads", {{"program", "O1"}, {"control", "fagor"}}));
 }
 
-TEST_F(OpenApi, IsRefusedWithAKeywordNobodyChecks) {
+TEST_F(OpenApi, IsRefusedWithAKeywordThatIsNotChecked) {
   EXPECT_NE(test_support::schema_violation(document_, Json{{"type", "string"}, {"oneOf", 1}}, "x"),
             "");
 }

@@ -1,0 +1,92 @@
+// The members that the client library reads against those that server/api/openapi.json describes,
+// which the tests of the server compare with its real answers.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "clients/lib/impl/api_members.hpp"
+
+namespace dripline::client {
+namespace {
+
+using Json = nlohmann::json;
+using Names = std::set<std::string>;
+
+class NameCollector {
+ public:
+  void operator()(const char* name, const auto&) { names_.insert(name); }
+  void flag(const char* name, bool) { names_.insert(name); }
+  void later(const char* name, const auto&) { names_.insert(name); }
+  Names take() { return std::move(names_); }
+
+ private:
+  Names names_;
+};
+
+template <class T>
+Names read_by_the_client() {
+  const T value{};
+  NameCollector collector;
+  members(collector, value);
+  return collector.take();
+}
+
+class OpenApiMembers : public testing::Test {
+ protected:
+  OpenApiMembers() {
+    std::ifstream file(DRIPLINE_OPENAPI);
+    schemas_ = Json::parse(file)["components"]["schemas"];
+  }
+  /// `path`: of a schema, from the schemas of the document.
+  Names described(const std::string& path) const {
+    Names names;
+    const Json& schema = schemas_.at(Json::json_pointer("/" + path));
+    for (const auto& [name, unused] : schema.at("properties").items()) names.insert(name);
+    return names;
+  }
+
+  Json schemas_;
+};
+
+TEST_F(OpenApiMembers, AreReadByTheClient) {
+  EXPECT_EQ(read_by_the_client<ServerInfo>(), described("Server"));
+  EXPECT_EQ(read_by_the_client<ServerInfo::Health>(), described("Server/properties/health"));
+  EXPECT_EQ(read_by_the_client<ServerInfo::Health::Reason>(),
+            described("Server/properties/health/properties/reasons/items"));
+  EXPECT_EQ(read_by_the_client<ServerInfo::Dds>(), described("Server/properties/dds"));
+  EXPECT_EQ(read_by_the_client<Program>(), described("Program"));
+  EXPECT_EQ(read_by_the_client<Revision>(), described("CommittedRevision"));
+  EXPECT_EQ(read_by_the_client<Upload>(), described("Upload"));
+  EXPECT_EQ(read_by_the_client<Machine>(), described("Machine"));
+  EXPECT_EQ(read_by_the_client<MachineStatus>(), described("Status"));
+  EXPECT_EQ(read_by_the_client<ActiveModes>(), described("ActiveModes"));
+  EXPECT_EQ(read_by_the_client<Coordinates>(), described("Coordinates"));
+  EXPECT_EQ(read_by_the_client<ProgramFrame>(), described("ProgramFrame"));
+  EXPECT_EQ(read_by_the_client<Run>(), described("Run"));
+  EXPECT_EQ(read_by_the_client<Setup>(), described("Setup"));
+  EXPECT_EQ(read_by_the_client<Memory>(), described("Memory"));
+  EXPECT_EQ(read_by_the_client<MemoryCell>(), described("Memory/properties/cells/items"));
+  EXPECT_EQ(read_by_the_client<Report>(), described("Report"));
+  EXPECT_EQ(read_by_the_client<MachineReport>(), described("MachineReport"));
+  EXPECT_EQ(read_by_the_client<Transfer>(), described("Transfer"));
+  EXPECT_EQ(read_by_the_client<Port>(), described("Port"));
+  EXPECT_EQ(read_by_the_client<Port::Line>(), described("LineState"));
+  EXPECT_EQ(read_by_the_client<Port::Request>(), described("Port/properties/request"));
+  EXPECT_EQ(read_by_the_client<Traffic>(), described("Traffic"));
+  EXPECT_EQ(read_by_the_client<PortTest>(), described("PortTest"));
+  EXPECT_EQ(read_by_the_client<RuleVerdict>(), described("RuleVerdict"));
+  EXPECT_EQ(read_by_the_client<PortTemplates>(), described("PortTemplates"));
+  EXPECT_EQ(read_by_the_client<PortTemplate>(), described("PortTemplate"));
+  EXPECT_EQ(read_by_the_client<PortSetting>(), described("PortSetting"));
+}
+
+TEST_F(OpenApiMembers, OfARecordAreReadExceptTheTimeItReachedTheServer) {
+  Names names = described("Record");
+  EXPECT_EQ(names.erase("received"), 1U);
+  EXPECT_EQ(read_by_the_client<Record>(), names);
+}
+
+}  // namespace
+}  // namespace dripline::client

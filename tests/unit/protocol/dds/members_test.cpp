@@ -1,0 +1,83 @@
+// The lists of members against dripline.idl: a member that one of them lacks would never travel.
+#include "protocol/dds/members.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+namespace dripline::dds::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// Which members the lists do not hold: they belong to others, or to the endpoints.
+const std::map<std::string, Names> kOutsideTheLists{
+    {"Announce", {"heard"}},
+    {"ActiveModes", {"is_present"}},
+    {"Coordinates", {"is_present", "has_lag", "has_program"}},
+    {"BlockData", {"crc"}},
+};
+
+class NameCollector {
+ public:
+  void operator()(const auto& member, const auto&...) {
+    if (!member.wire_name.empty()) {
+      names_.emplace_back(member.wire_name);
+    } else if constexpr (requires { members(*this, *member.value); }) {
+      members(*this, member.value.emplace());  // its members lie among those of this message
+    }
+  }
+  Names take() { return std::move(names_); }
+
+ private:
+  Names names_;
+};
+
+template <class Message>
+Names names_in_list() {
+  Message message;
+  NameCollector collector;
+  members(collector, message);
+  return collector.take();
+}
+
+Names names_in_idl(const std::string& message) {
+  std::ifstream file(DRIPLINE_IDL);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string idl = text.str();
+  const auto begin = idl.find("struct " + message + " {");
+  if (begin == std::string::npos) return {};
+  std::istringstream lines(idl.substr(begin, idl.find("};", begin) - begin));
+  static const std::regex kMember(R"(^ +[^/]*?([a-z_]+)(\[\d+\])?;)");
+  Names names;
+  const Names outside = kOutsideTheLists.contains(message) ? kOutsideTheLists.at(message) : Names{};
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (!std::regex_search(line, match, kMember)) continue;
+    if (std::find(outside.begin(), outside.end(), match[1]) == outside.end()) {
+      names.push_back(match[1]);
+    }
+  }
+  return names;
+}
+
+TEST(Members, AreThoseOfTheIdlInItsOrder) {
+  EXPECT_EQ(names_in_list<Announce>(), names_in_idl("Announce"));
+  EXPECT_EQ(names_in_list<ActiveModes>(), names_in_idl("ActiveModes"));
+  EXPECT_EQ(names_in_list<Coordinates>(), names_in_idl("Coordinates"));
+  EXPECT_EQ(names_in_list<Status>(), names_in_idl("Status"));
+  EXPECT_EQ(names_in_list<Record>(), names_in_idl("Record"));
+  EXPECT_EQ(names_in_list<RecordAck>(), names_in_idl("RecordAck"));
+  EXPECT_EQ(names_in_list<Command>(), names_in_idl("Command"));
+  EXPECT_EQ(names_in_list<CommandResult>(), names_in_idl("CommandResult"));
+  EXPECT_EQ(names_in_list<BlockRequest>(), names_in_idl("BlockRequest"));
+  EXPECT_EQ(names_in_list<BlockData>(), names_in_idl("BlockData"));
+  EXPECT_GE(names_in_idl("Status").size(), 31U);
+}
+
+}  // namespace
+}  // namespace dripline::dds::test
