@@ -12,7 +12,7 @@ namespace {
 template <std::size_t kSize>
 struct Key {
   char text[kSize]{};
-  constexpr Key(const char (&from)[kSize]) {  // NOLINT: rows are written with plain literals
+  constexpr Key(const char (&from)[kSize]) {  // implicit, because rows are written with literals
     for (std::size_t i = 0; i < kSize; ++i) text[i] = from[i];
   }
   constexpr std::string_view view() const { return {text, kSize - 1}; }

@@ -16,8 +16,9 @@ struct Column {
 };
 
 struct Cell {
-  Cell(std::string content) : text(std::move(content)) {}  // NOLINT: cells are mostly plain texts
-  Cell(const char* content) : text(content) {}             // NOLINT
+  // Implicit, because most cells are plain texts.
+  Cell(std::string content) : text(std::move(content)) {}
+  Cell(const char* content) : text(content) {}
   Cell(std::string content, Style look) : text(std::move(content)), style(look) {}
   std::string text;
   Style style = Style::Plain;
