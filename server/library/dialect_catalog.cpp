@@ -34,7 +34,7 @@ Result<void> DialectCatalog::check_setup(std::string_view control, std::string_v
 
 bool DialectCatalog::is_protected(std::string_view control, std::string_view head) const {
   const auto dialect = interpreter::find_dialect(control);
-  return dialect && (*dialect)->keeping != nullptr && (*dialect)->keeping->is_protected(head);
+  return dialect && (*dialect)->is_protected != nullptr && (*dialect)->is_protected(head);
 }
 
 }  // namespace dripline::library

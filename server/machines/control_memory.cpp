@@ -69,13 +69,13 @@ class StoredPrograms final : public interpreter::ProgramSource {
 
 Result<void> check_control_memory(storage::Store& store, const storage::Run& run) {
   const auto dialect = interpreter::find_dialect(run.control);
-  if (!dialect || (*dialect)->keeping == nullptr) return {};
+  if (!dialect || (*dialect)->check_memory == nullptr) return {};
   const auto stored = store.setup(run.machine, std::nullopt);
   if (!stored) return {};  // its gateway has its own
   const auto setup = interpreter::parse_control_data(stored->text, (*dialect)->units);
   if (!setup) return fail(setup.error());
   StoredPrograms source(store, run);
-  const auto verdict = (*dialect)->keeping->fit(*setup, source);
+  const auto verdict = (*dialect)->check_memory(*setup, source);
   if (!verdict) return fail(verdict.error());
   if (!verdict->is_binding || verdict->refused.empty()) return {};
   const auto& refused = verdict->refused.front();

@@ -21,6 +21,9 @@ gateway/interpreter/dialects/rs274ngc: protocol/base gateway/interpreter/core ga
 gateway/interpreter/dialects/tektronix1704: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/tektronix1704
 gateway/interpreter/dialects/tnc155: protocol/base gateway/interpreter/core gateway/interpreter/stages gateway/interpreter/dialects/tnc155
 gateway/interpreter: protocol/base gateway/interpreter
+clients/tools/program_editing: protocol/base gateway/interpreter clients/tools/program_editing clients/tools/tnc_conversion
+clients/tools/tnc_conversion: protocol/base gateway/interpreter clients/tools/tnc_conversion
+clients/tools/tnc_probing: protocol/base gateway/interpreter clients/tools/tnc_probing
 gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite

@@ -61,10 +61,9 @@ Result<interpreter::OfflineLimits> limits_of(const std::string& to) {
 /// What the control's own memory says of the program: warnings, or the alarm where its setup says
 /// that it keeps its programs. False: it would not take the program.
 Result<bool> check_memory(const OfflineProgram& program, interpreter::EventSink& sink) {
-  const auto* keeping = program.dialect().keeping;
-  if (keeping == nullptr) return true;
+  if (program.dialect().check_memory == nullptr) return true;
   auto source = program.source();
-  const auto verdict = keeping->fit(program.setup(), source);
+  const auto verdict = program.dialect().check_memory(program.setup(), source);
   if (!verdict) return fail(verdict.error());
   for (const auto& refused : verdict->refused) {
     if (!verdict->is_binding) {

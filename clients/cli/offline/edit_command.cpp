@@ -11,9 +11,10 @@
 namespace dripline::cli {
 namespace {
 
-using interpreter::BlockChange;
-using interpreter::EditedProgram;
-using interpreter::WordChange;
+using program_editing::BlockChange;
+using program_editing::EditedProgram;
+using program_editing::WordChange;
+using program_editing::WordSearch;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 struct EditCommand {
@@ -89,7 +90,7 @@ Result<std::vector<WordChange>> word_changes_of(const EditCommand& command) {
 }
 
 /// Only controls with numbered blocks have their words changed, and a mark for protection.
-tl::unexpected<Error> no_program_storage(const EditedText& original) {
+tl::unexpected<Error> no_block_editor(const EditedText& original) {
   return fail(Errc::Unsupported,
               "{}: its control keeps a program as lines, without numbers, words or protection of "
               "its own; --control says another one",
@@ -102,8 +103,8 @@ Result<void> add_word_changes(const EditCommand& command, const EditedText& orig
   const auto words = word_changes_of(command);
   if (!words) return fail(words.error());
   if (words->empty()) return {};
-  if (original.keeping() == nullptr) return no_program_storage(original);
-  const auto replaced = original.keeping()->change_words(original.text(), *words);
+  if (original.editor() == nullptr) return no_block_editor(original);
+  const auto replaced = original.editor()->change_words(original.text(), *words);
   if (!replaced) return fail(replaced.error());
   changes.insert(changes.end(), replaced->begin(), replaced->end());
   return {};
@@ -116,24 +117,24 @@ Result<EditedProgram> change_blocks(const EditCommand& command, const EditedText
     return fail(added.error());
   }
   if (changes->empty()) return EditedProgram{original.text(), {}, 0};
-  return original.keeping() == nullptr ? interpreter::edit_lines(original.text(), *changes)
-                                       : original.keeping()->edit(original.text(), *changes);
+  return original.editor() == nullptr ? program_editing::edit_lines(original.text(), *changes)
+                                      : original.editor()->edit(original.text(), *changes);
 }
 
 Result<void> change_all(const EditCommand& command, const EditedText& original,
                         EditedProgram& edited) {
   if (!command.renumbers && !command.protects && !command.unprotects) return {};
-  const auto* keeping = original.keeping();
-  if (keeping == nullptr) return no_program_storage(original);
+  const auto* editor = original.editor();
+  if (editor == nullptr) return no_block_editor(original);
   if (command.renumbers) {
     const auto usual = block_increment_of(command.setup);
     if (!usual) return fail(usual.error());
-    auto text = keeping->renumber(edited.text, command.increment.value_or(*usual));
+    auto text = editor->renumber(edited.text, command.increment.value_or(*usual));
     if (!text) return fail(text.error());
     edited.text = *std::move(text);
   }
   if (command.protects || command.unprotects) {
-    auto text = keeping->protect(edited.text, command.protects);
+    auto text = editor->protect(edited.text, command.protects);
     if (!text) return fail(text.error());
     edited.text = *std::move(text);
   }
@@ -141,9 +142,8 @@ Result<void> change_all(const EditCommand& command, const EditedText& original,
 }
 
 Result<EditedProgram> edited_program(const EditCommand& command, const EditedText& original) {
-  const auto* keeping = original.keeping();
   const bool may_change = command.place.overrides_protection || command.unprotects;
-  if (keeping != nullptr && keeping->is_protected(original.text()) && !may_change) {
+  if (original.is_protected() && !may_change) {
     return fail(Errc::Conflict,
                 "{} is protected against editing; --unprotect lifts that, --force edits it all the "
                 "same",
@@ -177,13 +177,13 @@ std::string edit_text(Context& context, const EditedProgram& edited) {
   return text;
 }
 
-nlohmann::ordered_json block_json(const interpreter::WordSearch::Found& found) {
+nlohmann::ordered_json block_json(const WordSearch::Found& found) {
   nlohmann::ordered_json json{{"block", nullptr}, {"line", found.line}, {"text", found.text}};
-  if (found.block != interpreter::kNoNumber) json["block"] = found.block;
+  if (found.block != program_editing::kNoNumber) json["block"] = found.block;
   return json;
 }
 
-nlohmann::ordered_json search_json(const interpreter::WordSearch& search) {
+nlohmann::ordered_json search_json(const WordSearch& search) {
   auto found = nlohmann::ordered_json::array(), unread = nlohmann::ordered_json::array();
   for (const auto& block : search.found) found.push_back(block_json(block));
   for (const auto& [block, reason] : search.unread) {
@@ -195,8 +195,8 @@ nlohmann::ordered_json search_json(const interpreter::WordSearch& search) {
 
 /// The blocks that have a word with one of the addresses, as they stand in the program.
 int show_found(Context& context, const EditCommand& command, const EditedText& original) {
-  if (original.keeping() == nullptr) return complain(no_program_storage(original).value());
-  const auto search = original.keeping()->search(original.text(), command.wanted);
+  if (original.editor() == nullptr) return complain(no_block_editor(original).value());
+  const auto search = original.editor()->search(original.text(), command.wanted);
   if (!search) return complain(search.error()), kExitNo;
   if (context.wants_json) {
     context.print(json_text(search_json(*search)));

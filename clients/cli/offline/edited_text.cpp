@@ -49,12 +49,17 @@ const std::string& EditedText::name() const {
   return place_.file.empty() ? place_.program : place_.file;
 }
 
+bool EditedText::is_protected() const {
+  const auto dialect = interpreter::find_dialect(control_);
+  return dialect && (*dialect)->is_protected != nullptr && (*dialect)->is_protected(text_);
+}
+
 bool EditedText::use_control(const std::string& control) {
   control_ = control;
   if (control.empty()) return true;
   const auto dialect = interpreter::find_dialect(control);
   if (!dialect) return context_.status = complain(dialect.error()), false;
-  keeping_ = (*dialect)->keeping;
+  editor_ = program_editing::find_program_editor(control);
   return true;
 }
 

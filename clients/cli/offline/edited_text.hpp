@@ -4,7 +4,7 @@
 #include <string>
 
 #include "clients/cli/context.hpp"
-#include "gateway/interpreter/core/program_storage.hpp"
+#include "clients/tools/program_editing/program_editor.hpp"
 
 namespace dripline::cli {
 
@@ -26,8 +26,10 @@ class EditedText {
 
   bool is_open() const { return is_open_; }
   const std::string& text() const { return text_; }
-  /// How its control edits; nullptr: a program is its lines.
-  const interpreter::ProgramStorage* keeping() const { return keeping_; }
+  /// The editor of its control; nullptr: a program is its lines.
+  const program_editing::ProgramEditor* editor() const { return editor_; }
+  /// The program is marked as protected against editing.
+  bool is_protected() const;
   /// FILE, or the program's name.
   const std::string& name() const;
   /// Writes atomically, or stores a new revision; gives the exit status. `written` says where to.
@@ -45,7 +47,7 @@ class EditedText {
   std::string text_;
   std::uint64_t revision_ = 0;
   std::string control_;
-  const interpreter::ProgramStorage* keeping_ = nullptr;
+  const program_editing::ProgramEditor* editor_ = nullptr;
   bool is_open_ = false;
 };
 

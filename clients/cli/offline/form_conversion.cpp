@@ -4,7 +4,7 @@
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/lib/output_file.hpp"
-#include "gateway/interpreter/dialects/tnc155/conversion/conversion.hpp"
+#include "clients/tools/tnc_conversion/conversion.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -12,15 +12,15 @@ namespace {
 namespace tnc155 = interpreter::tnc155;
 
 /// What the control's own options say of written programs.
-Result<tnc155::ConversionOptions> options_of(const std::string& file) {
-  if (file.empty()) return tnc155::ConversionOptions{};
+Result<tnc_conversion::ConversionOptions> options_of(const std::string& file) {
+  if (file.empty()) return tnc_conversion::ConversionOptions{};
   const auto mapped = MappedFile::open(file);
   if (!mapped) return fail(mapped.error());
   const auto setup = interpreter::parse_setup(mapped->text());
   if (!setup) return fail(setup.error().code, "setup file {}: {}", file, setup.error().what);
   const auto control = tnc155::read_options(*setup);
   if (!control) return fail(control.error().code, "{}: {}", file, control.error().what);
-  return tnc155::conversion_options(*control);
+  return tnc_conversion::conversion_options(*control);
 }
 
 Result<std::string> converted(const FormConversion& command, client::FileSource& file) {
@@ -28,12 +28,12 @@ Result<std::string> converted(const FormConversion& command, client::FileSource&
   if (auto read = file.read(0, text); !read) return fail(std::move(read.error()));
   auto known = options_of(command.setup);
   if (!known) return fail(known.error());
-  tnc155::ConversionOptions options = *known;
+  tnc_conversion::ConversionOptions options = *known;
   if (command.has_decimal_point) options.layout.decimal_sign = '.';
   if (command.has_lf) options.layout.line_end = "\n";
   options.increment = command.increment.value_or(options.increment);
   const auto form = command.to_plain ? tnc155::Form::Plain : tnc155::Form::Iso;
-  auto program = tnc155::convert_program(text, form, options);
+  auto program = tnc_conversion::convert_program(text, form, options);
   if (!program) return fail(program.error().code, "{}: {}", command.input, program.error().what);
   return program;
 }

@@ -9,7 +9,7 @@
 namespace dripline::cli {
 namespace {
 
-namespace tnc = interpreter::tnc155;
+namespace tnc = tnc_probing;
 using interpreter::Axis;
 using interpreter::is_rotary;
 using interpreter::Plane;

@@ -92,7 +92,7 @@ Result<TouchSetup> read_setup_text(std::string_view text) {
   return setup;
 }
 
-std::string touch_text(const tnc::Touch& touch, const TouchSetup& setup) {
+std::string touch_text(const tnc_probing::Touch& touch, const TouchSetup& setup) {
   const double unit = millimetres(setup.units);
   return fmt::format("{}{}:{},{},{}", letter(touch.axis),
                      touch.direction == tnc::ProbeDirection::Positive ? '+' : '-',
@@ -110,7 +110,7 @@ Result<TouchSetup> read_touch_setup(const std::string& path) {
   return setup;
 }
 
-Result<tnc::Touch> parse_touch(const std::string& text, const TouchForm& form) {
+Result<tnc_probing::Touch> parse_touch(const std::string& text, const TouchForm& form) {
   const auto wrong = [&](std::string_view why) {
     return fail(Errc::Syntax, "touch \"{}\": {}expected axis, direction and start, as X+:10,20,-5",
                 text, why);
@@ -121,7 +121,7 @@ Result<tnc::Touch> parse_touch(const std::string& text, const TouchForm& form) {
   if (*axis > Axis::Z && *axis != form.fourth_axis) {
     return wrong(fmt::format("the fourth axis is {}; ", letter(form.fourth_axis)));
   }
-  tnc::Touch touch;
+  tnc_probing::Touch touch;
   touch.axis = *axis;
   touch.direction = text[1] == '+' ? tnc::ProbeDirection::Positive : tnc::ProbeDirection::Negative;
   const char* at = text.c_str() + 3;
@@ -139,7 +139,7 @@ Result<tnc::Touch> parse_touch(const std::string& text, const TouchForm& form) {
 }
 
 std::string datum_toml(const TouchSetup& setup, const tnc::Transformation::Values& datum,
-                       std::span<const tnc::NamedCoordinate> named) {
+                       std::span<const tnc_probing::NamedCoordinate> named) {
   std::string text = units_line(setup) + "[[offset]]\nname = \"datum\"\n";
   for (const Axis axis : interpreter::kAllAxes) {
     const std::size_t i = static_cast<std::size_t>(axis);
@@ -153,11 +153,11 @@ std::string datum_toml(const TouchSetup& setup, const tnc::Transformation::Value
 }
 
 std::string rotation_toml(const TouchSetup& setup, double degrees,
-                          std::span<const tnc::Touch> touched) {
+                          std::span<const tnc_probing::Touch> touched) {
   std::string text =
       units_line(setup) + fmt::format("[control]\nbasic_rotation = {}\n", number(degrees));
   std::string touches;
-  for (const tnc::Touch& touch : touched) {
+  for (const tnc_probing::Touch& touch : touched) {
     touches += fmt::format("{}\"{}\"", touches.empty() ? "" : ", ", touch_text(touch, setup));
   }
   return text + fmt::format("{} = [{}]\n", kTouchesKey, touches);

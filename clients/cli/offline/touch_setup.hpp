@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/tools/tnc_probing/probing_functions.hpp"
 #include "gateway/interpreter/core/setup.hpp"
-#include "gateway/interpreter/dialects/tnc155/touch/probing_functions.hpp"
 #include "protocol/base/result.hpp"
 
 /// What `dnc touch` takes from a setup and what it gives for one.
@@ -19,7 +19,7 @@ struct TouchSetup {
   interpreter::Units units = interpreter::Units::Millimetre;
   interpreter::Axis fourth_axis = interpreter::Axis::C;
   /// Where the basic rotation was touched, as a touch that begins there; empty: not kept.
-  std::vector<interpreter::tnc155::Touch> rotation_touches;
+  std::vector<tnc_probing::Touch> rotation_touches;
 };
 /// Errors: Io, Syntax; naming file and option.
 Result<TouchSetup> read_touch_setup(const std::string& path);
@@ -31,14 +31,14 @@ struct TouchForm {
 };
 /// "X+:10,20,-5": along +X from there; the place of the fourth axis may stand after. Errors:
 /// Syntax.
-Result<interpreter::tnc155::Touch> parse_touch(const std::string& text, const TouchForm& form);
+Result<tnc_probing::Touch> parse_touch(const std::string& text, const TouchForm& form);
 
 /// A datum for the setup, in its units: the axes that it has already, and `named`.
 std::string datum_toml(const TouchSetup& setup,
                        const interpreter::tnc155::Transformation::Values& datum,
-                       std::span<const interpreter::tnc155::NamedCoordinate> named);
+                       std::span<const tnc_probing::NamedCoordinate> named);
 /// A basic rotation for the setup, with the places that were touched.
 std::string rotation_toml(const TouchSetup& setup, double degrees,
-                          std::span<const interpreter::tnc155::Touch> touched);
+                          std::span<const tnc_probing::Touch> touched);
 
 }  // namespace dripline::cli

@@ -6,7 +6,8 @@
 #include "clients/cli/context.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/pull.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
+#include "clients/tools/program_editing/tnc155/whole_program.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 #include "gateway/interpreter/dialects/tnc155/options.hpp"
 
 namespace dripline::cli {
@@ -45,7 +46,7 @@ client::Reply<std::size_t> vacant_blocks(client::Client& client, std::size_t mem
   for (const std::string& name : programs) {
     const auto text = text_of(client, name);
     if (!text) return client::failed(text.error());
-    const auto program = tnc155::describe_program(*text);
+    const auto program = program_editing::describe_program(*text);
     const auto stored = program ? memory.store(*program) : Result<void>(fail(program.error()));
     if (!stored) {
       return client::failed(Failure::Kind::Refused, stored.error().code, "{}: {}", name,

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "gateway/interpreter/core/interpreter.hpp"
+#include "gateway/interpreter/core/memory_verdict.hpp"
 #include "gateway/interpreter/core/panel_tables.hpp"
-#include "gateway/interpreter/core/program_storage.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter {
@@ -44,8 +44,13 @@ struct Dialect {
   /// Switches of the panel that a setup can be given tables for; nullptr: the panel is as
   /// `feed_override_switch` says. Errors: Syntax, LimitExceeded.
   Result<PanelTables> (*panel_tables)(const Setup& setup) = nullptr;
-  /// Of a control that keeps programs in numbered blocks; nullptr: a program is its lines.
-  const ProgramStorage* keeping = nullptr;
+  /// Whether the control's part-program memory has room for the program and those it calls. Reads a
+  /// bounded part of each program; `source` must hold all of its text. nullptr: the memory is not
+  /// modeled. Errors: those of the control's options.
+  Result<MemoryVerdict> (*check_memory)(const Setup& setup, ProgramSource& source) = nullptr;
+  /// Whether the program is marked as protected against erasing and changing. `head`: its first
+  /// bytes. nullptr: programs have no such mark.
+  bool (*is_protected)(std::string_view head) = nullptr;
 };
 
 }  // namespace dripline::interpreter

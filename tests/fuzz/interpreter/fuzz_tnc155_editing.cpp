@@ -1,14 +1,13 @@
 #include <cstdint>
 
-#include "gateway/interpreter/dialects/tnc155/editing/block_words.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/cut_program.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
+#include "clients/tools/program_editing/tnc155/block_words.hpp"
+#include "clients/tools/program_editing/tnc155/cut_program.hpp"
+#include "clients/tools/program_editing/tnc155/tnc_editor.hpp"
 
 /// Any text is edited word by word or refused: a word that gets the value it has leaves its block
 /// as the control writes it, unless it is refused.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace dripline::interpreter;
-  using namespace dripline::interpreter::tnc155;
+  using namespace dripline::program_editing;
   if (size > 1024) return 0;
   const std::string text(reinterpret_cast<const char*>(data), size);
   const std::string addresses[] = {"X", "Q", "F"};

@@ -2,15 +2,17 @@
 #include <cstdint>
 #include <string>
 
+#include "clients/tools/program_editing/tnc155/whole_program.hpp"
+#include "clients/tools/tnc_conversion/conversion.hpp"
 #include "gateway/interpreter/core/memory_source.hpp"
-#include "gateway/interpreter/dialects/tnc155/conversion/conversion.hpp"
-#include "gateway/interpreter/dialects/tnc155/editing/program_memory.hpp"
 #include "tests/support/tnc155_trace.hpp"
 
 namespace {
 
 using namespace dripline::interpreter;
 using namespace dripline::interpreter::tnc155;
+using namespace dripline::tnc_conversion;
+using dripline::program_editing::renumbered;
 
 void insist(bool holds) {
   if (!holds) __builtin_trap();

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "gateway/interpreter/dialects/tnc155/editing/program_storage.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/changer.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
+#include "gateway/interpreter/dialects/tnc155/memory/program_memory.hpp"
 #include "protocol/base/decimal.hpp"
 
 namespace dripline::interpreter {
@@ -137,6 +137,7 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              // (`m06_stop`; spec 16.2); TOOL CALL itself never stops, a STOP before
                              // it is programmed (spec 6).
                              .waits_at_tool_change = true,
-                             .keeping = &kTncProgramStorage};
+                             .check_memory = &check_memory,
+                             .is_protected = &is_protected};
 
 }  // namespace dripline::interpreter

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gateway/interpreter/dialects/tnc155/conversion/conversion.hpp"
-
 namespace dripline::interpreter::tnc155 {
 namespace {
 
@@ -158,19 +156,6 @@ TEST(UserParameters, HaveTextsAndAreFoundByThem) {
   EXPECT_EQ(find_user_parameter({}, "1").error().what,
             "'1' is no user parameter; the setup has none");
   EXPECT_TRUE(settings_of(parameters(16)));
-}
-
-// HD-066: what is written in ISO is numbered as the menu says.
-TEST(BlockIncrement, IsThatOfTheMenu) {
-  const auto written = [](const std::string& control) {
-    const auto options = read_options(*parse_setup("[control]\n" + control));
-    EXPECT_TRUE(options) << options.error().what;
-    return *convert_program("0 BEGIN PGM 7 MM\n1 L X+1 R0 F100\n2 END PGM 7 MM\n", Form::Iso,
-                            conversion_options(*options));
-  };
-  EXPECT_NE(written("").find("N10 "), std::string::npos);
-  EXPECT_NE(written("block_increment = 3").find("N3 "), std::string::npos);
-  EXPECT_EQ(written("block_increment = 0").find("N0"), std::string::npos);
 }
 
 }  // namespace

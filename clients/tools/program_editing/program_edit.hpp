@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/base/result.hpp"
+
+/// Changes of a program by its blocks' numbers: what becomes of which block. How blocks are cut,
+/// numbered and written is their control's business; `edit_lines` does it for controls that keep a
+/// program as its lines. Pure.
+namespace dripline::program_editing {
+
+/// All numbers are those before the edit.
+struct BlockChange {
+  enum class Kind : std::uint8_t { Delete, Replace, Insert };
+  Kind kind = Kind::Delete;
+  std::int64_t first = 0;
+  std::int64_t last = 0;  ///< as `first` of Insert, which puts its blocks after that one
+  std::string text;       ///< of Replace and Insert: blocks, one a line
+};
+
+struct EditedProgram {
+  struct Change {
+    char mark = '+';   ///< '-': was taken out, '+': was put in
+    std::string text;  ///< the block, without its line end
+  };
+  std::string text;
+  std::vector<Change> changes;  ///< in the program's order
+  std::size_t renumbered = 0;   ///< blocks that only have another number now
+};
+
+/// What becomes of a program, in the order of the result.
+struct EditStep {
+  enum class Kind : std::uint8_t { Keep, Drop, Enter };
+  Kind kind = Kind::Keep;
+  std::size_t block = 0;     ///< Keep, Drop: which one; Enter: the one in front of it
+  std::string_view entered;  ///< Enter: one line of the change's text
+};
+
+inline constexpr std::int64_t kNoNumber = -1;
+
+/// `numbers`: of all blocks, kNoNumber where one cannot be named. Where no block has the number
+/// 0, it stands for the place in front of all. Errors: NotFound (no such block), Conflict (two
+/// changes of one block; a number that stands twice), Syntax (a range from right to left, nothing
+/// to put in).
+Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
+                                        std::span<const BlockChange> changes);
+
+/// Which block has this number. Errors: NotFound, Conflict (the number stands twice).
+Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number);
+
+/// Blocks are the lines of the text, numbered from 1; they keep their line ends. Errors: those of
+/// plan_edit.
+Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockChange> changes);
+
+/// "\r\n" where the text's first line ends so, else "\n".
+std::string_view line_end_of(std::string_view text);
+
+}  // namespace dripline::program_editing

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::tnc_conversion {
+
+using interpreter::Units;
+using interpreter::tnc155::Block;
+using interpreter::tnc155::IsoBlock;
+using interpreter::tnc155::ReaderOptions;
+
+struct PlainProgram {
+  std::vector<Block> blocks;
+  std::vector<std::uint64_t> lines;  ///< where they begin
+  Units units = Units::Millimetre;
+};
+
+/// The words of a block and the line they begin in.
+struct NumberedIsoBlock {
+  IsoBlock block;
+  std::uint64_t line = 0;
+};
+struct IsoProgram {
+  std::vector<NumberedIsoBlock> blocks;
+  Units units = Units::Millimetre;
+};
+
+/// All blocks up to the program's last one. Errors: Syntax, "line 3, column 8: ..."; Unsupported
+/// (text after the last block).
+Result<PlainProgram> read_plain_program(std::string_view text, const ReaderOptions& options = {});
+Result<IsoProgram> read_iso_program(std::string_view text, const ReaderOptions& options = {});
+
+}  // namespace dripline::tnc_conversion
