@@ -29,7 +29,7 @@ struct Services {
   library::Programs& programs;
   library::Setups& setups;
   machines::MachineControl& feeds;
-  storage::Store& store;
+  const storage::Store& store;
   library::AuditTrail& audit;
   EventHub& events;
   const Clock& clock;

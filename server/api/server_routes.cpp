@@ -18,10 +18,10 @@ Result<std::uint64_t> count_all(const List& list) {
   }
 }
 
-Result<std::uint64_t> count_active_runs(storage::Store& store) {
+Result<std::uint64_t> count_active_runs(const storage::Store& store) {
   storage::RunFilter filter;
   filter.state = storage::RunState::Active;
-  return count_all([&](storage::Page page) { return store.runs(filter, page); });
+  return count_all([&](storage::Page page) { return store.runs.list(filter, page); });
 }
 
 library::Health::State health_of(const Services& services) {

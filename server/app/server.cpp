@@ -95,14 +95,14 @@ struct Server::Parts {
         folder(std::move(state_folder)),
         store(std::move(opened)),
         health(clock),
-        audit(*store, clock),
+        audit(store->audit, clock),
         programs(*store, clock, catalog, audit),
-        setups(*store, catalog, audit),
+        setups(store->setups, catalog, audit),
         feeds(*store, clock, feed_options(), feed_listener()),
         ports(*store, programs, clock,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               api::publish_to(events)),
-        machines(*store, feeds, ports.feed()),
+        machines(store->runs, feeds, ports.feed()),
         api({.programs = programs,
              .setups = setups,
              .feeds = machines,
@@ -274,7 +274,7 @@ void Server::tidy() {
   // counts.
   const SteadyTime now = parts_->clock.steady_now();
   const auto passed = std::chrono::duration_cast<std::chrono::seconds>(now - parts_->tidied);
-  const auto dropped = parts_->store->drop_idle_uploads(passed, kUploadLife);
+  const auto dropped = parts_->store->uploads.drop_idle(passed, kUploadLife);
   if (dropped) parts_->tidied = now;
   if (!dropped) {
     spdlog::warn("abandoned uploads not dropped: {}", dropped.error().what);

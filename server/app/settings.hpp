@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "protocol/base/result.hpp"
-#include "storage/store.hpp"
+#include "storage/port_store.hpp"
 
 namespace dripline::app {
 

@@ -10,7 +10,7 @@ void AuditTrail::write(Change change) {
                                   .action = std::move(change.action),
                                   .subject = std::move(change.subject),
                                   .detail = std::move(change.detail)};
-  if (auto written = store_.audit(entry); !written) {
+  if (auto written = store_.add(entry); !written) {
     spdlog::error("audit entry lost who={} action={} subject={}: {}", entry.who, entry.action,
                   entry.subject, written.error().what);
   }

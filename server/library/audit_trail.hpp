@@ -3,7 +3,7 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
-#include "storage/store.hpp"
+#include "storage/audit_store.hpp"
 
 namespace dripline::library {
 
@@ -11,18 +11,16 @@ namespace dripline::library {
 /// error and does not undo the change. Any thread.
 class AuditTrail {
  public:
-  AuditTrail(storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+  AuditTrail(storage::AuditStore& store, const Clock& clock) : store_(store), clock_(clock) {}
 
   struct Change {
     std::string who, action, subject, detail;
   };
   void write(Change change);
-  Result<std::vector<storage::AuditEntry>> entries(storage::Page page) {
-    return store_.audit_entries(page);
-  }
+  Result<std::vector<storage::AuditEntry>> entries(storage::Page page) { return store_.list(page); }
 
  private:
-  storage::Store& store_;
+  storage::AuditStore& store_;
   const Clock& clock_;
 };
 

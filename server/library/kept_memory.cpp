@@ -75,10 +75,11 @@ Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std:
   return cells;
 }
 
-Result<std::vector<KeptMemory>> kept_memories(storage::Store& store, const std::string& machine,
+Result<std::vector<KeptMemory>> kept_memories(const storage::Store& store,
+                                              const std::string& machine,
                                               const std::optional<std::string>& run,
                                               storage::Page page) {
-  const auto reports = store.memory_reports(machine, run, page);
+  const auto reports = store.records.memory_reports(machine, run, page);
   if (!reports) return fail(reports.error());
   std::vector<KeptMemory> memories;
   std::string why;
@@ -89,7 +90,7 @@ Result<std::vector<KeptMemory>> kept_memories(storage::Store& store, const std::
       continue;
     }
     KeptMemory memory{machine, report.run, std::nullopt, report.time, *std::move(cells)};
-    if (const auto known = store.run(report.run); known && known->machine == machine)
+    if (const auto known = store.runs.find(report.run); known && known->machine == machine)
       memory.program = known->program;
     memories.push_back(std::move(memory));
   }

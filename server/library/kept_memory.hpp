@@ -31,7 +31,8 @@ Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std:
 
 /// Newest first; what cannot be read is left out. With `run` after this one alone. Errors:
 /// NotFound (it has left nothing, or not all parts of it), those of the store.
-Result<std::vector<KeptMemory>> kept_memories(storage::Store& store, const std::string& machine,
+Result<std::vector<KeptMemory>> kept_memories(const storage::Store& store,
+                                              const std::string& machine,
                                               const std::optional<std::string>& run,
                                               storage::Page page);
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "protocol/base/digest.hpp"
-#include "storage/store.hpp"
+#include "storage/program_store.hpp"
 
 namespace dripline::library {
 
@@ -25,13 +25,13 @@ std::string program_title(std::string_view head);
 /// remembered. Any thread; the store must outlive it.
 class ProgramTitles {
  public:
-  explicit ProgramTitles(storage::Store& store) : store_(store) {}
+  explicit ProgramTitles(storage::ProgramStore& store) : store_(store) {}
   /// Empty also when the content cannot be read: whoever reads all of it is told why.
   std::string of(const Digest& content);
 
  private:
   static constexpr std::size_t kMaxKnown = 16384;
-  storage::Store& store_;
+  storage::ProgramStore& store_;
   std::mutex mutex_;
   std::map<Digest, std::string> known_;
   std::deque<Digest> order_;  ///< in which they came

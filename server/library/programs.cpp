@@ -15,9 +15,14 @@ constexpr std::uint64_t kCatchUpPiece = 1024 * 1024;
 
 }  // namespace
 
-Programs::Programs(storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
+Programs::Programs(const storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
                    AuditTrail& audit)
-    : store_(store), clock_(clock), catalog_(catalog), audit_(audit), titles_(store) {}
+    : store_(store.programs),
+      uploads_(store.uploads),
+      clock_(clock),
+      catalog_(catalog),
+      audit_(audit),
+      titles_(store.programs) {}
 
 Result<storage::Upload> Programs::begin(const UploadRequest& request, const std::string& who) {
   if (auto name = check_program_name(request.program); !name) return fail(name.error());
@@ -35,25 +40,25 @@ Result<storage::Upload> Programs::begin(const UploadRequest& request, const std:
   upload.author = who;
   upload.created = clock_.now();
   upload.is_held = request.is_held;
-  return store_.begin_upload(upload);
+  return uploads_.begin(upload);
 }
 
 Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t offset,
                                          std::span<const std::byte> bytes) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
-  auto upload = store_.upload(id);
+  auto upload = uploads_.find(id);
   if (!upload) return forget(id), fail(upload.error());
   // Only a piece that goes on where the upload stands is new; the store judges all others.
   if (offset == upload->received) {
     if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
     ContentCheck check = session->check;
     if (auto good = check.feed(bytes); !good) return drop(*upload, good.error());
-    upload = store_.append_upload(id, offset, bytes);
+    upload = uploads_.append(id, offset, bytes);
     if (!upload) return fail(upload.error());
     session->check = check;
   } else {
-    upload = store_.append_upload(id, offset, bytes);
+    upload = uploads_.append(id, offset, bytes);
     if (!upload) return fail(upload.error());
   }
   if (upload->control.empty() && upload->received >= kHead) {
@@ -66,7 +71,7 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
                                    const std::string& who, Protection protection) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
-  auto upload = store_.upload(id);
+  auto upload = uploads_.find(id);
   if (!upload) return forget(id), fail(upload.error());
   if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
   if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
@@ -79,7 +84,7 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
     }
   }
   const auto before = store_.revisions(upload->program);
-  auto revision = store_.commit_upload(id, expected);
+  auto revision = uploads_.commit(id, expected);
   if (!revision) return fail(revision.error());
   forget(id);
   // Numbers only grow: whatever stands at or below the newest one was there already.
@@ -101,19 +106,19 @@ Result<void> Programs::abandon(const std::string& id) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
   forget(id);
-  return store_.abandon_upload(id);
+  return uploads_.abandon(id);
 }
 
 Result<storage::Revision> Programs::accept(const std::string& program, std::uint64_t number,
                                            const std::string& who) {
-  auto accepted = store_.accept_revision(program, number, who);
+  auto accepted = store_.accept(program, number, who);
   if (accepted) spdlog::info("accepted program={} revision={} by={}", program, number, who);
   return accepted;
 }
 
 Result<void> Programs::reject(const std::string& program, std::uint64_t number,
                               const std::string& who) {
-  auto rejected = store_.reject_revision(program, number, who);
+  auto rejected = store_.reject(program, number, who);
   if (rejected) spdlog::info("rejected program={} revision={} by={}", program, number, who);
   return rejected;
 }
@@ -140,7 +145,7 @@ Result<void> Programs::remove(const std::string& program, const std::string& who
       return fail(free.error().code, "program '{}' stays: {}", program, free.error().what);
     }
   }
-  if (auto removed = store_.remove_program(program); !removed) return removed;
+  if (auto removed = store_.remove(program); !removed) return removed;
   spdlog::info("removed program={}", program);
   audit_.write({.who = who, .action = "program.remove", .subject = program, .detail = {}});
   return {};
@@ -163,14 +168,14 @@ Error Programs::in_control_words(const storage::ProgramMove& move, const Error& 
 
 Result<storage::Revision> Programs::copy(const storage::ProgramMove& move,
                                          std::optional<std::uint64_t> number) {
-  auto copy = store_.copy_program(move, number);
+  auto copy = store_.copy(move, number);
   if (!copy) return fail(in_control_words(move, copy.error()));
   spdlog::info("copied program={} to={} by={}", move.from, move.to, move.who);
   return copy;
 }
 
 Result<void> Programs::rename(const storage::ProgramMove& move) {
-  auto renamed = store_.rename_program(move);
+  auto renamed = store_.rename(move);
   if (!renamed) return fail(in_control_words(move, renamed.error()));
   spdlog::info("renamed program={} to={} by={}", move.from, move.to, move.who);
   return renamed;
@@ -198,8 +203,7 @@ Result<void> Programs::catch_up(Session& session, const storage::Upload& upload)
   if (session.check.offset() > upload.received) session.check = ContentCheck{};
   while (session.check.offset() < upload.received) {
     const std::uint64_t missing = upload.received - session.check.offset();
-    auto bytes =
-        store_.read_upload(upload.id, session.check.offset(), std::min(missing, kCatchUpPiece));
+    auto bytes = uploads_.read(upload.id, session.check.offset(), std::min(missing, kCatchUpPiece));
     if (!bytes) return fail(bytes.error());
     if (bytes->empty()) {
       return fail(Errc::Corrupt, "upload {} has {} bytes but they end at {}", upload.id,
@@ -211,19 +215,19 @@ Result<void> Programs::catch_up(Session& session, const storage::Upload& upload)
 }
 
 Result<void> Programs::settle_control(storage::Upload& upload) {
-  const auto head = store_.read_upload(upload.id, 0, kHead);
+  const auto head = uploads_.read(upload.id, 0, kHead);
   if (!head) return fail(head.error());
   const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
   auto control = detect_control(catalog_, text, upload.program);
   if (!control) return drop(upload, control.error());
-  if (auto set = store_.set_upload_control(upload.id, *control); !set) return set;
+  if (auto set = uploads_.set_control(upload.id, *control); !set) return set;
   upload.control = *std::move(control);
   return {};
 }
 
 tl::unexpected<Error> Programs::drop(const storage::Upload& upload, const Error& error) {
   forget(upload.id);
-  if (auto dropped = store_.abandon_upload(upload.id); !dropped) {
+  if (auto dropped = uploads_.abandon(upload.id); !dropped) {
     spdlog::warn("upload {} of program={} could not be dropped: {}", upload.id, upload.program,
                  dropped.error().what);
   }

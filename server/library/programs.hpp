@@ -39,12 +39,12 @@ enum class Protection : std::uint8_t { Respect, Override };
 /// Any thread; pieces of one upload are taken one after the other.
 class Programs {
  public:
-  Programs(storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
+  Programs(const storage::Store& store, const Clock& clock, const ControlCatalog& catalog,
            AuditTrail& audit);
 
   /// Errors: Syntax, LimitExceeded (name, comment), Unsupported (control; names the known ones).
   Result<storage::Upload> begin(const UploadRequest& request, const std::string& who);
-  Result<storage::Upload> upload(const std::string& id) { return store_.upload(id); }
+  Result<storage::Upload> upload(const std::string& id) { return uploads_.find(id); }
   /// Errors: those of ContentCheck and detect_control (the upload is dropped then), NotFound,
   /// Conflict (a gap or an overlap).
   Result<storage::Upload> append(const std::string& id, std::uint64_t offset,
@@ -57,7 +57,7 @@ class Programs {
   Result<void> abandon(const std::string& id);
 
   Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
-    return store_.programs(page);
+    return store_.list(page);
   }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) {
     return store_.revisions(program);
@@ -103,7 +103,8 @@ class Programs {
   Error in_control_words(const storage::ProgramMove& move, const Error& error);
   tl::unexpected<Error> drop(const storage::Upload& upload, const Error& error);
 
-  storage::Store& store_;
+  storage::ProgramStore& store_;
+  storage::UploadStore& uploads_;
   const Clock& clock_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;

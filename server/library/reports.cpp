@@ -45,10 +45,11 @@ Result<ReportFormat> parse_report_format(std::string_view text) {
               text);
 }
 
-ReportReader::ReportReader(storage::Store& store, storage::Run run, ReportFormat format)
+ReportReader::ReportReader(storage::RecordStore& store, storage::Run run, ReportFormat format)
     : store_(store), run_(std::move(run)), format_(format) {}
 
-ReportReader::ReportReader(storage::Store& store, const std::string& machine, ReportFormat format)
+ReportReader::ReportReader(storage::RecordStore& store, const std::string& machine,
+                           ReportFormat format)
     : store_(store), format_(format) {
   run_.machine = machine;
 }
@@ -56,7 +57,7 @@ ReportReader::ReportReader(storage::Store& store, const std::string& machine, Re
 Result<std::vector<storage::Record>> ReportReader::records() const {
   const storage::Page page{.limit = kLinesPerPiece, .offset = lines_};
   if (run_.id.empty()) return store_.machine_report(run_.machine, page);
-  return store_.records(run_.id, "output", page);
+  return store_.of_run(run_.id, "output", page);
 }
 
 Result<std::optional<std::string>> ReportReader::next() {

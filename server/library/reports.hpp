@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "storage/store.hpp"
+#include "storage/record_store.hpp"
 
 namespace dripline::library {
 
@@ -17,8 +17,8 @@ Result<ReportFormat> parse_report_format(std::string_view text);
 /// it.
 class ReportReader {
  public:
-  ReportReader(storage::Store& store, storage::Run run, ReportFormat format);
-  ReportReader(storage::Store& store, const std::string& machine, ReportFormat format);
+  ReportReader(storage::RecordStore& store, storage::Run run, ReportFormat format);
+  ReportReader(storage::RecordStore& store, const std::string& machine, ReportFormat format);
   /// The next piece; nullopt after the last one.
   Result<std::optional<std::string>> next();
 
@@ -28,7 +28,7 @@ class ReportReader {
   std::string tail() const;
   void append_line(const storage::Record& record, std::string& text);
 
-  storage::Store& store_;
+  storage::RecordStore& store_;
   storage::Run run_;  ///< without an id: of the machine alone
   ReportFormat format_;
   std::uint64_t lines_ = 0;

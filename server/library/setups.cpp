@@ -16,13 +16,13 @@ Result<SavedSetup> Setups::save(const SetupText& text, const std::string& who) {
   if (auto good = catalog_.check_setup(text.control, text.text); !good) {
     return fail(with_control_words(good.error(), text.control, Refusal::BadParameters));
   }
-  const auto before = store_.setup(text.machine, std::nullopt);
+  const auto before = store_.find(text.machine, std::nullopt);
   storage::SetupRevision setup;
   setup.machine = text.machine;
   setup.text = text.text;
   setup.comment = text.comment;
   setup.author = who;
-  auto saved = store_.save_setup(setup, text.base);
+  auto saved = store_.save(setup, text.base);
   if (!saved) return fail(saved.error());
   const bool is_unchanged = before && before->number == saved->number;
   if (!is_unchanged) {

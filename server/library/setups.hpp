@@ -6,7 +6,7 @@
 
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
-#include "storage/store.hpp"
+#include "storage/setup_store.hpp"
 
 namespace dripline::library {
 
@@ -26,7 +26,7 @@ struct SavedSetup {
 /// Kept in versions; the newest goes with every start. Any thread.
 class Setups {
  public:
-  Setups(storage::Store& store, const ControlCatalog& catalog, AuditTrail& audit)
+  Setups(storage::SetupStore& store, const ControlCatalog& catalog, AuditTrail& audit)
       : store_(store), catalog_(catalog), audit_(audit) {}
 
   /// Errors: Syntax, Unsupported, LimitExceeded (what the control would not take, with key and
@@ -35,18 +35,18 @@ class Setups {
   /// Newest first, without their texts.
   Result<std::vector<storage::SetupRevision>> list(const std::string& machine,
                                                    storage::Page page) const {
-    return store_.setups(machine, page);
+    return store_.list(machine, page);
   }
   /// The newest, or the one with that number. Errors: NotFound.
   Result<storage::SetupRevision> find(const std::string& machine,
                                       std::optional<std::uint64_t> number) const {
-    return store_.setup(machine, number);
+    return store_.find(machine, number);
   }
 
   static constexpr std::size_t kMaxComment = 1024;
 
  private:
-  storage::Store& store_;
+  storage::SetupStore& store_;
   const ControlCatalog& catalog_;
   AuditTrail& audit_;
 };

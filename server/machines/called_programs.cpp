@@ -5,8 +5,8 @@
 
 namespace dripline::machines {
 
-Result<storage::Revision> resolve_called_program(storage::Store& store, const storage::Run& run,
-                                                 const std::string& name) {
+Result<storage::Revision> resolve_called_program(storage::ProgramStore& store,
+                                                 const storage::Run& run, const std::string& name) {
   if (auto good = check_program_name(name); !good)
     return fail(Errc::NotFound, "{}", good.error().what);
   for (const auto& candidate : interpreter::called_program_names(name)) {

@@ -16,7 +16,7 @@ using interpreter::TextWindow;
 /// A run's program and those it calls, as the library has them.
 class StoredPrograms final : public interpreter::ProgramSource {
  public:
-  StoredPrograms(storage::Store& store, const storage::Run& run) : store_(store), run_(run) {
+  StoredPrograms(const storage::Store& store, const storage::Run& run) : store_(store), run_(run) {
     texts_.push_back({{}, run.content, run.size});
   }
 
@@ -26,7 +26,8 @@ class StoredPrograms final : public interpreter::ProgramSource {
     window.state = TextWindow::State::Ready;
     window_.clear();
     if (offset < text.size) {
-      auto bytes = store_.read_content(text.content, offset, std::max(min_bytes, kMaxWindow));
+      auto bytes =
+          store_.programs.read_content(text.content, offset, std::max(min_bytes, kMaxWindow));
       if (!bytes) {
         window.state = TextWindow::State::Failed;
         window.reason = bytes.error().what;
@@ -43,7 +44,7 @@ class StoredPrograms final : public interpreter::ProgramSource {
     for (std::size_t i = 1; i < texts_.size(); ++i) {
       if (texts_[i].name == name) return found(i);
     }
-    const auto revision = resolve_called_program(store_, run_, std::string(name));
+    const auto revision = resolve_called_program(store_.programs, run_, std::string(name));
     if (!revision) return {ProgramLookup::State::NotFound, 0};
     texts_.push_back({std::string(name), revision->content, revision->size});
     return found(texts_.size() - 1);
@@ -59,7 +60,7 @@ class StoredPrograms final : public interpreter::ProgramSource {
     return {ProgramLookup::State::Found, static_cast<ProgramIndex>(index)};
   }
 
-  storage::Store& store_;
+  const storage::Store& store_;
   const storage::Run& run_;
   std::vector<Text> texts_;
   std::vector<std::byte> window_;
@@ -67,10 +68,10 @@ class StoredPrograms final : public interpreter::ProgramSource {
 
 }  // namespace
 
-Result<void> check_control_memory(storage::Store& store, const storage::Run& run) {
+Result<void> check_control_memory(const storage::Store& store, const storage::Run& run) {
   const auto dialect = interpreter::find_dialect(run.control);
   if (!dialect || (*dialect)->check_memory == nullptr) return {};
-  const auto stored = store.setup(run.machine, std::nullopt);
+  const auto stored = store.setups.find(run.machine, std::nullopt);
   if (!stored) return {};  // its gateway has its own
   const auto setup = interpreter::parse_control_data(stored->text, (*dialect)->units);
   if (!setup) return fail(setup.error());

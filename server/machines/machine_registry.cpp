@@ -19,7 +19,7 @@ bool is_known(const MachineView& view) {
 }  // namespace
 
 Result<void> MachineRegistry::load() {
-  auto machines = parts_.store.machines();
+  auto machines = parts_.machines.list();
   if (!machines) return fail(machines.error());
   const std::lock_guard lock(mutex_);
   for (auto& machine : *machines) {
@@ -201,7 +201,7 @@ void MachineRegistry::save_machine(const std::string& name) {
     entry.machine_is_dirty = false;
     machine = entry.view.machine;
   }
-  if (auto saved = parts_.store.save_machine(machine); !saved) {
+  if (auto saved = parts_.machines.save(machine); !saved) {
     spdlog::warn("machine not saved machine={}: {}", name, saved.error().what);
     const std::lock_guard lock(mutex_);
     entries_.at(name).machine_is_dirty = true;
@@ -222,8 +222,8 @@ void MachineRegistry::save() {
   for (const auto& status : progressed) {
     const storage::Counters counters{
         .sent = status.sent, .accepted = status.accepted, .executed = status.executed};
-    auto saved = parts_.store.update_counters(status.machine, status.run, counters, status.line,
-                                              status.sequence);
+    auto saved = parts_.runs.update_counters(
+        {status.machine, status.run, counters, status.line, status.sequence});
     if (!saved && saved.error().code != Errc::NotFound) {
       spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
                     saved.error().what);

@@ -26,7 +26,8 @@ class MachineRegistry {
   static constexpr std::chrono::seconds kContested{3};
 
   struct Parts {
-    storage::Store& store;
+    storage::MachineStore& machines;
+    storage::RunStore& runs;
     const Clock& clock;
     WorkerPool& pool;
     std::function<void(const MachineView&)> on_change;  ///< on a worker, latest state only

@@ -33,7 +33,7 @@ MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpo
                .on_fault = service.options_.on_fault}),
       commands(endpoint, service.clock_, service.command_options(),
                [&service](const dds::Command& command) { service.on_late_start(command); }),
-      watch({.store = service.store_,
+      watch({.runs = service.store_.runs,
              .clock = service.clock_,
              .desk = commands,
              .state_mutex = service.state_mutex_,
@@ -46,14 +46,15 @@ CommandDispatcher::Options MachineService::command_options() const {
   return options;
 }
 
-MachineService::MachineService(storage::Store& store, const Clock& clock, Options options,
+MachineService::MachineService(const storage::Store& store, const Clock& clock, Options options,
                                FeedListener listener)
     : store_(store),
       clock_(clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
       pool_(options.workers),
-      board_({.store = store,
+      board_({.machines = store.machines,
+              .runs = store.runs,
               .clock = clock,
               .pool = pool_,
               .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
@@ -166,7 +167,7 @@ Result<MachineView> MachineService::connected_machine(const std::string& name) c
 
 Result<storage::Run> MachineService::make_run(const StartRequest& request,
                                               const MachineView& view) {
-  auto revision = store_.revision(request.program, request.revision);
+  auto revision = store_.programs.revision(request.program, request.revision);
   if (!revision) return fail(revision.error());
   if (!revision->control.empty() && revision->control != view.machine.control) {
     return fail(Errc::Unsupported,
@@ -189,7 +190,7 @@ Result<storage::Run> MachineService::make_run(const StartRequest& request,
 
 /// The machine's newest setup; none when the server keeps none for it.
 Result<std::optional<storage::SetupRevision>> MachineService::setup_of(const storage::Run& run) {
-  auto setup = store_.setup(run.machine, std::nullopt);
+  auto setup = store_.setups.find(run.machine, std::nullopt);
   if (setup) return std::optional(*std::move(setup));
   if (setup.error().code == Errc::NotFound) return std::optional<storage::SetupRevision>{};
   return fail(setup.error());
@@ -209,7 +210,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (!run) return run;
   if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
   // Nothing is begun that could not go on: the list of its chunks is looked through before.
-  if (auto sound = store_.verify_content(run->content); !sound) {
+  if (auto sound = store_.programs.verify_content(run->content); !sound) {
     return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
                 sound.error().what);
   }
@@ -217,8 +218,8 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;
   // It may have announced itself this very moment, and a run needs its machine in the store.
-  if (auto saved = store_.save_machine(view->machine); !saved) return fail(saved.error());
-  if (auto created = store_.create_run(*run); !created) return fail(created.error());
+  if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
+  if (auto created = store_.runs.create(*run); !created) return fail(created.error());
   parts->watch.watch(run->machine, run->id);
   announce_run(run->id);
   dds::Command command;
@@ -281,7 +282,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   Parts* parts = this->parts();
   if (parts == nullptr) return fail(Errc::Io, "the server is stopping");
   if (request.run.empty()) return command_machine(request);
-  const auto run = store_.run(request.run);
+  const auto run = store_.runs.find(request.run);
   if (!run) return fail(run.error());
   if (has_ended(*run)) {
     return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
@@ -355,7 +356,7 @@ void MachineService::on_stored(const storage::RecordBatch& batch) {
 }
 
 void MachineService::announce_run(const std::string& run) {
-  if (const auto stored = store_.run(run)) listener_.on_run(*stored);
+  if (const auto stored = store_.runs.find(run)) listener_.on_run(*stored);
 }
 
 }  // namespace dripline::machines

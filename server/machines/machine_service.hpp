@@ -32,7 +32,8 @@ class MachineService final : public MachineControl {
     /// A machine's records cannot be stored, and why; empty: they are again. Any thread.
     std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
   };
-  MachineService(storage::Store& store, const Clock& clock, Options options, FeedListener listener);
+  MachineService(const storage::Store& store, const Clock& clock, Options options,
+                 FeedListener listener);
   ~MachineService() override;
 
   /// Valid while the service lives; what arrives before begin() is left out, and asked or sent
@@ -77,7 +78,7 @@ class MachineService final : public MachineControl {
   Result<std::optional<storage::SetupRevision>> setup_of(const storage::Run& run);
   Result<storage::Run> conclude_start(const storage::Run& run, const Result<void>& outcome);
 
-  storage::Store& store_;
+  const storage::Store& store_;
   const Clock& clock_;
   const Options options_;
   const FeedListener listener_;

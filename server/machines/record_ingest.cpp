@@ -126,7 +126,7 @@ std::set<std::string> RecordIngest::foreign_runs(const std::vector<dds::Record>&
   for (const auto& record : records) {
     if (record.run.empty()) continue;
     if (asked.insert(record.run).second) {
-      const auto run = parts_.store.run(record.run);
+      const auto run = parts_.store.runs.find(record.run);
       if (run && run->machine != machine) foreign.insert(record.run);
     }
     if (!foreign.contains(record.run)) continue;
@@ -172,9 +172,9 @@ storage::RecordBatch RecordIngest::to_batch(const std::vector<dds::Record>& reco
 }
 
 Result<std::uint64_t> RecordIngest::store(const storage::RecordBatch& batch) {
-  if (batch.beginnings.empty() && batch.endings.empty()) return parts_.store.store_records(batch);
+  if (batch.beginnings.empty() && batch.endings.empty()) return parts_.store.records.store(batch);
   const std::lock_guard lock(parts_.state_mutex);
-  return parts_.store.store_records(batch);
+  return parts_.store.records.store(batch);
 }
 
 void RecordIngest::put_back(const std::string& machine, std::vector<dds::Record> records,

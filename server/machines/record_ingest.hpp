@@ -27,7 +27,7 @@ class RecordIngest {
   static constexpr std::size_t kMaxBatch = 1024;
 
   struct Parts {
-    storage::Store& store;
+    const storage::Store& store;
     dds::ServerEndpoint& endpoint;
     WorkerPool& pool;
     const Clock& clock;

@@ -23,12 +23,12 @@ storage::RunState to_state(dds::RunOutcome outcome) {
 }
 
 /// nullopt when there is nothing to compare.
-std::optional<bool> verify(storage::Store& store, const dds::Record& record,
+std::optional<bool> verify(const storage::Store& store, const dds::Record& record,
                            const dds::RunEndText& text) {
   if (text.content_sha256.empty()) return std::nullopt;
-  const auto run = store.run(record.run);
+  const auto run = store.runs.find(record.run);
   if (!run) return std::nullopt;
-  const auto ours = prefix_digest(store, *run, text.content_length);
+  const auto ours = prefix_digest(store.programs, *run, text.content_length);
   // When our own bytes cannot be read, nothing is said about the machine's.
   if (!ours && ours.error().code != Errc::LimitExceeded) {
     spdlog::error("executed bytes not compared machine={} run={} program={}: {}", record.machine,
@@ -46,7 +46,8 @@ std::optional<bool> verify(storage::Store& store, const dds::Record& record,
 
 }  // namespace
 
-Result<Digest> prefix_digest(storage::Store& store, const storage::Run& run, std::uint64_t length) {
+Result<Digest> prefix_digest(storage::ProgramStore& store, const storage::Run& run,
+                             std::uint64_t length) {
   if (length > run.size) {
     return fail(Errc::LimitExceeded, "the gateway reports {} bytes of a program of {}", length,
                 run.size);
@@ -65,7 +66,7 @@ Result<Digest> prefix_digest(storage::Store& store, const storage::Run& run, std
   return hash.digest();
 }
 
-Result<storage::RunEnding> read_run_ending(storage::Store& store, const dds::Record& record) {
+Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dds::Record& record) {
   const auto text = dds::decode_run_end(record.text);
   if (!text) return fail(text.error());
   storage::RunEnding ending;

@@ -10,10 +10,11 @@ namespace dripline::machines {
 /// bytes of the revision. Reads content when that is only a part of the program.
 /// Errors: Syntax (the text is not what gateways write). An unknown run is no error: then nothing
 /// is compared.
-Result<storage::RunEnding> read_run_ending(storage::Store& store, const dds::Record& record);
+Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dds::Record& record);
 
 /// The SHA-256 of the first `length` bytes of stored content. Errors: LimitExceeded (it is
 /// shorter), NotFound, Corrupt.
-Result<Digest> prefix_digest(storage::Store& store, const storage::Run& run, std::uint64_t length);
+Result<Digest> prefix_digest(storage::ProgramStore& store, const storage::Run& run,
+                             std::uint64_t length);
 
 }  // namespace dripline::machines

@@ -11,7 +11,7 @@ Result<void> RunWatch::load() {
     for (std::uint64_t offset = 0;; offset += kPage) {
       storage::RunFilter filter;
       filter.state = state;
-      const auto runs = parts_.store.runs(filter, {.limit = kPage, .offset = offset});
+      const auto runs = parts_.runs.list(filter, {.limit = kPage, .offset = offset});
       if (!runs) return fail(runs.error());
       for (const auto& run : *runs) watch(run.machine, run.id);
       if (runs->size() < kPage) break;
@@ -50,7 +50,7 @@ void RunWatch::compare(const std::vector<MachineView>& machines) {
 
 /// The start was taken, but neither its result nor a status came through in time.
 void RunWatch::look_for_unwanted(const MachineView& view) {
-  const auto run = parts_.store.run(view.status->run);
+  const auto run = parts_.runs.find(view.status->run);
   if (!run || run->state != storage::RunState::Refused) return;
   if (run->machine == view.machine.name) parts_.on_unwanted(*run);
 }
@@ -82,7 +82,7 @@ bool RunWatch::is_absent_for_long(const std::string& run, bool is_absent) {
 
 void RunWatch::give_up(const std::string& id) {
   const std::lock_guard lock(parts_.state_mutex);
-  const auto run = parts_.store.run(id);
+  const auto run = parts_.runs.find(id);
   if (!run && run.error().code != Errc::NotFound) return;  // tried again at the next comparison
   const bool was_commanded = run && run->state == storage::RunState::Ordered;
   const bool was_active = run && run->state == storage::RunState::Active;
@@ -92,22 +92,22 @@ void RunWatch::give_up(const std::string& id) {
                                            : "the gateway does not know this run any more";
   spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
                reason);
-  if (auto set = parts_.store.set_run_state(id, state, reason); !set) {
+  if (auto set = parts_.runs.set_state(id, state, reason); !set) {
     // Still watched, so this too is tried again: or the machine would be busy for ever.
     spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
     return;
   }
   forget(id);
-  if (const auto changed = parts_.store.run(id)) parts_.on_change(*changed);
+  if (const auto changed = parts_.runs.find(id)) parts_.on_change(*changed);
 }
 
 Result<storage::Run> RunWatch::settle(const std::string& id, storage::RunState state,
                                       const std::string& reason) {
   const std::lock_guard lock(parts_.state_mutex);
-  auto run = parts_.store.run(id);
+  auto run = parts_.runs.find(id);
   if (!run || run->state != storage::RunState::Ordered) return run;
-  if (auto set = parts_.store.set_run_state(id, state, reason); !set) return fail(set.error());
-  run = parts_.store.run(id);
+  if (auto set = parts_.runs.set_state(id, state, reason); !set) return fail(set.error());
+  run = parts_.runs.find(id);
   if (run) parts_.on_change(*run);
   return run;
 }

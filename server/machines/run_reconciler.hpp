@@ -24,7 +24,7 @@ class RunWatch {
   static constexpr std::chrono::seconds kAbsence{15};
 
   struct Parts {
-    storage::Store& store;
+    storage::RunStore& runs;
     const Clock& clock;
     const CommandDispatcher& desk;
     std::mutex& state_mutex;

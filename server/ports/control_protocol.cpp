@@ -7,9 +7,10 @@ namespace dripline::ports {
 
 namespace tnc155 = interpreter::tnc155;
 
-Result<void> check_protocol(storage::Store& store, const std::string& machine, wire::Flow flow) {
+Result<void> check_protocol(storage::SetupStore& store, const std::string& machine,
+                            wire::Flow flow) {
   if (flow != wire::Flow::HeidenhainBcc) return {};
-  const auto stored = store.setup(machine, std::nullopt);
+  const auto stored = store.find(machine, std::nullopt);
   if (!stored) return {};
   const auto setup = interpreter::parse_control_data(stored->text);
   // What another control's options say is its own.

@@ -4,13 +4,14 @@
 
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
-#include "storage/store.hpp"
+#include "storage/setup_store.hpp"
 
 namespace dripline::ports {
 
 /// Whether the machine's control speaks a line's protocol, as far as its newest setup says which
 /// control it is: a TNC 151/155 E or V has no transfer blockwise. Nothing is known, and all is
 /// well, where there is no setup. Errors: Unsupported, naming machine and setup.
-Result<void> check_protocol(storage::Store& store, const std::string& machine, wire::Flow flow);
+Result<void> check_protocol(storage::SetupStore& store, const std::string& machine,
+                            wire::Flow flow);
 
 }  // namespace dripline::ports

@@ -22,7 +22,7 @@ Result<void> LineRecords::number_waiting() {
     storage::RecordBatch nothing;
     nothing.machine = parts_.machine;
     nothing.epoch = parts_.epoch;
-    const auto last = parts_.store.store_records(nothing);
+    const auto last = parts_.store.store(nothing);
     if (!last) return fail(last.error());
     last_ = *last;
   }
@@ -41,7 +41,7 @@ void LineRecords::commit() {
     if (entry.beginning) batch.beginnings.push_back(*entry.beginning);
     if (entry.ending) batch.endings.push_back(*entry.ending);
   }
-  const auto stored = parts_.store.store_records(batch);
+  const auto stored = parts_.store.store(batch);
   if (!stored) return retry(stored.error());
   if (pause_.count() > 0) {
     spdlog::info("records are stored again machine={}", parts_.machine);

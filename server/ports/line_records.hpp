@@ -8,7 +8,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "server/ports/strand.hpp"
-#include "storage/store.hpp"
+#include "storage/record_store.hpp"
 
 namespace dripline::ports {
 
@@ -22,7 +22,7 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
   static constexpr std::chrono::milliseconds kLongestPause{5000};
 
   struct Parts {
-    storage::Store& store;
+    storage::RecordStore& store;
     const Clock& clock;
     Strand strand;
     std::string machine;

@@ -62,11 +62,11 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
               revision.program, revision.number, revision.control, machine.name, machine.control);
 }
 
-Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
                                                bool are_aborts_told) {
   using storage::RunState;
   constexpr std::uint64_t kLook = 50;
-  const auto runs = store.runs({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
+  const auto runs = store.list({.machine = machine, .program = {}, .state = {}}, {.limit = kLook});
   if (!runs) return fail(runs.error());
   for (const auto& run : *runs) {
     if (run.state == RunState::Refused) continue;
@@ -80,7 +80,7 @@ Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std:
 
 Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
                                       const storage::Machine& machine) {
-  const auto revision = store_.revision(request.program, request.revision);
+  const auto revision = store_.programs.revision(request.program, request.revision);
   if (!revision) return fail(revision.error());
   if (auto fits = check_control(*revision, machine); !fits) return fail(fits.error());
   storage::Run run;
@@ -94,8 +94,8 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
   run.control = machine.control.empty() ? revision->control : machine.control;
   run.author = request.author;
   if (auto fits = machines::check_control_memory(store_, run); !fits) return fail(fits.error());
-  if (auto sound = store_.verify_content(run.content); !sound) return fail(sound.error());
-  if (auto created = store_.create_run(run); !created) return fail(created.error());
+  if (auto sound = store_.programs.verify_content(run.content); !sound) return fail(sound.error());
+  if (auto created = store_.runs.create(run); !created) return fail(created.error());
   return run;
 }
 
@@ -107,9 +107,9 @@ Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequ
         "a serial line, and its control has its own memory",
         run.machine);
   }
-  const auto place = find_start(store_, run, request.from);
+  const auto place = find_start(store_.programs, run, request.from);
   if (!place) return fail(place.error());
-  auto head = start_head(store_, run, *place, request.head);
+  auto head = start_head(store_.programs, run, *place, request.head);
   if (!head) return fail(head.error());
   SendJob job;
   job.head = *std::move(head);
@@ -137,13 +137,13 @@ void LineRuns::started(const storage::Run& run, LineRecords& records) {
 void LineRuns::refused(const storage::Run& run, const Error& error) {
   spdlog::warn("run not started over a line machine={} run={} program={}: {}", run.machine, run.id,
                run.program, error.what);
-  auto set = store_.set_run_state(run.id, storage::RunState::Refused, error.what);
+  auto set = store_.runs.set_state(run.id, storage::RunState::Refused, error.what);
   if (!set) spdlog::error("run={} not marked as refused: {}", run.id, set.error().what);
 }
 
 void LineRuns::progressed(const std::string& machine, const SendProgress& progress) {
   // Repeated soon by the next one.
-  auto saved = store_.update_counters(machine, progress.id, to_counters(progress), 0, -1);
+  auto saved = store_.runs.update_counters({machine, progress.id, to_counters(progress), 0, -1});
   if (!saved) {
     spdlog::debug("progress not saved run={}: {}", progress.id, saved.error().what);
   }
@@ -164,7 +164,7 @@ void LineRuns::ended(const SendEnd& end, LineRecords& records) {
 
 Result<void> LineRuns::give_up_unfinished(const std::string& machine, LineRecords& records) {
   for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
-    const auto runs = store_.runs({.machine = machine, .program = {}, .state = state}, {});
+    const auto runs = store_.runs.list({.machine = machine, .program = {}, .state = state}, {});
     if (!runs) return fail(runs.error());
     for (const auto& run : *runs) {
       storage::RunEnding ending;

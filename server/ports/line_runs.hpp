@@ -12,7 +12,7 @@ namespace dripline::ports {
 /// The last run that began, when it ended in the middle of its program, or has not ended; the
 /// control may be in the middle of it. Only while no run is on the line. `are_aborts_told`: an
 /// aborted run is over at the control too.
-Result<std::optional<storage::Run>> broken_run(storage::Store& store, const std::string& machine,
+Result<std::optional<storage::Run>> broken_run(storage::RunStore& store, const std::string& machine,
                                                bool are_aborts_told);
 
 /// Errors: Unsupported (the revision is for another control than the machine is).
@@ -24,7 +24,7 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
 /// machine at a time.
 class LineRuns {
  public:
-  LineRuns(storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
+  LineRuns(const storage::Store& store, const Clock& clock) : store_(store), clock_(clock) {}
 
   /// A run that is Ordered. Errors: NotFound, Unsupported (the program is for another control),
   /// Conflict (nothing but held revisions), Busy (the machine has a run).
@@ -43,7 +43,7 @@ class LineRuns {
   Result<void> give_up_unfinished(const std::string& machine, LineRecords& records);
 
  private:
-  storage::Store& store_;
+  const storage::Store& store_;
   const Clock& clock_;
 };
 

@@ -45,7 +45,7 @@ Result<void> check_ready(PortLine& line) {
 }
 
 /// What of the library is meant. Errors: as PortControl::send.
-Result<std::vector<storage::Revision>> chosen(storage::Store& store,
+Result<std::vector<storage::Revision>> chosen(storage::ProgramStore& store,
                                               const storage::Machine& machine,
                                               const std::vector<ProgramChoice>& programs) {
   std::vector<storage::Revision> revisions;
@@ -101,7 +101,8 @@ Error stream_error(const Error& error, const storage::Machine& machine) {
                             is_number ? Refusal::BadNumber : Refusal::NotLoaded);
 }
 
-Result<SendJob> job_of(storage::Store& store, const PortView& port, const storage::Machine& machine,
+Result<SendJob> job_of(storage::ProgramStore& store, const PortView& port,
+                       const storage::Machine& machine,
                        const std::vector<storage::Revision>& revisions) {
   const auto& first = revisions.front();
   auto stream = revisions.size() == 1
@@ -141,18 +142,19 @@ std::string what_it_does(const PortView& port) {
   return "receiving";
 }
 
-Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line, storage::Store& store,
+Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
+                                   const storage::Store& store,
                                    const std::vector<ProgramChoice>& programs) {
   const PortView port = line->view();
   storage::Machine machine;
-  if (auto known = store.machine(port.port.machine)) machine = *std::move(known);
+  if (auto known = store.machines.find(port.port.machine)) machine = *std::move(known);
   if (auto good = check_count(port, machine, programs.size()); !good) return fail(good.error());
-  if (auto fits = check_protocol(store, port.port.machine, port.settings.flow); !fits) {
+  if (auto fits = check_protocol(store.setups, port.port.machine, port.settings.flow); !fits) {
     return fail(fits.error());
   }
-  const auto revisions = chosen(store, machine, programs);
+  const auto revisions = chosen(store.programs, machine, programs);
   if (!revisions) return fail(revisions.error());
-  const auto job = job_of(store, port, machine, *revisions);
+  const auto job = job_of(store.programs, port, machine, *revisions);
   if (!job) return fail(job.error());
   const auto begun = ask_on_strand(line, [line, job = *job](const PortLine::Answer& answer) {
     if (auto ready = check_ready(*line); !ready) return answer(ready);

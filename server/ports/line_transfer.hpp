@@ -13,7 +13,8 @@ namespace dripline::ports {
 inline constexpr std::chrono::seconds kTransferAnswerLimit{10};
 
 /// Promises: PortControl.
-Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line, storage::Store& store,
+Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
+                                   const storage::Store& store,
                                    const std::vector<ProgramChoice>& programs);
 Result<void> receive_program(const std::shared_ptr<PortLine>& line);
 Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::string& reason);

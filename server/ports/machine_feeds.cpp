@@ -51,7 +51,7 @@ Result<void> MachineFeeds::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
     return lines_.machine(request.machine) ? lines_.command(request) : gateways_.command(request);
   }
-  const auto run = store_.run(request.run);
+  const auto run = runs_.find(request.run);
   if (!run) return fail(run.error());
   if (lines_.machine(run->machine)) return lines_.command(request);
   return gateways_.command(request);

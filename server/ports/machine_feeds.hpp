@@ -10,8 +10,8 @@ namespace dripline::ports {
 /// port, the machine is contested and nothing is started.
 class MachineFeeds final : public machines::MachineControl {
  public:
-  MachineFeeds(storage::Store& store, machines::MachineControl& gateways, SerialFeed& lines)
-      : store_(store), gateways_(gateways), lines_(lines) {}
+  MachineFeeds(storage::RunStore& runs, machines::MachineControl& gateways, SerialFeed& lines)
+      : runs_(runs), gateways_(gateways), lines_(lines) {}
 
   /// In order of their names.
   std::vector<machines::MachineView> machines() const override;
@@ -20,7 +20,7 @@ class MachineFeeds final : public machines::MachineControl {
   Result<void> command(const machines::CommandRequest& request) override;
 
  private:
-  storage::Store& store_;
+  storage::RunStore& runs_;
   machines::MachineControl& gateways_;
   SerialFeed& lines_;
 };

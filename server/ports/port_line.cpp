@@ -298,7 +298,7 @@ void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
   parts_.strand.post([weak = weak_from_this(), id = job.id, stream = job.stream, offset] {
     const auto self = weak.lock();
     if (!self) return;
-    auto piece = stream->read(self->parts_.store, offset, kFetchPiece);
+    auto piece = stream->read(self->parts_.programs, offset, kFetchPiece);
     PortLine& port = *self;  // the driver is its own: no work outlives it
     port.with_line(
         [&port, id, offset, piece = std::move(piece)](wire::Discipline& line, wire::LineTime now) {

@@ -34,7 +34,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   struct Parts {
     storage::Port port;
     wire::LineSettings settings;
-    storage::Store& store;
+    storage::ProgramStore& programs;
     const Clock& clock;
     Strand strand;
     LineOpener open;

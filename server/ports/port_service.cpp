@@ -27,12 +27,12 @@ LineOpener default_opener() {
 
 /// Later than every epoch these lines have used, also when the time of day was set back meanwhile:
 /// records are listed in the order of their epochs.
-std::uint64_t next_epoch(storage::Store& store, const Clock& clock) {
+std::uint64_t next_epoch(const storage::Store& store, const Clock& clock) {
   auto epoch = static_cast<std::uint64_t>(clock.now().time_since_epoch().count());
-  const auto ports = store.ports();
+  const auto ports = store.ports.list();
   if (!ports) return epoch;
   for (const auto& port : *ports) {
-    const auto machine = store.machine(port.machine);
+    const auto machine = store.machines.find(port.machine);
     if (machine && machine->epoch < INT64_MAX) epoch = std::max(epoch, machine->epoch + 1);
   }
   return epoch;
@@ -40,8 +40,8 @@ std::uint64_t next_epoch(storage::Store& store, const Clock& clock) {
 
 }  // namespace
 
-PortService::PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
-                         Options options, machines::FeedListener listener)
+PortService::PortService(const storage::Store& store, library::Programs& programs,
+                         const Clock& clock, Options options, machines::FeedListener listener)
     : store_(store),
       programs_(programs),
       clock_(clock),
@@ -56,7 +56,7 @@ PortService::~PortService() {
 }
 
 Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
-  const auto stored = store_.ports();
+  const auto stored = store_.ports.list();
   if (!stored) return fail(stored.error());
   for (const auto& port : *stored) {
     auto entry = prepare(port);
@@ -183,11 +183,11 @@ Result<std::uint64_t> PortService::enter_machine(const storage::Port& port) {
   storage::Machine machine;
   machine.name = port.machine;
   machine.first_seen = clock_.now();
-  if (auto known = store_.machine(port.machine)) machine = *std::move(known);
+  if (auto known = store_.machines.find(port.machine)) machine = *std::move(known);
   if (machine.control.empty()) machine.control = template_control(port);
   machine.epoch = epoch_of(machine);
   machine.last_seen = clock_.now();
-  if (auto saved = store_.save_machine(machine); !saved) return fail(saved.error());
+  if (auto saved = store_.machines.save(machine); !saved) return fail(saved.error());
   return machine.epoch;
 }
 
@@ -196,7 +196,7 @@ PortService::Machine PortService::machine_of(const std::string& name, std::uint6
   if (const auto found = machines_.find(name); found != machines_.end()) return found->second;
   const Strand strand(pool_);
   LineRecords::Parts parts{
-      .store = store_,
+      .store = store_.records,
       .clock = clock_,
       .strand = strand,
       .machine = name,
@@ -265,7 +265,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
                       entry.settings.flow == wire::Flow::HeidenhainBcc ||
                       entry.settings.flow == wire::Flow::Xmodem};
   const auto reception = std::make_shared<Reception>(Reception::Parts{
-      .store = store_,
+      .machines = store_.machines,
       .programs = programs_,
       .records = machine.records,
       .machine = name,
@@ -296,11 +296,11 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
 
 std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
                                                  PortListener listener) {
-  const auto broken = broken_run(store_, entry.port.machine, true);
+  const auto broken = broken_run(store_.runs, entry.port.machine, true);
   return PortLine::make(
       {.port = entry.port,
        .settings = entry.settings,
-       .store = store_,
+       .programs = store_.programs,
        .clock = clock_,
        .strand = strand,
        .open = options_.open ? options_.open : default_opener(),
@@ -362,7 +362,7 @@ Result<PortView> PortService::save(const storage::Port& port) {
   const std::lock_guard changing(change_mutex_);
   auto entry = prepare(port);
   if (!entry) return fail(entry.error());
-  if (auto fits = check_protocol(store_, port.machine, entry->settings.flow); !fits) {
+  if (auto fits = check_protocol(store_.setups, port.machine, entry->settings.flow); !fits) {
     return fail(fits.error().code, "port '{}': {}", port.name, fits.error().what);
   }
   return save_prepared(*std::move(entry));
@@ -372,7 +372,7 @@ Result<PortView> PortService::save_prepared(Entry entry) {
   const storage::Port& port = entry.port;
   if (auto free = check_free(port); !free) return fail(free.error());
   if (auto idle = check_idle(port.name); !idle) return fail(idle.error());
-  if (auto saved = store_.save_port(port); !saved) return fail(saved.error());
+  if (auto saved = store_.ports.save(port); !saved) return fail(saved.error());
   if (const auto before = find(port.name); before && before->line) {
     before->line->close("the port was changed");
   }
@@ -387,7 +387,7 @@ Result<void> PortService::remove(const std::string& name) {
   const auto entry = find(name);
   if (!entry) return fail(entry.error());
   if (auto idle = check_idle(name); !idle) return idle;
-  if (auto removed = store_.remove_port(name); !removed) return removed;
+  if (auto removed = store_.ports.remove(name); !removed) return removed;
   {
     const std::lock_guard lock(mutex_);
     entries_.erase(name);

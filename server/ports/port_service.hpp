@@ -34,7 +34,7 @@ class PortService final : public PortControl, private LineDirectory {
     /// Why records of a machine cannot be stored, at every try; empty: they can again.
     std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
   };
-  PortService(storage::Store& store, library::Programs& programs, const Clock& clock,
+  PortService(const storage::Store& store, library::Programs& programs, const Clock& clock,
               Options options, machines::FeedListener listener);
   ~PortService() override;
 
@@ -100,7 +100,7 @@ class PortService final : public PortControl, private LineDirectory {
   void on_store_fault(const std::string& machine, const std::string& trouble);
   static PortView view_of(const Entry& entry);
 
-  storage::Store& store_;
+  const storage::Store& store_;
   library::Programs& programs_;
   const Clock& clock_;
   const Options options_;

@@ -4,7 +4,7 @@
 
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
-#include "storage/store.hpp"
+#include "storage/port_store.hpp"
 
 namespace dripline::ports {
 

@@ -46,8 +46,8 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
 
 }  // namespace
 
-SerialFeed::SerialFeed(storage::Store& store, const Clock& clock, const LineDirectory& directory,
-                       const machines::FeedListener& listener)
+SerialFeed::SerialFeed(const storage::Store& store, const Clock& clock,
+                       const LineDirectory& directory, const machines::FeedListener& listener)
     : store_(store),
       clock_(clock),
       directory_(directory),
@@ -59,7 +59,7 @@ machines::MachineView SerialFeed::view_of(const PortLine& line) const {
   const auto progress = line.progress();
   machines::MachineView view;
   view.machine.name = port.port.machine;
-  if (auto stored = store_.machine(port.port.machine)) view.machine = *std::move(stored);
+  if (auto stored = store_.machines.find(port.port.machine)) view.machine = *std::move(stored);
   view.is_connected = port.is_open;
   dds::Status status;
   status.machine = port.port.machine;
@@ -72,7 +72,7 @@ machines::MachineView SerialFeed::view_of(const PortLine& line) const {
     status.accepted = progress->is_checked ? progress->sent.blocks : 0;
     status.total_bytes = progress->size;
     status.offset = progress->sent.bytes;
-    if (const auto run = store_.run(progress->id)) status.program = run->program;
+    if (const auto run = store_.runs.find(progress->id)) status.program = run->program;
   }
   view.status = std::move(status);
   return view;
@@ -119,10 +119,10 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const machines::St
     return started(
         fail(Errc::Busy, "port {} is busy: it is {}", port.port.name, what_it_does(port)));
   }
-  if (auto fits = check_protocol(store_, request.machine, port.settings.flow); !fits) {
+  if (auto fits = check_protocol(store_.setups, request.machine, port.settings.flow); !fits) {
     return started(fail(fits.error()));
   }
-  const auto machine = store_.machine(request.machine);
+  const auto machine = store_.machines.find(request.machine);
   if (!machine) return started(fail(machine.error()));
   const auto run = runs_.create(request, *machine);
   if (!run) return started(run);
@@ -143,7 +143,7 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const machines::St
 Result<storage::Run> SerialFeed::conclude(const storage::Run& run, const Result<void>& begun) {
   if (begun) {
     runs_.started(run, *directory_.records_of(run.machine));
-    return store_.run(run.id);
+    return store_.runs.find(run.id);
   }
   runs_.refused(run, begun.error());
   announce(run.id);
@@ -155,7 +155,7 @@ Result<void> SerialFeed::command(const machines::CommandRequest& request) {
     return fail(Errc::Unsupported, "machine '{}' hangs on a line: its panel is out of reach",
                 request.machine);
   }
-  const auto run = store_.run(request.run);
+  const auto run = store_.runs.find(request.run);
   if (!run) return fail(run.error());
   if (run->state != storage::RunState::Ordered && run->state != storage::RunState::Active) {
     return fail(Errc::Conflict, "run {} has ended: {}", run->id, storage::to_string(run->state));
@@ -201,7 +201,7 @@ void SerialFeed::save_progress(const PortLine& line) {
 }
 
 void SerialFeed::announce(const std::string& run) const {
-  if (const auto stored = store_.run(run)) listener_.on_run(*stored);
+  if (const auto stored = store_.runs.find(run)) listener_.on_run(*stored);
 }
 
 }  // namespace dripline::ports

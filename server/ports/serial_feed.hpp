@@ -20,7 +20,7 @@ class SerialFeed final : public machines::MachineControl {
   /// How long `start` and `order` wait for the line's thread.
   static constexpr std::chrono::seconds kAnswerLimit{10};
 
-  SerialFeed(storage::Store& store, const Clock& clock, const LineDirectory& directory,
+  SerialFeed(const storage::Store& store, const Clock& clock, const LineDirectory& directory,
              const machines::FeedListener& listener);
 
   std::vector<machines::MachineView> machines() const override;
@@ -48,7 +48,7 @@ class SerialFeed final : public machines::MachineControl {
   Result<storage::Run> conclude(const storage::Run& run, const Result<void>& begun);
   machines::MachineView view_of(const PortLine& line) const;
 
-  storage::Store& store_;
+  const storage::Store& store_;
   const Clock& clock_;
   const LineDirectory& directory_;
   const machines::FeedListener& listener_;

@@ -15,7 +15,7 @@ Result<void> AuditRepository::add(const AuditEntry& entry) {
   return connections_.write([&](sqlite::Database& database) { return add_audit(database, entry); });
 }
 
-Result<std::vector<AuditEntry>> AuditRepository::all(Page page) {
+Result<std::vector<AuditEntry>> AuditRepository::list(Page page) {
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(
         database,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "storage/audit_store.hpp"
 #include "storage/impl/connections.hpp"
 
 namespace dripline::storage {
@@ -7,13 +8,12 @@ namespace dripline::storage {
 /// Inside the caller's transaction.
 Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry);
 
-/// Promises: storage/store.hpp. Thread-safe.
-class AuditRepository {
+class AuditRepository final : public AuditStore {
  public:
   explicit AuditRepository(Connections& connections) : connections_(connections) {}
 
-  Result<void> add(const AuditEntry& entry);
-  Result<std::vector<AuditEntry>> all(Page page);
+  Result<void> add(const AuditEntry& entry) override;
+  Result<std::vector<AuditEntry>> list(Page page) override;
 
  private:
   Connections& connections_;

@@ -62,7 +62,7 @@ Result<Machine> MachineRepository::find(const std::string& name) {
   return std::move(**found);
 }
 
-Result<std::vector<Machine>> MachineRepository::all() {
+Result<std::vector<Machine>> MachineRepository::list() {
   static const std::string kSql = kSelect + "ORDER BY name";
   return connections_.read(
       [&](sqlite::Database& database) { return sqlite::all_rows(database, kSql, read_machine); });

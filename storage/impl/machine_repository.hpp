@@ -1,6 +1,7 @@
 #pragma once
 
 #include "storage/impl/connections.hpp"
+#include "storage/machine_store.hpp"
 
 namespace dripline::storage {
 
@@ -9,14 +10,13 @@ namespace dripline::storage {
 Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
                                 std::uint64_t epoch, UtcTime now);
 
-/// Promises: storage/store.hpp. Thread-safe.
-class MachineRepository {
+class MachineRepository final : public MachineStore {
  public:
   explicit MachineRepository(Connections& connections) : connections_(connections) {}
 
-  Result<void> save(const Machine& machine);
-  Result<Machine> find(const std::string& name);
-  Result<std::vector<Machine>> all();
+  Result<void> save(const Machine& machine) override;
+  Result<Machine> find(const std::string& name) override;
+  Result<std::vector<Machine>> list() override;
 
  private:
   Connections& connections_;

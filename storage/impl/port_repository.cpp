@@ -83,7 +83,7 @@ Result<void> PortRepository::save(const Port& port) {
   });
 }
 
-Result<std::vector<Port>> PortRepository::all() {
+Result<std::vector<Port>> PortRepository::list() {
   return connections_.read([&](sqlite::Database& database) -> Result<std::vector<Port>> {
     auto ports = sqlite::all_rows(
         database,

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "storage/impl/connections.hpp"
+#include "storage/port_store.hpp"
 
 namespace dripline::storage {
 
-/// Serial ports as configured. Promises: storage/store.hpp. Thread-safe.
-class PortRepository {
+class PortRepository final : public PortStore {
  public:
   explicit PortRepository(Connections& connections) : connections_(connections) {}
 
-  Result<void> save(const Port& port);
-  Result<std::vector<Port>> all();
-  Result<void> remove(const std::string& name);
+  Result<void> save(const Port& port) override;
+  Result<std::vector<Port>> list() override;
+  Result<void> remove(const std::string& name) override;
 
  private:
   Connections& connections_;

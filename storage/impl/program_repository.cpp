@@ -7,7 +7,7 @@
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {
-Result<std::vector<ProgramSummary>> ProgramRepository::programs(Page page) {
+Result<std::vector<ProgramSummary>> ProgramRepository::list(Page page) {
   static const std::string kSql =
       "SELECT " + kRevisionColumns +
       ", visible.revisions, visible.held "
@@ -50,14 +50,18 @@ Result<Revision> ProgramRepository::revision(const std::string& program,
       [&](sqlite::Database& database) { return find_revision(database, program, number); });
 }
 
-Result<Revision> ProgramRepository::accept(const Judgement& judgement) {
-  return connections_.write(
-      [&](sqlite::Database& database) { return accept_revision(database, judgement); });
+Result<Revision> ProgramRepository::accept(const std::string& program, std::uint64_t number,
+                                           const std::string& who) {
+  return connections_.write([&](sqlite::Database& database) {
+    return accept_revision(database, {program, number, who, clock_.now()});
+  });
 }
 
-Result<void> ProgramRepository::reject(const Judgement& judgement) {
-  return connections_.write(
-      [&](sqlite::Database& database) { return reject_revision(database, judgement); });
+Result<void> ProgramRepository::reject(const std::string& program, std::uint64_t number,
+                                       const std::string& who) {
+  return connections_.write([&](sqlite::Database& database) {
+    return reject_revision(database, {program, number, who, clock_.now()});
+  });
 }
 
 Result<void> ProgramRepository::remove(const std::string& program) {
@@ -75,14 +79,15 @@ Result<void> ProgramRepository::remove(const std::string& program) {
 }
 
 Result<Revision> ProgramRepository::copy(const ProgramMove& move,
-                                         std::optional<std::uint64_t> number, UtcTime now) {
-  return connections_.write(
-      [&](sqlite::Database& database) { return copy_program(database, move, number, now); });
+                                         std::optional<std::uint64_t> number) {
+  return connections_.write([&](sqlite::Database& database) {
+    return copy_program(database, move, number, clock_.now());
+  });
 }
 
-Result<void> ProgramRepository::rename(const ProgramMove& move, UtcTime now) {
+Result<void> ProgramRepository::rename(const ProgramMove& move) {
   return connections_.write(
-      [&](sqlite::Database& database) { return rename_program(database, move, now); });
+      [&](sqlite::Database& database) { return rename_program(database, move, clock_.now()); });
 }
 
 /// Looks at the stored list each time. Errors: NotFound, Corrupt.

@@ -4,26 +4,29 @@
 #include "storage/impl/connections.hpp"
 #include "storage/impl/content_seal.hpp"
 #include "storage/impl/revision_rows.hpp"
+#include "storage/program_store.hpp"
 
 namespace dripline::storage {
 
-/// Programs, their revisions and the bytes of these. Promises: storage/store.hpp. Thread-safe.
-class ProgramRepository {
+class ProgramRepository final : public ProgramStore {
  public:
-  ProgramRepository(Connections& connections, std::uint64_t cache_bytes)
-      : connections_(connections), cache_(cache_bytes) {}
+  ProgramRepository(Connections& connections, const Clock& clock, std::uint64_t cache_bytes)
+      : connections_(connections), clock_(clock), cache_(cache_bytes) {}
 
-  Result<std::vector<ProgramSummary>> programs(Page page);
-  Result<std::vector<Revision>> revisions(const std::string& program);
-  Result<Revision> revision(const std::string& program, std::optional<std::uint64_t> number);
-  Result<Revision> accept(const Judgement& judgement);
-  Result<void> reject(const Judgement& judgement);
-  Result<void> remove(const std::string& program);
-  Result<Revision> copy(const ProgramMove& move, std::optional<std::uint64_t> number, UtcTime now);
-  Result<void> rename(const ProgramMove& move, UtcTime now);
+  Result<std::vector<ProgramSummary>> list(Page page) override;
+  Result<std::vector<Revision>> revisions(const std::string& program) override;
+  Result<Revision> revision(const std::string& program,
+                            std::optional<std::uint64_t> number) override;
+  Result<Revision> accept(const std::string& program, std::uint64_t number,
+                          const std::string& who) override;
+  Result<void> reject(const std::string& program, std::uint64_t number,
+                      const std::string& who) override;
+  Result<Revision> copy(const ProgramMove& move, std::optional<std::uint64_t> number) override;
+  Result<void> rename(const ProgramMove& move) override;
+  Result<void> remove(const std::string& program) override;
   Result<std::vector<std::byte>> read_content(const Digest& content, std::uint64_t offset,
-                                              std::uint64_t length);
-  Result<void> verify_content(const Digest& content);
+                                              std::uint64_t length) override;
+  Result<void> verify_content(const Digest& content) override;
 
  private:
   struct Sealed {
@@ -35,6 +38,7 @@ class ProgramRepository {
   Result<std::shared_ptr<const CachedChunk>> chunk(const Digest& content, std::uint64_t position);
 
   Connections& connections_;
+  const Clock& clock_;
   ChunkCache cache_;
   SealedContents sealed_;
 };

@@ -159,7 +159,7 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
 }
 
 /// The condition is the index's own, word for word: only so is it used.
-Result<std::vector<MachineReport>> RecordRepository::reports() {
+Result<std::vector<MachineReport>> RecordRepository::machine_reports() {
   static const std::string kSelect =
       "SELECT machine.name, count(*), min(time_us), max(time_us) FROM record "
       "JOIN machine ON machine.id = record.machine "
@@ -206,9 +206,8 @@ Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
 
 }  // namespace
 
-Result<std::vector<MemoryReport>> RecordRepository::memory(const std::string& machine,
-                                                           const std::optional<std::string>& run,
-                                                           Page page) {
+Result<std::vector<MemoryReport>> RecordRepository::memory_reports(
+    const std::string& machine, const std::optional<std::string>& run, Page page) {
   static const std::string kTexts =
       "SELECT text FROM record INDEXED BY record_of_memory "
       "WHERE machine = (SELECT id FROM machine WHERE name = ?1) "
@@ -228,7 +227,8 @@ Result<std::vector<MemoryReport>> RecordRepository::memory(const std::string& ma
   });
 }
 
-Result<std::vector<Record>> RecordRepository::without_run(const std::string& machine, Page page) {
+Result<std::vector<Record>> RecordRepository::machine_report(const std::string& machine,
+                                                             Page page) {
   static const std::string kSelect =
       "SELECT ?1, epoch, number, time_us, run, kind, block, line, sequence, device, text, "
       "received_us "

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "storage/sqlite/query.hpp"
-#include "storage/store.hpp"
+#include "storage/upload_store.hpp"
 
 /// Rows of revision, as they are found, made and judged. Everything runs inside the caller's
 /// transaction.
@@ -37,7 +37,7 @@ struct Judgement {
   std::string who;
   UtcTime time;
 };
-/// Promises of both: storage/store.hpp.
+/// Promises of both: storage/program_store.hpp.
 Result<Revision> accept_revision(sqlite::Database& database, const Judgement& judgement);
 Result<void> reject_revision(sqlite::Database& database, const Judgement& judgement);
 

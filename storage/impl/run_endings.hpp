@@ -1,15 +1,11 @@
 #pragma once
 
+#include "storage/record_store.hpp"
 #include "storage/sqlite/database.hpp"
-#include "storage/store.hpp"
 
 /// What records do to runs, inside the transaction that stores the records. Only the runs of the
 /// machine that reports them are touched.
 namespace dripline::storage {
-
-inline bool is_finished(RunState state) {
-  return state != RunState::Ordered && state != RunState::Active;
-}
 
 /// Ordered becomes Active. Unknown and other runs stay as they are: a record is never refused for
 /// what it says of a run.

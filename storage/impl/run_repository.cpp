@@ -158,7 +158,7 @@ Result<Run> RunRepository::find(const std::string& id) {
   return connections_.read([&](sqlite::Database& database) { return find_run(database, id); });
 }
 
-Result<std::vector<Run>> RunRepository::all(const RunFilter& filter, Page page) {
+Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
   std::string sql = kSelect + "WHERE true ";  // few texts, so that each is prepared once
   if (filter.machine) sql += "AND machine.name = ?1 ";
   if (filter.program) sql += "AND program.name = ?2 ";
@@ -196,7 +196,7 @@ Result<void> RunRepository::set_state(const std::string& id, RunState state,
   });
 }
 
-Result<void> RunRepository::update_counters(const std::string& machine, const Progress& progress) {
+Result<void> RunRepository::update_counters(const RunProgress& progress) {
   const auto update = [&](sqlite::Database& database) -> Result<void> {
     const auto updated =
         sqlite::run(database,
@@ -206,12 +206,13 @@ Result<void> RunRepository::update_counters(const std::string& machine, const Pr
                     "WHERE id = ?1 AND machine = (SELECT id FROM machine WHERE name = ?7) "
                     "AND state IN ('ordered', 'active')",
                     progress.run, progress.counters.sent, progress.counters.accepted,
-                    progress.counters.executed, progress.line, progress.sequence, machine);
+                    progress.counters.executed, progress.line, progress.sequence, progress.machine);
     if (!updated || database.changes() > 0) return updated;
     const auto run = find_run(database, progress.run);  // ended: ignored
     if (!run) return fail(run.error());
-    if (run->machine == machine) return {};
-    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine, machine);
+    if (run->machine == progress.machine) return {};
+    return fail(Errc::Conflict, "run {} is machine {}'s, not {}'s", run->id, run->machine,
+                progress.machine);
   };
   // Ten times a second for each machine, and repeated by the next status: not worth a disk flush.
   return connections_.write(update, sqlite::Synchronous::Normal);

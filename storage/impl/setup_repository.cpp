@@ -90,7 +90,7 @@ Result<SetupRevision> SetupRepository::save(const SetupRevision& given,
   return setup;
 }
 
-Result<std::vector<SetupRevision>> SetupRepository::all(const std::string& machine, Page page) {
+Result<std::vector<SetupRevision>> SetupRepository::list(const std::string& machine, Page page) {
   static const std::string kSql = fmt::format(
       "SELECT {} FROM setup WHERE machine = ?1 ORDER BY number DESC LIMIT ?2 OFFSET ?3", kColumns);
   return connections_.read([&](sqlite::Database& database) {

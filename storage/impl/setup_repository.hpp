@@ -1,19 +1,20 @@
 #pragma once
 
-#include "protocol/base/clock.hpp"
 #include "storage/impl/connections.hpp"
+#include "storage/setup_store.hpp"
 
 namespace dripline::storage {
 
-/// The setups of machines, every version of them. Promises: storage/store.hpp. Thread-safe.
-class SetupRepository {
+class SetupRepository final : public SetupStore {
  public:
   SetupRepository(Connections& connections, const Clock& clock)
       : connections_(connections), clock_(clock) {}
 
-  Result<SetupRevision> save(const SetupRevision& setup, std::optional<std::uint64_t> base);
-  Result<std::vector<SetupRevision>> all(const std::string& machine, Page page);
-  Result<SetupRevision> find(const std::string& machine, std::optional<std::uint64_t> number);
+  Result<SetupRevision> save(const SetupRevision& setup,
+                             std::optional<std::uint64_t> base) override;
+  Result<std::vector<SetupRevision>> list(const std::string& machine, Page page) override;
+  Result<SetupRevision> find(const std::string& machine,
+                             std::optional<std::uint64_t> number) override;
 
  private:
   Connections& connections_;

@@ -2,26 +2,27 @@
 
 #include "storage/impl/connections.hpp"
 #include "storage/impl/upload_progress.hpp"
+#include "storage/upload_store.hpp"
 
 namespace dripline::storage {
 
-/// Programs on their way in. Pieces are hashed and compressed before the writer is taken, so a big
-/// upload holds up nobody's records. Promises: storage/store.hpp. Thread-safe.
-class UploadRepository {
+/// Pieces are hashed and compressed before the writer is taken, so a big
+/// upload holds up nobody's records.
+class UploadRepository final : public UploadStore {
  public:
   UploadRepository(Connections& connections, const Clock& clock)
       : connections_(connections), clock_(clock) {}
 
-  Result<Upload> begin(const Upload& upload);
-  Result<Upload> find(const std::string& id);
+  Result<Upload> begin(const Upload& upload) override;
+  Result<Upload> find(const std::string& id) override;
   Result<Upload> append(const std::string& id, std::uint64_t offset,
-                        std::span<const std::byte> bytes);
+                        std::span<const std::byte> bytes) override;
   Result<std::vector<std::byte>> read(const std::string& id, std::uint64_t offset,
-                                      std::uint64_t length);
-  Result<void> set_control(const std::string& id, const std::string& control);
-  Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected);
-  Result<void> abandon(const std::string& id);
-  Result<std::uint64_t> drop_idle(std::chrono::seconds passed, std::chrono::seconds life);
+                                      std::uint64_t length) override;
+  Result<void> set_control(const std::string& id, const std::string& control) override;
+  Result<Revision> commit(const std::string& id, const std::optional<Digest>& expected) override;
+  Result<void> abandon(const std::string& id) override;
+  Result<std::uint64_t> drop_idle(std::chrono::seconds passed, std::chrono::seconds life) override;
 
  private:
   Result<std::shared_ptr<UploadProgress>> progress_of(const std::string& id);

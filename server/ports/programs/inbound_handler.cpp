@@ -111,7 +111,7 @@ std::string Reception::current_run() {
 }
 
 std::string Reception::machine_control() const {
-  const auto machine = parts_.store.machine(parts_.machine);
+  const auto machine = parts_.machines.find(parts_.machine);
   return machine ? machine->control : std::string();
 }
 

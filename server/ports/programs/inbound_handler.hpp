@@ -19,7 +19,7 @@ namespace dripline::ports {
 class Reception {
  public:
   struct Parts {
-    storage::Store& store;
+    storage::MachineStore& machines;
     library::Programs& programs;
     std::shared_ptr<LineRecords> records;
     std::string machine, port;

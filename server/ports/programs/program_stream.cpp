@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view kAroundLines = " \t\r\n%";
 
-Result<std::string> text_of(storage::Store& store, const Digest& content, std::uint64_t offset,
-                            std::uint64_t length) {
+Result<std::string> text_of(storage::ProgramStore& store, const Digest& content,
+                            std::uint64_t offset, std::uint64_t length) {
   const auto bytes = store.read_content(content, offset, length);
   if (!bytes) return fail(bytes.error());
   return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -77,7 +77,7 @@ ProgramStream ProgramStream::of(const Digest& content, std::uint64_t size) {
   return stream;
 }
 
-Result<ProgramStream> ProgramStream::of(storage::Store& store,
+Result<ProgramStream> ProgramStream::of(storage::ProgramStore& store,
                                         const std::vector<storage::Revision>& revisions) {
   ProgramStream stream;
   for (const auto& revision : revisions) {
@@ -96,7 +96,7 @@ void ProgramStream::add(std::string text) {
   pieces_.push_back({.content = {}, .first = 0, .size = text.size(), .text = std::move(text)});
 }
 
-Result<void> ProgramStream::add(storage::Store& store, const storage::Revision& revision) {
+Result<void> ProgramStream::add(storage::ProgramStore& store, const storage::Revision& revision) {
   const auto head = text_of(store, revision.content, 0, kProgramHead);
   if (!head) return fail(head.error());
   const std::uint64_t tail_at =
@@ -127,7 +127,7 @@ Result<void> ProgramStream::add(storage::Store& store, const storage::Revision& 
   return {};
 }
 
-Result<std::string> ProgramStream::read(storage::Store& store, std::uint64_t offset,
+Result<std::string> ProgramStream::read(storage::ProgramStore& store, std::uint64_t offset,
                                         std::uint64_t length) const {
   for (const Piece& piece : pieces_) {
     if (offset >= piece.size) {

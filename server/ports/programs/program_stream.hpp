@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "storage/store.hpp"
+#include "storage/program_store.hpp"
 
 namespace dripline::ports {
 
@@ -18,12 +18,13 @@ class ProgramStream {
   /// begins with its O line, comments in front of it follow it; without one it gets the number of
   /// its name. Errors: those of the store, Syntax (nothing to send in it; no number), each with the
   /// program's name.
-  static Result<ProgramStream> of(storage::Store& store,
+  static Result<ProgramStream> of(storage::ProgramStore& store,
                                   const std::vector<storage::Revision>& revisions);
 
   std::uint64_t size() const { return size_; }
   /// At most `length` bytes from `offset`; fewer do not mean the end. Errors: those of the store.
-  Result<std::string> read(storage::Store& store, std::uint64_t offset, std::uint64_t length) const;
+  Result<std::string> read(storage::ProgramStore& store, std::uint64_t offset,
+                           std::uint64_t length) const;
 
  private:
   struct Piece {
@@ -33,7 +34,7 @@ class ProgramStream {
   };
   void add(const Digest& content, std::uint64_t first, std::uint64_t size);
   void add(std::string text);
-  Result<void> add(storage::Store& store, const storage::Revision& revision);
+  Result<void> add(storage::ProgramStore& store, const storage::Revision& revision);
 
   std::vector<Piece> pieces_;
   std::uint64_t size_ = 0;

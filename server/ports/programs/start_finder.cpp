@@ -61,7 +61,7 @@ std::string wanted(const machines::StartPoint& from) {
 
 }  // namespace
 
-Result<ProgramPlace> find_start(storage::Store& store, const storage::Run& run,
+Result<ProgramPlace> find_start(storage::ProgramStore& store, const storage::Run& run,
                                 const machines::StartPoint& from) {
   if (from.tool || from.skipped) {
     return fail(Errc::Unsupported, "over a serial line a run begins at a block, a line or a byte");

@@ -16,7 +16,7 @@ struct ProgramPlace {
 /// Finds where a run is to begin: reads stored content piece by piece, in bounded memory. Errors:
 /// NotFound (the program has no such byte, line or N number; names the last one there is), Corrupt,
 /// Io.
-Result<ProgramPlace> find_start(storage::Store& store, const storage::Run& run,
+Result<ProgramPlace> find_start(storage::ProgramStore& store, const storage::Run& run,
                                 const machines::StartPoint& from);
 
 }  // namespace dripline::ports

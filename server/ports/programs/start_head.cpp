@@ -45,8 +45,8 @@ class BlockCutter {
   std::string block_;
 };
 
-Result<void> scan_program(storage::Store& store, const storage::Run& run, const ProgramPlace& place,
-                          ModalScan& scan) {
+Result<void> scan_program(storage::ProgramStore& store, const storage::Run& run,
+                          const ProgramPlace& place, ModalScan& scan) {
   BlockCutter cutter(scan, place);
   for (std::uint64_t offset = 0; offset < run.size;) {
     const auto bytes = store.read_content(run.content, offset, kPiece);
@@ -70,7 +70,7 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Result<std::string> start_head(storage::Store& store, const storage::Run& run,
+Result<std::string> start_head(storage::ProgramStore& store, const storage::Run& run,
                                const ProgramPlace& place, machines::StartHead choice) {
   if (place.byte == 0 || choice == machines::StartHead::Set) return std::string();
   ModalScan scan(run.control);

@@ -11,7 +11,7 @@ namespace dripline::ports {
 /// put in force what the rest relies on. Reads the program from its beginning, piece by piece.
 /// Errors: Conflict (the rest relies on words before it: they are named, and what can be done;
 /// or some of them cannot be sent again), Corrupt, Io.
-Result<std::string> start_head(storage::Store& store, const storage::Run& run,
+Result<std::string> start_head(storage::ProgramStore& store, const storage::Run& run,
                                const ProgramPlace& place, machines::StartHead choice);
 
 }  // namespace dripline::ports

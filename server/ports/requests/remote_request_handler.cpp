@@ -22,14 +22,14 @@ constexpr std::uint64_t kMaxPrograms = 10'000;
 }  // namespace
 
 std::string RemoteRequestHandler::control() const {
-  const auto machine = parts_.store.machine(parts_.machine);
+  const auto machine = parts_.store.machines.find(parts_.machine);
   return machine ? machine->control : std::string();
 }
 
 Result<std::string> RemoteRequestHandler::find_program(const std::string& name) const {
   const std::string control = this->control();
   for (const auto& candidate : interpreter::called_program_names(name)) {
-    const auto revision = parts_.store.revision(candidate, std::nullopt);
+    const auto revision = parts_.store.programs.revision(candidate, std::nullopt);
     if (!revision) continue;
     if (control.empty() || revision->control.empty() || revision->control == control) {
       return candidate;
@@ -41,7 +41,7 @@ Result<std::string> RemoteRequestHandler::find_program(const std::string& name) 
 Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) const {
   auto program = find_program(name);
   if (!program) return program;
-  const auto revision = parts_.store.revision(*program, std::nullopt);
+  const auto revision = parts_.store.programs.revision(*program, std::nullopt);
   if (!revision) return fail(revision.error());
   const std::string control = this->control();
   if (!control.empty() && revision->control == control) return program;
@@ -111,7 +111,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
     return say_no("after the block comes HEAD or SET, not " + choice, false);
   }
   const auto last =
-      parts_.store.runs({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
+      parts_.store.runs.list({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
   if (!last || last->empty()) return say_no("there was no run to begin again", false);
   parts_.feed.start_later({.machine = parts_.machine,
                            .program = last->front().program,
@@ -125,7 +125,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
 }
 
 void RemoteRequestHandler::send_listing(bool is_request) {
-  const auto programs = parts_.store.programs({.limit = kMaxPrograms});
+  const auto programs = parts_.store.programs.list({.limit = kMaxPrograms});
   if (!programs) return say_no(programs.error().what, is_request);
   const std::string control = this->control();
   auto lines = listing(*programs, control);
@@ -169,7 +169,7 @@ void RemoteRequestHandler::send_next() {
 /// words. Another program's text would be executed there.
 Result<void> RemoteRequestHandler::check_last_run() const {
   if (is_sent_since_) return {};
-  const auto run = broken_run(parts_.store, parts_.machine, parts_.tells_aborts);
+  const auto run = broken_run(parts_.store.runs, parts_.machine, parts_.tells_aborts);
   if (!run) return fail(run.error());
   if (!*run) return {};
   return fail(Errc::Conflict,
@@ -189,7 +189,7 @@ Result<void> RemoteRequestHandler::list_offers() {
     return fail(Errc::Unsupported, "machine '{}' has no control: no program can be offered to it",
                 parts_.machine);
   }
-  const auto programs = parts_.store.programs({.limit = kMaxPrograms});
+  const auto programs = parts_.store.programs.list({.limit = kMaxPrograms});
   if (!programs) return fail(programs.error());
   offers_ = numbered_programs(*programs, control);
   next_offer_ = 0;

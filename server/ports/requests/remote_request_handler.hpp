@@ -26,7 +26,7 @@ class RemoteRequestHandler {
   static constexpr std::chrono::minutes kOfferPause{10};
 
   struct Parts {
-    storage::Store& store;
+    const storage::Store& store;
     SerialFeed& feed;
     const LineDirectory& directory;
     const Clock& clock;

@@ -63,15 +63,15 @@ std::vector<std::string> nc_program() {
 Digest push(SqliteStore& store, const std::vector<std::string>& pieces) {
   Upload upload;
   upload.program = "big.nc";
-  const auto begun = store.begin_upload(upload);
+  const auto begun = store.uploads.begin(upload);
   invariant(begun.has_value(), "the upload begins");
   std::uint64_t offset = 0;
   for (const std::string& piece : pieces) {
-    const auto stored = store.append_upload(begun->id, offset, std::as_bytes(std::span(piece)));
+    const auto stored = store.uploads.append(begun->id, offset, std::as_bytes(std::span(piece)));
     invariant(stored.has_value(), "the piece is stored");
     offset = stored->received;
   }
-  const auto revision = store.commit_upload(begun->id, std::nullopt);
+  const auto revision = store.uploads.commit(begun->id, std::nullopt);
   invariant(revision.has_value(), "the upload is committed");
   return revision->content;
 }
@@ -91,7 +91,7 @@ void StoreRecords(benchmark::State& state) {
       record.device = "port1";
       record.text = "X12.3456 Z-78.9012 D0.0031";
     }
-    invariant(place.store().store_records(batch) == number, "the records are stored");
+    invariant(place.store().records.store(batch) == number, "the records are stored");
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(number));
 }
@@ -101,18 +101,18 @@ void UpdateCounters(benchmark::State& state) {
   Place place;
   SqliteStore& store = place.store();
   const Digest content = push(store, {"M30\n"});
-  invariant(store.save_machine({"m1", "", "", "", 1, 0, {}, {}}).has_value(), "a machine");
+  invariant(store.machines.save({"m1", "", "", "", 1, 0, {}, {}}).has_value(), "a machine");
   Run run;
   run.id = "r1";
   run.machine = "m1";
   run.program = "big.nc";
   run.revision = 1;
   run.content = content;
-  invariant(store.create_run(run).has_value(), "a run");
+  invariant(store.runs.create(run).has_value(), "a run");
   std::uint64_t n = 0;
   for (auto _ : state) {
     ++n;
-    invariant(store.update_counters("m1", "r1", {n, n, n}, n, 0).has_value(),
+    invariant(store.runs.update_counters({"m1", "r1", {n, n, n}, n, 0}).has_value(),
               "counters are stored");
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(n));
@@ -140,7 +140,7 @@ void ReadProgram(benchmark::State& state) {
   const auto piece = static_cast<std::uint64_t>(state.range(0));
   for (auto _ : state) {
     for (std::uint64_t offset = 0; offset < kProgramBytes; offset += piece) {
-      const auto bytes = place.store().read_content(content, offset, piece);
+      const auto bytes = place.store().programs.read_content(content, offset, piece);
       invariant(bytes.has_value() && bytes->size() == piece, "the content is read");
     }
   }

@@ -48,11 +48,11 @@ class FullDisk : public StoreTest {
     options_.max_bytes = 3 << 20;
     options_.file = directory_ / "small.sqlite";
     reopen();
-    ASSERT_TRUE(store_->create_run(make_run("r1")));
+    ASSERT_TRUE(store_->runs.create(make_run("r1")));
     ballast_ = begin("ballast.nc");
     for (std::uint64_t at = 0;; at += kPiece) {
-      const auto appended =
-          store_->append_upload(ballast_, at, bytes_of(nc_text(kPiece, static_cast<unsigned>(at))));
+      const auto appended = store_->uploads.append(
+          ballast_, at, bytes_of(nc_text(kPiece, static_cast<unsigned>(at))));
       if (appended) continue;
       expect_full(appended.error());
       break;
@@ -66,7 +66,7 @@ class FullDisk : public StoreTest {
   std::uint64_t fill_with_records() {
     std::uint64_t last = 0;
     for (;;) {
-      const auto stored = store_->store_records(make_batch(last + 1, last + 100));
+      const auto stored = store_->records.store(make_batch(last + 1, last + 100));
       if (!stored) return expect_full(stored.error()), last;
       last = *stored;
     }
@@ -77,24 +77,25 @@ class FullDisk : public StoreTest {
 
 TEST_F(FullDisk, ChangesNothingAndWorksAgainWhenThereIsRoom) {
   const std::uint64_t last = fill_with_records();
-  EXPECT_EQ(store_->machine("m1")->last_record, last);
-  EXPECT_EQ(store_->run("r1")->outputs, last);
+  EXPECT_EQ(store_->machines.find("m1")->last_record, last);
+  EXPECT_EQ(store_->runs.find("r1")->outputs, last);
   EXPECT_EQ(query("SELECT count(*) FROM record"), static_cast<std::int64_t>(last));
   EXPECT_TRUE(store_->check());
-  EXPECT_EQ(store_->revision("p.nc", 1)->size, 12u) << "reading goes on";
+  EXPECT_EQ(store_->programs.revision("p.nc", 1)->size, 12u) << "reading goes on";
 
-  ASSERT_TRUE(store_->abandon_upload(ballast_)) << "making room needs none";
-  EXPECT_EQ(store_->store_records(make_batch(last + 1, last + 100)), last + 100);
+  ASSERT_TRUE(store_->uploads.abandon(ballast_)) << "making room needs none";
+  EXPECT_EQ(store_->records.store(make_batch(last + 1, last + 100)), last + 100);
   EXPECT_TRUE(push("q.nc", nc_text(kPiece)));
   EXPECT_TRUE(store_->check());
 }
 
 TEST_F(FullDisk, LeavesAnUploadWhereItWas) {
-  const std::uint64_t received = store_->upload(ballast_)->received;
-  ASSERT_FALSE(store_->append_upload(ballast_, received, bytes_of(nc_text(2 << 20, 9))));
-  EXPECT_EQ(store_->upload(ballast_)->received, received);
-  ASSERT_TRUE(store_->commit_upload(ballast_, std::nullopt));
-  EXPECT_EQ(pull(store_->revision("ballast.nc", 1)->content).substr(0, kPiece), nc_text(kPiece, 0));
+  const std::uint64_t received = store_->uploads.find(ballast_)->received;
+  ASSERT_FALSE(store_->uploads.append(ballast_, received, bytes_of(nc_text(2 << 20, 9))));
+  EXPECT_EQ(store_->uploads.find(ballast_)->received, received);
+  ASSERT_TRUE(store_->uploads.commit(ballast_, std::nullopt));
+  EXPECT_EQ(pull(store_->programs.revision("ballast.nc", 1)->content).substr(0, kPiece),
+            nc_text(kPiece, 0));
 }
 
 /// A child writes until it is killed and says through a pipe what was acknowledged to it.
@@ -111,12 +112,12 @@ class Killed : public StoreTest {
     if (!store) ::_exit(1);
     store_ = std::move(*store);
     Acknowledged done;
-    const auto machine = store_->machine("m1");
+    const auto machine = store_->machines.find("m1");
     if (machine) done.records = machine->last_record;
-    const auto known = store_->revisions("loop.nc");
+    const auto known = store_->programs.revisions("loop.nc");
     if (known) done.revisions = known->size();
     for (;;) {
-      const auto stored = store_->store_records(make_batch(done.records + 1, done.records + 20));
+      const auto stored = store_->records.store(make_batch(done.records + 1, done.records + 20));
       if (!stored) ::_exit(2);
       done.records = *stored;
       const std::string text = nc_text(400'000, static_cast<unsigned>(done.revisions) + 1);
@@ -147,7 +148,7 @@ class Killed : public StoreTest {
 };
 
 TEST_F(Killed, AtAnyMomentNothingAcknowledgedIsLost) {
-  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
   store_.reset();
   unsigned random = 12345;
   for (int round = 0; round < 20; ++round) {
@@ -155,12 +156,12 @@ TEST_F(Killed, AtAnyMomentNothingAcknowledgedIsLost) {
     const Acknowledged last = kill_writer(std::chrono::microseconds(random >> 17));
     reopen();
     ASSERT_TRUE(store_->check());
-    const auto stored = store_->machine("m1")->last_record;
+    const auto stored = store_->machines.find("m1")->last_record;
     EXPECT_GE(stored, last.records);
     EXPECT_EQ(stored % 20, 0u) << "a batch is stored whole or not at all";
-    EXPECT_EQ(store_->run("r1")->outputs, stored);
+    EXPECT_EQ(store_->runs.find("r1")->outputs, stored);
     EXPECT_EQ(query("SELECT count(*) FROM record"), static_cast<std::int64_t>(stored));
-    const auto revisions = store_->revisions("loop.nc");
+    const auto revisions = store_->programs.revisions("loop.nc");
     ASSERT_GE(revisions->size(), last.revisions);
     const Revision& newest = revisions->front();
     EXPECT_EQ(sha256(pull(newest.content)), newest.content);
@@ -173,38 +174,38 @@ using LostFileTest = StoreTest;
 
 /// What is written into a file without a name is gone when it is closed.
 TEST_F(LostFileTest, StoresNothingInAFileThatWasMovedOrReplaced) {
-  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
   ASSERT_TRUE(store_->probe());
   const auto aside = directory_ / "aside.sqlite";
   std::filesystem::rename(options_.file, aside);
-  const auto stored = store_->store_records(make_batch(1, 5));
+  const auto stored = store_->records.store(make_batch(1, 5));
   ASSERT_FALSE(stored);
   EXPECT_EQ(stored.error().code, Errc::Io);
   EXPECT_NE(stored.error().what.find(options_.file.string()), std::string::npos);
   EXPECT_FALSE(store_->probe());
-  EXPECT_TRUE(store_->run("r1")) << "what is known can be read";
+  EXPECT_TRUE(store_->runs.find("r1")) << "what is known can be read";
   std::filesystem::copy_file(aside, options_.file);
-  EXPECT_FALSE(store_->store_records(make_batch(1, 5))) << "a copy is another file";
+  EXPECT_FALSE(store_->records.store(make_batch(1, 5))) << "a copy is another file";
   std::filesystem::rename(aside, options_.file);
-  EXPECT_EQ(store_->store_records(make_batch(1, 5)), 5u);
+  EXPECT_EQ(store_->records.store(make_batch(1, 5)), 5u);
   EXPECT_TRUE(store_->probe());
 }
 
 using ThreadsTest = StoreTest;
 
 TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
-  ASSERT_TRUE(store_->create_run(make_run("r1")));
+  ASSERT_TRUE(store_->runs.create(make_run("r1")));
   const std::string text = nc_text(700'000);
   const Digest content = push("q.nc", text)->content;
   std::vector<std::jthread> threads;
   threads.emplace_back([&] {
     for (std::uint64_t n = 0; n < 50; ++n) {
-      EXPECT_EQ(store_->store_records(make_batch(10 * n + 1, 10 * n + 10)), 10 * n + 10);
+      EXPECT_EQ(store_->records.store(make_batch(10 * n + 1, 10 * n + 10)), 10 * n + 10);
     }
   });
   threads.emplace_back([&] {
     for (std::uint64_t n = 1; n <= 200; ++n) {
-      EXPECT_TRUE(store_->update_counters("m1", "r1", {n, n, n}, n, 0));
+      EXPECT_TRUE(store_->runs.update_counters({"m1", "r1", {n, n, n}, n, 0}));
     }
   });
   for (unsigned upload = 0; upload < 2; ++upload) {
@@ -215,16 +216,16 @@ TEST_F(ThreadsTest, ManyUseOneStoreAtOnce) {
   for (int reader = 0; reader < 6; ++reader) {
     threads.emplace_back([&] {
       for (std::size_t at = 0; at < text.size(); at += 35'000) {
-        const auto bytes = store_->read_content(content, at, 35'000);
+        const auto bytes = store_->programs.read_content(content, at, 35'000);
         EXPECT_TRUE(bytes && text_of(*bytes) == text.substr(at, 35'000));
-        EXPECT_TRUE(store_->run("r1"));
+        EXPECT_TRUE(store_->runs.find("r1"));
       }
     });
   }
   threads.clear();
-  EXPECT_EQ(store_->run("r1")->outputs, 500u);
-  EXPECT_EQ(store_->run("r1")->counters.executed, 200u);
-  EXPECT_EQ(store_->programs({})->size(), 4u);
+  EXPECT_EQ(store_->runs.find("r1")->outputs, 500u);
+  EXPECT_EQ(store_->runs.find("r1")->counters.executed, 200u);
+  EXPECT_EQ(store_->programs.list({})->size(), 4u);
 }
 
 }  // namespace

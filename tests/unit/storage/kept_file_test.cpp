@@ -39,29 +39,29 @@ TEST_P(KeptFile, BecomesTheSchemaOfANewFile) {
 
 TEST_P(KeptFile, KeepsEverythingInIt) {
   reopen();
-  const auto run = store_->run("r1");
+  const auto run = store_->runs.find("r1");
   ASSERT_TRUE(run) << run.error().what;
   EXPECT_EQ(run->state, RunState::Completed);
   EXPECT_EQ(run->counters.executed, 2u);
   EXPECT_EQ(run->content_verified, true);
   EXPECT_EQ(run->outputs, 1u);
   EXPECT_EQ(pull(run->content), "G00 X1.\nM30\n");
-  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
-  EXPECT_EQ(store_->revision("gone.nc", std::nullopt).error().code, Errc::NotFound);
-  const auto records = store_->records("r1", "", {});
+  EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->number, 2u);
+  EXPECT_EQ(store_->programs.revision("gone.nc", std::nullopt).error().code, Errc::NotFound);
+  const auto records = store_->records.of_run("r1", "", {});
   ASSERT_EQ(records->size(), 3u);
   EXPECT_EQ(records->at(1).text, "X2");
-  EXPECT_EQ(store_->machine("m1")->last_record, 3u);
-  EXPECT_EQ(store_->audit_entries({})->at(0).action, "push");
+  EXPECT_EQ(store_->machines.find("m1")->last_record, 3u);
+  EXPECT_EQ(store_->audit.list({})->at(0).action, "push");
 }
 
 TEST_P(KeptFile, CanBeGoneOnWith) {
   reopen();
-  ASSERT_TRUE(store_->append_upload("u1", 5, bytes_of("9.\n")));
-  const auto revision = store_->commit_upload("u1", sha256("G01 X9.\n"));
+  ASSERT_TRUE(store_->uploads.append("u1", 5, bytes_of("9.\n")));
+  const auto revision = store_->uploads.commit("u1", sha256("G01 X9.\n"));
   ASSERT_TRUE(revision) << revision.error().what;
   EXPECT_EQ(pull(revision->content), "G01 X9.\n");
-  EXPECT_EQ(store_->store_records(make_batch(4, 6)), 6u);
+  EXPECT_EQ(store_->records.store(make_batch(4, 6)), 6u);
   EXPECT_EQ(push("gone.nc", "M2\n")->number, 2u);
 }
 
@@ -69,12 +69,12 @@ TEST_P(KeptFile, CanBeGoneOnWith) {
 TEST_P(KeptFile, HasPortsAndHeldRevisionsSinceVersion2) {
   reopen();
   const bool has_them = std::string_view(GetParam()) != "v1.sql";
-  EXPECT_EQ(store_->ports()->size(), has_them ? 1u : 0u);
-  EXPECT_EQ(store_->programs({})->at(0).held, has_them ? 1u : 0u);
-  EXPECT_EQ(store_->revision("p.nc", 3).has_value(), has_them);
+  EXPECT_EQ(store_->ports.list()->size(), has_them ? 1u : 0u);
+  EXPECT_EQ(store_->programs.list({})->at(0).held, has_them ? 1u : 0u);
+  EXPECT_EQ(store_->programs.revision("p.nc", 3).has_value(), has_them);
   if (!has_them) return;
-  EXPECT_TRUE(store_->revision("p.nc", 3)->is_held);
-  const auto port = store_->ports()->at(0);
+  EXPECT_TRUE(store_->programs.revision("p.nc", 3)->is_held);
+  const auto port = store_->ports.list()->at(0);
   EXPECT_EQ(port.name, "line-1");
   ASSERT_EQ(port.settings.size(), 2u);
   EXPECT_EQ(port.settings[1].second, "xonxoff");
@@ -83,10 +83,10 @@ TEST_P(KeptFile, HasPortsAndHeldRevisionsSinceVersion2) {
 TEST_P(KeptFile, HasSetupsSinceVersion3) {
   reopen();
   const bool has_them = std::string_view(GetParam()) >= "v3.sql";
-  EXPECT_EQ(store_->setups("m1", {})->size(), has_them ? 2u : 0u);
-  EXPECT_EQ(store_->run("r1")->setup.has_value(), has_them);
+  EXPECT_EQ(store_->setups.list("m1", {})->size(), has_them ? 2u : 0u);
+  EXPECT_EQ(store_->runs.find("r1")->setup.has_value(), has_them);
   if (!has_them) return;
-  EXPECT_EQ(store_->setup("m1", 1)->text, "[[tool]]\nnumber = 4\n");
+  EXPECT_EQ(store_->setups.find("m1", 1)->text, "[[tool]]\nnumber = 4\n");
 }
 
 INSTANTIATE_TEST_SUITE_P(, KeptFile,

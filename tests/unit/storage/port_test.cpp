@@ -18,10 +18,10 @@ Port make_port(const std::string& name, const std::string& address) {
 class PortTest : public StoreTest {};
 
 TEST_F(PortTest, IsKeptAsItWasGiven) {
-  ASSERT_TRUE(store_->save_port(make_port("line-2", "/dev/ttyUSB1")));
-  ASSERT_TRUE(store_->save_port(make_port("line-1", "tcp://10.0.0.9:4001")));
+  ASSERT_TRUE(store_->ports.save(make_port("line-2", "/dev/ttyUSB1")));
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "tcp://10.0.0.9:4001")));
   reopen();
-  const auto ports = store_->ports();
+  const auto ports = store_->ports.list();
   ASSERT_TRUE(ports) << ports.error().what;
   ASSERT_EQ(ports->size(), 2u);
   EXPECT_EQ(ports->at(0).name, "line-1");
@@ -36,13 +36,13 @@ TEST_F(PortTest, IsKeptAsItWasGiven) {
 }
 
 TEST_F(PortTest, SavedAgainReplacesEverything) {
-  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
   Port changed;
   changed.name = "line-1";
   changed.machine = "mill-4";
   changed.address = "/dev/ttyS1";
-  ASSERT_TRUE(store_->save_port(changed));
-  const auto port = store_->ports()->at(0);
+  ASSERT_TRUE(store_->ports.save(changed));
+  const auto port = store_->ports.list()->at(0);
   EXPECT_EQ(port.machine, "mill-4");
   EXPECT_EQ(port.address, "/dev/ttyS1");
   EXPECT_TRUE(port.settings.empty());
@@ -51,21 +51,21 @@ TEST_F(PortTest, SavedAgainReplacesEverything) {
 }
 
 TEST_F(PortTest, TwoDoNotShareALine) {
-  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
-  const auto refused = store_->save_port(make_port("line-2", "/dev/ttyS0"));
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
+  const auto refused = store_->ports.save(make_port("line-2", "/dev/ttyS0"));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Busy);
   EXPECT_EQ(refused.error().what, "address /dev/ttyS0 is port line-1's already");
-  EXPECT_EQ(store_->ports()->size(), 1u);
-  EXPECT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0"))) << "its own";
+  EXPECT_EQ(store_->ports.list()->size(), 1u);
+  EXPECT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0"))) << "its own";
 }
 
 TEST_F(PortTest, RemovedIsGoneWithItsSettings) {
-  ASSERT_TRUE(store_->save_port(make_port("line-1", "/dev/ttyS0")));
-  ASSERT_TRUE(store_->remove_port("line-1"));
-  EXPECT_TRUE(store_->ports()->empty());
+  ASSERT_TRUE(store_->ports.save(make_port("line-1", "/dev/ttyS0")));
+  ASSERT_TRUE(store_->ports.remove("line-1"));
+  EXPECT_TRUE(store_->ports.list()->empty());
   EXPECT_EQ(query("SELECT count(*) FROM port_setting"), 0);
-  const auto again = store_->remove_port("line-1");
+  const auto again = store_->ports.remove("line-1");
   EXPECT_EQ(again.error().code, Errc::NotFound);
   EXPECT_EQ(again.error().what, "port line-1 is not known");
 }
@@ -82,11 +82,11 @@ class BadPortTest : public StoreTest, public testing::WithParamInterface<BadPort
 TEST_P(BadPortTest, IsRefusedAndChangesNothing) {
   Port port = make_port("line-1", "/dev/ttyS0");
   GetParam().spoil(port);
-  const auto refused = store_->save_port(port);
+  const auto refused = store_->ports.save(port);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, GetParam().code);
   EXPECT_NE(refused.error().what.find(GetParam().says), std::string::npos) << refused.error().what;
-  EXPECT_TRUE(store_->ports()->empty());
+  EXPECT_TRUE(store_->ports.list()->empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(

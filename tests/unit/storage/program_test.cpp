@@ -16,9 +16,9 @@ TEST_F(ProgramTest, EveryPushIsANewRevisionAndTheOldOnesStay) {
   EXPECT_EQ(second->comment, "a comment");
   EXPECT_EQ(second->author, "cam");
   EXPECT_EQ(second->created, clock_.now());
-  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->number, 2u);
-  EXPECT_EQ(store_->revision("p.nc", 1)->content, first->content);
-  const auto all = store_->revisions("p.nc");
+  EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->number, 2u);
+  EXPECT_EQ(store_->programs.revision("p.nc", 1)->content, first->content);
+  const auto all = store_->programs.revisions("p.nc");
   ASSERT_EQ(all->size(), 2u);
   EXPECT_EQ(all->front().number, 2u);
   EXPECT_EQ(pull(first->content), "G00 X1.\n");
@@ -36,46 +36,46 @@ TEST_F(ProgramTest, SameContentAgainIsTheLatestRevision) {
 TEST_F(ProgramTest, ListingIsByNameAndPaged) {
   for (const char* name : {"c.nc", "a.nc", "b.nc"}) ASSERT_TRUE(push(name, "M30\n"));
   ASSERT_TRUE(push("a.nc", "M2\n"));
-  const auto page = store_->programs({.limit = 2, .offset = 0});
+  const auto page = store_->programs.list({.limit = 2, .offset = 0});
   ASSERT_TRUE(page) << page.error().what;
   ASSERT_EQ(page->size(), 2u);
   EXPECT_EQ(page->at(0).latest.program, "a.nc");
   EXPECT_EQ(page->at(0).latest.number, 2u);
   EXPECT_EQ(page->at(0).revisions, 2u);
   EXPECT_EQ(page->at(1).latest.program, "b.nc");
-  EXPECT_EQ(store_->programs({.limit = 2, .offset = 2})->at(0).latest.program, "c.nc");
+  EXPECT_EQ(store_->programs.list({.limit = 2, .offset = 2})->at(0).latest.program, "c.nc");
 }
 
 TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
   const auto revision = push("p.nc", "G00 X1.\n");
-  ASSERT_TRUE(store_->remove_program("p.nc"));
-  EXPECT_EQ(store_->revision("p.nc", std::nullopt).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->revision("p.nc", 1).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->revisions("p.nc").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->remove_program("p.nc").error().code, Errc::NotFound);
-  EXPECT_TRUE(store_->programs({})->empty());
+  ASSERT_TRUE(store_->programs.remove("p.nc"));
+  EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->programs.revision("p.nc", 1).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->programs.revisions("p.nc").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->programs.remove("p.nc").error().code, Errc::NotFound);
+  EXPECT_TRUE(store_->programs.list({})->empty());
   EXPECT_EQ(pull(revision->content), "G00 X1.\n");
 }
 
 TEST_F(ProgramTest, PushedAgainAfterRemovalGoesOnWithItsNumbers) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
-  ASSERT_TRUE(store_->remove_program("p.nc"));
+  ASSERT_TRUE(store_->programs.remove("p.nc"));
   EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 2u);
-  EXPECT_EQ(store_->revisions("p.nc")->size(), 1u);
-  EXPECT_EQ(store_->programs({})->at(0).revisions, 1u);
-  EXPECT_FALSE(store_->revision("p.nc", 1));
+  EXPECT_EQ(store_->programs.revisions("p.nc")->size(), 1u);
+  EXPECT_EQ(store_->programs.list({})->at(0).revisions, 1u);
+  EXPECT_FALSE(store_->programs.revision("p.nc", 1));
 }
 
 TEST_F(ProgramTest, CannotBeRemovedUnderARun) {
   const Run run = make_run("r1");
-  ASSERT_TRUE(store_->create_run(run));
-  const auto refused = store_->remove_program("p.nc");
+  ASSERT_TRUE(store_->runs.create(run));
+  const auto refused = store_->programs.remove("p.nc");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Busy);
   EXPECT_NE(refused.error().what.find("r1"), std::string::npos);
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Aborted, "operator"));
-  EXPECT_TRUE(store_->remove_program("p.nc"));
-  EXPECT_EQ(store_->run("r1")->program, "p.nc") << "runs keep their revision";
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, "operator"));
+  EXPECT_TRUE(store_->programs.remove("p.nc"));
+  EXPECT_EQ(store_->runs.find("r1")->program, "p.nc") << "runs keep their revision";
 }
 
 TEST_F(ProgramTest, AnyRangeOfContentIsRead) {
@@ -84,16 +84,16 @@ TEST_F(ProgramTest, AnyRangeOfContentIsRead) {
   for (const auto& [offset, length] :
        {std::pair(0, 1), std::pair(262'143, 2), std::pair(262'144, 262'144),
         std::pair(100, 999'000), std::pair(999'999, 10), std::pair(786'431, 2)}) {
-    const auto bytes = store_->read_content(content, static_cast<std::uint64_t>(offset),
-                                            static_cast<std::uint64_t>(length));
+    const auto bytes = store_->programs.read_content(content, static_cast<std::uint64_t>(offset),
+                                                     static_cast<std::uint64_t>(length));
     ASSERT_TRUE(bytes) << bytes.error().what;
     EXPECT_EQ(text_of(*bytes),
               text.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length)));
   }
-  EXPECT_TRUE(store_->read_content(content, 1'000'000, 1)->empty());
-  EXPECT_TRUE(store_->read_content(content, ~0ull, ~0ull)->empty());
-  EXPECT_TRUE(store_->read_content(content, 5, 0)->empty());
-  EXPECT_EQ(store_->read_content(sha256("x"), 0, 1).error().code, Errc::NotFound);
+  EXPECT_TRUE(store_->programs.read_content(content, 1'000'000, 1)->empty());
+  EXPECT_TRUE(store_->programs.read_content(content, ~0ull, ~0ull)->empty());
+  EXPECT_TRUE(store_->programs.read_content(content, 5, 0)->empty());
+  EXPECT_EQ(store_->programs.read_content(sha256("x"), 0, 1).error().code, Errc::NotFound);
 }
 
 struct DamageCase {
@@ -107,14 +107,14 @@ TEST_P(Damage, IsRefusedByNameAndHealedByPushingAgain) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   damage(GetParam().sql);
-  EXPECT_EQ(text_of(store_->read_content(content, 0, 1000).value()), text.substr(0, 1000))
+  EXPECT_EQ(text_of(store_->programs.read_content(content, 0, 1000).value()), text.substr(0, 1000))
       << "the chunks before are sound";
-  const auto refused = store_->read_content(content, 300'000, 10);
+  const auto refused = store_->programs.read_content(content, 300'000, 10);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
   EXPECT_NE(refused.error().what.find(content.hex()), std::string::npos) << refused.error().what;
   EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
-  EXPECT_FALSE(store_->read_content(content, 0, 800'000));
+  EXPECT_FALSE(store_->programs.read_content(content, 0, 800'000));
   ASSERT_TRUE(push("p.nc", text));
   EXPECT_EQ(pull(content), text);
 }
@@ -149,9 +149,9 @@ TEST_P(WrongList, IsRefusedBeforeAByteIsReadAndHealedByPushingAgain) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   ASSERT_TRUE(push("other.nc", nc_text(800'000, 7)));
-  EXPECT_TRUE(store_->verify_content(content));
+  EXPECT_TRUE(store_->programs.verify_content(content));
   damage(GetParam().sql);
-  const auto refused = store_->verify_content(content);
+  const auto refused = store_->programs.verify_content(content);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
   EXPECT_NE(refused.error().what.find(content.hex()), std::string::npos) << refused.error().what;
@@ -160,9 +160,10 @@ TEST_P(WrongList, IsRefusedBeforeAByteIsReadAndHealedByPushingAgain) {
     EXPECT_NE(refused.error().what.find("chunk 2 (bytes from 524288)"), std::string::npos)
         << refused.error().what;
   }
-  EXPECT_FALSE(store_->read_content(content, 0, 10)) << "not even what comes before the damage";
+  EXPECT_FALSE(store_->programs.read_content(content, 0, 10))
+      << "not even what comes before the damage";
   ASSERT_TRUE(push("p.nc", text));
-  EXPECT_TRUE(store_->verify_content(content));
+  EXPECT_TRUE(store_->programs.verify_content(content));
   EXPECT_EQ(pull(content), text);
 }
 
@@ -196,39 +197,39 @@ TEST_F(ProgramTest, ARevisionWhoseRowNamesAnotherContentIsRefused) {
   const auto first = push("p.nc", "G1 X1.\n");
   const auto other = push("other.nc", "G1 X999.\n");
   Run run = make_run("r2");  // p.nc of its own text
-  run.revision = store_->revision("p.nc", std::nullopt)->number;
+  run.revision = store_->programs.revision("p.nc", std::nullopt)->number;
   damage(
       "UPDATE revision SET content = (SELECT id FROM content WHERE size = 9) "
       "WHERE program = (SELECT id FROM program WHERE name = 'p.nc')");
-  const auto refused = store_->revision("p.nc", first->number);
+  const auto refused = store_->programs.revision("p.nc", first->number);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
   EXPECT_NE(refused.error().what.find("p.nc revision 1"), std::string::npos);
   EXPECT_NE(refused.error().what.find(first->content.hex()), std::string::npos);
   EXPECT_NE(refused.error().what.find(other->content.hex()), std::string::npos);
-  EXPECT_FALSE(store_->revision("p.nc", std::nullopt));
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::Corrupt);
+  EXPECT_FALSE(store_->programs.revision("p.nc", std::nullopt));
+  EXPECT_EQ(store_->runs.create(run).error().code, Errc::Corrupt);
   // A list shows what was stored, not what the row names.
-  EXPECT_EQ(store_->revisions("p.nc")->back().content, first->content);
+  EXPECT_EQ(store_->programs.revisions("p.nc")->back().content, first->content);
   const auto healed = push("p.nc", "G1 X1.\n");
   ASSERT_TRUE(healed) << healed.error().what;
   EXPECT_GT(healed->number, first->number);
-  EXPECT_EQ(store_->revision("p.nc", std::nullopt)->content, first->content);
+  EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt)->content, first->content);
 }
 
 TEST_F(ProgramTest, ARevisionWhoseOwnDigestIsDamagedIsRefused) {
   ASSERT_TRUE(push("p.nc", "G1 X1.\n"));
   damage("UPDATE revision SET sha256 = CAST(x'00' || substr(sha256, 2) AS BLOB)");
-  EXPECT_EQ(store_->revision("p.nc", 1).error().code, Errc::Corrupt);
+  EXPECT_EQ(store_->programs.revision("p.nc", 1).error().code, Errc::Corrupt);
 }
 
 /// A run keeps the content it was created with, whatever happens to the rows of its revision.
 TEST_F(ProgramTest, ARunKeepsItsContentWhenItsRevisionNamesAnother) {
   const auto run = make_run("r1");
-  ASSERT_TRUE(store_->create_run(run));
+  ASSERT_TRUE(store_->runs.create(run));
   ASSERT_TRUE(push("other.nc", "G1 X999.\n"));
   damage("UPDATE revision SET content = (SELECT id FROM content WHERE size = 9)");
-  const auto stored = store_->run("r1");
+  const auto stored = store_->runs.find("r1");
   EXPECT_EQ(stored->content, run.content);
   EXPECT_EQ(stored->size, run.size);
   EXPECT_EQ(pull(stored->content).size(), run.size);
@@ -239,22 +240,22 @@ TEST_F(ProgramTest, ARunWhoseRowNamesAnotherRevisionWasNotVerified) {
   auto run = make_run("r1");
   run.content_verified = true;
   run.state = RunState::Completed;
-  ASSERT_TRUE(store_->create_run(run));
-  EXPECT_EQ(store_->run("r1")->content_verified, true);
+  ASSERT_TRUE(store_->runs.create(run));
+  EXPECT_EQ(store_->runs.find("r1")->content_verified, true);
   damage("UPDATE run SET revision = CASE revision WHEN 1 THEN 2 ELSE 1 END");
-  EXPECT_EQ(store_->run("r1")->content_verified, false);
-  EXPECT_EQ(store_->runs({}, {})->at(0).content_verified, false);
+  EXPECT_EQ(store_->runs.find("r1")->content_verified, false);
+  EXPECT_EQ(store_->runs.list({}, {})->at(0).content_verified, false);
 }
 
 TEST_F(ProgramTest, AChunkExchangedWhileItIsReadIsRefused) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
-  ASSERT_TRUE(store_->read_content(content, 0, 10));
+  ASSERT_TRUE(store_->programs.read_content(content, 0, 10));
   auto other = sqlite::Database::open(options_.file);
   ASSERT_TRUE(other->execute(
       "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE position = 0), "
       "sha256 = (SELECT sha256 FROM content_chunk WHERE position = 0) WHERE position = 1"));
-  const auto refused = store_->read_content(content, 300'000, 10);
+  const auto refused = store_->programs.read_content(content, 300'000, 10);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("chunk 1"), std::string::npos) << refused.error().what;
 }
@@ -264,10 +265,11 @@ TEST_F(ProgramTest, ContentOfAnOlderVersionIsComparedAsAWholeOnce) {
   const std::string text = nc_text(800'000);
   const Digest content = push("p.nc", text)->content;
   damage("UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL");
-  EXPECT_EQ(text_of(store_->read_content(content, 300'000, 10).value()), text.substr(300'000, 10));
+  EXPECT_EQ(text_of(store_->programs.read_content(content, 300'000, 10).value()),
+            text.substr(300'000, 10));
   EXPECT_EQ(query("SELECT count(*) FROM content WHERE seal IS NULL"), 0);
   EXPECT_EQ(query("SELECT count(*) FROM content_chunk WHERE sha256 IS NULL"), 0);
-  EXPECT_TRUE(store_->verify_content(content));
+  EXPECT_TRUE(store_->programs.verify_content(content));
 }
 
 TEST_F(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
@@ -276,21 +278,21 @@ TEST_F(ProgramTest, ContentOfAnOlderVersionWithAnotherListIsRefused) {
       "UPDATE content SET seal = NULL; UPDATE content_chunk SET sha256 = NULL;"
       "UPDATE content_chunk SET chunk = (SELECT chunk FROM content_chunk WHERE position = 0) "
       "WHERE position = 1");
-  const auto refused = store_->verify_content(content);
+  const auto refused = store_->programs.verify_content(content);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
-  EXPECT_FALSE(store_->read_content(content, 0, 10));
+  EXPECT_FALSE(store_->programs.read_content(content, 0, 10));
   EXPECT_EQ(query("SELECT count(*) FROM content WHERE seal IS NOT NULL"), 0);
 }
 
 TEST_F(ProgramTest, SequentialReadingDecompressesEveryChunkOnce) {
   const std::string text = nc_text(600'000);
   const Digest content = push("p.nc", text)->content;
-  ASSERT_TRUE(store_->read_content(content, 0, 10));
+  ASSERT_TRUE(store_->programs.read_content(content, 0, 10));
   auto other = sqlite::Database::open(options_.file);
   ASSERT_TRUE(other->execute("UPDATE chunk SET data = x''"));
-  EXPECT_TRUE(store_->read_content(content, 10, 10)) << "from the cache";
-  EXPECT_FALSE(store_->read_content(content, 262'144, 10)) << "from the file";
+  EXPECT_TRUE(store_->programs.read_content(content, 10, 10)) << "from the cache";
+  EXPECT_FALSE(store_->programs.read_content(content, 262'144, 10)) << "from the file";
 }
 
 }  // namespace

@@ -7,14 +7,14 @@ class RunTest : public StoreTest {
  protected:
   void SetUp() override {
     run_ = make_run("r1");
-    ASSERT_TRUE(store_->create_run(run_));
+    ASSERT_TRUE(store_->runs.create(run_));
   }
-  RunState state() { return store_->run("r1").value().state; }
+  RunState state() { return store_->runs.find("r1").value().state; }
   Run run_;
 };
 
 TEST_F(RunTest, ComesBackAsItWasCreated) {
-  const auto found = store_->run("r1");
+  const auto found = store_->runs.find("r1");
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_EQ(found->machine, "m1");
   EXPECT_EQ(found->program, "p.nc");
@@ -33,48 +33,48 @@ TEST_F(RunTest, ComesBackAsItWasCreated) {
 TEST_F(RunTest, OneUnfinishedRunPerMachine) {
   Run second = run_;
   second.id = "r2";
-  const auto refused = store_->create_run(second);
+  const auto refused = store_->runs.create(second);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Busy);
   EXPECT_NE(refused.error().what.find("r1"), std::string::npos) << refused.error().what;
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Refused, "no answer"));
-  EXPECT_TRUE(store_->create_run(second));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Refused, "no answer"));
+  EXPECT_TRUE(store_->runs.create(second));
 }
 
 TEST_F(RunTest, NeedsAKnownMachineRevisionAndItsVeryContent) {
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Refused, ""));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Refused, ""));
   Run run = run_;
   run.id = "r2";
   run.machine = "nowhere";
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.create(run).error().code, Errc::NotFound);
   run.machine = "m1";
   run.revision = 9;
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.create(run).error().code, Errc::NotFound);
   run.revision = 1;
   run.content = sha256("other");
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::Conflict);
+  EXPECT_EQ(store_->runs.create(run).error().code, Errc::Conflict);
   run.content = run_.content;
   run.id = "r1";
-  EXPECT_EQ(store_->create_run(run).error().code, Errc::Conflict);
-  EXPECT_EQ(store_->runs({}, {})->size(), 1u);
+  EXPECT_EQ(store_->runs.create(run).error().code, Errc::Conflict);
+  EXPECT_EQ(store_->runs.list({}, {})->size(), 1u);
 }
 
 TEST_F(RunTest, KeepsItsRevisionWhenTheProgramIsReplaced) {
   ASSERT_TRUE(push("p.nc", "G00 X99.\n"));
-  EXPECT_EQ(store_->run("r1")->revision, 1u);
-  EXPECT_EQ(pull(store_->run("r1")->content), "G00 X1.\nM30\n");
+  EXPECT_EQ(store_->runs.find("r1")->revision, 1u);
+  EXPECT_EQ(pull(store_->runs.find("r1")->content), "G00 X1.\nM30\n");
 }
 
 TEST_F(RunTest, GoesFromOrderedToActiveToAnEnd) {
   clock_.advance(std::chrono::seconds(1));
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Active, ""));
-  EXPECT_EQ(store_->run("r1")->started, clock_.now());
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Active, "")) << "again is no error";
-  EXPECT_EQ(store_->set_run_state("r1", RunState::Ordered, "").error().code, Errc::Conflict);
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Active, ""));
+  EXPECT_EQ(store_->runs.find("r1")->started, clock_.now());
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Active, "")) << "again is no error";
+  EXPECT_EQ(store_->runs.set_state("r1", RunState::Ordered, "").error().code, Errc::Conflict);
   clock_.advance(std::chrono::seconds(1));
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Interrupted, "power"));
-  EXPECT_EQ(store_->run("r1")->ended, clock_.now());
-  EXPECT_EQ(store_->run("r1")->reason, "power");
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Interrupted, "power"));
+  EXPECT_EQ(store_->runs.find("r1")->ended, clock_.now());
+  EXPECT_EQ(store_->runs.find("r1")->reason, "power");
 }
 
 TEST_F(RunTest, NeverLeavesAFinalState) {
@@ -83,31 +83,31 @@ TEST_F(RunTest, NeverLeavesAFinalState) {
     if (end != RunState::Completed) {
       Run next = run_;
       next.id = std::string(to_string(end));
-      ASSERT_TRUE(store_->create_run(next));
+      ASSERT_TRUE(store_->runs.create(next));
     }
     const std::string id = end == RunState::Completed ? "r1" : std::string(to_string(end));
-    ASSERT_TRUE(store_->set_run_state(id, end, "why"));
+    ASSERT_TRUE(store_->runs.set_state(id, end, "why"));
     for (const RunState other : {RunState::Ordered, RunState::Active, RunState::Completed,
                                  RunState::Aborted, RunState::Refused}) {
       if (other == end) continue;
-      EXPECT_EQ(store_->set_run_state(id, other, "x").error().code, Errc::Conflict)
+      EXPECT_EQ(store_->runs.set_state(id, other, "x").error().code, Errc::Conflict)
           << to_string(end) << " to " << to_string(other);
     }
-    EXPECT_EQ(store_->run(id)->state, end);
-    EXPECT_EQ(store_->run(id)->reason, "why");
+    EXPECT_EQ(store_->runs.find(id)->state, end);
+    EXPECT_EQ(store_->runs.find(id)->reason, "why");
   }
 }
 
 TEST_F(RunTest, UnknownOnesAreNotFound) {
-  EXPECT_EQ(store_->run("x").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->set_run_state("x", RunState::Active, "").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->update_counters("m1", "x", {}, 0, 0).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.find("x").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.set_state("x", RunState::Active, "").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->runs.update_counters({"m1", "x", {}, 0, 0}).error().code, Errc::NotFound);
 }
 
 TEST_F(RunTest, CountersOnlyGoForward) {
-  ASSERT_TRUE(store_->update_counters("m1", "r1", {1000, 50, 40}, 41, 400));
-  ASSERT_TRUE(store_->update_counters("m1", "r1", {900, 60, 30}, 31, 300));
-  const auto run = store_->run("r1");
+  ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
+  ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {900, 60, 30}, 31, 300}));
+  const auto run = store_->runs.find("r1");
   EXPECT_EQ(run->counters.sent, 1000u);
   EXPECT_EQ(run->counters.accepted, 60u);
   EXPECT_EQ(run->counters.executed, 40u);
@@ -117,33 +117,33 @@ TEST_F(RunTest, CountersOnlyGoForward) {
 }
 
 TEST_F(RunTest, CountersOfAnEndedRunStay) {
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Aborted, ""));
-  ASSERT_TRUE(store_->update_counters("m1", "r1", {1000, 50, 40}, 41, 400));
-  EXPECT_EQ(store_->run("r1")->counters.sent, 0u);
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Aborted, ""));
+  ASSERT_TRUE(store_->runs.update_counters({"m1", "r1", {1000, 50, 40}, 41, 400}));
+  EXPECT_EQ(store_->runs.find("r1")->counters.sent, 0u);
 }
 
 TEST_F(RunTest, CountersOfAnotherMachineAreRefused) {
-  const auto refused = store_->update_counters("m2", "r1", {1000, 50, 40}, 41, 400);
+  const auto refused = store_->runs.update_counters({"m2", "r1", {1000, 50, 40}, 41, 400});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Conflict);
   EXPECT_EQ(refused.error().what, "run r1 is machine m1's, not m2's");
-  EXPECT_EQ(store_->run("r1")->counters.sent, 0u);
+  EXPECT_EQ(store_->runs.find("r1")->counters.sent, 0u);
 }
 
 TEST_F(RunTest, ListingIsNewestFirstAndFiltered) {
-  ASSERT_TRUE(store_->set_run_state("r1", RunState::Completed, ""));
+  ASSERT_TRUE(store_->runs.set_state("r1", RunState::Completed, ""));
   Machine other{"m2", "tnc155", "", "", 1, 0, clock_.now(), clock_.now()};
-  ASSERT_TRUE(store_->save_machine(other));
+  ASSERT_TRUE(store_->machines.save(other));
   const auto revision = push("q.nc", "M2\n");
   Run run = run_;
   run.id = "r2";
   run.machine = "m2";
   run.program = "q.nc";
   run.content = revision->content;
-  ASSERT_TRUE(store_->create_run(run));
+  ASSERT_TRUE(store_->runs.create(run));
   const auto ids = [&](const RunFilter& filter, Page page = {}) {
     std::string text;
-    const auto all = store_->runs(filter, page);
+    const auto all = store_->runs.list(filter, page);
     for (const Run& found : *all) text += found.id + " ";
     return text;
   };
@@ -154,7 +154,7 @@ TEST_F(RunTest, ListingIsNewestFirstAndFiltered) {
   EXPECT_EQ(ids({.machine = {}, .program = {}, .state = RunState::Completed}), "r1 ");
   EXPECT_EQ(ids({.machine = "m2", .program = "p.nc", .state = {}}), "");
   EXPECT_EQ(ids({.machine = {}, .program = {}, .state = {}, .with_outputs = true}), "");
-  ASSERT_TRUE(store_->store_records(make_batch(1, 3)));
+  ASSERT_TRUE(store_->records.store(make_batch(1, 3)));
   EXPECT_EQ(ids({.machine = {}, .program = {}, .state = {}, .with_outputs = true}), "r1 ");
 }
 
@@ -170,47 +170,47 @@ using MachineTest = StoreTest;
 
 TEST_F(MachineTest, IsAddedOnceAndThenUpdated) {
   Machine machine{"m1", "centurion", "lathe", "0.1", 7, 99, clock_.now(), clock_.now()};
-  ASSERT_TRUE(store_->save_machine(machine));
+  ASSERT_TRUE(store_->machines.save(machine));
   const auto first_seen = clock_.now();
   clock_.advance(std::chrono::hours(1));
   machine.description = "the lathe";
   machine.first_seen = machine.last_seen = clock_.now();
-  ASSERT_TRUE(store_->save_machine(machine));
-  const auto found = store_->machine("m1");
+  ASSERT_TRUE(store_->machines.save(machine));
+  const auto found = store_->machines.find("m1");
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_EQ(found->description, "the lathe");
   EXPECT_EQ(found->first_seen, first_seen);
   EXPECT_EQ(found->last_seen, clock_.now());
   EXPECT_EQ(found->last_record, 0u) << "no record is stored, whatever the caller says";
-  EXPECT_EQ(store_->machines()->size(), 1u);
+  EXPECT_EQ(store_->machines.list()->size(), 1u);
 }
 
 TEST_F(MachineTest, KnowsTheLastRecordOfEachEpoch) {
   Machine machine{"m1", "centurion", "", "", 7, 0, clock_.now(), clock_.now()};
-  ASSERT_TRUE(store_->save_machine(machine));
-  ASSERT_TRUE(store_->store_records(make_batch(1, 5)));
-  EXPECT_EQ(store_->machine("m1")->last_record, 5u);
+  ASSERT_TRUE(store_->machines.save(machine));
+  ASSERT_TRUE(store_->records.store(make_batch(1, 5)));
+  EXPECT_EQ(store_->machines.find("m1")->last_record, 5u);
   machine.epoch = 8;
-  ASSERT_TRUE(store_->save_machine(machine));
-  EXPECT_EQ(store_->machine("m1")->last_record, 0u);
+  ASSERT_TRUE(store_->machines.save(machine));
+  EXPECT_EQ(store_->machines.find("m1")->last_record, 0u);
   machine.epoch = 7;
-  ASSERT_TRUE(store_->save_machine(machine));
-  EXPECT_EQ(store_->machine("m1")->last_record, 5u);
+  ASSERT_TRUE(store_->machines.save(machine));
+  EXPECT_EQ(store_->machines.find("m1")->last_record, 5u);
 }
 
 TEST_F(MachineTest, BadNamesAndUnknownOnesAreRefused) {
-  EXPECT_EQ(store_->save_machine({"../m", "", "", "", 0, 0, {}, {}}).error().code, Errc::Syntax);
-  EXPECT_EQ(store_->machine("m9").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->machines.save({"../m", "", "", "", 0, 0, {}, {}}).error().code, Errc::Syntax);
+  EXPECT_EQ(store_->machines.find("m9").error().code, Errc::NotFound);
 }
 
 using AuditTest = StoreTest;
 
 TEST_F(AuditTest, EntriesComeNewestFirst) {
   for (const char* what : {"push", "start", "abort"}) {
-    ASSERT_TRUE(store_->audit({clock_.now(), "cam", what, "p.nc", "{}"}));
+    ASSERT_TRUE(store_->audit.add({clock_.now(), "cam", what, "p.nc", "{}"}));
   }
   reopen();
-  const auto page = store_->audit_entries({.limit = 2, .offset = 0});
+  const auto page = store_->audit.list({.limit = 2, .offset = 0});
   ASSERT_TRUE(page);
   ASSERT_EQ(page->size(), 2u);
   EXPECT_EQ(page->at(0).action, "abort");

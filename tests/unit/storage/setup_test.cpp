@@ -12,7 +12,7 @@ class SetupTest : public StoreTest {
     setup.text = text;
     setup.comment = "why";
     setup.author = "admin";
-    return store_->save_setup(setup, base);
+    return store_->setups.save(setup, base);
   }
 };
 
@@ -21,7 +21,7 @@ TEST_F(SetupTest, IsKeptInVersions) {
   EXPECT_EQ(save("[[tool]]\nnumber = 2\n")->number, 2u);
   EXPECT_EQ(save("other", "mill-4")->number, 1u) << "each machine counts for itself";
   reopen();
-  const auto newest = store_->setup("mill-3", std::nullopt);
+  const auto newest = store_->setups.find("mill-3", std::nullopt);
   ASSERT_TRUE(newest) << newest.error().what;
   EXPECT_EQ(newest->number, 2u);
   EXPECT_EQ(newest->text, "[[tool]]\nnumber = 2\n");
@@ -29,12 +29,12 @@ TEST_F(SetupTest, IsKeptInVersions) {
   EXPECT_EQ(newest->size, newest->text.size());
   EXPECT_EQ(newest->comment, "why");
   EXPECT_EQ(newest->author, "admin");
-  EXPECT_EQ(store_->setup("mill-3", 1)->text, "[[tool]]\nnumber = 1\n");
-  const auto all = store_->setups("mill-3", {});
+  EXPECT_EQ(store_->setups.find("mill-3", 1)->text, "[[tool]]\nnumber = 1\n");
+  const auto all = store_->setups.list("mill-3", {});
   ASSERT_EQ(all->size(), 2u);
   EXPECT_EQ(all->at(0).number, 2u);
   EXPECT_TRUE(all->at(0).text.empty()) << "listings are short";
-  EXPECT_EQ(store_->setups("mill-3", {.limit = 1, .offset = 1})->at(0).number, 1u);
+  EXPECT_EQ(store_->setups.list("mill-3", {.limit = 1, .offset = 1})->at(0).number, 1u);
 }
 
 TEST_F(SetupTest, TheSameTextAgainIsTheSameRevision) {
@@ -58,29 +58,29 @@ TEST_F(SetupTest, DoesNotGoOverANewerOne) {
             "nothing was stored");
   EXPECT_EQ(save("a = 3", "mill-4", 7).error().what,
             "machine mill-4: this setup was made from 7, and there is none");
-  EXPECT_EQ(store_->setup("mill-3", std::nullopt)->text, "a = 2");
+  EXPECT_EQ(store_->setups.find("mill-3", std::nullopt)->text, "a = 2");
   EXPECT_EQ(save("a = 2", "mill-3", 1)->number, 2u) << "an answer that was lost is asked for again";
 }
 
 TEST_F(SetupTest, SizesCountBytes) {
   EXPECT_EQ(save("# Fräser")->size, 9u);
-  EXPECT_EQ(store_->setups("mill-3", {})->at(0).size, 9u);
+  EXPECT_EQ(store_->setups.list("mill-3", {})->at(0).size, 9u);
 }
 
 TEST_F(SetupTest, RefusesWhatIsTooLongAndUnknownMachines) {
   EXPECT_TRUE(save(std::string(kMaxSetup, ' ')));
   EXPECT_EQ(save(std::string(kMaxSetup + 1, ' ')).error().code, Errc::LimitExceeded);
   EXPECT_EQ(save("a = 1", "no/machine").error().code, Errc::Syntax);
-  EXPECT_EQ(store_->setup("mill-9", std::nullopt).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->setup("mill-3", 7).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->setups.find("mill-9", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->setups.find("mill-3", 7).error().code, Errc::NotFound);
 }
 
 TEST_F(SetupTest, ARunRemembersItsSetup) {
   ASSERT_TRUE(save("a = 1"));
   Run run = make_run("r1");
   run.setup = 1;
-  ASSERT_TRUE(store_->create_run(run)) << "the fixture's machine and program";
-  EXPECT_EQ(store_->run("r1")->setup, 1u);
+  ASSERT_TRUE(store_->runs.create(run)) << "the fixture's machine and program";
+  EXPECT_EQ(store_->runs.find("r1")->setup, 1u);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::string StoreTest::begin(const std::string& program) {
   upload.control = "centurion";
   upload.comment = "a comment";
   upload.author = "cam";
-  const auto begun = store_->begin_upload(upload);
+  const auto begun = store_->uploads.begin(upload);
   EXPECT_TRUE(begun) << begun.error().what;
   return begun ? begun->id : "";
 }
@@ -61,14 +61,15 @@ Result<Revision> StoreTest::push(const std::string& program, std::string_view te
                                  std::size_t piece) {
   const std::string id = begin(program);
   for (std::size_t at = 0; at < text.size(); at += piece) {
-    auto appended = store_->append_upload(id, at, bytes_of(text.substr(at, piece)));
+    auto appended = store_->uploads.append(id, at, bytes_of(text.substr(at, piece)));
     if (!appended) return fail(appended.error());
   }
-  return store_->commit_upload(id, sha256(text));
+  return store_->uploads.commit(id, sha256(text));
 }
 
 std::string StoreTest::pull(const Digest& content) {
-  const auto bytes = store_->read_content(content, 0, std::numeric_limits<std::uint64_t>::max());
+  const auto bytes =
+      store_->programs.read_content(content, 0, std::numeric_limits<std::uint64_t>::max());
   EXPECT_TRUE(bytes) << bytes.error().what;
   return bytes ? text_of(*bytes) : "";
 }
@@ -79,7 +80,7 @@ storage::Run StoreTest::make_run(const std::string& id) {
   machine.control = "centurion";
   machine.epoch = 7;
   machine.first_seen = machine.last_seen = clock_.now();
-  EXPECT_TRUE(store_->save_machine(machine));
+  EXPECT_TRUE(store_->machines.save(machine));
   const auto revision = push("p.nc", "G00 X1.\nM30\n");
   EXPECT_TRUE(revision) << revision.error().what;
   Run run;

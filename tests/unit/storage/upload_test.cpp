@@ -42,17 +42,17 @@ INSTANTIATE_TEST_SUITE_P(, AnyPieces,
 TEST_F(UploadTest, GoesOnAfterARestartWhereItStopped) {
   const std::string text = nc_text(1'000'000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text).first(400'000)));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(400'000)));
   reopen();
-  const auto found = store_->upload(id);
+  const auto found = store_->uploads.find(id);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_EQ(found->received, 400'000u);
   EXPECT_EQ(found->program, "p.nc");
   EXPECT_EQ(found->author, "cam");
-  const auto appended = store_->append_upload(id, 400'000, bytes_of(text).subspan(400'000));
+  const auto appended = store_->uploads.append(id, 400'000, bytes_of(text).subspan(400'000));
   ASSERT_TRUE(appended) << appended.error().what;
   EXPECT_EQ(appended->received, text.size());
-  const auto revision = store_->commit_upload(id, sha256(text));
+  const auto revision = store_->uploads.commit(id, sha256(text));
   ASSERT_TRUE(revision) << revision.error().what;
   EXPECT_EQ(pull(revision->content), text);
 }
@@ -60,115 +60,115 @@ TEST_F(UploadTest, GoesOnAfterARestartWhereItStopped) {
 TEST_F(UploadTest, CanBeCommittedAfterARestart) {
   const std::string text = nc_text(600'000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text)));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
   reopen();
-  EXPECT_TRUE(store_->commit_upload(id, sha256(text)));
+  EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
 TEST_F(UploadTest, PieceSentAgainIsNoError) {
   const std::string text = nc_text(700'000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text).first(500'000)));
-  const auto again = store_->append_upload(id, 100'000, bytes_of(text).subspan(100'000, 400'000));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500'000)));
+  const auto again = store_->uploads.append(id, 100'000, bytes_of(text).subspan(100'000, 400'000));
   ASSERT_TRUE(again) << again.error().what;
   EXPECT_EQ(again->received, 500'000u);
-  ASSERT_TRUE(store_->append_upload(id, 500'000, bytes_of(text).subspan(500'000)));
-  EXPECT_TRUE(store_->commit_upload(id, sha256(text)));
+  ASSERT_TRUE(store_->uploads.append(id, 500'000, bytes_of(text).subspan(500'000)));
+  EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
 TEST_F(UploadTest, RefusesGapsOverlapsAndOtherBytes) {
   const std::string text = nc_text(1000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text).first(500)));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(500)));
   for (const auto& [offset, piece] :
        {std::pair(501, text.substr(501)), std::pair(499, text.substr(499)),
         std::pair(0, std::string("other"))}) {
     const auto refused =
-        store_->append_upload(id, static_cast<std::uint64_t>(offset), bytes_of(piece));
+        store_->uploads.append(id, static_cast<std::uint64_t>(offset), bytes_of(piece));
     ASSERT_FALSE(refused) << offset;
     EXPECT_EQ(refused.error().code, Errc::Conflict) << refused.error().what;
   }
-  EXPECT_EQ(store_->upload(id)->received, 500u);
+  EXPECT_EQ(store_->uploads.find(id)->received, 500u);
 }
 
 TEST_F(UploadTest, WrongExpectedDigestIsCorruptAndChangesNothing) {
   const std::string text = nc_text(1000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text)));
-  const auto refused = store_->commit_upload(id, sha256("something else"));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
+  const auto refused = store_->uploads.commit(id, sha256("something else"));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Corrupt);
   EXPECT_NE(refused.error().what.find(sha256(text).hex()), std::string::npos);
-  EXPECT_EQ(store_->revision("p.nc", std::nullopt).error().code, Errc::NotFound);
-  EXPECT_TRUE(store_->commit_upload(id, sha256(text)));
+  EXPECT_EQ(store_->programs.revision("p.nc", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_TRUE(store_->uploads.commit(id, sha256(text)));
 }
 
 TEST_F(UploadTest, EmptyUploadIsRefused) {
-  EXPECT_EQ(store_->commit_upload(begin("p.nc"), std::nullopt).error().code, Errc::Syntax);
+  EXPECT_EQ(store_->uploads.commit(begin("p.nc"), std::nullopt).error().code, Errc::Syntax);
 }
 
 TEST_F(UploadTest, NamesThatLeaveTheirFolderAreRefused) {
   for (const char* name : {"../etc/passwd", "..", "a/b", "", ".hidden", "a\nb"}) {
     Upload upload;
     upload.program = name;
-    EXPECT_EQ(store_->begin_upload(upload).error().code, Errc::Syntax) << name;
+    EXPECT_EQ(store_->uploads.begin(upload).error().code, Errc::Syntax) << name;
   }
   Upload upload;
   upload.program = std::string(129, 'a');
-  EXPECT_EQ(store_->begin_upload(upload).error().code, Errc::LimitExceeded);
+  EXPECT_EQ(store_->uploads.begin(upload).error().code, Errc::LimitExceeded);
   EXPECT_EQ(query("SELECT count(*) FROM upload"), 0);
 }
 
 TEST_F(UploadTest, UnknownOnesAreNotFound) {
-  EXPECT_EQ(store_->upload("x").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->append_upload("x", 0, bytes_of("a")).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->read_upload("x", 0, 1).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->set_upload_control("x", "tnc155").error().code, Errc::NotFound);
-  EXPECT_EQ(store_->commit_upload("x", std::nullopt).error().code, Errc::NotFound);
-  EXPECT_EQ(store_->abandon_upload("x").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.find("x").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.append("x", 0, bytes_of("a")).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.read("x", 0, 1).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.set_control("x", "tnc155").error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.commit("x", std::nullopt).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.abandon("x").error().code, Errc::NotFound);
 }
 
 TEST_F(UploadTest, TooBigAPieceIsRefused) {
   const std::vector<std::byte> huge((16 << 20) + 1);
-  EXPECT_EQ(store_->append_upload(begin("p.nc"), 0, huge).error().code, Errc::LimitExceeded);
+  EXPECT_EQ(store_->uploads.append(begin("p.nc"), 0, huge).error().code, Errc::LimitExceeded);
 }
 
 TEST_F(UploadTest, CanBeReadAndGivenAControlBeforeItIsCommitted) {
   const std::string text = nc_text(300'000);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(text)));
-  EXPECT_EQ(text_of(store_->read_upload(id, 262'000, 1000).value()), text.substr(262'000, 1000));
-  EXPECT_EQ(text_of(store_->read_upload(id, 299'990, 1000).value()), text.substr(299'990));
-  EXPECT_TRUE(store_->read_upload(id, 300'000, 1)->empty());
-  ASSERT_TRUE(store_->set_upload_control(id, "tnc155"));
-  EXPECT_EQ(store_->commit_upload(id, std::nullopt)->control, "tnc155");
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text)));
+  EXPECT_EQ(text_of(store_->uploads.read(id, 262'000, 1000).value()), text.substr(262'000, 1000));
+  EXPECT_EQ(text_of(store_->uploads.read(id, 299'990, 1000).value()), text.substr(299'990));
+  EXPECT_TRUE(store_->uploads.read(id, 300'000, 1)->empty());
+  ASSERT_TRUE(store_->uploads.set_control(id, "tnc155"));
+  EXPECT_EQ(store_->uploads.commit(id, std::nullopt)->control, "tnc155");
 }
 
 TEST_F(UploadTest, AbandonedOneLeavesNoChunkButThoseOthersHold) {
   const std::string shared = nc_text(262'144, 1);
   const auto kept = push("kept.nc", shared);
   const std::string id = begin("p.nc");
-  ASSERT_TRUE(store_->append_upload(id, 0, bytes_of(shared + nc_text(500'000, 2))));
+  ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(shared + nc_text(500'000, 2))));
   EXPECT_GT(query("SELECT count(*) FROM chunk"), 1);
-  ASSERT_TRUE(store_->abandon_upload(id));
+  ASSERT_TRUE(store_->uploads.abandon(id));
   EXPECT_EQ(query("SELECT count(*) FROM chunk"), 1);
   EXPECT_EQ(query("SELECT count(*) FROM content"), 1);
   EXPECT_EQ(pull(kept->content), shared);
-  EXPECT_EQ(store_->append_upload(id, 0, bytes_of("a")).error().code, Errc::NotFound);
+  EXPECT_EQ(store_->uploads.append(id, 0, bytes_of("a")).error().code, Errc::NotFound);
 }
 
 TEST_F(UploadTest, ForgottenOnesAreDroppedByTheirLastPiece) {
   using std::chrono::hours;
   const std::string forgotten = begin("a.nc");
-  ASSERT_TRUE(store_->append_upload(forgotten, 0, bytes_of("G0 X1\n")));
+  ASSERT_TRUE(store_->uploads.append(forgotten, 0, bytes_of("G0 X1\n")));
   const std::string living = begin("b.nc");
-  EXPECT_EQ(store_->drop_idle_uploads(hours(24), hours(24)), 0u);
-  ASSERT_TRUE(store_->append_upload(living, 0, bytes_of("G0 X2\n")));
+  EXPECT_EQ(store_->uploads.drop_idle(hours(24), hours(24)), 0u);
+  ASSERT_TRUE(store_->uploads.append(living, 0, bytes_of("G0 X2\n")));
   clock_.advance(hours(55));  // a step of the time of day is no time that passes
-  EXPECT_EQ(store_->drop_idle_uploads(hours(0), hours(24)), 0u);
-  EXPECT_EQ(store_->drop_idle_uploads(hours(1), hours(24)), 1u);
-  EXPECT_EQ(store_->upload(forgotten).error().code, Errc::NotFound);
-  EXPECT_TRUE(store_->append_upload(living, 6, bytes_of("M30\n")));
+  EXPECT_EQ(store_->uploads.drop_idle(hours(0), hours(24)), 0u);
+  EXPECT_EQ(store_->uploads.drop_idle(hours(1), hours(24)), 1u);
+  EXPECT_EQ(store_->uploads.find(forgotten).error().code, Errc::NotFound);
+  EXPECT_TRUE(store_->uploads.append(living, 6, bytes_of("M30\n")));
   EXPECT_EQ(query("SELECT count(*) FROM chunk"), 1);
 }
 

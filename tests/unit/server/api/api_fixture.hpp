@@ -89,7 +89,7 @@ class ApiTest : public ServerTest {
   void show_machine(const std::string& name) {
     add_machine(name);
     machines::MachineView view;
-    view.machine = store_->machine(name).value();
+    view.machine = store_->machines.find(name).value();
     view.is_connected = true;
     feeds_.views.push_back(std::move(view));
   }
@@ -107,7 +107,7 @@ class ApiTest : public ServerTest {
     run.control = "centurion";
     run.author = "admin";
     run.created = clock_.now();
-    EXPECT_TRUE(store_->create_run(run));
+    EXPECT_TRUE(store_->runs.create(run));
     storage::RecordBatch batch;
     batch.machine = "lathe-1";
     batch.epoch = 7;
@@ -125,8 +125,8 @@ class ApiTest : public ServerTest {
       record.text = fmt::format("X{}, \"Z\"", n);
       batch.records.push_back(record);
     }
-    EXPECT_TRUE(store_->store_records(batch));
-    feeds_.run = store_->run(run.id).value();
+    EXPECT_TRUE(store_->records.store(batch));
+    feeds_.run = store_->runs.find(run.id).value();
     return run.id;
   }
 

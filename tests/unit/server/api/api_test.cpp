@@ -209,7 +209,7 @@ TEST_F(ApiHandlers, DefuseFormulasInCsvButNotNumbers) {
     record.text = text;
     batch.records.push_back(record);
   }
-  ASSERT_TRUE(store_->store_records(batch));
+  ASSERT_TRUE(store_->records.store(batch));
   const std::string csv = body(get("/api/v1/reports/" + run + "?format=csv"));
   for (const char* end :
        {",'=1+1\r\n", ",'+cmd\r\n", ",-2.5\r\n", ",'@sum\r\n", ",'-X1\r\n", ",X1\r\n"}) {
@@ -244,7 +244,7 @@ TEST_F(ApiHandlers, WriteWhatAMachinePrintedOutsideRuns) {
   record.device = "line-1";
   record.text = "B 2";
   batch.records.push_back(record);
-  ASSERT_TRUE(store_->store_records(batch));
+  ASSERT_TRUE(store_->records.store(batch));
   const Json listed = json(get("/api/v1/machine-reports"))["reports"];
   ASSERT_EQ(listed.size(), 1u);
   EXPECT_EQ(listed[0]["machine"], "lathe-1");

@@ -93,7 +93,7 @@ class OpenApi : public ApiTest {
     batch.machine = "lathe-1";
     batch.epoch = 77;
     batch.records = {record};
-    ASSERT_TRUE(store_->store_records(batch));
+    ASSERT_TRUE(store_->records.store(batch));
     const std::string path = "/api/v1/machines/lathe-1/memory";
     const Json memories = json(get(path))["memories"];
     ASSERT_EQ(memories.size(), 1u);

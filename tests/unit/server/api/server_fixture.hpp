@@ -55,9 +55,9 @@ class ServerTest : public testing::Test {
     auto opened = storage::SqliteStore::open({.file = folder_.path() / "store.sqlite"}, clock_);
     EXPECT_TRUE(opened) << opened.error().what;
     store_ = *std::move(opened);
-    audit_ = std::make_unique<library::AuditTrail>(*store_, clock_);
+    audit_ = std::make_unique<library::AuditTrail>(store_->audit, clock_);
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
-    setups_ = std::make_unique<library::Setups>(*store_, catalog_, *audit_);
+    setups_ = std::make_unique<library::Setups>(store_->setups, catalog_, *audit_);
   }
 
   std::string begin(const std::string& program, const std::string& control = "centurion") {
@@ -83,13 +83,13 @@ class ServerTest : public testing::Test {
     machine.control = control;
     machine.epoch = 7;
     machine.first_seen = machine.last_seen = clock_.now();
-    EXPECT_TRUE(store_->save_machine(machine));
+    EXPECT_TRUE(store_->machines.save(machine));
   }
 
   test_support::TemporaryFolder folder_;
   test_support::ManualClock clock_;
   FakeCatalog catalog_;
-  std::unique_ptr<storage::Store> store_;
+  std::unique_ptr<storage::SqliteStore> store_;
   std::unique_ptr<library::AuditTrail> audit_;
   std::unique_ptr<library::Programs> programs_;
   std::unique_ptr<library::Setups> setups_;

@@ -114,13 +114,14 @@ TEST_F(FeedBlocks, KeepsACalledProgramAsItWasWhenTheRunBegan) {
 }
 
 TEST_F(FeedBlocks, NeverAnswersACorruptChunkWithBytes) {
-  struct CorruptStore final : test_support::StoreDecorator {
-    using StoreDecorator::StoreDecorator;
+  struct CorruptPrograms final : test_support::ProgramStoreDecorator {
+    using ProgramStoreDecorator::ProgramStoreDecorator;
     Result<std::vector<std::byte>> read_content(const Digest&, std::uint64_t,
                                                 std::uint64_t) override {
       return fail(Errc::Corrupt, "chunk 3 fails its SHA-256");
     }
-  } store(*store_);
+  } programs(*store_);
+  storage::Store store = test_support::with(*store_, programs);
   push("O0100", "M30\n");
   start_service(store);
   announce();

@@ -21,7 +21,7 @@ class FeedTest : public ServerTest {
   static constexpr std::uint64_t kSession = 70;
   static constexpr std::chrono::microseconds kSteadyAhead{-1'000'000'000};
 
-  void start_service(storage::Store& store) {
+  void start_service(const storage::Store& store) {
     machines::MachineService::Options options;
     options.workers = 3;
     options.commands = {.expiry = std::chrono::milliseconds(200),

@@ -6,14 +6,14 @@ namespace dripline::server_test {
 namespace {
 
 /// A store on a disk that is full while `is_full`.
-struct FullDiskStore final : test_support::StoreDecorator {
-  using StoreDecorator::StoreDecorator;
-  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+struct FullDisk final : test_support::RecordStoreDecorator {
+  using RecordStoreDecorator::RecordStoreDecorator;
+  Result<std::uint64_t> store(const storage::RecordBatch& batch) override {
     if (is_full && !batch.records.empty()) {
       ++refused;
       return fail(Errc::Io, "database or disk is full");
     }
-    return StoreDecorator::store_records(batch);
+    return RecordStoreDecorator::store(batch);
   }
   std::atomic<bool> is_full{false};
   std::atomic<int> refused{0};
@@ -38,7 +38,7 @@ TEST_F(FeedRecords, AreAcknowledgedOnceTheyAreStored) {
     record(n, run, dds::RecordKind::Output, fmt::format("LINE {}", n));
   }
   ASSERT_TRUE(wait_ack(100));
-  const auto stored = store_->records(run, "output", {.limit = 1000, .offset = 0});
+  const auto stored = store_->records.of_run(run, "output", {.limit = 1000, .offset = 0});
   ASSERT_TRUE(stored);
   ASSERT_EQ(stored->size(), 100u);
   EXPECT_EQ(stored->back().text, "LINE 100");
@@ -51,7 +51,7 @@ TEST_F(FeedRecords, AreStoredOnceHoweverOftenTheyCome) {
   }
   ASSERT_TRUE(wait_ack(5));
   service_->end();
-  EXPECT_EQ(store_->records(run, "output", {.limit = 1000, .offset = 0})->size(), 5u);
+  EXPECT_EQ(store_->records.of_run(run, "output", {.limit = 1000, .offset = 0})->size(), 5u);
 }
 
 TEST_F(FeedRecords, AfterAGapAreNotAcknowledged) {
@@ -62,7 +62,7 @@ TEST_F(FeedRecords, AfterAGapAreNotAcknowledged) {
   record(2, run, dds::RecordKind::Output, "two");
   record(3, run, dds::RecordKind::Output, "three");
   ASSERT_TRUE(wait_ack(3));
-  EXPECT_EQ(store_->records(run, "output", {})->size(), 3u);
+  EXPECT_EQ(store_->records.of_run(run, "output", {})->size(), 3u);
 }
 
 TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
@@ -74,18 +74,19 @@ TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
 }
 
 TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
-  FullDiskStore store(*store_);
+  FullDisk disk(*store_);
+  storage::Store store = test_support::with(*store_, disk);
   start_service(store);
   const std::string run = running("M30\n");
-  store.is_full = true;
+  disk.is_full = true;
   for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (store.refused == 0 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
-  EXPECT_GT(store.refused, 0);
+  while (disk.refused == 0 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+  EXPECT_GT(disk.refused, 0);
   EXPECT_TRUE(written_->acks.empty());
-  store.is_full = false;
+  disk.is_full = false;
   EXPECT_TRUE(wait_ack(5));
-  EXPECT_EQ(store_->records(run, "output", {})->size(), 5u);
+  EXPECT_EQ(store_->records.of_run(run, "output", {})->size(), 5u);
   service_.reset();  // before the store it uses
 }
 
@@ -121,7 +122,7 @@ TEST_F(FeedRecords, EndARunWithItsCountersAndAVerdictOnItsBytes) {
              .program = "O0100", .revision = sha256(text).hex(), .control = "centurion"}));
   record(2, run, dds::RecordKind::RunEnded, completed(text, 2));
   ASSERT_TRUE(wait_ack(2));
-  const auto ended = store_->run(run);
+  const auto ended = store_->runs.find(run);
   ASSERT_TRUE(ended);
   EXPECT_EQ(ended->state, storage::RunState::Completed);
   EXPECT_EQ(ended->counters.executed, 2u);
@@ -142,7 +143,7 @@ TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
   cut.content_sha256 = sha256(text.substr(0, 5)).hex();
   record(1, run, dds::RecordKind::RunEnded, dds::encode(cut));
   ASSERT_TRUE(wait_ack(1));
-  const auto ended = store_->run(run);
+  const auto ended = store_->runs.find(run);
   EXPECT_EQ(ended->state, storage::RunState::Interrupted);
   EXPECT_EQ(ended->reason, "interrupted at block 1");
   EXPECT_EQ(ended->content_verified, true);
@@ -151,7 +152,7 @@ TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
 /// The gateway's clock is an hour off; what the run shows is in our time.
 TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
   const std::string run = running("M30\n");
-  const UtcTime created = store_->run(run)->created;
+  const UtcTime created = store_->runs.find(run)->created;
   gateway_ahead_ = std::chrono::hours(-1);
   for (int i = 0; i < 4; ++i) heartbeat();
   clock_.advance(std::chrono::seconds(10));
@@ -159,11 +160,11 @@ TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
   clock_.advance(std::chrono::seconds(10));
   record(2, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
   ASSERT_TRUE(wait_ack(2));
-  const auto ended = store_->run(run);
+  const auto ended = store_->runs.find(run);
   ASSERT_TRUE(ended->started && ended->ended);
   EXPECT_GE(*ended->started, created);
   EXPECT_EQ(*ended->ended, created + std::chrono::seconds(20));
-  EXPECT_EQ(store_->records(run, "", {})->at(1).time, *ended->ended - std::chrono::hours(1))
+  EXPECT_EQ(store_->records.of_run(run, "", {})->at(1).time, *ended->ended - std::chrono::hours(1))
       << "the record keeps the gateway's own";
 }
 
@@ -191,13 +192,13 @@ TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
   status.sent = 1000;
   status.executed = 77;
   network_.on_status(status);
-  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
-  EXPECT_TRUE(store_->records(run, "", {})->empty());
+  EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Active);
+  EXPECT_TRUE(store_->records.of_run(run, "", {})->empty());
   record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
   EXPECT_TRUE(wait_told(
       runs_, [&](const Run& r) { return r.id == run && r.state == storage::RunState::Completed; }));
   service_->end();
-  EXPECT_EQ(store_->run(run)->counters.executed, 1u);
+  EXPECT_EQ(store_->runs.find(run)->counters.executed, 1u);
   for (const auto& told : records_) EXPECT_NE(told.text, "FORGED");
 }
 
@@ -205,14 +206,15 @@ TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
 TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
   const auto revision = push("O0100", "O1\nM30\n");
   ASSERT_TRUE(revision.size > 0);
-  struct DamagedStore final : test_support::StoreDecorator {
-    using StoreDecorator::StoreDecorator;
+  struct DamagedContent final : test_support::ProgramStoreDecorator {
+    using ProgramStoreDecorator::ProgramStoreDecorator;
     Result<void> verify_content(const Digest& content) override {
       return fail(Errc::Corrupt, "content {}: chunk 3 is not the one that was stored there",
                   content.hex());
     }
   };
-  DamagedStore damaged(*store_);
+  DamagedContent programs(*store_);
+  storage::Store damaged = test_support::with(*store_, programs);
   start_service(damaged);
   announce();
   answer_commands(true);
@@ -221,7 +223,7 @@ TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
   EXPECT_EQ(run.error().code, Errc::Corrupt);
   EXPECT_NE(run.error().what.find("chunk 3"), std::string::npos);
   EXPECT_TRUE(written_->commands.empty());
-  EXPECT_TRUE(store_->runs({}, {})->empty());
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
   service_.reset();
 }
 
@@ -229,14 +231,14 @@ TEST_F(FeedRecords, SayWhenTheMachineExecutedOtherBytes) {
   const std::string run = running("O1\nM30\n");
   record(1, run, dds::RecordKind::RunEnded, completed("O1\nM31\n", 2));
   ASSERT_TRUE(wait_ack(1));
-  EXPECT_EQ(store_->run(run)->content_verified, false);
+  EXPECT_EQ(store_->runs.find(run)->content_verified, false);
 }
 
 TEST_F(FeedRecords, WithATextNobodyUnderstandsAreStoredAllTheSame) {
   const std::string run = running("M30\n");
   record(1, run, dds::RecordKind::RunEnded, "{broken");
   ASSERT_TRUE(wait_ack(1));
-  EXPECT_EQ(store_->run(run)->state, storage::RunState::Active);
+  EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Active);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class FeedRuns : public FeedTest {
     run.size = revision.size;
     run.control = "centurion";
     run.created = clock_.now();
-    EXPECT_TRUE(store_->create_run(run));
+    EXPECT_TRUE(store_->runs.create(run));
     return run.id;
   }
   /// Waits until the stored run is in this state; the service compares every two seconds.
@@ -84,7 +84,7 @@ TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, Errc::Busy);
   EXPECT_NE(run.error().what.find("the door is open"), std::string::npos);
-  const auto runs = store_->runs({}, {});
+  const auto runs = store_->runs.list({}, {});
   ASSERT_EQ(runs->size(), 1u);
   EXPECT_EQ(runs->front().state, storage::RunState::Refused);
 }
@@ -96,7 +96,7 @@ TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLa
   const auto run = start("O0100");
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, Errc::Timeout);
-  EXPECT_EQ(store_->runs({}, {})->front().state, storage::RunState::Refused);
+  EXPECT_EQ(store_->runs.list({}, {})->front().state, storage::RunState::Refused);
   const dds::Command command = written_->commands.at(0);
   network_.on_command_result(
       {.machine = command.machine, .id = command.id, .accepted = true, .reason = {}});
@@ -110,7 +110,7 @@ TEST_F(FeedRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
   start_service();
   announce();
   ASSERT_FALSE(start("O0100"));  // taken by the gateway, but its answer was lost with the link
-  const std::string run = store_->runs({}, {})->front().id;
+  const std::string run = store_->runs.list({}, {})->front().id;
   status(run);
   ASSERT_TRUE(written_->wait([&] { return written_->commands.size() >= 2; }));
   EXPECT_EQ(written_->commands[1].action, dds::CommandAction::Abort);
@@ -127,7 +127,7 @@ TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, Errc::Timeout);
   EXPECT_NE(run.error().what.find("last seen 2023-11-14T"), std::string::npos) << run.error().what;
-  EXPECT_TRUE(store_->runs({}, {})->empty());
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
 }
 
 TEST_F(FeedRuns, AreOnlyOfProgramsForTheMachinesControl) {
@@ -203,7 +203,7 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
   auto endpoint = test_support::FakeServerEndpoint(written_);
   machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
-  machines::RunWatch watch({.store = *store_,
+  machines::RunWatch watch({.runs = store_->runs,
                             .clock = clock_,
                             .desk = desk,
                             .state_mutex = state_mutex,
@@ -219,7 +219,7 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
     watch.compare({view});
     clock_.advance(machines::RunWatch::kAbsence);
     watch.compare({view});
-    return store_->run(run)->state;
+    return store_->runs.find(run)->state;
   };
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
   view.is_connected = false;
@@ -230,21 +230,21 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
 }
 
 TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
-  struct FullDisk final : test_support::StoreDecorator {
-    using StoreDecorator::StoreDecorator;
-    Result<void> set_run_state(const std::string& id, storage::RunState state,
-                               const std::string& reason) override {
+  struct FullDisk final : test_support::RunStoreDecorator {
+    using RunStoreDecorator::RunStoreDecorator;
+    Result<void> set_state(const std::string& id, storage::RunState state,
+                           const std::string& reason) override {
       if (is_full) return fail(Errc::Io, "disk full");
-      return StoreDecorator::set_run_state(id, state, reason);
+      return RunStoreDecorator::set_state(id, state, reason);
     }
     bool is_full = true;
   };
   const std::string run = stored_run();
-  FullDisk store(*store_);
+  FullDisk runs(*store_);
   auto endpoint = test_support::FakeServerEndpoint(written_);
   machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
-  machines::RunWatch watch({.store = store,
+  machines::RunWatch watch({.runs = runs,
                             .clock = clock_,
                             .desk = desk,
                             .state_mutex = state_mutex,
@@ -258,10 +258,10 @@ TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   watch.compare({view});
   clock_.advance(machines::RunWatch::kAbsence);
   watch.compare({view});
-  EXPECT_EQ(store_->run(run)->state, storage::RunState::Ordered);
-  store.is_full = false;
+  EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Ordered);
+  runs.is_full = false;
   watch.compare({view});
-  EXPECT_EQ(store_->run(run)->state, storage::RunState::Refused);
+  EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Refused);
 }
 
 TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
@@ -343,7 +343,7 @@ TEST_F(FeedRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsTold) {
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, Errc::Unsupported);
   EXPECT_NE(run.error().what.find("protocol 4711, this server 2"), std::string::npos);
-  EXPECT_TRUE(store_->runs({}, {})->empty());
+  EXPECT_TRUE(store_->runs.list({}, {})->empty());
   answer_commands(true);
   machines::CommandRequest stop;
   stop.machine = "lathe-1";
@@ -397,7 +397,7 @@ TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
     return view.is_connected && view.status && view.status->outbox == 5;
   }));
   service_->end();  // saves at the latest now
-  const auto machine = store_->machine("lathe-1");
+  const auto machine = store_->machines.find("lathe-1");
   ASSERT_TRUE(machine);
   EXPECT_EQ(machine->control, "centurion");
 }

@@ -16,7 +16,7 @@ TEST_F(SerialTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
   ASSERT_TRUE(run) << run.error().what;
   EXPECT_EQ(line().read_until("N1000 G1 X100.5 Y-100.25\n"), text);
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
-  const auto stored = store_->run(run->id);
+  const auto stored = store_->runs.find(run->id);
   EXPECT_EQ(stored->counters.sent, text.size());
   EXPECT_EQ(stored->counters.accepted, 0u);  // nobody acknowledges on such a line
   EXPECT_EQ(stored->counters.executed, 0u);  // and nobody tells what was executed
@@ -62,7 +62,7 @@ TEST_F(SerialTest, IsHeldResumedAndAborted) {
   EXPECT_NE(line().read_for(std::chrono::milliseconds(200)), "");
   ASSERT_TRUE(command(run->id, dds::CommandAction::Abort));
   ASSERT_TRUE(wait_state(run->id, RunState::Aborted));
-  const auto stored = store_->run(run->id);
+  const auto stored = store_->runs.find(run->id);
   EXPECT_GT(stored->counters.sent, 0u);
   EXPECT_LT(stored->counters.sent, stored->size);
   EXPECT_NE(stored->reason.find("the last block sent is line"), std::string::npos)
@@ -93,7 +93,7 @@ TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
   line().read_until("N100 ");
   line().pull();
   ASSERT_TRUE(wait_state(run->id, RunState::Interrupted));
-  const auto stored = store_->run(run->id);
+  const auto stored = store_->runs.find(run->id);
   EXPECT_NE(stored->reason.find("the cable is pulled"), std::string::npos) << stored->reason;
   EXPECT_NE(stored->reason.find("line"), std::string::npos) << stored->reason;
   EXPECT_GE(stored->counters.sent, 100u);
@@ -126,7 +126,7 @@ TEST_F(SerialTest, BeginsWhereItIsTold) {
   EXPECT_EQ(line().read_until("N300 G1 X30.5 Y-30.25\n"),
             "N290 G1 X29.5 Y-29.25\nN300 G1 X30.5 Y-30.25\n");
   ASSERT_TRUE(wait_state(from_block->id, RunState::Completed));
-  EXPECT_EQ(store_->run(from_block->id)->counters.sent, 44u);
+  EXPECT_EQ(store_->runs.find(from_block->id)->counters.sent, 44u);
   const auto from_line = start("O1", at_line(30));
   ASSERT_TRUE(from_line);
   EXPECT_EQ(line().read_until("25\n"), "N300 G1 X30.5 Y-30.25\n");
@@ -163,7 +163,7 @@ TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   ASSERT_TRUE(sent) << sent.error().what;
   EXPECT_EQ(line().read_until("M30\n"), "G21 G17 G90\nT2 M6\nS1000 M3\nG1 F200\nN6 Y2.\nM30\n");
   ASSERT_TRUE(wait_state(sent->id, RunState::Completed));
-  EXPECT_EQ(store_->run(sent->id)->counters.sent, 11u) << "the head is none of the program";
+  EXPECT_EQ(store_->runs.find(sent->id)->counters.sent, 11u) << "the head is none of the program";
   request.head = machines::StartHead::Set;
   const auto bare = ports_->feed().start(request);
   ASSERT_TRUE(bare) << bare.error().what;
@@ -194,23 +194,23 @@ TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
   const auto run = start("O1");
   ASSERT_TRUE(run);
   line().read_until("N5000 ");
-  ASSERT_TRUE(wait([&] { return store_->run(run->id)->counters.sent > 1000; }));
-  storage::Run left = *store_->run(run->id);
+  ASSERT_TRUE(wait([&] { return store_->runs.find(run->id)->counters.sent > 1000; }));
+  storage::Run left = *store_->runs.find(run->id);
   EXPECT_EQ(left.state, RunState::Active);
   ports_.reset();
-  EXPECT_EQ(store_->run(run->id)->state, RunState::Interrupted);  // a clean stop says so too
-  storage::Run other = left;                                      // as a kill would leave it
+  EXPECT_EQ(store_->runs.find(run->id)->state, RunState::Interrupted);  // a clean stop says so too
+  storage::Run other = left;                                            // as a kill would leave it
   other.id = "cut-off";
   other.state = RunState::Ordered;
   other.counters = {};
-  ASSERT_TRUE(store_->create_run(other));
-  ASSERT_TRUE(store_->set_run_state(other.id, RunState::Active, ""));
-  ASSERT_TRUE(store_->update_counters(other.machine, other.id,
-                                      {.sent = 1234, .accepted = 5, .executed = 0}, 0, -1));
+  ASSERT_TRUE(store_->runs.create(other));
+  ASSERT_TRUE(store_->runs.set_state(other.id, RunState::Active, ""));
+  ASSERT_TRUE(store_->runs.update_counters(
+      {other.machine, other.id, {.sent = 1234, .accepted = 5, .executed = 0}, 0, -1}));
   start_ports();
   ASSERT_TRUE(wait_state(other.id, RunState::Interrupted));
-  EXPECT_EQ(store_->run(other.id)->counters.sent, 1234u);
-  EXPECT_NE(store_->run(other.id)->reason.find("1234"), std::string::npos);
+  EXPECT_EQ(store_->runs.find(other.id)->counters.sent, 1234u);
+  EXPECT_NE(store_->runs.find(other.id)->reason.find("1234"), std::string::npos);
 }
 
 TEST_F(SerialTest, ListsMachinesOfBothKinds) {
@@ -223,7 +223,7 @@ TEST_F(SerialTest, ListsMachinesOfBothKinds) {
   machines::MachineView mill_of_gateways;
   mill_of_gateways.machine.name = "mill";
   gateways.views = {lathe, mill_of_gateways};
-  ports::MachineFeeds machines(*store_, gateways, ports_->feed());
+  ports::MachineFeeds machines(store_->runs, gateways, ports_->feed());
   auto views = machines.machines();
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[0].machine.name, "lathe");

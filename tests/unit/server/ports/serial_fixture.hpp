@@ -23,7 +23,7 @@ class SerialTest : public ServerTest {
 
   SerialTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
 
-  void start_ports(storage::Store& store, const std::vector<storage::Port>& configured = {}) {
+  void start_ports(const storage::Store& store, const std::vector<storage::Port>& configured = {}) {
     ports::PortService::Options options;
     options.recordings = folder_.path() / "recordings";
     options.open = [this](serial::LineDriver::Parts parts) {
@@ -86,7 +86,7 @@ class SerialTest : public ServerTest {
     return true;
   }
   bool wait_state(const std::string& run, storage::RunState state) {
-    return wait([&] { return store_->run(run)->state == state; });
+    return wait([&] { return store_->runs.find(run)->state == state; });
   }
   /// A program of numbered blocks, some of them more than the line takes in a second.
   static std::string blocks(int count) {
@@ -96,7 +96,7 @@ class SerialTest : public ServerTest {
   }
   std::vector<ports::PortTraffic> recording() { return ports_->recording("com1").value(); }
   std::vector<storage::Record> records_of(const std::string& run, const std::string& kind) {
-    return store_->records(run, kind, {}).value();
+    return store_->records.of_run(run, kind, {}).value();
   }
 
   SystemClock system_clock_;

@@ -56,7 +56,7 @@ TEST_F(SerialTest, RefusesBadPortsAndChangesNothing) {
   EXPECT_EQ(code([](auto& port) { port.rules = "[[rule]]"; }), Errc::Syntax);
   EXPECT_EQ(code([](auto& port) { port.machine = "Mill!"; }), Errc::Syntax);
   EXPECT_TRUE(ports_->ports().empty());
-  EXPECT_TRUE(store_->ports()->empty());
+  EXPECT_TRUE(store_->ports.list()->empty());
 }
 
 TEST_F(SerialTest, TakesPortsFromTheConfiguration) {
@@ -64,30 +64,31 @@ TEST_F(SerialTest, TakesPortsFromTheConfiguration) {
   port.line_template = "centurion";
   start_ports(*store_, {port});
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
-  EXPECT_EQ(store_->ports()->size(), 1u);
-  EXPECT_EQ(store_->machine("mill")->control, "centurion");
+  EXPECT_EQ(store_->ports.list()->size(), 1u);
+  EXPECT_EQ(store_->machines.find("mill")->control, "centurion");
 }
 
 /// A store in which no machine can be entered: its disk is full.
-class ClosedStore final : public test_support::StoreDecorator {
+class ClosedMachines final : public test_support::MachineStoreDecorator {
  public:
-  using StoreDecorator::StoreDecorator;
-  Result<void> save_machine(const storage::Machine& machine) override {
+  using MachineStoreDecorator::MachineStoreDecorator;
+  Result<void> save(const storage::Machine& machine) override {
     if (is_full_) return fail(Errc::Io, "the disk is full");
-    return StoreDecorator::save_machine(machine);
+    return MachineStoreDecorator::save(machine);
   }
   std::atomic<bool> is_full_{false};
 };
 
 TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
-  ASSERT_TRUE(store_->save_port(mill()));
-  ClosedStore store(*store_);
-  store.is_full_ = true;
+  ASSERT_TRUE(store_->ports.save(mill()));
+  ClosedMachines machines(*store_);
+  machines.is_full_ = true;
+  storage::Store store = test_support::with(*store_, machines);
   start_ports(store);
   EXPECT_EQ(ports_->port("com1")->trouble, "the disk is full");
   ports_->open_due();
   EXPECT_FALSE(ports_->port("com1")->is_open);
-  store.is_full_ = false;
+  machines.is_full_ = false;
   ports_->open_due();
   EXPECT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
   EXPECT_EQ(ports_->port("com1")->trouble, "");

@@ -24,7 +24,7 @@ class SerialProtocolTest : public SerialTest {
     return text + fmt::format("{} END PGM {} MM\n", count + 1, number);
   }
   std::vector<Run> runs() {
-    return store_->runs({.machine = "mill", .program = {}, .state = {}}, {}).value();
+    return store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {}).value();
   }
   std::unique_ptr<PlayedControl> control_;
 };
@@ -38,8 +38,9 @@ TEST_F(SerialProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return control_->programs.size() == 1; }));
   EXPECT_TRUE(control_->programs[0] == text) << control_->programs[0].size();
-  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state != RunState::Active; }));
-  const auto stored = store_->run(run->id);
+  ASSERT_TRUE(
+      control_->until([&] { return store_->runs.find(run->id)->state != RunState::Active; }));
+  const auto stored = store_->runs.find(run->id);
   EXPECT_EQ(stored->state, RunState::Completed);
   EXPECT_EQ(stored->counters.sent, text.size());
   EXPECT_EQ(stored->counters.accepted, 200u);
@@ -58,7 +59,8 @@ TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
   ASSERT_TRUE(wait([&] { return !ports_->feed().machine("mill")->is_connected; }));
   EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
   line().put_back();
-  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state == RunState::Completed; }));
+  ASSERT_TRUE(
+      control_->until([&] { return store_->runs.find(run->id)->state == RunState::Completed; }));
   EXPECT_TRUE(control_->received == text) << control_->received.size();
 }
 
@@ -238,7 +240,7 @@ TEST_F(SerialFanucTest, SendsNothingThatNobodyOrdered) {
   EXPECT_EQ(ports_->port("com1")->request->answer, "");
   EXPECT_EQ(ports_->feed().machine("mill")->status->message,
             "the control asked for a program; no run waits");
-  EXPECT_TRUE(store_->runs({.machine = "mill", .program = {}, .state = {}}, {})->empty());
+  EXPECT_TRUE(store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {})->empty());
   line().write("\x13");
   EXPECT_TRUE(wait([&] { return !ports_->port("com1")->request.has_value(); }));
 }
@@ -270,7 +272,7 @@ TEST_F(SerialFanucTest, WaitsForAResetAfterAFormerLifeOfTheServerBrokeAProgramOf
   ports_.reset();
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
-  ASSERT_EQ(store_->run(former->id)->state, RunState::Interrupted);
+  ASSERT_EQ(store_->runs.find(former->id)->state, RunState::Interrupted);
   line().read_for(std::chrono::milliseconds(50));
   const auto run = start("O2001");
   ASSERT_TRUE(run) << run.error().what;
@@ -312,9 +314,9 @@ TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
   add_control("heidenhain_bcc");
   const std::string text = tnc_program(33, 20);
   ASSERT_TRUE(control_->send(text, "33"));
-  ASSERT_TRUE(control_->until([&] { return store_->revision("33", 1).has_value(); }));
-  EXPECT_TRUE(store_->revision("33", 1)->is_held);
-  EXPECT_EQ(store_->revision("33", 1)->content, sha256(text));
+  ASSERT_TRUE(control_->until([&] { return store_->programs.revision("33", 1).has_value(); }));
+  EXPECT_TRUE(store_->programs.revision("33", 1)->is_held);
+  EXPECT_EQ(store_->programs.revision("33", 1)->content, sha256(text));
 }
 
 // HD-235: the setup came after the port, so that it is the start that is refused.
@@ -384,7 +386,8 @@ TEST_F(SerialProtocolTest, WaitsForTheTncToAskForTheRun) {
   EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
   ASSERT_TRUE(
       control_->line().request({wire::TransferRequest::Kind::SendProgram, "15"}, control_->now()));
-  ASSERT_TRUE(control_->until([&] { return store_->run(run->id)->state == RunState::Completed; }));
+  ASSERT_TRUE(
+      control_->until([&] { return store_->runs.find(run->id)->state == RunState::Completed; }));
   EXPECT_TRUE(control_->received == text);
 }
 

@@ -45,7 +45,7 @@ TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   EXPECT_EQ(outputs[0].text, "X1.5\tY2.25");
   EXPECT_EQ(outputs[0].device, "com1");
   EXPECT_EQ(records_of(run->id, "probe")[0].text, "PROBE Z-1.125");
-  EXPECT_EQ(store_->run(run->id)->outputs, 1u);
+  EXPECT_EQ(store_->runs.find(run->id)->outputs, 1u);
 }
 
 std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
@@ -58,16 +58,16 @@ TEST_F(SerialTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   start_ports();
   add_port(mill(kCalls));
   line().write("B 2\nPROBE Z-1.125\n");
-  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
-  EXPECT_EQ(texts_of(*store_->machine_report("mill", {})),
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
+  EXPECT_EQ(texts_of(*store_->records.machine_report("mill", {})),
             (std::vector<std::string>{"B 2", "PROBE Z-1.125"}));
   ports_.reset();  // the server stops, and starts again
   start_ports();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
   line().write("B 3\n");
-  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 3; }));
-  EXPECT_EQ(store_->machine_report("mill", {})->back().text, "B 3");
-  EXPECT_EQ(store_->machine_reports()->at(0).lines, 3u);
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 3; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {})->back().text, "B 3");
+  EXPECT_EQ(store_->records.machine_reports()->at(0).lines, 3u);
 }
 
 TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
@@ -81,7 +81,7 @@ TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
       "\x12"
       "B 2\n\x14\x12"
       "B 3\n\x14");
-  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 2; }));
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
   EXPECT_EQ(ports_->port("com1")->trouble, "") << "nothing is wrong with it";
 }
 
@@ -134,12 +134,13 @@ TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
   port.settings = {{"baud", "115200"}};
   add_port(port);
   line().write("PN7 G20 ;\r\nN1 G100 X1. Y1. ;\r\n%");
-  ASSERT_TRUE(wait([&] { return store_->revision("PN7", 1).has_value(); }));
-  EXPECT_TRUE(store_->revision("PN7", 1)->is_held);
-  EXPECT_EQ(store_->revision("PN7", 1)->content, sha256("PN7 G20 ;\nN1 G100 X1. Y1. ;\n%\n"));
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("PN7", 1).has_value(); }));
+  EXPECT_TRUE(store_->programs.revision("PN7", 1)->is_held);
+  EXPECT_EQ(store_->programs.revision("PN7", 1)->content,
+            sha256("PN7 G20 ;\nN1 G100 X1. Y1. ;\n%\n"));
   line().write("N5 G100 X1. Y1. ;\r\n%");  // one without a header is a program too
-  ASSERT_TRUE(wait([&] { return store_->revision("mill-punched", 1).has_value(); }));
-  EXPECT_TRUE(store_->machine_reports()->empty());
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("mill-punched", 1).has_value(); }));
+  EXPECT_TRUE(store_->records.machine_reports()->empty());
 }
 
 TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
@@ -148,13 +149,13 @@ TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
   machine.first_seen = machine.last_seen = system_clock_.now();
   machine.epoch = static_cast<std::uint64_t>(
       (system_clock_.now() + std::chrono::hours(1)).time_since_epoch().count());
-  ASSERT_TRUE(store_->save_machine(machine));
+  ASSERT_TRUE(store_->machines.save(machine));
   start_ports();
   add_port(mill());
   add_port(mill());  // changed: the same epoch
   line().write("B 2\n");
-  ASSERT_TRUE(wait([&] { return store_->machine_report("mill", {})->size() == 1; }));
-  EXPECT_EQ(store_->machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
+  ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 1; }));
+  EXPECT_EQ(store_->records.machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
 }
 
 TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
@@ -162,15 +163,15 @@ TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
   add_machine("mill");
   add_port(mill());
   line().write("%\r\nO0042(POCKET)\r\nG0 X0\r\nM30\r\n%\r\n");
-  ASSERT_TRUE(wait([&] { return store_->revision("O0042", 1).has_value(); }));
-  const auto revision = store_->revision("O0042", 1);
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("O0042", 1).has_value(); }));
+  const auto revision = store_->programs.revision("O0042", 1);
   EXPECT_TRUE(revision->is_held);
-  const auto bytes = store_->read_content(revision->content, 0, 1000);
+  const auto bytes = store_->programs.read_content(revision->content, 0, 1000);
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
             "%\nO0042(POCKET)\nG0 X0\nM30\n%\n");
   // Once the control has been silent long enough for the line to be free.
   EXPECT_TRUE(wait([&] { return start("O0042").error().code == Errc::Conflict; }));
-  ASSERT_TRUE(store_->accept_revision("O0042", 1, "cam"));
+  ASSERT_TRUE(store_->programs.accept("O0042", 1, "cam"));
   EXPECT_TRUE(wait([&] { return start("O0042").has_value(); }));
 }
 
@@ -182,8 +183,8 @@ TEST_F(SerialTest, KeepsAPunchedProgramOfAnySize) {
   add_port(port);
   const std::string text = "%\nO0043\n" + blocks(15000) + "%\n";
   line().write(text);
-  ASSERT_TRUE(wait([&] { return store_->revision("O0043", 1).has_value(); }));
-  EXPECT_EQ(store_->revision("O0043", 1)->content, sha256(text));
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("O0043", 1).has_value(); }));
+  EXPECT_EQ(store_->programs.revision("O0043", 1)->content, sha256(text));
 }
 
 TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
@@ -199,7 +200,7 @@ TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
     }
     return false;
   }));
-  EXPECT_FALSE(store_->revision("O0044", 1));
+  EXPECT_FALSE(store_->programs.revision("O0044", 1));
 }
 
 TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
@@ -210,8 +211,8 @@ TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 10; }));
   line().fault(wire::LineFault::Parity);
   line().write("1\nM30\n%\n");
-  ASSERT_TRUE(wait([&] { return store_->revision("O0045", 1).has_value(); }));
-  const auto revision = store_->revision("O0045", 1);
+  ASSERT_TRUE(wait([&] { return store_->programs.revision("O0045", 1).has_value(); }));
+  const auto revision = store_->programs.revision("O0045", 1);
   EXPECT_NE(revision->comment.find("DAMAGED"), std::string::npos) << revision->comment;
   EXPECT_TRUE(revision->is_held);
 }
@@ -223,7 +224,7 @@ TEST_F(SerialTest, SendsWhatIsCalledFromTheControl) {
   push("O1234", "N1 G0 X1\n");
   line().write("%\nO9999\n(PRG=1234)\nM30\n%\n");
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
-  const auto runs = store_->runs({.machine = "mill", .program = {}, .state = {}}, {});
+  const auto runs = store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {});
   ASSERT_EQ(runs->size(), 1u);
   EXPECT_EQ(runs->front().program, "O1234");
   EXPECT_EQ(runs->front().author, "call from the control");
@@ -253,11 +254,11 @@ TEST_F(SerialTest, ListsProgramsForTheControl) {
 }
 
 /// Commits, and then says that it did not know.
-class ForgetfulStore final : public test_support::StoreDecorator {
+class ForgetfulRecords final : public test_support::RecordStoreDecorator {
  public:
-  using StoreDecorator::StoreDecorator;
-  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
-    auto stored = StoreDecorator::store_records(batch);
+  using RecordStoreDecorator::RecordStoreDecorator;
+  Result<std::uint64_t> store(const storage::RecordBatch& batch) override {
+    auto stored = RecordStoreDecorator::store(batch);
     if (!batch.records.empty() && failures_ > 0) {
       --failures_;
       return fail(Errc::Io, "power fails after the commit");
@@ -268,40 +269,42 @@ class ForgetfulStore final : public test_support::StoreDecorator {
 };
 
 TEST_F(SerialTest, StoresEveryLineOnceWhateverTheStoreSays) {
-  ForgetfulStore store(*store_);
+  ForgetfulRecords records(*store_);
+  storage::Store store = test_support::with(*store_, records);
   start_ports(store);
   add_port(mill());
   push("O1", blocks(1));
   const auto run = start("O1");
   ASSERT_TRUE(run);
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
-  store.failures_ = 2;
+  records.failures_ = 2;
   line().write("LINE 1\nLINE 2\n");
-  ASSERT_TRUE(wait([&] { return store.failures_ < 2; }));
+  ASSERT_TRUE(wait([&] { return records.failures_ < 2; }));
   line().write("LINE 3\n");
   ASSERT_TRUE(wait([&] { return records_of(run->id, "output").size() == 3; }));
-  ASSERT_TRUE(wait([&] { return store.failures_ == 0; }));
+  ASSERT_TRUE(wait([&] { return records.failures_ == 0; }));
   const auto outputs = records_of(run->id, "output");
   ASSERT_EQ(outputs.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(outputs[i].text, fmt::format("LINE {}", i + 1));
 }
 
 /// A store whose disk is full.
-class FullStore final : public test_support::StoreDecorator {
+class FullDisk final : public test_support::RecordStoreDecorator {
  public:
-  using StoreDecorator::StoreDecorator;
-  Result<std::uint64_t> store_records(const storage::RecordBatch& batch) override {
+  using RecordStoreDecorator::RecordStoreDecorator;
+  Result<std::uint64_t> store(const storage::RecordBatch& batch) override {
     if (is_full_ && !batch.records.empty()) return fail(Errc::Io, "the disk is full");
-    return StoreDecorator::store_records(batch);
+    return RecordStoreDecorator::store(batch);
   }
   std::atomic<bool> is_full_{false};
 };
 
 TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
-  FullStore store(*store_);
+  FullDisk records(*store_);
+  storage::Store store = test_support::with(*store_, records);
   start_ports(store);
   add_port(mill());
-  store.is_full_ = true;
+  records.is_full_ = true;
   std::string text;
   for (int i = 0; i < 200; ++i) text += fmt::format("POINT {}\n", i);
   line().write(text);
@@ -309,7 +312,7 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
   EXPECT_TRUE(wait([&] {
     return ports_->port("com1")->trouble == "what comes in cannot be stored: the disk is full";
   }));
-  store.is_full_ = false;
+  records.is_full_ = false;
   EXPECT_NE(line().read_until("\x11").find('\x11'), std::string::npos);
   ASSERT_TRUE(wait([&] {
     const std::lock_guard lock(told_mutex_);

@@ -17,13 +17,13 @@ class SerialTransferTest : public SerialTest {
     add_port(port);
   }
   std::string text_of(const std::string& program, std::uint64_t number = 1) {
-    const auto revision = store_->revision(program, number);
+    const auto revision = store_->programs.revision(program, number);
     if (!revision) return revision.error().what;
-    const auto bytes = store_->read_content(revision->content, 0, revision->size);
+    const auto bytes = store_->programs.read_content(revision->content, 0, revision->size);
     return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
   }
   bool wait_stored(const std::string& program, std::uint64_t number = 1) {
-    return wait([&] { return store_->revision(program, number).has_value(); });
+    return wait([&] { return store_->programs.revision(program, number).has_value(); });
   }
   bool is_noted(const std::string& words) {
     for (const auto& entry : recording()) {
@@ -50,8 +50,8 @@ TEST_F(SerialTransferTest, MakesAProgramOfEachONumberInATextAndLosesNothing) {
   EXPECT_EQ(text_of("O0102"), second);
   EXPECT_EQ(text_of("O103"), third);
   for (const std::string program : {"O0101", "O0102", "O103"}) {
-    EXPECT_TRUE(store_->revision(program, 1)->is_held) << program;
-    EXPECT_EQ(store_->revision(program, 1)->author, "machine mill");
+    EXPECT_TRUE(store_->programs.revision(program, 1)->is_held) << program;
+    EXPECT_EQ(store_->programs.revision(program, 1)->author, "machine mill");
   }
 }
 
@@ -76,7 +76,7 @@ TEST_F(SerialTransferTest, KeepsOneTextWhereThePortDoesNotExtract) {
   line().write("%\nO1\nG0 X1\nO2\nG0 X2\n%\n");
   ASSERT_TRUE(wait_stored("O1"));
   EXPECT_EQ(text_of("O1"), "%\nO1\nG0 X1\nO2\nG0 X2\n%\n");
-  EXPECT_FALSE(store_->revision("O2", 1));
+  EXPECT_FALSE(store_->programs.revision("O2", 1));
 }
 
 TEST_F(SerialTransferTest, ExtractsUnlessItIsSaidOtherwiseOnLinesOfControlsWithONumbers) {
@@ -93,7 +93,7 @@ TEST_F(SerialTransferTest, KeepsTheWholeProgramsOfATextThatIsCutOff) {
   line().pull();
   ASSERT_TRUE(wait([&] { return is_noted("cut off"); }));
   EXPECT_EQ(text_of("O11"), "%\nO11\nG0 X1\n");
-  EXPECT_FALSE(store_->revision("O12", 1));
+  EXPECT_FALSE(store_->programs.revision("O12", 1));
 }
 
 TEST_F(SerialTransferTest, MarksOnlyWhatCanBeDamagedAsDamaged) {
@@ -104,7 +104,7 @@ TEST_F(SerialTransferTest, MarksOnlyWhatCanBeDamagedAsDamaged) {
   line().write("1\nO23\nG0\nO24\nG0\n%\n");
   ASSERT_TRUE(wait_stored("O24"));
   const auto is_marked = [&](const std::string& program) {
-    return store_->revision(program, 1)->comment.find("DAMAGED") != std::string::npos;
+    return store_->programs.revision(program, 1)->comment.find("DAMAGED") != std::string::npos;
   };
   EXPECT_FALSE(is_marked("O21"));
   EXPECT_TRUE(is_marked("O22"));
@@ -121,7 +121,7 @@ TEST_F(SerialTransferTest, JudgesEachProgramOfATextByTheRules) {
   line().write("%\nO31\nM30\nO9999\n(PRG=1234)\n%\n");
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
   EXPECT_TRUE(wait_stored("O31"));
-  EXPECT_FALSE(store_->revision("O9999", 1));
+  EXPECT_FALSE(store_->programs.revision("O9999", 1));
 }
 
 /// CEN-200.
@@ -139,7 +139,7 @@ TEST_F(SerialTransferTest, SendsSeveralProgramsAsOneText) {
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == "completed"; }));
   EXPECT_EQ(ports_->port("com1")->transfer->sent, sent->size);
   EXPECT_TRUE(wait([&] { return is_noted("completed"); }));
-  EXPECT_TRUE(store_->runs({.machine = "mill", .program = {}, .state = {}}, {})->empty())
+  EXPECT_TRUE(store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {})->empty())
       << "it is no run";
 }
 
@@ -248,17 +248,18 @@ TEST_F(XmodemTransferTest, ReceivesWhatItAsksTheControlFor) {
   EXPECT_EQ(ports_->receive("com1").error().code, Errc::Busy);
   const std::string first = "O51\n" + blocks(40);
   ASSERT_TRUE(control_->send(first + "O52\nG0 X1\n", ""));
-  ASSERT_TRUE(control_->until([&] { return store_->revision("O52", 1).has_value(); }));
+  ASSERT_TRUE(control_->until([&] { return store_->programs.revision("O52", 1).has_value(); }));
   EXPECT_EQ(text_of("O51"), first);
   EXPECT_EQ(text_of("O52"), "O52\nG0 X1\n");
-  EXPECT_TRUE(store_->revision("O51", 1)->is_held);
+  EXPECT_TRUE(store_->programs.revision("O51", 1)->is_held);
 }
 
 TEST_F(XmodemTransferTest, TakesForAProgramWhateverItAskedFor) {
   add_control();
   ASSERT_TRUE(ports_->receive("com1"));
   ASSERT_TRUE(control_->send("X1 Y2\nX3\n", ""));
-  ASSERT_TRUE(control_->until([&] { return store_->revision("mill-punched", 1).has_value(); }));
+  ASSERT_TRUE(
+      control_->until([&] { return store_->programs.revision("mill-punched", 1).has_value(); }));
   EXPECT_EQ(text_of("mill-punched"), "X1 Y2\nX3\n");
 }
 

@@ -1,4 +1,4 @@
-#include "storage/store.hpp"
+#include "storage/run_store.hpp"
 
 #include <array>
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/base/clock.hpp"
+#include "protocol/base/digest.hpp"
+#include "protocol/base/result.hpp"
+#include "storage/page.hpp"
+
+namespace dripline::storage {
+
+/// What a machine's control knows before a program starts: tools, offsets, variables, parameters.
+struct SetupRevision {
+  std::string machine;
+  std::uint64_t number = 0;  ///< 1, 2, 3 ... per machine
+  std::string text;          ///< TOML
+  Digest sha256;             ///< of the text
+  std::uint64_t size = 0;    ///< of the text, bytes
+  std::string comment, author;
+  UtcTime created;
+};
+inline constexpr std::size_t kMaxSetup = 64 * 1024;
+
+/// The setups of machines, every version of them. Promises of every store: storage/store.hpp.
+class SetupStore {
+ public:
+  virtual ~SetupStore() = default;
+
+  /// Makes `text` the machine's newest setup, or returns the newest when it has that text already.
+  /// `number`, `sha256`, `size` and `created` are the store's own. `base`: the number that must
+  /// still be the newest for a new text to be kept, 0 for none at all. Errors: Syntax and
+  /// LimitExceeded (the machine's name, kMaxSetup), Conflict (another is the newest by now).
+  virtual Result<SetupRevision> save(const SetupRevision& setup,
+                                     std::optional<std::uint64_t> base) = 0;
+  /// Newest first, without their texts.
+  virtual Result<std::vector<SetupRevision>> list(const std::string& machine, Page page) = 0;
+  /// The newest, or the one with that number. Errors: NotFound.
+  virtual Result<SetupRevision> find(const std::string& machine,
+                                     std::optional<std::uint64_t> number) = 0;
+};
+
+}  // namespace dripline::storage
