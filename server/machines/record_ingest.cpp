@@ -11,8 +11,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kFirstPause = 250ms;  ///< doubled up to kLongestPause while the store refuses
-constexpr auto kLongestPause = 5000ms;
 constexpr auto kAckRetry = 20ms;
 
 storage::Record to_stored(const dds::Record& record) {
@@ -27,11 +25,6 @@ storage::Record to_stored(const dds::Record& record) {
           .sequence = record.sequence,
           .device = record.device,
           .text = record.text};
-}
-
-/// No later try can store these: something in them is not what a gateway writes.
-bool is_hopeless(const Error& error) {
-  return error.code == Errc::Syntax || error.code == Errc::LimitExceeded;
 }
 
 /// What was after a gap has not been stored; it comes again.
@@ -57,7 +50,7 @@ void RecordIngest::take(dds::Record record) {
   const std::string machine = record.machine;
   {
     const std::lock_guard lock(mutex_);
-    Lane& lane = lanes_[machine];
+    Lane& lane = this->lane(machine);
     if (lane.waiting.size() >= kMaxWaiting) return;
     lane.waiting.push_back(std::move(record));
     if (std::exchange(lane.is_scheduled, true)) return;
@@ -65,11 +58,26 @@ void RecordIngest::take(dds::Record record) {
   parts_.pool.post([this, machine] { commit(machine); });
 }
 
+/// Hold the mutex.
+RecordIngest::Lane& RecordIngest::lane(const std::string& machine) {
+  Lane& lane = lanes_[machine];
+  if (!lane.writer) {
+    lane.writer = std::make_unique<RecordWriter>(RecordWriter::Parts{
+        .store = parts_.store.records,
+        .machine = machine,
+        .consequence = "the gateway keeps them",
+        .on_fault = [this, machine](const std::string& fault) {
+          if (parts_.on_fault) parts_.on_fault(machine, fault);
+        }});
+  }
+  return lane;
+}
+
 void RecordIngest::greet(const std::string& machine, std::uint64_t epoch) {
   storage::RecordBatch nothing;
   nothing.machine = machine;
   nothing.epoch = epoch;
-  const auto stored = store(nothing);
+  const auto stored = parts_.store.records.store(nothing);
   if (stored && *stored > 0) succeed(machine, epoch, *stored);
 }
 
@@ -88,7 +96,7 @@ void RecordIngest::commit(const std::string& machine) {
   storage::RecordBatch batch = to_batch(records, foreign);
   const auto stored = store(batch);
   if (!stored && !is_hopeless(stored.error())) {
-    return put_back(machine, std::move(records), stored.error());
+    return put_back(machine, std::move(records));
   }
   if (stored) {
     leave_out_after(*stored, batch);
@@ -172,26 +180,24 @@ storage::RecordBatch RecordIngest::to_batch(const std::vector<dds::Record>& reco
 }
 
 Result<std::uint64_t> RecordIngest::store(const storage::RecordBatch& batch) {
-  if (batch.beginnings.empty() && batch.endings.empty()) return parts_.store.records.store(batch);
+  RecordWriter* writer = nullptr;  // lives as long as this
+  {
+    const std::lock_guard lock(mutex_);
+    writer = lane(batch.machine).writer.get();
+  }
+  if (batch.beginnings.empty() && batch.endings.empty()) return writer->store(batch);
   const std::lock_guard lock(parts_.state_mutex);
-  return parts_.store.records.store(batch);
+  return writer->store(batch);
 }
 
-void RecordIngest::put_back(const std::string& machine, std::vector<dds::Record> records,
-                            const Error& error) {
+void RecordIngest::put_back(const std::string& machine, std::vector<dds::Record> records) {
   std::chrono::milliseconds pause{};
   {
     const std::lock_guard lock(mutex_);
     Lane& lane = lanes_[machine];
-    if (!std::exchange(lane.is_failing, true)) {
-      spdlog::error("records cannot be stored, the gateway keeps them machine={}: {}", machine,
-                    error.what);
-      if (parts_.on_fault) parts_.on_fault(machine, error.what);
-    }
     lane.waiting.insert(lane.waiting.begin(), std::make_move_iterator(records.begin()),
                         std::make_move_iterator(records.end()));
-    lane.pause = std::clamp<std::chrono::milliseconds>(lane.pause * 2, kFirstPause, kLongestPause);
-    pause = lane.pause;
+    pause = lane.writer->pause();
   }
   parts_.pool.post_after(pause, [this, machine] { commit(machine); });
 }
@@ -200,11 +206,6 @@ void RecordIngest::succeed(const std::string& machine, std::uint64_t epoch, std:
   {
     const std::lock_guard lock(mutex_);
     Lane& lane = lanes_[machine];
-    if (std::exchange(lane.is_failing, false)) {
-      spdlog::info("records are stored again machine={}", machine);
-      if (parts_.on_fault) parts_.on_fault(machine, "");
-    }
-    lane.pause = 0ms;
     lane.ack = {.machine = machine, .epoch = epoch, .number = number};
     lane.ack_is_owed = true;
   }

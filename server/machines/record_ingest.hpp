@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/dds/endpoint.hpp"
+#include "server/machines/record_writer.hpp"
 #include "server/machines/worker_pool.hpp"
 #include "storage/store.hpp"
 
@@ -38,10 +40,10 @@ class RecordIngest {
     /// After a commit, on a worker; one call at a time per machine. Without the records that name
     /// another machine's run: those are kept and nothing else.
     std::function<void(const storage::RecordBatch&)> on_stored;
-    /// A machine's records cannot be stored, and why; empty: they are again.
-    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+    /// At every try: why a machine's records cannot be stored; empty: they can again.
+    std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
-  /// All parts must outlive the keeper's last task, that is, the pool must be stopped first.
+  /// All parts must outlive the last task, so the pool must be stopped first.
   explicit RecordIngest(Parts parts) : parts_(std::move(parts)) {}
 
   /// Any thread; returns at once.
@@ -53,17 +55,17 @@ class RecordIngest {
 
  private:
   struct Lane {
+    std::unique_ptr<RecordWriter> writer;
     std::deque<dds::Record> waiting;
     bool is_scheduled = false;
-    bool is_failing = false;
     std::string foreign_run;  ///< of another machine, named last
-    std::chrono::milliseconds pause{0};
     dds::RecordAck ack;  ///< the last one to be sent
     bool ack_is_owed = false;
   };
+  Lane& lane(const std::string& machine);
   void commit(const std::string& machine);
   std::vector<dds::Record> take_batch(Lane& lane);
-  void put_back(const std::string& machine, std::vector<dds::Record> records, const Error& error);
+  void put_back(const std::string& machine, std::vector<dds::Record> records);
   void succeed(const std::string& machine, std::uint64_t epoch, std::uint64_t number);
   void acknowledge(const std::string& machine);
   /// The runs among these that are another machine's.

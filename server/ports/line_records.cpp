@@ -1,9 +1,15 @@
 #include "server/ports/line_records.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
 namespace dripline::ports {
+
+LineRecords::LineRecords(Parts parts)
+    : parts_(std::move(parts)),
+      writer_({.store = parts_.store,
+               .machine = parts_.machine,
+               .consequence = "the line is held",
+               .on_fault = parts_.on_fault}) {}
 
 void LineRecords::add(std::vector<Entry> entries) {
   const UtcTime now = parts_.clock.now();
@@ -13,7 +19,7 @@ void LineRecords::add(std::vector<Entry> entries) {
     entry.record.time = now;
     waiting_.push_back(std::move(entry));
   }
-  if (pause_.count() == 0) commit();
+  if (writer_.pause().count() == 0) commit();
 }
 
 /// A former line of this machine may have used numbers of this epoch.
@@ -22,7 +28,7 @@ Result<void> LineRecords::number_waiting() {
     storage::RecordBatch nothing;
     nothing.machine = parts_.machine;
     nothing.epoch = parts_.epoch;
-    const auto last = parts_.store.store(nothing);
+    const auto last = writer_.store(nothing);
     if (!last) return fail(last.error());
     last_ = *last;
   }
@@ -32,7 +38,7 @@ Result<void> LineRecords::number_waiting() {
 
 void LineRecords::commit() {
   if (waiting_.empty()) return;
-  if (auto numbered = number_waiting(); !numbered) return retry(numbered.error());
+  if (!number_waiting()) return retry();
   storage::RecordBatch batch;
   batch.machine = parts_.machine;
   batch.epoch = parts_.epoch;
@@ -41,13 +47,8 @@ void LineRecords::commit() {
     if (entry.beginning) batch.beginnings.push_back(*entry.beginning);
     if (entry.ending) batch.endings.push_back(*entry.ending);
   }
-  const auto stored = parts_.store.store(batch);
-  if (!stored) return retry(stored.error());
-  if (pause_.count() > 0) {
-    spdlog::info("records are stored again machine={}", parts_.machine);
-    if (parts_.on_fault) parts_.on_fault("");
-  }
-  pause_ = {};
+  const auto stored = writer_.store(batch);
+  if (!stored) return retry();
   std::deque<Entry> done = std::move(waiting_);
   waiting_.clear();
   numbered_ = 0;
@@ -57,14 +58,9 @@ void LineRecords::commit() {
   }
 }
 
-void LineRecords::retry(const Error& error) {
-  if (pause_.count() == 0) {
-    spdlog::error("records cannot be stored, the line is held machine={}: {}", parts_.machine,
-                  error.what);
-  }
-  if (parts_.on_fault) parts_.on_fault(error.what);
-  pause_ = std::clamp(pause_ * 2, kFirstPause, kLongestPause);
-  parts_.strand.post_after(pause_, [self = shared_from_this()] { self->commit(); });
+void LineRecords::retry() {
+  const auto pause = std::max(writer_.pause(), machines::RecordWriter::kFirstPause);
+  parts_.strand.post_after(pause, [self = shared_from_this()] { self->commit(); });
 }
 
 }  // namespace dripline::ports

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "protocol/base/clock.hpp"
+#include "server/machines/record_writer.hpp"
 #include "server/ports/strand.hpp"
 #include "storage/record_store.hpp"
 
@@ -18,9 +19,6 @@ namespace dripline::ports {
 /// that a commit whose answer was lost doubles nothing. Used on the strand only.
 class LineRecords : public std::enable_shared_from_this<LineRecords> {
  public:
-  static constexpr std::chrono::milliseconds kFirstPause{250};  ///< doubled up to kLongestPause
-  static constexpr std::chrono::milliseconds kLongestPause{5000};
-
   struct Parts {
     storage::RecordStore& store;
     const Clock& clock;
@@ -29,7 +27,7 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
     std::uint64_t epoch = 0;
     std::function<void(const storage::RecordBatch&)> on_stored;  ///< on the strand
     /// On the strand, at every try: why nothing can be stored; empty: it can again.
-    std::function<void(const std::string& trouble)> on_fault = {};
+    std::function<void(const std::string& fault)> on_fault = {};
   };
   struct Entry {
     storage::Record record;  ///< machine, epoch, number and time are filled in here
@@ -37,7 +35,7 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
     std::optional<storage::RunEnding> ending;
     std::function<void()> on_stored;  ///< may be empty
   };
-  explicit LineRecords(Parts parts) : parts_(std::move(parts)) {}
+  explicit LineRecords(Parts parts);
 
   /// Stores them, at once or later. Whoever adds keeps the number of waiting ones bounded.
   void add(std::vector<Entry> entries);
@@ -47,13 +45,13 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
  private:
   void commit();
   Result<void> number_waiting();
-  void retry(const Error& error);
+  void retry();
 
   Parts parts_;
+  machines::RecordWriter writer_;
   std::deque<Entry> waiting_;
   std::optional<std::uint64_t> last_;  ///< number given last
   std::size_t numbered_ = 0;           ///< of those that wait
-  std::chrono::milliseconds pause_{0};
 };
 
 }  // namespace dripline::ports
