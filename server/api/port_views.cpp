@@ -69,7 +69,7 @@ std::string hex(std::string_view bytes) {
 json transfer_json(const ports::PortTransfer& transfer) {
   return {{"id", transfer.id},       {"programs", transfer.programs},
           {"size", transfer.size},   {"sent", transfer.sent},
-          {"state", transfer.state}, {"reason", optional_text(transfer.reason)}};
+          {"state", to_string(transfer.state)}, {"reason", optional_text(transfer.reason)}};
 }
 
 json port_json(const ports::PortView& view) {
@@ -96,7 +96,7 @@ json port_json(const ports::PortView& view) {
 json traffic_json(const ports::PortTraffic& traffic) {
   return {{"port", traffic.port},
           {"time", to_iso8601(traffic.time)},
-          {"what", traffic.what},
+          {"what", ports::to_string(traffic.what)},
           {"bytes", hex(traffic.bytes)},
           {"text", traffic.text}};
 }

@@ -229,7 +229,8 @@ void LineSession::stop(const std::string& reason) {
 
 std::optional<SendProgress> LineSession::progress() const {
   if (!sending_) return std::nullopt;
-  return SendProgress{.id = sending_->job.id,
+  return SendProgress{.kind = sending_->job.kind,
+                      .id = sending_->job.id,
                       .size = sending_->job.size,
                       .sent = sending_->ledger.place(),
                       .is_checked = is_checked_,

@@ -14,18 +14,17 @@ namespace dripline::ports {
 
 class ProgramStream;
 
-/// What the id of a job begins with that is an answer to the control, or programs sent as they
-/// stand, and no run.
-inline constexpr std::string_view kAnswerPrefix = "answer";
-inline constexpr std::string_view kTransferPrefix = "transfer";
-inline bool is_run(std::string_view id) {
-  return !id.starts_with(kAnswerPrefix) && !id.starts_with(kTransferPrefix);
-}
+enum class JobKind : std::uint8_t {
+  Run,
+  Transfer,  ///< programs sent as they are, without a run
+  Answer,    ///< a text that answers a request of the control
+};
 
 /// Something to be sent over a line: a run's program or several programs, fetched piece by piece,
 /// or an answer to the control, which is here as a whole.
 struct SendJob {
-  std::string id;                     ///< the run's, or one that begins with a prefix above
+  JobKind kind = JobKind::Run;
+  std::string id;                     ///< a run's is the run's own
   std::string name;                   ///< of the program, for protocols that say it
   std::vector<std::string> programs;  ///< of a transfer, for people
   std::shared_ptr<const ProgramStream> stream;  ///< where pieces come from
@@ -38,6 +37,7 @@ struct SendJob {
 
 /// What is known of the job on the line now.
 struct SendProgress {
+  JobKind kind = JobKind::Run;
   std::string id;
   std::uint64_t size = 0;
   BlockPlace sent;          ///< left, or accepted where the protocol checks

@@ -111,7 +111,8 @@ Result<SendJob> job_of(storage::ProgramStore& store, const PortView& port,
   if (!stream) return fail(stream_error(stream.error(), machine));
   if (auto fits = check_memory(port, machine, stream->size()); !fits) return fail(fits.error());
   SendJob job;
-  job.id = fmt::format("{}-{}", kTransferPrefix, random_hex(4));
+  job.kind = JobKind::Transfer;
+  job.id = fmt::format("transfer-{}", random_hex(4));
   job.name =
       has_numbered_programs(port.settings.flow) ? program_number(first.program) : first.program;
   for (const auto& revision : revisions) {
@@ -136,7 +137,7 @@ std::string request_words(const PortRequest& request) {
 
 std::string what_it_does(const PortView& port) {
   if (!port.run.empty()) return "sending run " + port.run;
-  if (port.transfer && port.transfer->state == "sending") {
+  if (port.transfer && port.transfer->state == TransferState::Sending) {
     return fmt::format("sending {}", fmt::join(port.transfer->programs, ", "));
   }
   return "receiving";
@@ -187,7 +188,7 @@ Result<void> stop_transfer(const std::shared_ptr<PortLine>& line, const std::str
       return answer(fail(Errc::Conflict, "port {} sends run {}; dnc run abort ends it",
                          port.port.name, port.run));
     }
-    const bool is_sending = port.transfer && port.transfer->state == "sending";
+    const bool is_sending = port.transfer && port.transfer->state == TransferState::Sending;
     if (is_sending) return line->abort(port.transfer->id, reason, answer);
     line->stop_receiving(reason, answer);
   });

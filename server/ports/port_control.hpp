@@ -8,18 +8,22 @@
 
 #include "protocol/base/clock.hpp"
 #include "protocol/base/result.hpp"
+#include "protocol/serial/line_driver.hpp"
 #include "protocol/wire/discipline.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::ports {
 
-/// Programs sent as they stand, without a run: the last such transfer of a port.
+enum class TransferState : std::uint8_t { Sending, Completed, Aborted, Interrupted };
+std::string_view to_string(TransferState state);
+
+/// Programs sent as they are, without a run: the last such transfer of a port.
 struct PortTransfer {
   std::string id = {};
   std::vector<std::string> programs = {};  ///< names, in their order
   std::uint64_t size = 0, sent = 0;        ///< bytes
-  std::string state = "sending";           ///< sending, completed, aborted, interrupted
-  std::string reason = {};                 ///< why it did not end well, for people
+  TransferState state = TransferState::Sending;
+  std::string reason = {};  ///< why it was not completed, for people
 };
 
 /// A program that is to be sent; without a number the latest revision.
@@ -52,13 +56,18 @@ struct PortView {
   std::optional<PortRequest> request;    ///< until it is taken back, or something is sent
 };
 
+using TrafficKind = serial::LineTraffic::What;
+std::string_view to_string(TrafficKind kind);
+/// Errors: Syntax.
+Result<TrafficKind> parse_traffic_kind(std::string_view text);
+
 /// One thing on a line: what monitors show and the flight recorder keeps.
 struct PortTraffic {
   std::string port;
   UtcTime time;
-  std::string what;   ///< sent, received, fault, lines, note
-  std::string bytes;  ///< as they were; sent and received
-  std::string text;   ///< in words; the others
+  TrafficKind what = TrafficKind::Note;
+  std::string bytes;  ///< Sent and Received: as they were
+  std::string text;   ///< the others: in words
 };
 
 /// Which rule of a port's call file a received text meets, and what would be done.

@@ -11,7 +11,19 @@ namespace {
 constexpr std::uint64_t kFetchPiece = 32 * 1024;
 
 bool is_answer(const SendProgress& progress) {
-  return progress.id.starts_with(kAnswerPrefix);
+  return progress.kind == JobKind::Answer;
+}
+
+TransferState state_of(SendOutcome outcome) {
+  switch (outcome) {
+    case SendOutcome::Completed:
+      return TransferState::Completed;
+    case SendOutcome::Aborted:
+      return TransferState::Aborted;
+    case SendOutcome::Interrupted:
+      return TransferState::Interrupted;
+  }
+  return TransferState::Interrupted;
 }
 
 /// Calls what was asked for exactly once: with a result, or when the work that should have given
@@ -148,7 +160,7 @@ PortView PortLine::view() const {
   const std::lock_guard lock(mutex_);
   view.trouble = store_fault_.empty() ? fault_ : store_fault_;
   view.waiting_since = waiting_since_;
-  if (progress_ && is_run(progress_->id)) view.run = progress_->id;
+  if (progress_ && progress_->kind == JobKind::Run) view.run = progress_->id;
   view.transfer = transfer_;
   if (transfer_ && progress_ && progress_->id == transfer_->id) {
     view.transfer->sent = progress_->sent.bytes;
@@ -312,7 +324,7 @@ void PortLine::fetch(const SendJob& job, std::uint64_t offset) {
 std::optional<PortTransfer> PortLine::show_transfer(const SendJob& job) {
   const std::lock_guard lock(mutex_);
   auto before = transfer_;
-  if (job.id.starts_with(kTransferPrefix)) {
+  if (job.kind == JobKind::Transfer) {
     transfer_ = PortTransfer{.id = job.id, .programs = job.programs, .size = job.size};
   }
   return before;
@@ -327,7 +339,7 @@ void PortLine::end_transfer(const SendEnd& end) {
   const std::lock_guard lock(mutex_);
   if (!transfer_ || transfer_->id != end.progress.id) return;
   transfer_->sent = end.progress.sent.bytes;
-  transfer_->state = to_string(end.outcome);
+  transfer_->state = state_of(end.outcome);
   transfer_->reason = end.reason;
 }
 

@@ -280,12 +280,12 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
               },
           .on_sent =
               [this, reception, name](const SendEnd& end) {
-                if (end.progress.id.starts_with(kTransferPrefix)) {
+                if (end.progress.kind == JobKind::Transfer) {
                   note_transfer(name, end);
                   if (end.outcome == SendOutcome::Completed) reception->on_transfer_completed();
                 }
-                if (end.progress.id.starts_with(kAnswerPrefix)) reception->on_answer_over();
-                if (!is_run(end.progress.id)) return;
+                if (end.progress.kind == JobKind::Answer) reception->on_answer_over();
+                if (end.progress.kind != JobKind::Run) return;
                 reception->on_run(end.progress.id);
                 feed_.on_sent(name, end);
               },

@@ -21,7 +21,7 @@ bool wait_open(const PortLine& line, std::chrono::milliseconds limit) {
 std::string modem_lines(PortLine& line) {
   auto entries = line.recorder().entries();
   const auto last = std::find_if(entries.rbegin(), entries.rend(),
-                                 [](const PortTraffic& entry) { return entry.what == "lines"; });
+                                 [](const PortTraffic& entry) { return entry.what == TrafficKind::Lines; });
   if (last == entries.rend()) return "the line tells nothing of its modem lines";
   return "modem lines: " + last->text;
 }
@@ -48,7 +48,7 @@ void judge_flow(const PortView& view, PortTest& test) {
 std::uint64_t characters_of_text(PortLine& line) {
   std::uint64_t count = 0;
   for (const PortTraffic& entry : line.recorder().entries()) {
-    if (entry.what != "received") continue;
+    if (entry.what != TrafficKind::Received) continue;
     count += static_cast<std::uint64_t>(
         std::ranges::count_if(entry.bytes, [](char c) { return c != '\x11' && c != '\x13'; }));
   }

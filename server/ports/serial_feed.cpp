@@ -67,7 +67,7 @@ machines::MachineView SerialFeed::view_of(const PortLine& line) const {
   status.execution = execution_of(port, progress);
   status.message = message_of(port, progress);
   if (progress) {
-    if (is_run(progress->id)) status.run = progress->id;
+    if (progress->kind == JobKind::Run) status.run = progress->id;
     status.sent = progress->sent.bytes;
     status.accepted = progress->is_checked ? progress->sent.blocks : 0;
     status.total_bytes = progress->size;
@@ -195,7 +195,7 @@ void SerialFeed::on_change(const std::string& machine) {
 
 void SerialFeed::save_progress(const PortLine& line) {
   const auto progress = line.progress();
-  if (!progress || !is_run(progress->id)) return;
+  if (!progress || progress->kind != JobKind::Run) return;
   runs_.progressed(line.port().machine, *progress);
   on_change(line.port().machine);
 }

@@ -8,22 +8,6 @@ namespace {
 
 using What = serial::LineTraffic::What;
 
-std::string_view to_string(What what) {
-  switch (what) {
-    case What::Sent:
-      return "sent";
-    case What::Received:
-      return "received";
-    case What::Fault:
-      return "fault";
-    case What::Lines:
-      return "lines";
-    case What::Note:
-      return "note";
-  }
-  return "note";
-}
-
 bool has_bytes(What what) {
   return what == What::Sent || what == What::Received;
 }
@@ -46,7 +30,7 @@ FlightRecorder::FlightRecorder(Options options, const Clock& clock,
 
 /// Whether it goes on what the open entry says.
 bool FlightRecorder::joins(const serial::LineTraffic& traffic, UtcTime now) const {
-  return open_ && has_bytes(traffic.what) && open_->what == to_string(traffic.what) &&
+  return open_ && has_bytes(traffic.what) && open_->what == traffic.what &&
          open_->bytes.size() < kMaxEntry && now - open_->time < kMaxSpan;
 }
 
@@ -65,7 +49,7 @@ void FlightRecorder::add(const serial::LineTraffic& traffic) {
   }
   PortTraffic entry{.port = options_.port,
                     .time = now,
-                    .what = std::string(to_string(traffic.what)),
+                    .what = traffic.what,
                     .bytes = std::string(bytes),
                     .text = std::string(traffic.text)};
   if (has_bytes(traffic.what)) {

@@ -73,7 +73,7 @@ void read_file(const std::filesystem::path& path, std::vector<PortTraffic>& entr
 std::string to_recording_line(const PortTraffic& entry) {
   const nlohmann::json json{{"port", entry.port},
                             {"time", to_iso8601(entry.time)},
-                            {"what", entry.what},
+                            {"what", to_string(entry.what)},
                             {"bytes", to_hex(entry.bytes)},
                             {"text", entry.text}};
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -90,12 +90,14 @@ Result<PortTraffic> parse_recording_line(std::string_view line) {
   if (!port || !time || !what || !bytes || !text) {
     return fail(Errc::Syntax, "a line of a recording has port, time, what, bytes and text");
   }
+  const auto kind = parse_traffic_kind(*what);
+  if (!kind) return fail(kind.error());
   const auto when = parse_time(*time);
   if (!when) return fail(when.error());
   auto characters = from_hex(*bytes);
   if (!characters) return fail(characters.error());
   return PortTraffic{
-      .port = *port, .time = *when, .what = *what, .bytes = *std::move(characters), .text = *text};
+      .port = *port, .time = *when, .what = *kind, .bytes = *std::move(characters), .text = *text};
 }
 
 RecordingFile::RecordingFile(const std::filesystem::path& folder, const std::string& port)

@@ -227,7 +227,8 @@ void RemoteRequestHandler::send_answer(std::string name, std::string text) const
 void RemoteRequestHandler::put_on_line(SendJob job) const {
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
-  job.id = fmt::format("{}-{}", kAnswerPrefix, random_hex(4));
+  job.kind = JobKind::Answer;
+  job.id = fmt::format("answer-{}", random_hex(4));
   line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
     if (!begun) spdlog::warn("answer not sent machine={}: {}", machine, begun.error().what);
   });

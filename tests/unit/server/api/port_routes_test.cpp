@@ -17,7 +17,7 @@ class PortRoutes : public ApiTest {
                                          {"rules", "[[rule]]"}});
   }
   ports::PortTraffic traffic(const std::string& bytes) {
-    return {"line-1", clock_.now(), "received", bytes, ""};
+    return {"line-1", clock_.now(), ports::TrafficKind::Received, bytes, ""};
   }
 };
 

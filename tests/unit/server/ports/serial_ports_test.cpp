@@ -131,7 +131,7 @@ TEST_F(SerialTest, RecordsWhatPassesAndTellsIt) {
   std::string sent;
   ports_->on_traffic([&](const ports::PortTraffic& entry) {
     const std::lock_guard lock(mutex);
-    if (entry.what == "sent") sent += entry.bytes;
+    if (entry.what == ports::TrafficKind::Sent) sent += entry.bytes;
   });
   add_port(mill());
   push("O1", "G0 X1\n");
@@ -143,7 +143,7 @@ TEST_F(SerialTest, RecordsWhatPassesAndTellsIt) {
   }));
   std::string recorded;
   for (const auto& entry : recording()) {
-    if (entry.what == "sent") recorded += entry.bytes;
+    if (entry.what == ports::TrafficKind::Sent) recorded += entry.bytes;
   }
   EXPECT_EQ(recorded, "G0 X1\n");
   EXPECT_EQ(ports_->port("com1")->sent, 6u);

@@ -146,7 +146,7 @@ TEST_F(SerialProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
   line().write("\x11");
   line().read_until("\x03");
   line().write("\x04");
-  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == "completed"; }));
+  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == ports::TransferState::Completed; }));
   line().write("\x11");
   const std::string again = line().read_until("BEGIN PGM ");
   EXPECT_NE(again.find("BEGIN PGM "), std::string::npos) << "offered again";

@@ -42,7 +42,7 @@ TEST_F(RecorderTest, JoinsCharactersThatFollowEachOther) {
   add(recorder, What::Sent, "1");
   const auto entries = recorder.entries();
   ASSERT_EQ(entries.size(), 5u);
-  EXPECT_EQ(entries[0].what, "sent");
+  EXPECT_EQ(entries[0].what, What::Sent);
   EXPECT_EQ(entries[0].bytes, "G0");
   EXPECT_EQ(entries[1].bytes, "\x13");
   EXPECT_EQ(entries[2].text, "parity error");
@@ -98,7 +98,8 @@ TEST_F(RecorderTest, ReadsNothingFromLinesOfAnotherForm) {
       const char* bad :
       {"", "[]", "{}", R"({"port":"a","time":"x","what":"sent","bytes":"","text":""})",
        R"({"port":"a","time":"2026-13-01T00:00:00.000000Z","what":"sent","bytes":"","text":""})",
-       R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"sent","bytes":"0g","text":""})"}) {
+       R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"sent","bytes":"0g","text":""})",
+       R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"x","bytes":"","text":""})"}) {
     EXPECT_FALSE(parse_recording_line(bad)) << bad;
   }
 }
