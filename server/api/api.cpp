@@ -66,7 +66,7 @@ storage::Page read_page(QueryReader& query) {
   return page;
 }
 
-machines::FeedListener publish_to(EventHub& hub) {
+machines::MachineListener publish_to(EventHub& hub) {
   const auto publish = [&hub](std::string kind, const std::string& machine, const auto& make_json) {
     if (!hub.has_listeners()) return;
     hub.publish({.kind = std::move(kind), .machine = machine, .data = to_text(make_json())});

@@ -69,7 +69,7 @@ class Api {
 };
 
 /// The listener that turns what the feeds tell into events.
-machines::FeedListener publish_to(EventHub& hub);
+machines::MachineListener publish_to(EventHub& hub);
 
 /// The listener that turns what passes over lines into events; for PortControl::on_traffic.
 std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub);

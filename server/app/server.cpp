@@ -15,7 +15,7 @@
 #include "server/library/programs.hpp"
 #include "server/machines/machine_notices.hpp"
 #include "server/machines/machine_service.hpp"
-#include "server/ports/machine_feeds.hpp"
+#include "server/ports/machine_router.hpp"
 #include "server/ports/port_service.hpp"
 #include "storage/sqlite_store.hpp"
 
@@ -102,7 +102,7 @@ struct Server::Parts {
         ports(*store, programs, clock,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               api::publish_to(events)),
-        machines(store->runs, feeds, ports.feed()),
+        machines(store->runs, feeds, ports.machines()),
         api({.programs = programs,
              .setups = setups,
              .feeds = machines,
@@ -138,8 +138,8 @@ struct Server::Parts {
     };
   }
 
-  machines::FeedListener feed_listener() {
-    machines::FeedListener listener = api::publish_to(events);
+  machines::MachineListener feed_listener() {
+    machines::MachineListener listener = api::publish_to(events);
     listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
       using Level = library::Health::Level;
       const auto notices = machines::notices_of(view);
@@ -164,7 +164,7 @@ struct Server::Parts {
   api::EventHub events;
   machines::MachineService feeds;
   ports::PortService ports;
-  ports::MachineFeeds machines;
+  ports::MachineRouter machines;
   api::Api api;
   std::unique_ptr<library::HealthWatch> watch;
   std::unique_ptr<api::HttpServer> http;

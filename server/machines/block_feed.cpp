@@ -58,7 +58,7 @@ void BlockFeed::request(dds::BlockRequest request) {
   pool_.post([this, machine] { serve(machine); });
 }
 
-void BlockFeed::forget(const std::string& machine, const std::string& run) {
+void BlockFeed::drop(const std::string& machine, const std::string& run) {
   const std::lock_guard lock(mutex_);
   const auto lane = lanes_.find(machine);
   if (lane != lanes_.end() && lane->second.pinned.run == run) lane->second.pinned = {};

@@ -30,7 +30,7 @@ class BlockFeed {
   /// session of the gateway replaces what the old one asked for.
   void request(dds::BlockRequest request);
   /// The run has ended: what it asks for from now on is refused.
-  void forget(const std::string& machine, const std::string& run);
+  void drop(const std::string& machine, const std::string& run);
 
  private:
   struct Content {

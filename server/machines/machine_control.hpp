@@ -74,7 +74,7 @@ struct CommandRequest {
 
 /// What happened at the machines, told to whoever shows it. Called on worker threads, never two
 /// calls for one machine at once; must return soon.
-struct FeedListener {
+struct MachineListener {
   std::function<void(const MachineView&)> on_machine;
   std::function<void(const storage::Run&)> on_run;
   std::function<void(const storage::Record&)> on_record;

@@ -26,38 +26,38 @@ MachineService::Parts::Parts(MachineService& service, dds::ServerEndpoint& endpo
                .clock = service.clock_,
                .clock_ahead =
                    [&service](const std::string& machine) {
-                     return service.board_.clock_error(machine);
+                     return service.registry_.clock_error(machine);
                    },
                .state_mutex = service.state_mutex_,
                .on_stored = [&service](const auto& batch) { service.on_stored(batch); },
                .on_fault = service.options_.on_fault}),
       commands(endpoint, service.clock_, service.command_options(),
                [&service](const dds::Command& command) { service.on_late_start(command); }),
-      watch({.runs = service.store_.runs,
-             .clock = service.clock_,
-             .desk = commands,
-             .state_mutex = service.state_mutex_,
-             .on_change = service.listener_.on_run,
-             .on_unwanted = [&service](const auto& run) { service.abort_unwanted(run); }}) {}
+      reconciler({.runs = service.store_.runs,
+                  .clock = service.clock_,
+                  .commands = commands,
+                  .state_mutex = service.state_mutex_,
+                  .on_change = service.listener_.on_run,
+                  .on_unwanted = [&service](const auto& run) { service.abort_unwanted(run); }}) {}
 
 CommandDispatcher::Options MachineService::command_options() const {
   CommandDispatcher::Options options = options_.commands;
-  options.gateway_of = [this](const std::string& machine) { return board_.gateway(machine); };
+  options.gateway_of = [this](const std::string& machine) { return registry_.gateway(machine); };
   return options;
 }
 
 MachineService::MachineService(const storage::Store& store, const Clock& clock, Options options,
-                               FeedListener listener)
+                               MachineListener listener)
     : store_(store),
       clock_(clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
       pool_(options.workers),
-      board_({.machines = store.machines,
-              .runs = store.runs,
-              .clock = clock,
-              .pool = pool_,
-              .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
+      registry_({.machines = store.machines,
+                 .runs = store.runs,
+                 .clock = clock,
+                 .pool = pool_,
+                 .on_change = [this](const MachineView& view) { listener_.on_machine(view); }}) {}
 
 MachineService::~MachineService() {
   end();
@@ -71,22 +71,22 @@ dds::ServerHandlers MachineService::handlers() {
   dds::ServerHandlers handlers;
   handlers.on_announce = [this](dds::Announce announce) {
     Parts* parts = this->parts();
-    board_.on_announce(announce);
+    registry_.on_announce(announce);
     if (parts == nullptr) return;
     pool_.post([this, parts, announce] {
       parts->records.greet(announce.machine, announce.epoch);
       refuse_stranger(announce);
     });
   };
-  handlers.on_lost = [this](const std::string& machine) { board_.on_lost(machine); };
+  handlers.on_lost = [this](const std::string& machine) { registry_.on_lost(machine); };
   handlers.on_rival = [this](const std::string& machine, bool is_there) {
-    board_.on_rival(machine, is_there);
+    registry_.on_rival(machine, is_there);
   };
   handlers.on_status = [this](dds::Status status) {
     if (Parts* parts = this->parts(); parts != nullptr && !status.run.empty()) {
       parts->commands.on_run_seen(status.machine, status.run);
     }
-    board_.on_status(std::move(status));
+    registry_.on_status(std::move(status));
   };
   handlers.on_record = [this](dds::Record record) {
     if (Parts* parts = this->parts()) parts->records.take(std::move(record));
@@ -103,11 +103,11 @@ dds::ServerHandlers MachineService::handlers() {
 Result<void> MachineService::begin(std::unique_ptr<dds::ServerEndpoint> endpoint) {
   endpoint_ = std::move(endpoint);
   owned_parts_ = std::make_unique<Parts>(*this, *endpoint_);
-  if (auto loaded = board_.load(); !loaded) return loaded;
-  if (auto loaded = owned_parts_->watch.load(); !loaded) return loaded;
+  if (auto loaded = registry_.load(); !loaded) return loaded;
+  if (auto loaded = owned_parts_->reconciler.load(); !loaded) return loaded;
   parts_ = owned_parts_.get();
   // Machines that announced themselves between open() and now were not greeted.
-  for (const auto& view : board_.views()) {
+  for (const auto& view : registry_.views()) {
     if (view.is_connected) owned_parts_->records.greet(view.machine.name, view.machine.epoch);
   }
   pool_.post([this] { tick(); });
@@ -122,14 +122,14 @@ void MachineService::end() {
   if (is_ending_.exchange(true)) return;
   stop_waiting();
   pool_.stop();
-  board_.save();
+  registry_.save();
   endpoint_.reset();
 }
 
 void MachineService::tick() {
   if (is_ending_) return;
-  board_.save();
-  owned_parts_->watch.compare(board_.views());
+  registry_.save();
+  owned_parts_->reconciler.compare(registry_.views());
   log_rejected();
   pool_.post_after(MachineRegistry::kSaveInterval, [this] { tick(); });
 }
@@ -147,11 +147,11 @@ void MachineService::log_rejected() {
 }
 
 std::vector<MachineView> MachineService::machines() const {
-  return board_.views();
+  return registry_.views();
 }
 
 Result<MachineView> MachineService::machine(const std::string& name) const {
-  return board_.view(name);
+  return registry_.view(name);
 }
 
 dds::Rejected MachineService::rejected() const {
@@ -159,7 +159,7 @@ dds::Rejected MachineService::rejected() const {
 }
 
 Result<MachineView> MachineService::connected_machine(const std::string& name) const {
-  auto view = board_.view(name);
+  auto view = registry_.view(name);
   if (!view || view->is_connected) return view;
   return fail(Errc::Timeout, "machine '{}' is not connected; last seen {}", name,
               to_iso8601(view->machine.last_seen));
@@ -220,7 +220,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   // It may have announced itself this very moment, and a run needs its machine in the store.
   if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.runs.create(*run); !created) return fail(created.error());
-  parts->watch.watch(run->machine, run->id);
+  parts->reconciler.watch(run->machine, run->id);
   announce_run(run->id);
   dds::Command command;
   command.machine = run->machine;
@@ -240,17 +240,17 @@ Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
   if (outcome) {
     spdlog::info("run started machine={} run={} program={} revision={}", run.machine, run.id,
                  run.program, run.revision);
-    return owned_parts_->watch.settle(run.id, storage::RunState::Active, "");
+    return owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Active, "");
   }
   spdlog::warn("run not started machine={} run={} program={}: {}", run.machine, run.id, run.program,
                outcome.error().what);
   // When the server stops, nobody knows yet: the next one finds out.
   if (outcome.error().code == Errc::Io) return fail(outcome.error());
-  const auto settled =
-      owned_parts_->watch.settle(run.id, storage::RunState::Refused, outcome.error().what);
-  if (!settled) return fail(settled.error());
-  if (settled->state != storage::RunState::Refused) return settled;
-  owned_parts_->watch.forget(run.id);
+  const auto refused = owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Refused,
+                                                                outcome.error().what);
+  if (!refused) return fail(refused.error());
+  if (refused->state != storage::RunState::Refused) return refused;
+  owned_parts_->reconciler.drop(run.id);
   return fail(outcome.error());
 }
 
@@ -327,7 +327,7 @@ void MachineService::on_late_start(const dds::Command& late) {
 void MachineService::abort_unwanted(const storage::Run& run) {
   spdlog::warn("start accepted too late, aborting machine={} run={} program={}", run.machine,
                run.id, run.program);
-  owned_parts_->blocks.forget(run.machine, run.id);
+  owned_parts_->blocks.drop(run.machine, run.id);
   dds::Command abort;
   abort.machine = run.machine;
   abort.action = dds::CommandAction::Abort;
@@ -344,8 +344,8 @@ void MachineService::on_stored(const storage::RecordBatch& batch) {
   for (const auto& beginning : batch.beginnings) changed.insert(beginning.run);
   for (const auto& ending : batch.endings) {
     changed.insert(ending.run);
-    owned_parts_->watch.forget(ending.run);
-    owned_parts_->blocks.forget(batch.machine, ending.run);
+    owned_parts_->reconciler.drop(ending.run);
+    owned_parts_->blocks.drop(batch.machine, ending.run);
     spdlog::info("run ended machine={} run={} state={} executed={} verified={}", batch.machine,
                  ending.run, storage::to_string(ending.state), ending.counters.executed,
                  !ending.content_verified   ? "unknown"

@@ -33,7 +33,7 @@ class MachineService final : public MachineControl {
     std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
   };
   MachineService(const storage::Store& store, const Clock& clock, Options options,
-                 FeedListener listener);
+                 MachineListener listener);
   ~MachineService() override;
 
   /// Valid while the service lives; what arrives before begin() is left out, and asked or sent
@@ -59,7 +59,7 @@ class MachineService final : public MachineControl {
     BlockFeed blocks;
     RecordIngest records;
     CommandDispatcher commands;
-    RunWatch watch;
+    RunReconciler reconciler;
   };
   Parts* parts() const;
   void on_stored(const storage::RecordBatch& batch);
@@ -81,10 +81,10 @@ class MachineService final : public MachineControl {
   const storage::Store& store_;
   const Clock& clock_;
   const Options options_;
-  const FeedListener listener_;
+  const MachineListener listener_;
   std::mutex state_mutex_;  ///< held while the state of a run is changed
   WorkerPool pool_;
-  MachineRegistry board_;
+  MachineRegistry registry_;
   std::unique_ptr<dds::ServerEndpoint> endpoint_;
   std::unique_ptr<Parts> owned_parts_;
   std::atomic<Parts*> parts_{nullptr};

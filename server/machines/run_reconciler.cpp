@@ -5,7 +5,7 @@
 
 namespace dripline::machines {
 
-Result<void> RunWatch::load() {
+Result<void> RunReconciler::load() {
   for (const auto state : {storage::RunState::Ordered, storage::RunState::Active}) {
     constexpr std::uint64_t kPage = 500;
     for (std::uint64_t offset = 0;; offset += kPage) {
@@ -20,17 +20,17 @@ Result<void> RunWatch::load() {
   return {};
 }
 
-void RunWatch::watch(const std::string& machine, const std::string& run) {
+void RunReconciler::watch(const std::string& machine, const std::string& run) {
   const std::lock_guard lock(mutex_);
   runs_[run] = {.machine = machine, .absent_since = {}};
 }
 
-void RunWatch::forget(const std::string& run) {
+void RunReconciler::drop(const std::string& run) {
   const std::lock_guard lock(mutex_);
   runs_.erase(run);
 }
 
-void RunWatch::compare(const std::vector<MachineView>& machines) {
+void RunReconciler::compare(const std::vector<MachineView>& machines) {
   std::map<std::string, Watched> runs;
   {
     const std::lock_guard lock(mutex_);
@@ -49,25 +49,25 @@ void RunWatch::compare(const std::vector<MachineView>& machines) {
 }
 
 /// The start was taken, but neither its result nor a status came through in time.
-void RunWatch::look_for_unwanted(const MachineView& view) {
+void RunReconciler::look_for_unwanted(const MachineView& view) {
   const auto run = parts_.runs.find(view.status->run);
   if (!run || run->state != storage::RunState::Refused) return;
   if (run->machine == view.machine.name) parts_.on_unwanted(*run);
 }
 
-void RunWatch::judge(const std::string& run, const MachineView& view) {
+void RunReconciler::judge(const std::string& run, const MachineView& view) {
   if (view.is_connected && view.status && view.status->run == run) {
     is_absent_for_long(run, false);
-    auto settled = settle(run, storage::RunState::Active, "");
-    if (settled && settled->state != storage::RunState::Active) forget(run);
+    auto resolved = resolve_ordered(run, storage::RunState::Active, "");
+    if (resolved && resolved->state != storage::RunState::Active) drop(run);
     return;
   }
   const bool is_absent = view.is_connected && view.status && view.status->outbox == 0 &&
-                         !parts_.desk.is_waiting_for(run);
+                         !parts_.commands.is_waiting_for(run);
   if (is_absent_for_long(run, is_absent)) give_up(run);
 }
 
-bool RunWatch::is_absent_for_long(const std::string& run, bool is_absent) {
+bool RunReconciler::is_absent_for_long(const std::string& run, bool is_absent) {
   const std::lock_guard lock(mutex_);
   const auto found = runs_.find(run);
   if (found == runs_.end()) return false;
@@ -80,13 +80,13 @@ bool RunWatch::is_absent_for_long(const std::string& run, bool is_absent) {
   return parts_.clock.steady_now() - *since >= kAbsence;
 }
 
-void RunWatch::give_up(const std::string& id) {
+void RunReconciler::give_up(const std::string& id) {
   const std::lock_guard lock(parts_.state_mutex);
   const auto run = parts_.runs.find(id);
   if (!run && run.error().code != Errc::NotFound) return;  // tried again at the next comparison
   const bool was_commanded = run && run->state == storage::RunState::Ordered;
   const bool was_active = run && run->state == storage::RunState::Active;
-  if (!was_commanded && !was_active) return forget(id);
+  if (!was_commanded && !was_active) return drop(id);
   const auto state = was_commanded ? storage::RunState::Refused : storage::RunState::Interrupted;
   const std::string reason = was_commanded ? "the gateway never confirmed the start"
                                            : "the gateway does not know this run any more";
@@ -97,12 +97,12 @@ void RunWatch::give_up(const std::string& id) {
     spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
     return;
   }
-  forget(id);
+  drop(id);
   if (const auto changed = parts_.runs.find(id)) parts_.on_change(*changed);
 }
 
-Result<storage::Run> RunWatch::settle(const std::string& id, storage::RunState state,
-                                      const std::string& reason) {
+Result<storage::Run> RunReconciler::resolve_ordered(const std::string& id, storage::RunState state,
+                                                    const std::string& reason) {
   const std::lock_guard lock(parts_.state_mutex);
   auto run = parts_.runs.find(id);
   if (!run || run->state != storage::RunState::Ordered) return run;

@@ -19,31 +19,31 @@ namespace dripline::machines {
 /// show for kAbsence was never begun (Ordered: Refused) or was cut off without a record of it
 /// (Active: Interrupted). A refused run that a machine shows all the same is unwanted. Everything
 /// else is left to the gateway's own records.
-class RunWatch {
+class RunReconciler {
  public:
   static constexpr std::chrono::seconds kAbsence{15};
 
   struct Parts {
     storage::RunStore& runs;
     const Clock& clock;
-    const CommandDispatcher& desk;
+    const CommandDispatcher& commands;
     std::mutex& state_mutex;
     std::function<void(const storage::Run&)> on_change;
     /// A machine shows a run whose starter was told that nothing came of it; at every comparison.
     std::function<void(const storage::Run&)> on_unwanted;
   };
-  explicit RunWatch(Parts parts) : parts_(std::move(parts)) {}
+  explicit RunReconciler(Parts parts) : parts_(std::move(parts)) {}
 
   /// Finds the unfinished runs of a former life of the server.
   Result<void> load();
   void watch(const std::string& machine, const std::string& run);
-  void forget(const std::string& run);
+  void drop(const std::string& run);
   /// Compares; regularly, from one thread.
   void compare(const std::vector<MachineView>& machines);
 
   /// Ordered becomes `state`, every other state stays: its record was faster. Returns the run.
-  Result<storage::Run> settle(const std::string& run, storage::RunState state,
-                              const std::string& reason);
+  Result<storage::Run> resolve_ordered(const std::string& run, storage::RunState state,
+                                       const std::string& reason);
 
  private:
   struct Watched {

@@ -60,7 +60,7 @@ void PortService::note_transfer(const std::string& machine, const SendEnd& end) 
   line->note(fmt::format("the transfer of programs {}: {} of {} bytes sent{}{}",
                          to_string(end.outcome), end.progress.sent.bytes, end.progress.size,
                          end.reason.empty() ? "" : ": ", end.reason));
-  feed_.on_change(machine);
+  line_machines_.on_change(machine);
 }
 
 Result<RuleVerdict> PortService::test_rules(const std::string& name,

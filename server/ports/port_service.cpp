@@ -41,14 +41,14 @@ std::uint64_t next_epoch(const storage::Store& store, const Clock& clock) {
 }  // namespace
 
 PortService::PortService(const storage::Store& store, library::Programs& programs,
-                         const Clock& clock, Options options, machines::FeedListener listener)
+                         const Clock& clock, Options options, machines::MachineListener listener)
     : store_(store),
       programs_(programs),
       clock_(clock),
       options_(std::move(options)),
       listener_(std::move(listener)),
       epoch_(next_epoch(store, clock)),
-      feed_(store, clock, *this, listener_),
+      line_machines_(store, clock, *this, listener_),
       pool_(options_.workers) {}
 
 PortService::~PortService() {
@@ -206,7 +206,7 @@ PortService::Machine PortService::machine_of(const std::string& name, std::uint6
   const Machine machine{.strand = strand,
                         .records = std::make_shared<LineRecords>(std::move(parts))};
   strand.post([this, name, records = machine.records] {
-    if (auto ended = feed_.runs().give_up_unfinished(name, *records); !ended) {
+    if (auto ended = line_machines_.runs().give_up_unfinished(name, *records); !ended) {
       spdlog::error("unfinished runs not ended machine={}: {}", name, ended.error().what);
     }
   });
@@ -254,7 +254,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
   const std::string& name = entry.port.machine;
   RemoteRequestHandler::Parts calls{
       .store = store_,
-      .feed = feed_,
+      .machines = line_machines_,
       .directory = *this,
       .clock = clock_,
       .machine = name,
@@ -264,7 +264,7 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
                       entry.settings.flow == wire::Flow::HeidenhainBcc ||
                       entry.settings.flow == wire::Flow::Xmodem};
-  const auto reception = std::make_shared<Reception>(Reception::Parts{
+  const auto inbound = std::make_shared<InboundHandler>(InboundHandler::Parts{
       .machines = store_.machines,
       .programs = programs_,
       .records = machine.records,
@@ -274,24 +274,24 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .extracts_programs = entry.settings.extracts_programs,
       .sends_programs_only = entry.settings.control.kind == wire::ControlKind::ProtoTrak,
       .calls = std::move(calls)});
-  return {.on_incoming =
-              [reception](Incoming incoming, std::function<void()> kept) {
-                reception->take(std::move(incoming), std::move(kept));
-              },
-          .on_sent =
-              [this, reception, name](const SendEnd& end) {
-                if (end.progress.kind == JobKind::Transfer) {
-                  note_transfer(name, end);
-                  if (end.outcome == SendOutcome::Completed) reception->on_transfer_completed();
-                }
-                if (end.progress.kind == JobKind::Answer) reception->on_answer_over();
-                if (end.progress.kind != JobKind::Run) return;
-                reception->on_run(end.progress.id);
-                feed_.on_sent(name, end);
-              },
-          .on_request =
-              [reception](const wire::TransferRequest& request) { reception->answer(request); },
-          .on_change = [this, name] { feed_.on_change(name); }};
+  return {
+      .on_incoming =
+          [inbound](Incoming incoming, std::function<void()> kept) {
+            inbound->take(std::move(incoming), std::move(kept));
+          },
+      .on_sent =
+          [this, inbound, name](const SendEnd& end) {
+            if (end.progress.kind == JobKind::Transfer) {
+              note_transfer(name, end);
+              if (end.outcome == SendOutcome::Completed) inbound->on_transfer_completed();
+            }
+            if (end.progress.kind == JobKind::Answer) inbound->on_answer_over();
+            if (end.progress.kind != JobKind::Run) return;
+            inbound->on_run(end.progress.id);
+            line_machines_.on_sent(name, end);
+          },
+      .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
+      .on_change = [this, name] { line_machines_.on_change(name); }};
 }
 
 std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
@@ -314,7 +314,7 @@ void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {
   const auto line = weak.lock();
   if (!line) return;
   line->tick();
-  if (count % kTicksPerSave == 0) feed_.save_progress(*line);
+  if (count % kTicksPerSave == 0) line_machines_.save_progress(*line);
   line->strand().post_after(kTick, [this, weak, count] { tick(weak, count + 1); });
 }
 
@@ -332,8 +332,8 @@ void PortService::on_store_fault(const std::string& machine, const std::string& 
 
 void PortService::on_stored(const storage::RecordBatch& batch) {
   for (const auto& record : batch.records) listener_.on_record(record);
-  for (const auto& beginning : batch.beginnings) feed_.announce(beginning.run);
-  for (const auto& ending : batch.endings) feed_.announce(ending.run);
+  for (const auto& beginning : batch.beginnings) line_machines_.announce(beginning.run);
+  for (const auto& ending : batch.endings) line_machines_.announce(ending.run);
 }
 
 PortView PortService::view_of(const Entry& entry) {

@@ -11,16 +11,16 @@
 #include "server/machines/machine_control.hpp"
 #include "server/machines/worker_pool.hpp"
 #include "server/ports/line_directory.hpp"
+#include "server/ports/line_machines.hpp"
 #include "server/ports/port_control.hpp"
 #include "server/ports/requests/rule_set.hpp"
-#include "server/ports/serial_feed.hpp"
 
 namespace dripline::ports {
 
 /// The ports of the server. Wiring:
 ///     PortService ports(store, programs, clock, options, listener);
 ///     ports.begin(configured);        // opens what is stored, and what the settings file says
-///     ... MachineFeeds feeds(store, gateways, ports.feed());
+///     ... MachineRouter feeds(store, gateways, ports.machines());
 ///     ... ports.end();
 /// Every enabled port is open and listens all the time. Each has the thread of its line, which
 /// never waits for storage; what waits is done on a pool, machine by machine in order.
@@ -35,7 +35,7 @@ class PortService final : public PortControl, private LineDirectory {
     std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
   };
   PortService(const storage::Store& store, library::Programs& programs, const Clock& clock,
-              Options options, machines::FeedListener listener);
+              Options options, machines::MachineListener listener);
   ~PortService() override;
 
   /// Runs of a former life of the server end Interrupted. A stored port that cannot be used is
@@ -45,7 +45,7 @@ class PortService final : public PortControl, private LineDirectory {
   void open_due();
   /// Lines are closed, their runs end Interrupted, what has arrived is stored.
   void end();
-  SerialFeed& feed() { return feed_; }
+  LineMachines& machines() { return line_machines_; }
 
   std::vector<PortView> ports() const override;
   Result<PortView> port(const std::string& name) const override;
@@ -104,9 +104,9 @@ class PortService final : public PortControl, private LineDirectory {
   library::Programs& programs_;
   const Clock& clock_;
   const Options options_;
-  const machines::FeedListener listener_;
+  const machines::MachineListener listener_;
   const std::uint64_t epoch_;  ///< of this process, as the clock has it: see epoch_of
-  SerialFeed feed_;
+  LineMachines line_machines_;
   std::mutex change_mutex_;  ///< held by save, remove and test: one at a time
   mutable std::mutex mutex_;
   std::map<std::string, Entry> entries_;

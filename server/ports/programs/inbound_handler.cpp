@@ -27,36 +27,36 @@ std::string printed_text(const std::string& line) {
 
 }  // namespace
 
-Reception::Reception(Parts parts)
+InboundHandler::InboundHandler(Parts parts)
     : parts_(std::move(parts)),
       calls_(parts_.calls),
-      intake_(*parts_.rules, parts_.extracts_programs) {}
+      splitter_(*parts_.rules, parts_.extracts_programs) {}
 
-void Reception::take(Incoming incoming, std::function<void()> kept) {
-  std::vector<Intake::Item> items;
+void InboundHandler::take(Incoming incoming, std::function<void()> kept) {
+  std::vector<InboundSplitter::Item> items;
   switch (incoming.what) {
     case Incoming::What::Began:
       is_in_transfer_ = true;
       program_name_ = incoming.text;
-      intake_.take_programs_only(parts_.sends_programs_only || machine_control() == kProtoTrak);
-      intake_.begin(incoming.text, incoming.is_program);
+      splitter_.take_programs_only(parts_.sends_programs_only || machine_control() == kProtoTrak);
+      splitter_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:
-      items = intake_.take(incoming.text);
+      items = splitter_.take(incoming.text);
       break;
     case Incoming::What::Damaged:
       if (program_) program_->damage(incoming.text);
       early_damage_ = incoming.text;
       break;
     case Incoming::What::Ended:
-      items = intake_.end();
+      items = splitter_.end();
       break;
     case Incoming::What::Failed:
-      items = intake_.fail();
+      items = splitter_.fail();
       break;
   }
   if (const auto line = parts_.calls.directory.line_of(parts_.machine)) {
-    line->note_kind(incoming.what != Incoming::What::Text || intake_.may_be_program());
+    line->note_kind(incoming.what != Incoming::What::Text || splitter_.may_be_program());
   }
   std::vector<LineRecords::Entry> entries;
   for (auto& item : items) handle(item, entries);
@@ -73,25 +73,26 @@ void Reception::take(Incoming incoming, std::function<void()> kept) {
   if (!is_in_transfer_) do_calls();
 }
 
-void Reception::handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries) {
+void InboundHandler::handle(InboundSplitter::Item& item, std::vector<LineRecords::Entry>& entries) {
   switch (item.what) {
-    case Intake::Item::What::Line:
+    case InboundSplitter::Item::What::Line:
       return handle_line(item.text, entries);
-    case Intake::Item::What::ProgramBegan:
+    case InboundSplitter::Item::What::ProgramBegan:
       return begin_program(item.text);
-    case Intake::Item::What::ProgramText:
+    case InboundSplitter::Item::What::ProgramText:
       // Its error comes again with the end.
       if (program_) (void)program_->append(item.text).has_value();
       return;
-    case Intake::Item::What::ProgramEnded:
+    case InboundSplitter::Item::What::ProgramEnded:
       return end_program(item.text);
-    case Intake::Item::What::ProgramFailed:
+    case InboundSplitter::Item::What::ProgramFailed:
       program_.reset();
       return say("a program was cut off and not stored");
   }
 }
 
-void Reception::handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries) {
+void InboundHandler::handle_line(const std::string& line,
+                                 std::vector<LineRecords::Entry>& entries) {
   const RuleHit hit = parts_.rules->judge(TextKind::Line, line);
   if (hit.action == RuleAction::Ignore) return;
   if (hit.action != RuleAction::Report) return call(hit.action, hit.argument);
@@ -104,25 +105,25 @@ void Reception::handle_line(const std::string& line, std::vector<LineRecords::En
   entries.push_back(std::move(entry));
 }
 
-std::string Reception::current_run() {
+std::string InboundHandler::current_run() {
   const auto line = parts_.calls.directory.line_of(parts_.machine);
   if (line) on_run(line->view().run);
   return run_;
 }
 
-std::string Reception::machine_control() const {
+std::string InboundHandler::machine_control() const {
   const auto machine = parts_.machines.find(parts_.machine);
   return machine ? machine->control : std::string();
 }
 
-void Reception::begin_program(const std::string& name) {
+void InboundHandler::begin_program(const std::string& name) {
   program_name_ = name;
   program_.emplace(parts_.programs, UploadedProgram::Origin{.machine = parts_.machine,
                                                             .control = machine_control()});
   if (!early_damage_.empty()) program_->damage(std::exchange(early_damage_, {}));
 }
 
-void Reception::end_program(const std::string& head) {
+void InboundHandler::end_program(const std::string& head) {
   if (!program_) return;
   const RuleHit hit = parts_.rules->judge(TextKind::Program, head);
   if (hit.action == RuleAction::Program) {
@@ -135,7 +136,7 @@ void Reception::end_program(const std::string& head) {
   program_.reset();
 }
 
-void Reception::store_program(const std::string& name) {
+void InboundHandler::store_program(const std::string& name) {
   const auto stored = program_->store(name);
   if (!stored) {
     spdlog::error("punched program not stored machine={}: {}", parts_.machine, stored.error().what);
@@ -152,16 +153,16 @@ void Reception::store_program(const std::string& name) {
 }
 
 /// To whoever watches the line; and to the control, where the rules say how.
-void Reception::say(const std::string& words) {
+void InboundHandler::say(const std::string& words) {
   if (const auto line = parts_.calls.directory.line_of(parts_.machine)) line->note(words);
   call(RuleAction::Report, words);
 }
 
-void Reception::call(RuleAction action, const std::string& argument) {
+void InboundHandler::call(RuleAction action, const std::string& argument) {
   if (waiting_.size() < kMaxWaiting) waiting_.push_back({action, argument});
 }
 
-void Reception::do_calls() {
+void InboundHandler::do_calls() {
   for (const auto& call : std::exchange(waiting_, {})) {
     if (call.action == RuleAction::Report) {
       calls_.report({call.argument});

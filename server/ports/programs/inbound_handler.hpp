@@ -16,7 +16,7 @@ namespace dripline::ports {
 /// Everything a control sends, told apart by the port's rules and put where it belongs: printed
 /// lines become records, programs held revisions, calls are carried out once the line is free. On
 /// the machine's strand.
-class Reception {
+class InboundHandler {
  public:
   struct Parts {
     storage::MachineStore& machines;
@@ -28,7 +28,7 @@ class Reception {
     bool sends_programs_only = false;  ///< the control prints nothing
     RemoteRequestHandler::Parts calls;
   };
-  explicit Reception(Parts parts);
+  explicit InboundHandler(Parts parts);
 
   /// `kept` is called when the text is stored, or needs not be.
   void take(Incoming incoming, std::function<void()> kept);
@@ -48,7 +48,7 @@ class Reception {
     RuleAction action = RuleAction::Ignore;
     std::string argument;
   };
-  void handle(Intake::Item& item, std::vector<LineRecords::Entry>& entries);
+  void handle(InboundSplitter::Item& item, std::vector<LineRecords::Entry>& entries);
   void handle_line(const std::string& line, std::vector<LineRecords::Entry>& entries);
   std::string current_run();
   std::string machine_control() const;
@@ -61,7 +61,7 @@ class Reception {
 
   Parts parts_;
   RemoteRequestHandler calls_;
-  Intake intake_;
+  InboundSplitter splitter_;
   std::optional<UploadedProgram> program_;
   std::string program_name_;  ///< as the protocol told it
   std::string run_;

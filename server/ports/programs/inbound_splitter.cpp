@@ -22,12 +22,12 @@ bool is_percent(std::string_view line) {
 
 }  // namespace
 
-void Intake::begin(std::string name, bool is_program) {
+void InboundSplitter::begin(std::string name, bool is_program) {
   name_ = std::move(name);
   if ((is_program || !name_.empty()) && !is_program_) begin_program();
 }
 
-std::vector<Intake::Item> Intake::take(std::string_view text) {
+std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) {
   for (const char c : text) {
     if (is_dropped(c)) continue;
     if (c == '\n') {
@@ -48,7 +48,7 @@ std::vector<Intake::Item> Intake::take(std::string_view text) {
 }
 
 /// A rule may say that such a line is printed, or begins a program; a call in it says neither.
-bool Intake::is_program_line(const std::string& line) const {
+bool InboundSplitter::is_program_line(const std::string& line) const {
   const auto hit = rules_.judge(TextKind::Line, line);
   if (hit.rule != nullptr && hit.action == RuleAction::Program) return true;
   if (hit.rule != nullptr &&
@@ -59,17 +59,17 @@ bool Intake::is_program_line(const std::string& line) const {
 }
 
 /// Another program than the one in hand. `:15` is what ISO tapes have for O15.
-bool Intake::begins_next(const std::string& line) {
+bool InboundSplitter::begins_next(const std::string& line) {
   if (!extracts_ || !name_.empty()) return false;
   const auto first = line.find_first_not_of(" \t");
-  if (first == std::string::npos || line[first] != ':') return splitter_.begins_next(line);
+  if (first == std::string::npos || line[first] != ':') return programs_.begins_next(line);
   std::string with_letter = line;
   with_letter[first] = 'O';
-  return splitter_.begins_next(with_letter);
+  return programs_.begins_next(with_letter);
 }
 
 /// What a complete line is depends on what came before it.
-void Intake::end_line() {
+void InboundSplitter::end_line() {
   const std::string line = std::exchange(line_, {});
   if (is_program_) {
     if (begins_next(line)) {
@@ -97,47 +97,47 @@ void Intake::end_line() {
   add_to_program(line + "\n");
 }
 
-bool Intake::may_be_program() const {
+bool InboundSplitter::may_be_program() const {
   return is_program_ || takes_programs_only_ || is_after_percent_ ||
          (!line_.empty() && is_program_line(line_));
 }
 
 /// `line` is its first.
-void Intake::begin_program_with(const std::string& line) {
+void InboundSplitter::begin_program_with(const std::string& line) {
   begin_program();
   begins_next(line);
   blocks_ = 1;
 }
 
-void Intake::begin_program() {
+void InboundSplitter::begin_program() {
   is_program_ = true;
   blocks_ = 0;
-  splitter_ = {};
+  programs_ = {};
   head_.clear();
   items_.push_back({.what = Item::What::ProgramBegan, .text = name_});
   if (std::exchange(is_after_percent_, false)) add_to_program("%\n");
   is_printing_ = false;
 }
 
-void Intake::add_to_program(std::string_view text) {
+void InboundSplitter::add_to_program(std::string_view text) {
   if (head_.size() < kProgramHead) head_ += text.substr(0, kProgramHead - head_.size());
   piece_ += text;
   if (piece_.size() >= kPiece) flush_program();
 }
 
-void Intake::flush_program() {
+void InboundSplitter::flush_program() {
   if (piece_.empty()) return;
   items_.push_back({.what = Item::What::ProgramText, .text = std::exchange(piece_, {})});
 }
 
-void Intake::end_program() {
+void InboundSplitter::end_program() {
   flush_program();
   is_program_ = false;
   name_.clear();
   items_.push_back({.what = Item::What::ProgramEnded, .text = std::exchange(head_, {})});
 }
 
-std::vector<Intake::Item> Intake::end() {
+std::vector<InboundSplitter::Item> InboundSplitter::end() {
   if (!line_.empty()) end_line();
   // The line took the end character for its own; a ProtoTRAK's program is none without it.
   if (is_program_ && takes_programs_only_) add_to_program("%\n");
@@ -147,7 +147,7 @@ std::vector<Intake::Item> Intake::end() {
   return taken();
 }
 
-std::vector<Intake::Item> Intake::fail() {
+std::vector<InboundSplitter::Item> InboundSplitter::fail() {
   // Some controls write a whole program in one line.
   if (!is_program_ && !line_.empty() && is_program_line(line_)) begin_program();
   if (is_program_) {
@@ -159,7 +159,7 @@ std::vector<Intake::Item> Intake::fail() {
   return end();
 }
 
-std::vector<Intake::Item> Intake::taken() {
+std::vector<InboundSplitter::Item> InboundSplitter::taken() {
   return std::exchange(items_, {});
 }
 

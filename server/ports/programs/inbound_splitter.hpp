@@ -15,7 +15,7 @@ class RuleSet;
 /// it is complete; a program piece by piece, because it may be of any size. NUL, DEL and CR are
 /// dropped. With `extracts` a program ends where the next one's O line begins, so a text with
 /// several becomes several; nothing is left out. One thread; the rules must outlive it.
-class Intake {
+class InboundSplitter {
  public:
   /// A longer line that is printed is told in pieces.
   static constexpr std::size_t kMaxLine = 4096;
@@ -32,7 +32,7 @@ class Intake {
     std::string text;
   };
 
-  explicit Intake(const RuleSet& rules, bool extracts = false)
+  explicit InboundSplitter(const RuleSet& rules, bool extracts = false)
       : rules_(rules), extracts_(extracts) {}
 
   /// What such a control sends is a program whatever it looks like: it prints nothing.
@@ -61,7 +61,7 @@ class Intake {
   const RuleSet& rules_;
   const bool extracts_;
   bool takes_programs_only_ = false;
-  interpreter::centurion::ProgramSplitter splitter_;  ///< of the text in hand
+  interpreter::centurion::ProgramSplitter programs_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete
   std::string piece_;  ///< of a program, not told

@@ -85,9 +85,9 @@ void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
   if (parts_.refuses) line->refuse("NO RUN WAITS");
 }
 
-SerialFeed::Started RemoteRequestHandler::on_started(bool is_request) const {
-  return [desk = *this, is_request](const Result<storage::Run>& run) {
-    if (!run) desk.say_no(run.error().what, is_request);
+LineMachines::Started RemoteRequestHandler::on_started(bool is_request) const {
+  return [handler = *this, is_request](const Result<storage::Run>& run) {
+    if (!run) handler.say_no(run.error().what, is_request);
   };
 }
 
@@ -97,7 +97,7 @@ void RemoteRequestHandler::send(const std::string& name, bool is_request) {
   if (!program) {
     return say_no(program.error().what, is_request, library::Refusal::NoSuchProgram);
   }
-  parts_.feed.start_later(
+  parts_.machines.start_later(
       {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
       on_started(is_request), is_request ? name : "");
 }
@@ -113,15 +113,15 @@ void RemoteRequestHandler::restart(const std::string& block) {
   const auto last =
       parts_.store.runs.list({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
   if (!last || last->empty()) return say_no("there was no run to begin again", false);
-  parts_.feed.start_later({.machine = parts_.machine,
-                           .program = last->front().program,
-                           .revision = last->front().revision,
-                           .author = kAuthor,
-                           .from = *point,
-                           .head = choice == "HEAD"  ? machines::StartHead::Send
-                                   : choice == "SET" ? machines::StartHead::Set
-                                                     : machines::StartHead::Ask},
-                          on_started(false));
+  parts_.machines.start_later({.machine = parts_.machine,
+                               .program = last->front().program,
+                               .revision = last->front().revision,
+                               .author = kAuthor,
+                               .from = *point,
+                               .head = choice == "HEAD"  ? machines::StartHead::Send
+                                       : choice == "SET" ? machines::StartHead::Set
+                                                         : machines::StartHead::Ask},
+                              on_started(false));
 }
 
 void RemoteRequestHandler::send_listing(bool is_request) {

@@ -5,8 +5,8 @@
 
 #include "server/library/control_words.hpp"
 #include "server/ports/line_directory.hpp"
+#include "server/ports/line_machines.hpp"
 #include "server/ports/requests/rule_set.hpp"
-#include "server/ports/serial_feed.hpp"
 
 namespace dripline::ports {
 
@@ -27,7 +27,7 @@ class RemoteRequestHandler {
 
   struct Parts {
     const storage::Store& store;
-    SerialFeed& feed;
+    LineMachines& machines;
     const LineDirectory& directory;
     const Clock& clock;
     std::string machine;
@@ -64,7 +64,7 @@ class RemoteRequestHandler {
               library::Refusal refusal = library::Refusal::None) const;
   void send_answer(std::string name, std::string text) const;
   void put_on_line(SendJob job) const;
-  SerialFeed::Started on_started(bool is_request) const;
+  LineMachines::Started on_started(bool is_request) const;
   /// The library's name for what the control calls `name`. Errors: NotFound.
   Result<std::string> find_program(const std::string& name) const;
   /// The same for a request: only what is known to be for the machine's control.

@@ -113,14 +113,14 @@ RuleHit RuleSet::judge(TextKind kind, std::string_view text, std::vector<std::st
 }
 
 RuleVerdict RuleSet::explain(const std::string& text, bool extracts) const {
-  Intake intake(*this, extracts);
+  InboundSplitter intake(*this, extracts);
   auto items = intake.take(text);
   for (auto& item : intake.end()) items.push_back(std::move(item));
   RuleVerdict verdict;
   std::size_t lines = 0;
   for (const auto& item : items) {
-    const bool is_line = item.what == Intake::Item::What::Line;
-    if (!is_line && item.what != Intake::Item::What::ProgramEnded) continue;
+    const bool is_line = item.what == InboundSplitter::Item::What::Line;
+    if (!is_line && item.what != InboundSplitter::Item::What::ProgramEnded) continue;
     if (++lines > kMaxExplainedLines) break;
     verdict.why.push_back(is_line ? fmt::format("a line that is printed: {}", item.text)
                                   : fmt::format("a program {}", program_name(item.text)));

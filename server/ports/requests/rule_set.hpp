@@ -61,7 +61,7 @@ class RuleSet {
   RuleHit judge(TextKind kind, std::string_view text,
                 std::vector<std::string>* why = nullptr) const;
   /// For people: cuts the text as it would be on the line and judges it, program or line by line.
-  /// `extracts`: as Intake's.
+  /// `extracts`: as InboundSplitter's.
   RuleVerdict explain(const std::string& text, bool extracts = false) const;
 
   /// The program number that answers to the control bear ("O9998"); empty: it gets none.

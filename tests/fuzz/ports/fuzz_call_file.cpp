@@ -11,11 +11,11 @@
 namespace {
 
 using namespace dripline::ports;
-using What = Intake::Item::What;
+using What = InboundSplitter::Item::What;
 
-void add(std::vector<Intake::Item> items, std::string& reported) {
+void add(std::vector<InboundSplitter::Item> items, std::string& reported) {
   for (const auto& item : items) {
-    if (item.what == What::Line && item.text.size() > Intake::kMaxLine) std::abort();
+    if (item.what == What::Line && item.text.size() > InboundSplitter::kMaxLine) std::abort();
     // Pieces of a program may be cut anywhere.
     if (item.what != What::ProgramText)
       reported += static_cast<char>('A' + static_cast<int>(item.what));
@@ -25,7 +25,7 @@ void add(std::vector<Intake::Item> items, std::string& reported) {
 }
 
 std::string reported(const RuleSet& rules, std::string_view text, std::size_t step) {
-  Intake intake(rules);
+  InboundSplitter intake(rules);
   std::string all;
   for (std::size_t at = 0; at < text.size(); at += step) {
     add(intake.take(text.substr(at, step)), all);

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/api.hpp"
-#include "tests/unit/server/api/fake_feeds.hpp"
+#include "tests/unit/server/api/fake_machines.hpp"
 #include "tests/unit/server/api/fake_ports.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
@@ -130,7 +130,7 @@ class ApiTest : public ServerTest {
     return run.id;
   }
 
-  FakeFeeds feeds_;
+  FakeMachines feeds_;
   FakePorts ports_;
   library::Health health_{clock_};
   api::EventHub events_;

@@ -1,7 +1,7 @@
 // How program text gets to the gateways.
 #include "server/machines/called_programs.hpp"
 #include "tests/support/store_decorator.hpp"
-#include "tests/unit/server/machines/feed_fixture.hpp"
+#include "tests/unit/server/machines/machine_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -13,7 +13,7 @@ std::string contour(std::size_t size) {
   return text;
 }
 
-class FeedBlocks : public FeedTest {
+class FeedBlocks : public MachineServiceTest {
  protected:
   /// A run that has begun, of a program with `text`.
   std::string running(const std::string& text) {

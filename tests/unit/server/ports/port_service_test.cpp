@@ -1,5 +1,5 @@
 #include "tests/support/store_decorator.hpp"
-#include "tests/unit/server/ports/serial_fixture.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -14,7 +14,7 @@ TEST_F(SerialTest, KeepsPortsAndOpensThemAgain) {
   EXPECT_EQ(ports_->port("com1")->settings.baud, 115200u);
   ASSERT_TRUE(ports_->remove("com1"));
   EXPECT_EQ(ports_->port("com1").error().code, Errc::NotFound);
-  EXPECT_EQ(ports_->feed().machine("mill").error().code, Errc::NotFound);
+  EXPECT_EQ(ports_->machines().machine("mill").error().code, Errc::NotFound);
 }
 
 TEST_F(SerialTest, HasOneOwnerForALineAndOneLineForAMachine) {

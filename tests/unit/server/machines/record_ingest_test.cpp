@@ -1,6 +1,6 @@
 // What the machines report, and when it is acknowledged.
 #include "tests/support/store_decorator.hpp"
-#include "tests/unit/server/machines/feed_fixture.hpp"
+#include "tests/unit/server/machines/machine_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -19,7 +19,7 @@ struct FullDisk final : test_support::RecordStoreDecorator {
   std::atomic<int> refused{0};
 };
 
-class FeedRecords : public FeedTest {
+class FeedRecords : public MachineServiceTest {
  protected:
   std::string running(const std::string& text) {
     push("O0100", text);

@@ -1,4 +1,4 @@
-#include "server/ports/serial_feed.hpp"
+#include "server/ports/line_machines.hpp"
 
 #include <spdlog/spdlog.h>
 #include <future>
@@ -14,9 +14,9 @@ namespace {
 /// late still has where to go.
 template <class T>
 Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
-  if (answer.wait_for(SerialFeed::kAnswerLimit) == std::future_status::ready) return answer.get();
+  if (answer.wait_for(LineMachines::kAnswerLimit) == std::future_status::ready) return answer.get();
   return fail(Errc::Timeout, "{}: the line did not answer within {} s; the outcome is unknown",
-              what, SerialFeed::kAnswerLimit.count());
+              what, LineMachines::kAnswerLimit.count());
 }
 
 dds::Execution execution_of(const PortView& port, const std::optional<SendProgress>& progress) {
@@ -46,15 +46,16 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
 
 }  // namespace
 
-SerialFeed::SerialFeed(const storage::Store& store, const Clock& clock,
-                       const LineDirectory& directory, const machines::FeedListener& listener)
+LineMachines::LineMachines(const storage::Store& store, const Clock& clock,
+                           const LineDirectory& directory,
+                           const machines::MachineListener& listener)
     : store_(store),
       clock_(clock),
       directory_(directory),
       listener_(listener),
       runs_(store, clock) {}
 
-machines::MachineView SerialFeed::view_of(const PortLine& line) const {
+machines::MachineView LineMachines::view_of(const PortLine& line) const {
   const PortView port = line.view();
   const auto progress = line.progress();
   machines::MachineView view;
@@ -78,27 +79,27 @@ machines::MachineView SerialFeed::view_of(const PortLine& line) const {
   return view;
 }
 
-std::vector<machines::MachineView> SerialFeed::machines() const {
+std::vector<machines::MachineView> LineMachines::machines() const {
   std::vector<machines::MachineView> views;
   for (const auto& line : directory_.lines()) views.push_back(view_of(*line));
   return views;
 }
 
-Result<machines::MachineView> SerialFeed::machine(const std::string& name) const {
+Result<machines::MachineView> LineMachines::machine(const std::string& name) const {
   const auto line = directory_.line_of(name);
   if (!line) return fail(Errc::NotFound, "machine '{}' has no port", name);
   return view_of(*line);
 }
 
-Result<storage::Run> SerialFeed::start(const machines::StartRequest& request) {
+Result<storage::Run> LineMachines::start(const machines::StartRequest& request) {
   auto promise = std::make_shared<std::promise<Result<storage::Run>>>();
   auto answer = promise->get_future();
   start_later(request, [promise](const Result<storage::Run>& run) { promise->set_value(run); });
   return wait_for<storage::Run>(std::move(answer), "start on machine '" + request.machine + "'");
 }
 
-void SerialFeed::start_later(const machines::StartRequest& request, Started started,
-                             const std::string& wire_name) {
+void LineMachines::start_later(const machines::StartRequest& request, Started started,
+                               const std::string& wire_name) {
   const auto line = directory_.line_of(request.machine);
   if (!line) return started(fail(Errc::NotFound, "machine '{}' has no port", request.machine));
   line->strand().post([this, line, request, started = std::move(started), wire_name] {
@@ -106,8 +107,9 @@ void SerialFeed::start_later(const machines::StartRequest& request, Started star
   });
 }
 
-void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const machines::StartRequest& request,
-                       const Started& started, const std::string& wire_name) {
+void LineMachines::begin(const std::shared_ptr<PortLine>& line,
+                         const machines::StartRequest& request, const Started& started,
+                         const std::string& wire_name) {
   const PortView port = line->view();
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
@@ -140,7 +142,7 @@ void SerialFeed::begin(const std::shared_ptr<PortLine>& line, const machines::St
   });
 }
 
-Result<storage::Run> SerialFeed::conclude(const storage::Run& run, const Result<void>& begun) {
+Result<storage::Run> LineMachines::conclude(const storage::Run& run, const Result<void>& begun) {
   if (begun) {
     runs_.started(run, *directory_.records_of(run.machine));
     return store_.runs.find(run.id);
@@ -150,7 +152,7 @@ Result<storage::Run> SerialFeed::conclude(const storage::Run& run, const Result<
   return fail(begun.error());
 }
 
-Result<void> SerialFeed::command(const machines::CommandRequest& request) {
+Result<void> LineMachines::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
     return fail(Errc::Unsupported, "machine '{}' hangs on a line: its panel is out of reach",
                 request.machine);
@@ -184,23 +186,23 @@ Result<void> SerialFeed::command(const machines::CommandRequest& request) {
   return done;
 }
 
-void SerialFeed::on_sent(const std::string& machine, const SendEnd& end) {
+void LineMachines::on_sent(const std::string& machine, const SendEnd& end) {
   runs_.ended(end, *directory_.records_of(machine));
   on_change(machine);
 }
 
-void SerialFeed::on_change(const std::string& machine) {
+void LineMachines::on_change(const std::string& machine) {
   if (const auto view = this->machine(machine)) listener_.on_machine(*view);
 }
 
-void SerialFeed::save_progress(const PortLine& line) {
+void LineMachines::save_progress(const PortLine& line) {
   const auto progress = line.progress();
   if (!progress || progress->kind != JobKind::Run) return;
   runs_.progressed(line.port().machine, *progress);
   on_change(line.port().machine);
 }
 
-void SerialFeed::announce(const std::string& run) const {
+void LineMachines::announce(const std::string& run) const {
   if (const auto stored = store_.runs.find(run)) listener_.on_run(*stored);
 }
 

@@ -1,6 +1,6 @@
-#include "server/ports/machine_feeds.hpp"
-#include "tests/unit/server/api/fake_feeds.hpp"
-#include "tests/unit/server/ports/serial_fixture.hpp"
+#include "server/ports/machine_router.hpp"
+#include "tests/unit/server/api/fake_machines.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -38,7 +38,7 @@ TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
   came += line().read_for(std::chrono::milliseconds(50));  // what was on its way
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
-  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
+  EXPECT_EQ(ports_->machines().machine("mill")->status->execution, dds::Execution::Waiting);
   EXPECT_EQ(ports_->port("com1")->run, run->id);
   line().write("\x11");
   came += line().read_until("N3000 G1 X300.5 Y-300.25\n");
@@ -55,7 +55,7 @@ TEST_F(SerialTest, IsHeldResumedAndAborted) {
   ASSERT_TRUE(run);
   line().read_until("N50 ");
   ASSERT_TRUE(command(run->id, dds::CommandAction::Hold));
-  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::FeedHold);
+  EXPECT_EQ(ports_->machines().machine("mill")->status->execution, dds::Execution::FeedHold);
   // What was offered already leaves, half a second's worth; then the line is silent.
   ASSERT_TRUE(wait([&] { return line().read_for(std::chrono::milliseconds(40)).empty(); }));
   ASSERT_TRUE(command(run->id, dds::CommandAction::Resume));
@@ -81,7 +81,7 @@ TEST_F(SerialTest, RefusesWhatALineCannotCarry) {
   machines::CommandRequest panel;
   panel.machine = "mill";
   panel.action = dds::CommandAction::Switch;
-  EXPECT_EQ(ports_->feed().command(panel).error().code, Errc::Unsupported);
+  EXPECT_EQ(ports_->machines().command(panel).error().code, Errc::Unsupported);
 }
 
 TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
@@ -97,8 +97,8 @@ TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
   EXPECT_NE(stored->reason.find("the cable is pulled"), std::string::npos) << stored->reason;
   EXPECT_NE(stored->reason.find("line"), std::string::npos) << stored->reason;
   EXPECT_GE(stored->counters.sent, 100u);
-  EXPECT_FALSE(ports_->feed().machine("mill")->is_connected);
-  EXPECT_NE(ports_->feed().machine("mill")->status->message.find("com1"), std::string::npos);
+  EXPECT_FALSE(ports_->machines().machine("mill")->is_connected);
+  EXPECT_NE(ports_->machines().machine("mill")->status->message.find("com1"), std::string::npos);
   EXPECT_EQ(start("O1").error().code, Errc::Timeout);
   line().put_back();
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
@@ -156,16 +156,16 @@ TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   machines::StartRequest request{
       .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = at_sequence(6)};
   request.memory = machines::StartMemory::Now;
-  EXPECT_EQ(ports_->feed().start(request).error().code, Errc::Unsupported);
+  EXPECT_EQ(ports_->machines().start(request).error().code, Errc::Unsupported);
   request.memory = machines::StartMemory::Ask;
   request.head = machines::StartHead::Send;
-  const auto sent = ports_->feed().start(request);
+  const auto sent = ports_->machines().start(request);
   ASSERT_TRUE(sent) << sent.error().what;
   EXPECT_EQ(line().read_until("M30\n"), "G21 G17 G90\nT2 M6\nS1000 M3\nG1 F200\nN6 Y2.\nM30\n");
   ASSERT_TRUE(wait_state(sent->id, RunState::Completed));
   EXPECT_EQ(store_->runs.find(sent->id)->counters.sent, 11u) << "the head is none of the program";
   request.head = machines::StartHead::Set;
-  const auto bare = ports_->feed().start(request);
+  const auto bare = ports_->machines().start(request);
   ASSERT_TRUE(bare) << bare.error().what;
   EXPECT_EQ(line().read_until("M30\n"), "N6 Y2.\nM30\n");
 }
@@ -216,14 +216,14 @@ TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
 TEST_F(SerialTest, ListsMachinesOfBothKinds) {
   start_ports();
   add_port(mill());
-  FakeFeeds gateways;
+  FakeMachines gateways;
   machines::MachineView lathe;
   lathe.machine.name = "lathe";
   lathe.is_connected = true;
   machines::MachineView mill_of_gateways;
   mill_of_gateways.machine.name = "mill";
   gateways.views = {lathe, mill_of_gateways};
-  ports::MachineFeeds machines(store_->runs, gateways, ports_->feed());
+  ports::MachineRouter machines(store_->runs, gateways, ports_->machines());
   auto views = machines.machines();
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[0].machine.name, "lathe");

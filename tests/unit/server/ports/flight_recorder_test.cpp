@@ -94,12 +94,11 @@ TEST_F(RecorderTest, TellsEachEntryOnceAndLeavesItOnDisk) {
 }
 
 TEST_F(RecorderTest, ReadsNothingFromLinesOfAnotherForm) {
-  for (
-      const char* bad :
-      {"", "[]", "{}", R"({"port":"a","time":"x","what":"sent","bytes":"","text":""})",
-       R"({"port":"a","time":"2026-13-01T00:00:00.000000Z","what":"sent","bytes":"","text":""})",
-       R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"sent","bytes":"0g","text":""})",
-       R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"x","bytes":"","text":""})"}) {
+  for (const char* bad :
+       {"", "[]", "{}", R"({"port":"a","time":"x","what":"sent","bytes":"","text":""})",
+        R"({"port":"a","time":"2026-13-01T00:00:00.000000Z","what":"sent","bytes":"","text":""})",
+        R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"sent","bytes":"0g","text":""})",
+        R"({"port":"a","time":"2026-11-01T00:00:00.000000Z","what":"x","bytes":"","text":""})"}) {
     EXPECT_FALSE(parse_recording_line(bad)) << bad;
   }
 }

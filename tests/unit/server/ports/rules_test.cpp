@@ -154,10 +154,10 @@ TEST(Rules, MakeNamesFitForTheLibrary) {
   EXPECT_EQ(fit_program_name(std::string(300, 'a')).size(), 128u);
 }
 
-std::string told(std::vector<Intake::Item> items) {
+std::string told(std::vector<InboundSplitter::Item> items) {
   std::string text;
   for (const auto& item : items) {
-    using What = Intake::Item::What;
+    using What = InboundSplitter::Item::What;
     if (item.what == What::Line) text += "L<" + item.text + ">";
     if (item.what == What::ProgramBegan) text += "P<" + item.text + ":";
     if (item.what == What::ProgramText) text += item.text;
@@ -167,23 +167,23 @@ std::string told(std::vector<Intake::Item> items) {
   return text;
 }
 
-std::string whole(Intake& intake, std::string_view text) {
+std::string whole(InboundSplitter& intake, std::string_view text) {
   std::string all = told(intake.take(text));
   return all += told(intake.end());
 }
 
-std::string cut_off(Intake& intake, std::string_view text) {
+std::string cut_off(InboundSplitter& intake, std::string_view text) {
   std::string all = told(intake.take(text));
   return all += told(intake.fail());
 }
 
-TEST(Intake, CutsTheSameHoweverTheTextArrives) {
+TEST(InboundSplitter, CutsTheSameHoweverTheTextArrives) {
   static constexpr char kText[] =
       "X1\r\n%\nO1\nG0\n%\nREADY\n%\nDPRNT 1\nN2\n%\n\0%\n(A)\nM30\n%\nO2\nG1";
   const std::string text(kText, sizeof kText - 1);
   const RuleSet none;
   for (std::size_t step = 1; step <= text.size(); ++step) {
-    Intake intake(none);
+    InboundSplitter intake(none);
     std::string all;
     for (std::size_t at = 0; at < text.size(); at += step) {
       all += told(intake.take(std::string_view(text).substr(at, step)));
@@ -194,41 +194,41 @@ TEST(Intake, CutsTheSameHoweverTheTextArrives) {
   }
 }
 
-TEST(Intake, TakesWhatAProtocolNamesAsAProgram) {
+TEST(InboundSplitter, TakesWhatAProtocolNamesAsAProgram) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   intake.begin("15");
   EXPECT_EQ(whole(intake, "X1\n%\n%\n"), "P<15:X1\n%\n%\n>");
   EXPECT_EQ(told(intake.take("X1\n")), "L<X1>");
 }
 
-TEST(Intake, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
+TEST(InboundSplitter, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   EXPECT_EQ(cut_off(intake, "O1\nG0\nG1"), "P<:O1\nG0\n!");
   EXPECT_EQ(cut_off(intake, "X1"), "L<X1>");
 }
 
-TEST(Intake, DropsAProgramThatIsCutOffInItsFirstLine) {
+TEST(InboundSplitter, DropsAProgramThatIsCutOffInItsFirstLine) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   EXPECT_EQ(cut_off(intake, "O1 G0 X1"), "P<:!");
   intake.take_programs_only(true);
   EXPECT_EQ(cut_off(intake, "PN8 G20 ;G01 X1 Y1 F5 ;"), "P<:!");
 }
 
-TEST(Intake, TakesAProgramInOneLongLineForAProgram) {
+TEST(InboundSplitter, TakesAProgramInOneLongLineForAProgram) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   intake.take_programs_only(true);
   std::string text = "PN8 G20 ;";
-  while (text.size() < 3 * Intake::kMaxLine) text += "G01 X1 Y1 F5 ;";
+  while (text.size() < 3 * InboundSplitter::kMaxLine) text += "G01 X1 Y1 F5 ;";
   EXPECT_EQ(whole(intake, text), "P<:" + text + "\n%\n>");
 }
 
-TEST(Intake, KnowsPrintedLinesFromWhatMayBeAProgram) {
+TEST(InboundSplitter, KnowsPrintedLinesFromWhatMayBeAProgram) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   (void)intake.take("V 1\nV 2");
   EXPECT_FALSE(intake.may_be_program());
   (void)intake.take("\nO12");
@@ -237,15 +237,15 @@ TEST(Intake, KnowsPrintedLinesFromWhatMayBeAProgram) {
   EXPECT_TRUE(intake.may_be_program());
 }
 
-TEST(Intake, BoundsALine) {
+TEST(InboundSplitter, BoundsALine) {
   const RuleSet none;
-  Intake intake(none);
+  InboundSplitter intake(none);
   const auto items = intake.take(std::string(10'000, 'X') + "\n");
   ASSERT_EQ(items.size(), 3u);
-  for (const auto& item : items) EXPECT_LE(item.text.size(), Intake::kMaxLine);
+  for (const auto& item : items) EXPECT_LE(item.text.size(), InboundSplitter::kMaxLine);
 }
 
-TEST(Intake, LetsRulesSayWhatALineIs) {
+TEST(InboundSplitter, LetsRulesSayWhatALineIs) {
   const auto set = rules(R"(
 [[rule]]
 matches = "^START "
@@ -254,7 +254,7 @@ action = "program"
 matches = "^O[0-9]+ READY"
 action = "report"
 )");
-  Intake intake(set);
+  InboundSplitter intake(set);
   EXPECT_EQ(whole(intake, "O12 READY\nSTART A\nX1\n"), "L<O12 READY>P<:START A\nX1\n>");
 }
 

@@ -15,7 +15,7 @@
 namespace dripline::server_test {
 
 /// The feed service on a real store, with a fake network: the test plays the gateway `lathe-1`.
-class FeedTest : public ServerTest {
+class MachineServiceTest : public ServerTest {
  protected:
   static constexpr std::uint64_t kEpoch = 7;
   static constexpr std::uint64_t kSession = 70;
@@ -26,7 +26,7 @@ class FeedTest : public ServerTest {
     options.workers = 3;
     options.commands = {.expiry = std::chrono::milliseconds(200),
                         .grace = std::chrono::milliseconds(50)};
-    machines::FeedListener listener{
+    machines::MachineListener listener{
         .on_machine = [this](const machines::MachineView& view) { keep(machines_, view); },
         .on_run = [this](const storage::Run& run) { keep(runs_, run); },
         .on_record = [this](const storage::Record& record) { keep(records_, record); }};

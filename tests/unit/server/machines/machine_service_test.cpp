@@ -1,14 +1,14 @@
 // Starting runs, ordering, and bringing stored states and machines together.
 #include "server/machines/machine_notices.hpp"
 #include "tests/support/store_decorator.hpp"
-#include "tests/unit/server/machines/feed_fixture.hpp"
+#include "tests/unit/server/machines/machine_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
 
 using namespace std::chrono_literals;
 
-class FeedRuns : public FeedTest {
+class FeedRuns : public MachineServiceTest {
  protected:
   void status(const std::string& run, std::uint32_t outbox = 0) {
     dds::Status status;
@@ -201,24 +201,24 @@ TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
 TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThem) {
   const std::string run = stored_run();
   auto endpoint = test_support::FakeServerEndpoint(written_);
-  machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
+  machines::CommandDispatcher dispatcher(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
-  machines::RunWatch watch({.runs = store_->runs,
-                            .clock = clock_,
-                            .desk = desk,
-                            .state_mutex = state_mutex,
-                            .on_change = [](const Run&) {},
-                            .on_unwanted = [](const Run&) {}});
-  ASSERT_TRUE(watch.load());
+  machines::RunReconciler reconciler({.runs = store_->runs,
+                                      .clock = clock_,
+                                      .commands = dispatcher,
+                                      .state_mutex = state_mutex,
+                                      .on_change = [](const Run&) {},
+                                      .on_unwanted = [](const Run&) {}});
+  ASSERT_TRUE(reconciler.load());
   machines::MachineView view;
   view.machine.name = "lathe-1";
   view.is_connected = true;
   view.status.emplace();
   view.status->outbox = 3;
   const auto compare_twice = [&] {
-    watch.compare({view});
-    clock_.advance(machines::RunWatch::kAbsence);
-    watch.compare({view});
+    reconciler.compare({view});
+    clock_.advance(machines::RunReconciler::kAbsence);
+    reconciler.compare({view});
     return store_->runs.find(run)->state;
   };
   EXPECT_EQ(compare_twice(), storage::RunState::Ordered);
@@ -242,25 +242,25 @@ TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   const std::string run = stored_run();
   FullDisk runs(*store_);
   auto endpoint = test_support::FakeServerEndpoint(written_);
-  machines::CommandDispatcher desk(endpoint, clock_, {}, [](const dds::Command&) {});
+  machines::CommandDispatcher dispatcher(endpoint, clock_, {}, [](const dds::Command&) {});
   std::mutex state_mutex;
-  machines::RunWatch watch({.runs = runs,
-                            .clock = clock_,
-                            .desk = desk,
-                            .state_mutex = state_mutex,
-                            .on_change = [](const Run&) {},
-                            .on_unwanted = [](const Run&) {}});
-  ASSERT_TRUE(watch.load());
+  machines::RunReconciler reconciler({.runs = runs,
+                                      .clock = clock_,
+                                      .commands = dispatcher,
+                                      .state_mutex = state_mutex,
+                                      .on_change = [](const Run&) {},
+                                      .on_unwanted = [](const Run&) {}});
+  ASSERT_TRUE(reconciler.load());
   machines::MachineView view;
   view.machine.name = "lathe-1";
   view.is_connected = true;
   view.status.emplace();
-  watch.compare({view});
-  clock_.advance(machines::RunWatch::kAbsence);
-  watch.compare({view});
+  reconciler.compare({view});
+  clock_.advance(machines::RunReconciler::kAbsence);
+  reconciler.compare({view});
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Ordered);
-  runs.is_full = false;
-  watch.compare({view});
+  store.is_full = false;
+  reconciler.compare({view});
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Refused);
 }
 
@@ -271,16 +271,16 @@ TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   options.gateway_of = [](const std::string&) {
     return machines::CommandDispatcher::Options::Gateway{2, std::chrono::microseconds{0}};
   };
-  machines::CommandDispatcher desk(endpoint, clock_, options, [](const dds::Command&) {});
+  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
   written_->on_command = [&](const dds::Command& heard) {
     if (heard.session != 2) return;  // the first is gone
-    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
   };
   dds::Command command;
   command.machine = "lathe-1";
   command.action = dds::CommandAction::Start;
   command.session = 1;
-  EXPECT_TRUE(desk.carry_out(command));
+  EXPECT_TRUE(dispatcher.carry_out(command));
   EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id)
       << "the same order, said again";
 }
@@ -315,19 +315,19 @@ TEST_F(FeedRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
     if (is_told) gateway.steady_ahead = kSteadyAhead;
     return gateway;
   };
-  machines::CommandDispatcher desk(endpoint, clock_, options, [](const dds::Command&) {});
+  machines::CommandDispatcher dispatcher(endpoint, clock_, options, [](const dds::Command&) {});
   written_->on_command = [&](const dds::Command& heard) {
-    desk.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
+    dispatcher.on_result({.machine = "lathe-1", .id = heard.id, .accepted = true, .reason = {}});
   };
   dds::Command command;
   command.machine = "lathe-1";
   command.action = dds::CommandAction::Abort;
-  EXPECT_TRUE(desk.carry_out(command));
+  EXPECT_TRUE(dispatcher.carry_out(command));
   command.action = dds::CommandAction::Resume;
-  EXPECT_EQ(desk.carry_out(command).error().code, Errc::Timeout);
+  EXPECT_EQ(dispatcher.carry_out(command).error().code, Errc::Timeout);
   EXPECT_EQ(written_->commands.size(), 1u);
   is_told = true;
-  EXPECT_TRUE(desk.carry_out(command));
+  EXPECT_TRUE(dispatcher.carry_out(command));
   EXPECT_EQ(written_->commands.back().deadline, gateway_steady() + 300ms);
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 
 #include "server/machines/machine_control.hpp"
-#include "server/ports/serial_feed.hpp"
+#include "server/ports/line_machines.hpp"
 
 namespace dripline::ports {
 
 /// All machines of the server, however they are fed: those with an enabled port over their line,
 /// all others by their gateway. A machine has one feeder: while a gateway speaks for one that has a
 /// port, the machine is contested and nothing is started.
-class MachineFeeds final : public machines::MachineControl {
+class MachineRouter final : public machines::MachineControl {
  public:
-  MachineFeeds(storage::RunStore& runs, machines::MachineControl& gateways, SerialFeed& lines)
+  MachineRouter(storage::RunStore& runs, machines::MachineControl& gateways, LineMachines& lines)
       : runs_(runs), gateways_(gateways), lines_(lines) {}
 
   /// In order of their names.
@@ -22,7 +22,7 @@ class MachineFeeds final : public machines::MachineControl {
  private:
   storage::RunStore& runs_;
   machines::MachineControl& gateways_;
-  SerialFeed& lines_;
+  LineMachines& lines_;
 };
 
 }  // namespace dripline::ports

@@ -1,10 +1,10 @@
-#include "server/ports/machine_feeds.hpp"
+#include "server/ports/machine_router.hpp"
 
 #include <map>
 
 namespace dripline::ports {
 
-std::vector<machines::MachineView> MachineFeeds::machines() const {
+std::vector<machines::MachineView> MachineRouter::machines() const {
   std::map<std::string, machines::MachineView> views;
   for (auto& view : gateways_.machines()) {
     const std::string name = view.machine.name;
@@ -22,7 +22,7 @@ std::vector<machines::MachineView> MachineFeeds::machines() const {
   return ordered;
 }
 
-Result<machines::MachineView> MachineFeeds::machine(const std::string& name) const {
+Result<machines::MachineView> MachineRouter::machine(const std::string& name) const {
   auto gateway = gateways_.machine(name);
   auto line = lines_.machine(name);
   if (!line) return gateway;
@@ -30,7 +30,7 @@ Result<machines::MachineView> MachineFeeds::machine(const std::string& name) con
   return line;
 }
 
-Result<storage::Run> MachineFeeds::start(const machines::StartRequest& request) {
+Result<storage::Run> MachineRouter::start(const machines::StartRequest& request) {
   if (!lines_.machine(request.machine)) {
     if (request.head == machines::StartHead::Ask) return gateways_.start(request);
     return fail(Errc::Unsupported,
@@ -47,7 +47,7 @@ Result<storage::Run> MachineFeeds::start(const machines::StartRequest& request) 
   return lines_.start(request);
 }
 
-Result<void> MachineFeeds::command(const machines::CommandRequest& request) {
+Result<void> MachineRouter::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
     return lines_.machine(request.machine) ? lines_.command(request) : gateways_.command(request);
   }

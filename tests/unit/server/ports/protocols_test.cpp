@@ -1,5 +1,5 @@
 #include "tests/support/line/played_control.hpp"
-#include "tests/unit/server/ports/serial_fixture.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -56,8 +56,8 @@ TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
   ASSERT_TRUE(control_->line().begin_receive("", control_->now()));
   ASSERT_TRUE(control_->until([&] { return control_->received.size() > 1000; }));
   line().pull();
-  ASSERT_TRUE(wait([&] { return !ports_->feed().machine("mill")->is_connected; }));
-  EXPECT_EQ(ports_->feed().machine("mill")->status->execution, dds::Execution::Waiting);
+  ASSERT_TRUE(wait([&] { return !ports_->machines().machine("mill")->is_connected; }));
+  EXPECT_EQ(ports_->machines().machine("mill")->status->execution, dds::Execution::Waiting);
   line().put_back();
   ASSERT_TRUE(
       control_->until([&] { return store_->runs.find(run->id)->state == RunState::Completed; }));
@@ -146,7 +146,8 @@ TEST_F(SerialProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
   line().write("\x11");
   line().read_until("\x03");
   line().write("\x04");
-  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == ports::TransferState::Completed; }));
+  ASSERT_TRUE(wait(
+      [&] { return ports_->port("com1")->transfer->state == ports::TransferState::Completed; }));
   line().write("\x11");
   const std::string again = line().read_until("BEGIN PGM ");
   EXPECT_NE(again.find("BEGIN PGM "), std::string::npos) << "offered again";
@@ -238,7 +239,7 @@ TEST_F(SerialFanucTest, SendsNothingThatNobodyOrdered) {
   ASSERT_TRUE(wait([&] { return is_noted("the control asked for a program; no run waits"); }));
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(100)), "");
   EXPECT_EQ(ports_->port("com1")->request->answer, "");
-  EXPECT_EQ(ports_->feed().machine("mill")->status->message,
+  EXPECT_EQ(ports_->machines().machine("mill")->status->message,
             "the control asked for a program; no run waits");
   EXPECT_TRUE(store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {})->empty());
   line().write("\x13");
@@ -305,7 +306,7 @@ TEST_F(SerialFanucTest, WaitsForTheOperatorAtTheControl) {
   const auto run = start("O2001");
   ASSERT_TRUE(run) << run.error().what;
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
-  const auto status = ports_->feed().machine("mill")->status;
+  const auto status = ports_->machines().machine("mill")->status;
   EXPECT_EQ(status->execution, dds::Execution::Waiting);
   EXPECT_EQ(status->message, "waits for the operator to start it at the control (DC1)");
 }

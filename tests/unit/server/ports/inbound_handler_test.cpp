@@ -1,5 +1,5 @@
 #include "tests/support/store_decorator.hpp"
-#include "tests/unit/server/ports/serial_fixture.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {

@@ -35,13 +35,13 @@ class SerialTest : public ServerTest {
       const std::lock_guard lock(told_mutex_);
       faults_.push_back(machine + ": " + trouble);
     };
-    machines::FeedListener listener{.on_machine = [](const machines::MachineView&) {},
-                                    .on_run = [](const storage::Run&) {},
-                                    .on_record =
-                                        [this](const storage::Record& record) {
-                                          const std::lock_guard lock(told_mutex_);
-                                          records_.push_back(record);
-                                        }};
+    machines::MachineListener listener{.on_machine = [](const machines::MachineView&) {},
+                                       .on_run = [](const storage::Run&) {},
+                                       .on_record =
+                                           [this](const storage::Record& record) {
+                                             const std::lock_guard lock(told_mutex_);
+                                             records_.push_back(record);
+                                           }};
     ports_ = std::make_unique<ports::PortService>(store, *programs_, system_clock_, options,
                                                   std::move(listener));
     const auto begun = ports_->begin(configured);
@@ -70,11 +70,11 @@ class SerialTest : public ServerTest {
     return *line;
   }
   Result<Run> start(const std::string& program, machines::StartPoint from = {}) {
-    return ports_->feed().start(
+    return ports_->machines().start(
         {.machine = "mill", .program = program, .revision = {}, .author = "cam", .from = from});
   }
   Result<void> command(const std::string& run, dds::CommandAction action) {
-    return ports_->feed().command({.run = run, .action = action, .argument = {}, .value = 0});
+    return ports_->machines().command({.run = run, .action = action, .argument = {}, .value = 0});
   }
   /// Looks again and again, at most for some seconds.
   static bool wait(const std::function<bool()>& is_so) {

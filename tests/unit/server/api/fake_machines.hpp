@@ -7,7 +7,7 @@
 namespace dripline::server_test {
 
 /// Machines that exist because a test says so, and orders that are only noted.
-class FakeFeeds final : public machines::MachineControl {
+class FakeMachines final : public machines::MachineControl {
  public:
   std::vector<machines::MachineView> machines() const override { return views; }
   Result<machines::MachineView> machine(const std::string& name) const override {

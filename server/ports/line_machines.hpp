@@ -14,14 +14,14 @@ namespace dripline::ports {
 /// The machines at the ends of lines: a run is a program sent over its machine's line. `connected`
 /// means that the line is open; of the machine itself a line tells nothing, so its status is made
 /// of what the line does.
-class SerialFeed final : public machines::MachineControl {
+class LineMachines final : public machines::MachineControl {
  public:
   using Started = std::function<void(const Result<storage::Run>&)>;
   /// How long `start` and `order` wait for the line's thread.
   static constexpr std::chrono::seconds kAnswerLimit{10};
 
-  SerialFeed(const storage::Store& store, const Clock& clock, const LineDirectory& directory,
-             const machines::FeedListener& listener);
+  LineMachines(const storage::Store& store, const Clock& clock, const LineDirectory& directory,
+               const machines::MachineListener& listener);
 
   std::vector<machines::MachineView> machines() const override;
   /// Errors: NotFound (no enabled port has it).
@@ -51,7 +51,7 @@ class SerialFeed final : public machines::MachineControl {
   const storage::Store& store_;
   const Clock& clock_;
   const LineDirectory& directory_;
-  const machines::FeedListener& listener_;
+  const machines::MachineListener& listener_;
   LineRuns runs_;
 };
 

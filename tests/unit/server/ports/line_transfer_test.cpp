@@ -1,6 +1,6 @@
 // Programs out of a control's memory and into it, without a run.
 #include "tests/support/line/played_control.hpp"
-#include "tests/unit/server/ports/serial_fixture.hpp"
+#include "tests/unit/server/ports/port_fixture.hpp"
 
 namespace dripline::server_test {
 namespace {
@@ -27,7 +27,8 @@ class SerialTransferTest : public SerialTest {
   }
   bool is_noted(const std::string& words) {
     for (const auto& entry : recording()) {
-      if (entry.what == ports::TrafficKind::Note && entry.text.find(words) != std::string::npos) return true;
+      if (entry.what == ports::TrafficKind::Note && entry.text.find(words) != std::string::npos)
+        return true;
     }
     return false;
   }
@@ -136,7 +137,8 @@ TEST_F(SerialTransferTest, SendsSeveralProgramsAsOneText) {
             (std::vector<std::string>{"O0001 revision 1", "15.nc revision 1", "O0003 revision 1"}));
   EXPECT_EQ(line().read_until("M99\n%"),
             "%\nO0001 (A)\nG0 X1\nM30\nO0015\n(NO NUMBER)\nG0 X2\nM30\n:3\n(C)\nM99\n%");
-  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == ports::TransferState::Completed; }));
+  ASSERT_TRUE(wait(
+      [&] { return ports_->port("com1")->transfer->state == ports::TransferState::Completed; }));
   EXPECT_EQ(ports_->port("com1")->transfer->sent, sent->size);
   EXPECT_TRUE(wait([&] { return is_noted("completed"); }));
   EXPECT_TRUE(store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {})->empty())
@@ -226,7 +228,8 @@ TEST_F(SerialTransferTest, ATransferHoldsTheLineUntilItIsStopped) {
   EXPECT_EQ(send({"O1"}).error().code, Errc::Busy);
   EXPECT_EQ(ports_->remove("com1").error().code, Errc::Busy);
   ASSERT_TRUE(ports_->stop_transfer("com1", "stopped by cam"));
-  ASSERT_TRUE(wait([&] { return ports_->port("com1")->transfer->state == ports::TransferState::Aborted; }));
+  ASSERT_TRUE(
+      wait([&] { return ports_->port("com1")->transfer->state == ports::TransferState::Aborted; }));
   EXPECT_EQ(ports_->port("com1")->transfer->reason, "stopped by cam; no whole block was sent");
   EXPECT_EQ(ports_->stop_transfer("com1", "again").error().code, Errc::Conflict);
   EXPECT_TRUE(wait([&] { return start("O1").has_value(); }));
