@@ -40,15 +40,11 @@ dds::NetworkOptions network_options(const Settings& settings) {
   network.tag = settings.dds_tag;
   network.discovery_interval_ms = settings.discovery_interval_ms;
   network.lease_ms = settings.lease_ms;
-  network.is_open_network_allowed = settings.dds_open_network == "yes";
+  network.is_open_network_allowed = settings.dds_open_network;
   return network;
 }
 
 Result<void> check_network(const Settings& settings) {
-  if (settings.dds_open_network != "yes" && settings.dds_open_network != "no") {
-    return fail(Errc::Denied, "dds-open-network = {}: must be yes or no",
-                settings.dds_open_network);
-  }
   const auto network = network_options(settings);
   if (auto safe = dds::check_exposure(network); !safe) return safe;
   if (network.is_open_network_allowed)

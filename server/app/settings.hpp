@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "protocol/base/result.hpp"
@@ -12,7 +10,8 @@
 
 namespace dripline::app {
 
-/// Everything that can be told to dncd. The defaults are here, the rest in the table below.
+/// Everything that can be set of dncd. The defaults are here, the rest in the table of
+/// settings.cpp, from which command line, configuration file and help are made.
 struct Settings {
   std::string state;  ///< default: default_state_folder (protocol/base/state_location.hpp)
   std::string http = "127.0.0.1:8430";
@@ -23,34 +22,23 @@ struct Settings {
   std::uint32_t dds_domain = 0;
   std::string dds_tag;
   std::string dds_interface = "lo";
-  std::string dds_open_network = "no";
+  bool dds_open_network = false;  ///< DDS beyond this machine, although it has no authentication
   std::uint32_t discovery_interval_ms = 250;
   std::uint32_t lease_ms = 2000;
   std::string log;
   std::string log_level = "info";
   std::uint32_t log_mb = 10;
   std::uint32_t log_files = 5;
-  bool begin_empty = false;          ///< on the command line alone: once, by somebody who looks
+  bool begin_empty = false;          ///< on the command line alone, for one start
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 
-/// One row for each setting: the same table makes the command line, the configuration file and
-/// their help. A row `lease-ms` is `--lease-ms` and `lease-ms = ...`.
-struct SettingRow {
-  std::string_view name;
-  std::variant<std::string Settings::*, std::uint32_t Settings::*> member;
-  std::string_view unit;                  ///< shown with the value in the help
-  std::uint32_t lowest = 0, highest = 0;  ///< numbers only
-  std::string_view text;
-};
-std::span<const SettingRow> setting_rows();
-
-/// Sets what the text of a TOML file says: the rows above, and serial ports (port_table.hpp), whose
+/// Sets what a TOML file holds: the settings of dncd and its serial ports (port_table.hpp), whose
 /// files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong type),
-/// LimitExceeded, NotFound; names key and line.
+/// LimitExceeded, NotFound; they name key and line.
 Result<void> apply_toml(Settings& settings, std::string_view toml, const std::string& folder = "");
 
-/// What the command line asks for: to run, or only to print something and end.
+/// What the command line asks for: run, or print something and end.
 struct CommandLine {
   Settings settings;
   std::string print;  ///< help, version or an error; empty: run

@@ -109,8 +109,12 @@ TEST(Settings, WithWrongUseEndWithTwo) {
   EXPECT_EQ(read({"--config", "/nowhere/dncd.toml"}).exit_code, 2);
   const auto help = read({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const auto& row : setting_rows()) {
-    EXPECT_NE(help.print.find("--" + std::string(row.name)), std::string::npos) << row.name;
+  for (const char* option :
+       {"--state", "--http", "--tls-certificate", "--tls-key", "--http-connections",
+        "--http-connections-per-address", "--http-event-streams", "--dds-domain", "--dds-tag",
+        "--dds-interface", "--dds-open-network", "--discovery-interval-ms", "--lease-ms", "--log",
+        "--log-level", "--log-mb", "--log-files", "--config", "--begin-empty"}) {
+    EXPECT_NE(help.print.find(option), std::string::npos) << option;
   }
 }
 
@@ -151,7 +155,8 @@ TEST(Server, IsNotStartedWithUnsafeSettings) {
 }
 
 TEST(Settings, OfAnOpenNetworkMustBeConfirmed) {
-  EXPECT_EQ(read({"--dds-open-network", "yes"}).settings.dds_open_network, "yes");
+  EXPECT_TRUE(read({"--dds-open-network", "yes"}).settings.dds_open_network);
+  EXPECT_EQ(read({"--dds-open-network", "perhaps"}).exit_code, 2);
   const test_support::TemporaryFolder folder;
   const SystemClock clock;
   Settings settings;
@@ -161,8 +166,6 @@ TEST(Settings, OfAnOpenNetworkMustBeConfirmed) {
   const auto refused = Server::start(settings, clock);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::Denied);
-  settings.dds_open_network = "perhaps";
-  EXPECT_EQ(Server::start(settings, clock).error().code, Errc::Denied);
   EXPECT_FALSE(std::filesystem::exists(settings.state)) << "nothing was made";
 }
 
