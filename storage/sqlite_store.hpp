@@ -39,7 +39,7 @@ class SqliteStore final : public Store {
                      const std::stop_token& stop = {});
   /// Writes something small onto the disk, and reads it. Errors: Io (a full disk), Corrupt, Busy.
   Result<void> probe();
-  /// Made when the database was, the same for ever: 32 hexadecimal digits.
+  /// Made together with the database and never changed: 32 hexadecimal digits.
   Result<std::string> identity();
 
  private:

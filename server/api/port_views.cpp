@@ -67,9 +67,12 @@ std::string hex(std::string_view bytes) {
 }  // namespace
 
 json transfer_json(const ports::PortTransfer& transfer) {
-  return {{"id", transfer.id},       {"programs", transfer.programs},
-          {"size", transfer.size},   {"sent", transfer.sent},
-          {"state", to_string(transfer.state)}, {"reason", optional_text(transfer.reason)}};
+  return {{"id", transfer.id},
+          {"programs", transfer.programs},
+          {"size", transfer.size},
+          {"sent", transfer.sent},
+          {"state", to_string(transfer.state)},
+          {"reason", optional_text(transfer.reason)}};
 }
 
 json port_json(const ports::PortView& view) {
@@ -83,7 +86,7 @@ json port_json(const ports::PortView& view) {
       {"enabled", view.port.is_enabled},
       {"effective", settings_json(view.settings)},
       {"open", view.is_open},
-      {"trouble", optional_text(view.trouble)},
+      {"trouble", optional_text(view.fault)},
       {"line", line_json(view.line)},
       {"run", optional_text(view.run)},
       {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},

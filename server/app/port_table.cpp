@@ -87,7 +87,7 @@ Result<storage::Port> read_port(const toml::table& table, const std::string& fol
     return fail(Errc::Syntax, "line {}: a port needs a machine and an address", line_of(table));
   }
   if (port.name.empty()) port.name = port.machine;
-  // A table has no order: baud and its like change what the short form says.
+  // A table has no order: baud and the like change the values of the short form.
   std::stable_partition(port.settings.begin(), port.settings.end(),
                         [](const auto& setting) { return setting.first == "line"; });
   return port;

@@ -124,13 +124,13 @@ struct Server::Parts {
   }
 
   /// Of machines with gateways and of those at the ends of lines.
-  std::function<void(const std::string& machine, const std::string& trouble)> records_watch() {
-    return [this](const std::string& machine, const std::string& trouble) {
+  std::function<void(const std::string& machine, const std::string& fault)> records_watch() {
+    return [this](const std::string& machine, const std::string& fault) {
       using Level = library::Health::Level;
-      health.report(machine, {.level = trouble.empty() ? Level::Ok : Level::Degraded,
+      health.report(machine, {.level = fault.empty() ? Level::Ok : Level::Degraded,
                               .subject = "records",
                               .what = "records of a machine cannot be stored",
-                              .detail = fmt::format("machine={}: {}", machine, trouble)});
+                              .detail = fmt::format("machine={}: {}", machine, fault)});
     };
   }
 
@@ -170,12 +170,12 @@ struct Server::Parts {
   SteadyTime tidied;
   std::jthread check;  ///< of a database too big to be looked through before the start
 
-  /// A full disk keeps the server from nothing but storing: clients can still be told where it is.
+  /// A full disk only keeps the server from storing: clients should still find it.
   void announce() {
     const auto announced = folder.announce(announcement);
     const bool was_announced = is_announced.exchange(announced.has_value());
     if (announced || !was_announced) return;
-    spdlog::error("dnc on this machine must be told --server {}: {}", url, announced.error().what);
+    spdlog::error("dnc on this machine needs --server {}: {}", url, announced.error().what);
   }
 
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
@@ -189,7 +189,7 @@ struct Server::Parts {
   }
 
   void check_on() {
-    spdlog::info("the database is big: the look for damage goes on beside the work");
+    spdlog::info("the database is big: the search for damage continues beside the work");
     check = std::jthread([this](const std::stop_token& stop) {
       const auto done = store->check(std::chrono::hours(24), stop);
       if (!done) {

@@ -19,7 +19,7 @@ class Server {
   ~Server();
 
   const std::string& url() const;
-  /// Now and then: drops uploads that nobody went on with.
+  /// From time to time: drops abandoned uploads.
   void tidy();
 
  private:

@@ -36,7 +36,7 @@ Result<void> write_private_file(const std::filesystem::path& path, const std::st
   return failure;
 }
 
-/// Whoever looks sees the file as a whole or not at all, also after a kill half-way.
+/// A reader sees the whole file or none, also after a kill midway.
 Result<void> replace_private_file(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path fresh = path.string() + ".new";
   std::error_code ec;
@@ -109,7 +109,7 @@ Result<void> StateFolder::remember_database(const std::string& identity) const {
   if (known == identity) return {};
   return fail(Errc::Corrupt,
               "{} is not the database this folder has had ({}, expected {}): put the right one "
-              "back, or remove {} to go on with this one",
+              "back, or remove {} to continue with this one",
               database().string(), identity, known, identity_file().string());
 }
 

@@ -9,7 +9,7 @@
 namespace dripline::app {
 
 /// The server's folder: the database, the token, and dncd.json while it listens, so that `dnc`
-/// finds a server of this machine without being told.
+/// finds a server of this machine by itself.
 class StateFolder {
  public:
   /// Makes the folder when it is missing, for its owner alone; closes it to others. Errors: Io,
@@ -44,7 +44,7 @@ class StateFolder {
 
  private:
   explicit StateFolder(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Which database belongs here.
+  /// The identity of the database that belongs here.
   std::filesystem::path identity_file() const { return path_ / "database.id"; }
   std::filesystem::path announcement_file() const { return path_ / "dncd.json"; }
   Result<void> make_token() const;

@@ -8,15 +8,15 @@
 
 namespace dripline::library {
 
-/// Looks at every byte of a program while it is uploaded, in pieces of any size: the verdict does
-/// not depend on how the text was cut. What passes is UTF-8 without NUL and without endless lines,
-/// so nothing after it has to be afraid of the text. Constant memory; one thread at a time.
+/// Checks every byte of a program while it is uploaded, in pieces of any size: the verdict does not
+/// depend on how the text was cut. Text that passes is UTF-8 without NUL and without endless lines,
+/// so its readers need no such checks. Constant memory; one thread at a time.
 class ContentCheck {
  public:
   static constexpr std::uint64_t kMaxLine = 64 * 1024;
 
   /// The next bytes. Errors: Syntax (NUL, invalid UTF-8), LimitExceeded (a line longer than
-  /// kMaxLine); each names offset, line and value. After an error the check is used up.
+  /// kMaxLine); each names offset, line and value. After an error the check must not be used again.
   Result<void> feed(std::span<const std::byte> bytes);
   /// Nothing follows. Errors: Syntax (empty, or the last character is cut off).
   Result<void> finish() const;

@@ -18,7 +18,7 @@ Result<std::string> detect_control(const ControlCatalog& catalog, std::string_vi
   if (candidates.size() == 1) return std::move(candidates.front());
   if (candidates.empty()) {
     return fail(Errc::Unsupported,
-                "program '{}' does not tell which control it is for; name it, one of: {}", program,
+                "program '{}' does not show which control it is for; name it, one of: {}", program,
                 fmt::join(catalog.names(), ", "));
   }
   return fail(Errc::Unsupported, "program '{}' could be for several controls; name one of: {}",

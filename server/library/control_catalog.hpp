@@ -8,7 +8,7 @@
 
 namespace dripline::library {
 
-/// Which controls there are, and which one a text is for. Implementations are safe on any thread.
+/// The known controls, and the one that a text is for. Implementations are safe on any thread.
 class ControlCatalog {
  public:
   virtual ~ControlCatalog() = default;
@@ -17,10 +17,10 @@ class ControlCatalog {
   /// leaves no doubt.
   virtual std::vector<std::string> detect(std::string_view head,
                                           std::string_view program) const = 0;
-  /// Would the control take this as its tools, offsets and parameters? Errors: Syntax, Unsupported,
-  /// LimitExceeded: which key, which line.
+  /// Whether the control accepts this as its tools, offsets and parameters. Errors: Syntax,
+  /// Unsupported, LimitExceeded, with key and line.
   virtual Result<void> check_setup(std::string_view control, std::string_view toml) const = 0;
-  /// Does a program that begins with `head` say that it must be neither erased nor changed?
+  /// Whether a program that begins with `head` is marked against erasure and change.
   virtual bool is_protected(std::string_view /*control*/, std::string_view /*head*/) const {
     return false;
   }

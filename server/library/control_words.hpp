@@ -22,8 +22,8 @@ enum class Refusal {
   NoSuchProgram,
 };
 
-/// How the control itself says it: "error 300: program already exists"; empty: it has no number for
-/// it, or is none that numbers what its storage refuses. Pure.
+/// The control's own words: "error 300: program already exists"; empty: it has no number for this
+/// refusal, or numbers none. Pure.
 std::string control_words(std::string_view control, Refusal refusal);
 
 /// The error with the control's words after it, for an operator who knows those:

@@ -26,8 +26,8 @@ Result<void> DialectCatalog::check_setup(std::string_view control, std::string_v
   const auto data = interpreter::parse_control_data(toml, (*dialect)->units);
   if (!data) return fail(data.error());
   interpreter::MemorySource no_text("");
-  interpreter::EventSink nobody;
-  const auto made = (*dialect)->make(*data, no_text, nobody);
+  interpreter::EventSink no_sink;
+  const auto made = (*dialect)->make(*data, no_text, no_sink);
   if (!made) return fail(made.error());
   return {};
 }

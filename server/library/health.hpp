@@ -13,21 +13,21 @@
 
 namespace dripline::library {
 
-/// How the server is, from what its parts have reported last. Any thread; never waits.
+/// The state of the server, from what its parts have reported last. Any thread; never waits.
 class Health {
  public:
   enum class Level { Ok, Degraded, Failed };
   struct Finding {
     Level level = Level::Ok;
     std::string subject;  ///< store, disk, records ...
-    std::string what;     ///< fit for anybody: no path, no name
-    std::string detail;   ///< for who has the token
+    std::string what;     ///< for any client: no path, no name
+    std::string detail;   ///< for clients with the token
   };
   struct State {
     Level level = Level::Ok;  ///< the worst of the findings
     std::vector<Finding> findings;
   };
-  /// What watches looks this often; when it has not for kSilence, that is a failure of its own.
+  /// The watch checks this often; when it has not for kSilence, that is a failure of its own.
   static constexpr std::chrono::seconds kInterval{10};
   static constexpr std::chrono::seconds kSilence{45};
 
@@ -35,7 +35,7 @@ class Health {
   /// Replaces what was reported of this subject and this detail's owner (a machine; may be empty).
   /// Ok takes it back.
   void report(const std::string& owner, Finding finding);
-  /// The watch has begun, or looked again.
+  /// The watch has begun, or checked again.
   void looked();
   State state() const;
 

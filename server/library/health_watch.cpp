@@ -69,7 +69,7 @@ void HealthWatch::look() {
 
 void HealthWatch::look_at_disk() {
   struct statvfs disk {};
-  if (::statvfs(parts_.folder.c_str(), &disk) != 0) return;  // the probe says more
+  if (::statvfs(parts_.folder.c_str(), &disk) != 0) return;  // the probe reports more
   parts_.health.report("",
                        judge_disk(disk.f_blocks * disk.f_frsize, disk.f_bavail * disk.f_frsize));
 }

@@ -11,7 +11,7 @@
 
 namespace dripline::library {
 
-/// Writes and reads the store and looks at its disk, now and every Health::kInterval, on a thread
+/// Writes and reads the store and checks its disk, now and every Health::kInterval, on a thread
 /// of its own.
 class HealthWatch {
  public:
@@ -21,7 +21,7 @@ class HealthWatch {
     std::function<Result<void>()> probe;
     std::filesystem::path folder;
   };
-  /// Has looked once when it returns.
+  /// Returns after the first check.
   explicit HealthWatch(Parts parts);
   ~HealthWatch();
   HealthWatch(const HealthWatch&) = delete;
@@ -40,7 +40,7 @@ class HealthWatch {
 };
 
 /// How a disk of `size` bytes with `free` left is: Failed when hardly a commit fits, Degraded when
-/// somebody should make room. Pure.
+/// the operator should make room. Pure.
 Health::Finding judge_disk(std::uint64_t size, std::uint64_t free);
 
 }  // namespace dripline::library

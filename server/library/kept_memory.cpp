@@ -31,7 +31,7 @@ Result<Json> parse(std::string_view text) {
   if (text.size() > kMaxText)
     return fail(Errc::LimitExceeded, "a memory text of {} bytes, at most {}", text.size(),
                 kMaxText);
-  // Ours nests three deep; brackets within names do not occur.
+  // A gateway's text nests three deep; brackets within names do not occur.
   int depth = 0;
   for (const char c : text) {
     if (c == '[' || c == '{') ++depth;
@@ -57,7 +57,7 @@ Result<std::map<std::string, KeptCell>> read_memory_texts(const std::vector<std:
     const auto json = parse(text);
     if (!json) return fail(json.error());
     const auto number = (*json)["part"].get<std::uint64_t>();
-    if (number == 1) cells.clear();  // one that was reported again counts
+    if (number == 1) cells.clear();  // a report that is sent again replaces the first
     if (number != 1 && number != part + 1)
       return fail(Errc::NotFound, "part {} of a memory after part {}", number, part);
     part = number;

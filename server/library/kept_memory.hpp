@@ -17,7 +17,7 @@ struct KeptCell {
   friend bool operator==(const KeptCell&, const KeptCell&) = default;
 };
 
-/// All that it kept after a run, as its gateway reported it.
+/// Everything a control kept after a run, as its gateway reported it.
 struct KeptMemory {
   std::string machine, run;
   std::optional<std::string> program;  ///< none: the run was begun at the machine

@@ -11,13 +11,13 @@
 
 namespace dripline::library {
 
-/// How much of a program is looked at for its title.
+/// How much of a program is searched for its title.
 inline constexpr std::size_t kTitleHead = 1024;
 inline constexpr std::size_t kMaxTitle = 64;
 
-/// What a program calls itself in its first block, as menus of controls show it: the comment beside
+/// The name of a program in its first block, as menus of controls show it: the comment beside
 /// its O number, or alone on a line in front of the block or right after it; the name after a
-/// TNC's `BEGIN PGM`; without those, what the first block says. At most kMaxTitle bytes of whole
+/// TNC's `BEGIN PGM`; without those, the first block itself. At most kMaxTitle bytes of whole
 /// characters; empty: nothing. Pure.
 std::string program_title(std::string_view head);
 
@@ -26,7 +26,7 @@ std::string program_title(std::string_view head);
 class ProgramTitles {
  public:
   explicit ProgramTitles(storage::ProgramStore& store) : store_(store) {}
-  /// Empty also when the content cannot be read: whoever reads all of it is told why.
+  /// Empty also when the content cannot be read: reading all of it returns the error.
   std::string of(const Digest& content);
 
  private:

@@ -9,7 +9,7 @@
 namespace dripline::library {
 namespace {
 
-/// More unfinished uploads than this are still possible; their checks are made again when needed.
+/// More unfinished uploads than this are still possible; their checks are repeated when needed.
 constexpr std::size_t kMaxSessions = 256;
 constexpr std::uint64_t kCatchUpPiece = 1024 * 1024;
 
@@ -48,8 +48,8 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
   auto upload = uploads_.find(id);
-  if (!upload) return forget(id), fail(upload.error());
-  // Only a piece that goes on where the upload stands is new; the store judges all others.
+  if (!upload) return drop_session(id), fail(upload.error());
+  // Only a piece that begins where the upload ends is new; the store judges all others.
   if (offset == upload->received) {
     if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
     ContentCheck check = session->check;
@@ -62,7 +62,7 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
     if (!upload) return fail(upload.error());
   }
   if (upload->control.empty() && upload->received >= kHead) {
-    if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
+    if (auto known = determine_control(*upload); !known) return fail(known.error());
   }
   return upload;
 }
@@ -72,11 +72,11 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
   auto upload = uploads_.find(id);
-  if (!upload) return forget(id), fail(upload.error());
+  if (!upload) return drop_session(id), fail(upload.error());
   if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
   if (auto good = session->check.finish(); !good) return drop(*upload, good.error());
   if (upload->control.empty()) {
-    if (auto settled = settle_control(*upload); !settled) return fail(settled.error());
+    if (auto known = determine_control(*upload); !known) return fail(known.error());
   }
   if (protection == Protection::Respect && !upload->is_held) {
     if (auto free = check_protection(upload->program, expected); !free) {
@@ -86,8 +86,8 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   const auto before = store_.revisions(upload->program);
   auto revision = uploads_.commit(id, expected);
   if (!revision) return fail(revision.error());
-  forget(id);
-  // Numbers only grow: whatever stands at or below the newest one was there already.
+  drop_session(id);
+  // Numbers only grow: a revision at or below the newest one existed before.
   const bool is_unchanged = before && revision->number <= before->front().number;
   if (!is_unchanged) {
     spdlog::info("stored program={} revision={} size={} control={} held={}", revision->program,
@@ -105,7 +105,7 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
 Result<void> Programs::abandon(const std::string& id) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
-  forget(id);
+  drop_session(id);
   return uploads_.abandon(id);
 }
 
@@ -151,7 +151,7 @@ Result<void> Programs::remove(const std::string& program, const std::string& who
   return {};
 }
 
-/// A refused copy or rename, as the control that the program is for would say it.
+/// A refused copy or rename, in the words of the control that the program is for.
 Error Programs::in_control_words(const storage::ProgramMove& move, const Error& error) {
   const auto source = store_.revisions(move.from);
   if (!source || error.code == Errc::Io || error.code == Errc::Busy) return error;
@@ -185,7 +185,7 @@ std::shared_ptr<Programs::Session> Programs::session(const std::string& id) {
   const std::lock_guard lock(mutex_);
   if (const auto found = sessions_.find(id); found != sessions_.end()) return found->second;
   if (sessions_.size() >= kMaxSessions) {
-    // One that nobody works on; its check can be made again from the stored bytes.
+    // An idle one; its check can be repeated from the stored bytes.
     const auto idle =
         std::ranges::find_if(sessions_, [](const auto& s) { return s.second.use_count() == 1; });
     if (idle != sessions_.end()) sessions_.erase(idle);
@@ -193,12 +193,12 @@ std::shared_ptr<Programs::Session> Programs::session(const std::string& id) {
   return sessions_.emplace(id, std::make_shared<Session>()).first->second;
 }
 
-void Programs::forget(const std::string& id) {
+void Programs::drop_session(const std::string& id) {
   const std::lock_guard lock(mutex_);
   sessions_.erase(id);
 }
 
-/// After a restart of the server the check has seen nothing of an upload that is half there.
+/// After a restart of the server the check has seen nothing of the bytes received before.
 Result<void> Programs::catch_up(Session& session, const storage::Upload& upload) {
   if (session.check.offset() > upload.received) session.check = ContentCheck{};
   while (session.check.offset() < upload.received) {
@@ -214,7 +214,7 @@ Result<void> Programs::catch_up(Session& session, const storage::Upload& upload)
   return {};
 }
 
-Result<void> Programs::settle_control(storage::Upload& upload) {
+Result<void> Programs::determine_control(storage::Upload& upload) {
   const auto head = uploads_.read(upload.id, 0, kHead);
   if (!head) return fail(head.error());
   const std::string_view text(reinterpret_cast<const char*>(head->data()), head->size());
@@ -226,7 +226,7 @@ Result<void> Programs::settle_control(storage::Upload& upload) {
 }
 
 tl::unexpected<Error> Programs::drop(const storage::Upload& upload, const Error& error) {
-  forget(upload.id);
+  drop_session(upload.id);
   if (auto dropped = uploads_.abandon(upload.id); !dropped) {
     spdlog::warn("upload {} of program={} could not be dropped: {}", upload.id, upload.program,
                  dropped.error().what);

@@ -20,7 +20,7 @@ namespace dripline::library {
 
 struct UploadRequest {
   std::string program;
-  std::string control;  ///< empty: found out from the text
+  std::string control;  ///< empty: determined from the text
   std::string comment;
   bool is_held = false;  ///< it came from a machine: the revision waits for acceptance
 };
@@ -30,11 +30,12 @@ struct Committed {
   bool is_unchanged = false;  ///< the latest revision had the same content already
 };
 
-/// What to do about a program that says that it must be neither changed nor erased (the P of a
+/// What to do about a program that is marked against change and erasure (the P of a
 /// TNC's BEGIN PGM block).
 enum class Protection : std::uint8_t { Respect, Override };
 
-/// The program library: uploads that become immutable revisions, and what can be done with those.
+/// The program library: uploads become immutable revisions, which are listed, read, accepted,
+/// copied, renamed and removed.
 /// Every byte is checked when it arrives; a bad one drops the upload and changes nothing else.
 /// Any thread; pieces of one upload are taken one after the other.
 class Programs {
@@ -49,7 +50,7 @@ class Programs {
   /// Conflict (a gap or an overlap).
   Result<storage::Upload> append(const std::string& id, std::uint64_t offset,
                                  std::span<const std::byte> bytes);
-  /// What a machine sent is not stopped by protection: it waits for acceptance anyway. Errors:
+  /// Protection does not stop what a machine sent: it waits for acceptance anyway. Errors:
   /// those of append, Syntax (empty), Corrupt (the digest is another one), Conflict (the
   /// newest revision is protected; the upload is dropped).
   Result<Committed> commit(const std::string& id, const std::optional<Digest>& expected,
@@ -73,20 +74,20 @@ class Programs {
   /// Puts a held revision in force. Errors: NotFound.
   Result<storage::Revision> accept(const std::string& program, std::uint64_t number,
                                    const std::string& who);
-  /// Hides a held revision for ever. Errors: NotFound, Conflict (it is in force).
+  /// Hides a held revision forever. Errors: NotFound, Conflict (it is in force).
   Result<void> reject(const std::string& program, std::uint64_t number, const std::string& who);
   /// Errors: NotFound, Busy, Conflict (protected).
   Result<void> remove(const std::string& program, const std::string& who,
                       Protection protection = Protection::Respect);
-  /// Promises of both: storage::Store.
+  /// Promises of both: storage::ProgramStore.
   Result<storage::Revision> copy(const storage::ProgramMove& move,
                                  std::optional<std::uint64_t> number);
   Result<void> rename(const storage::ProgramMove& move);
-  /// What the program calls itself (program_title.hpp).
+  /// The program's own name (program_title.hpp).
   std::string title(const storage::Revision& revision) { return titles_.of(revision.content); }
 
   static constexpr std::size_t kMaxComment = 1024;
-  /// How much of a text is looked at to find its control.
+  /// How much of a text is searched to determine its control.
   static constexpr std::uint64_t kHead = 64 * 1024;
 
  private:
@@ -95,9 +96,9 @@ class Programs {
     ContentCheck check;
   };
   std::shared_ptr<Session> session(const std::string& id);
-  void forget(const std::string& id);
+  void drop_session(const std::string& id);
   Result<void> catch_up(Session& session, const storage::Upload& upload);
-  Result<void> settle_control(storage::Upload& upload);
+  Result<void> determine_control(storage::Upload& upload);
   Result<void> check_protection(const std::string& program,
                                 const std::optional<Digest>& replacement);
   Error in_control_words(const storage::ProgramMove& move, const Error& error);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint64_t kLinesPerPiece = 1000;
 
-/// A spreadsheet takes such text for a formula, which can send what else is in the sheet away. A
-/// number keeps its sign.
+/// A spreadsheet takes such text for a formula, which can send the rest of the sheet away. A number
+/// keeps its sign.
 bool looks_like_formula(const std::string& text) {
   if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) {
     return false;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A run calls at most so many different programs between two looks into the library.
+/// A run calls at most so many different programs between two look-ups in the library.
 constexpr std::size_t kMaxPinned = 256;
 constexpr auto kPause = 5ms;  ///< before a machine whose queue is full is tried again
 
@@ -140,7 +140,7 @@ BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& 
     if (auto written = endpoint_.write(data); !written) {
       if (written.error().code == Errc::Timeout)
         return {.rest = std::move(request), .must_pause = true};
-      return {};  // the machine is gone; when it is back it asks again
+      return {};  // the machine is disconnected; it requests them again
     }
     request.offset += piece.size();
     request.length -= static_cast<std::uint32_t>(piece.size());

@@ -15,8 +15,8 @@ namespace dripline::machines {
 
 /// Answers the gateways' requests for program text. A lane per machine: its requests are served in
 /// order, one turn of at most kTurnBytes at a time, so that 200 machines share the workers fairly
-/// and none needs more memory than a turn. Asking is idempotent, so whatever is too much is simply
-/// left out: the gateway asks again.
+/// and none needs more memory than a turn. Asking is idempotent, so what exceeds a
+/// limit is dropped: the gateway requests it again.
 class BlockFeed {
  public:
   static constexpr std::size_t kMaxWaiting = 64;  ///< requests of one machine

@@ -9,7 +9,7 @@ namespace dripline::machines {
 
 /// The revision a run uses for the name a program called: the newest one that existed when the run
 /// was created, so that every request of a run, also after a restart of the server, gets the same
-/// text. Errors: NotFound, naming what was looked for.
+/// text. Errors: NotFound, naming what was searched for.
 Result<storage::Revision> resolve_called_program(storage::ProgramStore& store,
                                                  const storage::Run& run, const std::string& name);
 

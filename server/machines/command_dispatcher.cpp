@@ -13,10 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxGivenUp = 64;
-constexpr auto kRetry = 10ms;  ///< before an order is offered again to a full queue
+constexpr auto kRetry = 10ms;  ///< before a command is offered again to a full queue
 
-/// These are sent at once, whatever is known of the gateway. Whether an override is lowered is for
-/// the gateway to say.
+/// These are sent at once, whatever is known of the gateway. Only the gateway knows whether an
+/// override is lowered.
 bool may_stop(const dds::Command& command) {
   return dds::is_stop(command.action, command.argument, command.value) ||
          dds::is_override(command.action) || command.action == dds::CommandAction::Refuse;
@@ -47,7 +47,7 @@ Result<void> CommandDispatcher::send(dds::Command command) {
   return write_in_time(command, deadline);
 }
 
-/// To the gateway that speaks for the machine at this moment, in terms of its clock.
+/// To the present gateway of the machine, in terms of its clock.
 Result<void> CommandDispatcher::send_to_present(dds::Command command, SteadyTime deadline) {
   if (options_.gateway_of) {
     const auto gateway = options_.gateway_of(command.machine);
@@ -97,17 +97,17 @@ Result<void> CommandDispatcher::await(const std::string& id) {
   const auto limit = expiry + options_.grace;
   std::unique_lock lock(mutex_);
   const Waiting& waiting = waiting_.at(id);
-  const auto is_settled = [&] { return waiting.result.has_value() || is_stopping_; };
+  const auto is_resolved = [&] { return waiting.result.has_value() || is_stopping_; };
   for (auto next = std::chrono::steady_clock::now() + options_.repeat; next < expiry;
        next += options_.repeat) {
-    if (changed_.wait_until(lock, next, is_settled)) break;
+    if (changed_.wait_until(lock, next, is_resolved)) break;
     dds::Command again = waiting.command;
     lock.unlock();
-    // A full queue or a machine that went away: the next round tries again, until the limit.
+    // A full queue or a disconnected machine: the next round tries again, until the limit.
     [[maybe_unused]] const auto written = send_to_present(std::move(again), waiting.deadline);
     lock.lock();
   }
-  const bool is_decided = changed_.wait_until(lock, limit, is_settled);
+  const bool is_decided = changed_.wait_until(lock, limit, is_resolved);
   if (waiting.result) {
     if (waiting.result->accepted) return {};
     return fail(Errc::Busy, "machine {} refused {}: {}", waiting.command.machine,

@@ -15,41 +15,42 @@
 
 namespace dripline::machines {
 
-/// Sends orders and waits for their results. Every order has an id, a number and a deadline by the
-/// gateway's own steady clock, so that one that was delayed on its way moves nothing late. What
-/// stops is carried out whenever it comes (dripline.idl).
+/// Sends commands and waits for their results. Every command has an id, a number and a deadline by
+/// the gateway's own steady clock, so that a delayed one moves nothing late. A command that stops
+/// is carried out whenever it arrives (dripline.idl).
 class CommandDispatcher {
  public:
   struct Options {
     std::chrono::milliseconds expiry{5000};
     std::chrono::milliseconds grace{1000};  ///< for a result given just before the expiry
-    /// An order without an answer is sent again, with the same id, to the gateway that speaks now:
-    /// the first may have been lost with a connection, or been meant for a gateway that has just
-    /// been replaced.
+    /// A command without an answer is sent again, with the same id, to the gateway present then:
+    /// the first may have been lost with a connection, or have gone to a gateway that was just
+    /// replaced.
     std::chrono::milliseconds repeat{250};
     struct Gateway {
       std::uint64_t session = 0;
-      std::optional<std::chrono::microseconds> steady_ahead;  ///< of ours; not more than it is
+      std::optional<std::chrono::microseconds>
+          steady_ahead;  ///< of the server's; never overestimated
     };
-    /// The gateway that speaks for a machine now; absent: orders keep their session.
+    /// The present gateway of a machine; absent: commands keep their session.
     std::function<Gateway(const std::string& machine)> gateway_of{};
   };
   /// `on_late_start`: a start was accepted after its sender gave up; called on a DDS thread.
   CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock& clock, Options options,
                     std::function<void(const dds::Command&)> on_late_start);
 
-  /// Gives the order an id and an expiry, sends it and waits. Any thread but DDS's. Errors: Busy
+  /// Gives the command an id and an expiry, sends it and waits. Any thread but DDS's. Errors: Busy
   /// (refused: the gateway's reason), Timeout (nothing heard in time), NotFound (never announced),
   /// Io (the server is stopping).
   Result<void> carry_out(dds::Command command);
-  /// Without waiting for the result; for orders of our own.
+  /// Without waiting for the result; for commands of the server itself.
   Result<void> send(dds::Command command);
 
   /// On a DDS thread; returns at once.
   void on_result(const dds::CommandResult& result);
   /// The machine shows this run: its start was accepted, even if the result was lost.
   void on_run_seen(const std::string& machine, const std::string& run);
-  /// Is somebody waiting for the start of this run?
+  /// Whether a caller waits for the start of this run.
   bool is_waiting_for(const std::string& run) const;
   void stop();
 
@@ -57,7 +58,7 @@ class CommandDispatcher {
   struct Waiting {
     dds::Command command;
     std::optional<dds::CommandResult> result;
-    SteadyTime deadline;  ///< by our clock
+    SteadyTime deadline;  ///< by the server's clock
   };
   SteadyTime stamp(dds::Command& command);
   Result<void> send_to_present(dds::Command command, SteadyTime deadline);

@@ -72,7 +72,7 @@ Result<void> check_control_memory(const storage::Store& store, const storage::Ru
   const auto dialect = interpreter::find_dialect(run.control);
   if (!dialect || (*dialect)->check_memory == nullptr) return {};
   const auto stored = store.setups.find(run.machine, std::nullopt);
-  if (!stored) return {};  // its gateway has its own
+  if (!stored) return {};  // its gateway has its own setup
   const auto setup = interpreter::parse_control_data(stored->text, (*dialect)->units);
   if (!setup) return fail(setup.error());
   StoredPrograms source(store, run);

@@ -5,8 +5,8 @@
 
 namespace dripline::machines {
 
-/// Could the machine's control keep the run's program, with all it calls, in its own memory? Asked
-/// only where the machine's newest setup says that the control keeps its programs; what is
+/// Whether the machine's control can keep the run's program, with all it calls, in its own memory.
+/// Checked only where the control keeps its programs by the machine's newest setup; what is
 /// drip-fed has no such limits. Errors: LimitExceeded, in the control's words.
 Result<void> check_control_memory(const storage::Store& store, const storage::Run& run);
 

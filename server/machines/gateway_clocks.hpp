@@ -10,20 +10,21 @@
 
 namespace dripline::machines {
 
-/// How the clocks of one gateway compare with ours, from the statuses it writes at least once a
-/// second. A status is delayed on its way, so each comparison shows the gateway's clock at most as
-/// far ahead as it is; the largest of the last ones is the best. Not thread-safe.
+/// How the clocks of one gateway compare with the server's, from the statuses it writes at least
+/// once a second. A status is delayed in transit, so each comparison shows the gateway's clock at
+/// most as far ahead as it is; the largest of the last ones is the best. Not thread-safe.
 class GatewayClocks {
  public:
   static constexpr std::chrono::microseconds kTolerance{1'000'000};
 
-  /// Another gateway speaks: nothing is known of its clocks.
+  /// Another gateway took over: nothing is known of its clocks.
   void reset() { *this = {}; }
   void compare(const dds::Status& status, UtcTime now, SteadyTime steady_now);
 
-  /// How far its steady clock is ahead of ours, never more than it is.
+  /// How far its steady clock is ahead of the server's, never overestimated.
   std::optional<std::chrono::microseconds> steady_ahead() const { return steady_ahead_; }
-  /// How far its time of day is ahead of ours; negative: after. None before kSamples comparisons.
+  /// How far its time of day is ahead of the server's; negative: after. None before kSamples
+  /// comparisons.
   std::optional<std::chrono::microseconds> time_ahead() const;
 
  private:

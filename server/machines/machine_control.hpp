@@ -12,28 +12,28 @@
 
 namespace dripline::machines {
 
-/// What is known of a machine: the stored part and what its gateway said last.
+/// What is known of a machine: the stored part and what its gateway reported last.
 struct MachineView {
   storage::Machine machine;
   bool is_connected = false;
-  std::uint64_t session = 0;  ///< of the gateway that spoke last; orders are meant for this one
-  bool is_contested = false;  ///< two gateways say that they are this machine
+  std::uint64_t session = 0;          ///< of the gateway heard last; commands go to this one
+  bool is_contested = false;          ///< two gateways claim to be this machine
   std::optional<dds::Status> status;  ///< absent until one was received since the server started
   std::optional<std::uint32_t> protocol;  ///< of its gateway; absent: not announced, or on a line
-  /// How far the gateway's time of day is ahead of ours; absent: not known yet.
+  /// How far the gateway's time of day is ahead of the server's; absent: not known yet.
   std::optional<std::chrono::microseconds> clock_ahead = {};
 };
 
 /// Where a run begins when it does not begin at the program's first byte. At most one is given.
-/// Over a serial line `tool` and `skipped` are Unsupported. A gateway looks through the program up
-/// to there; a control whose interpreter cannot do that refuses.
+/// Over a serial line `tool` and `skipped` are Unsupported. A gateway executes the program
+/// without motion up to there; a control whose interpreter cannot do that refuses.
 struct StartPoint {
   std::optional<std::uint64_t> byte;      ///< offset; the rest of its block is sent first
   std::optional<std::uint64_t> line;      ///< 1-based
   std::optional<std::uint64_t> sequence;  ///< the first block with this N number
   std::optional<std::uint64_t> tool;      ///< the first block with this tool
   std::optional<std::uint64_t> skipped;   ///< after so many blocks
-  /// Where the program comes to that block more than once: which time, from 1. A gateway's control
+  /// Which pass, from 1, where the program reaches that block more than once. A gateway's control
   /// asks for it; over a serial line Unsupported.
   std::optional<std::uint64_t> pass = {};
 };
@@ -43,15 +43,15 @@ struct StartPoint {
 enum class StartHead : std::uint8_t {
   Ask,   ///< the run is refused, and they are named
   Send,  ///< they are sent first
-  Set,   ///< whoever starts the run says that they are in force at the control
+  Set,   ///< the operator confirms that they are in force at the control
 };
 
-/// With which memory of the control (variables, offsets) a gateway looks through the skipped part,
-/// where that part changes what it has read before. Over a serial line Unsupported.
+/// Which memory of the control (variables, offsets) a gateway executes the skipped part with, where
+/// that part changes what it has read before. Over a serial line Unsupported.
 enum class StartMemory : std::uint8_t {
   Ask,    ///< the run is refused, and what it would lose is named
   Begin,  ///< as it was when the machine's last run of this revision began at its first block
-  Now,    ///< as it is: the skipped part applies once more
+  Now,    ///< as it is: the skipped part applies again
 };
 
 struct StartRequest {
@@ -65,22 +65,22 @@ struct StartRequest {
 };
 
 struct CommandRequest {
-  std::string run;  ///< empty: `machine` is told, with a run or without
+  std::string run;  ///< empty: for `machine`, with a run or without
   dds::CommandAction action = dds::CommandAction::Hold;  ///< any but Start
   std::string argument;                                  ///< answer: its text; switch: its name
   double value = 0;                                      ///< overrides: factor; switch: 0 or 1
   std::string machine = {};                              ///< where `run` is empty: its panel
 };
 
-/// What happened at the machines, told to whoever shows it. Called on worker threads, never two
-/// calls for one machine at once; must return soon.
+/// Receives what happens at the machines. Called on worker threads, never two calls for one machine
+/// at once; must return soon.
 struct MachineListener {
   std::function<void(const MachineView&)> on_machine;
   std::function<void(const storage::Run&)> on_run;
   std::function<void(const storage::Record&)> on_record;
 };
 
-/// The machines as the API sees them. Any thread; `start` and `order` wait for the gateway's
+/// The machines as the API sees them. Any thread; `start` and `command` wait for the gateway's
 /// answer, at most some seconds.
 class MachineControl {
  public:
@@ -88,10 +88,11 @@ class MachineControl {
   virtual std::vector<MachineView> machines() const = 0;
   /// Errors: NotFound.
   virtual Result<MachineView> machine(const std::string& name) const = 0;
-  /// The run once the gateway has taken it. Errors: NotFound (machine, program, revision),
-  /// Unsupported (the program is for another control; `head` for a gateway), Conflict (the
-  /// rest of the program relies on what is not sent), Busy (the machine has a run, or the gateway
-  /// refused: the run's state is then Refused), Timeout (not connected, or no answer in time).
+  /// Returns the run when the gateway has accepted it. Errors: NotFound (machine, program,
+  /// revision), Unsupported (the program is for another control; `head` for a gateway), Conflict
+  /// (the rest of the program relies on what is not sent), Busy (the machine has a run, or the
+  /// gateway refused: the run's state is then Refused), Timeout (not connected, or no answer in
+  /// time).
   virtual Result<storage::Run> start(const StartRequest& request) = 0;
   /// Errors: NotFound (run, machine), Conflict (it has ended), Busy (refused, with the
   /// gateway's reason), Timeout (not connected, or no answer in time: the outcome is unknown).

@@ -26,7 +26,7 @@ std::vector<std::string> notices_of(const MachineView& view) {
   const auto add = [&notices](std::string notice) {
     if (!notice.empty()) notices.push_back(std::move(notice));
   };
-  if (view.is_contested) add("two gateways say that they are this machine: stop one of them");
+  if (view.is_contested) add("two gateways claim to be this machine: stop one of them");
   if (view.protocol) add(protocol_notice(*view.protocol));
   if (view.is_connected && view.clock_ahead) add(clock_notice(*view.clock_ahead));
   return notices;

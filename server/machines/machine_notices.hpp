@@ -7,12 +7,12 @@
 
 namespace dripline::machines {
 
-/// What is wrong between the server and this machine's gateway, in sentences for people; empty when
-/// all is well. Nothing of what the machine itself reports.
+/// Faults between the server and this machine's gateway, in sentences for people; empty when there
+/// is none. Without what the machine itself reports.
 std::vector<std::string> notices_of(const MachineView& view);
 
-/// Why nothing but a stop can be ordered of a machine whose gateway speaks this protocol; empty
-/// when it speaks ours.
+/// Why a machine whose gateway has this protocol version takes no command but a stop; empty when
+/// the version is the server's.
 std::string protocol_notice(std::uint32_t protocol);
 
 /// "the gateway's clock is 3600.0 s ahead of the server's"; empty while they agree.

@@ -25,7 +25,7 @@ Result<void> MachineRegistry::load() {
   for (auto& machine : *machines) {
     const std::string name = machine.name;
     MachineView& view = entries_[name].view;
-    if (view.is_connected) {  // it announced itself before we came to this: it knows better
+    if (view.is_connected) {  // it announced itself meanwhile: that is newer
       view.machine.first_seen = machine.first_seen;
     } else {
       view.machine = std::move(machine);
@@ -71,8 +71,8 @@ void MachineRegistry::on_status(dds::Status status) {
   if (is_known(entry.view)) schedule(entry);
 }
 
-/// A restarted gateway has a new session, and the old one is never heard again. When it is, there
-/// are two.
+/// A restarted gateway has a new session, and the old one is never heard again. If it is heard,
+/// there are two.
 void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
   if (session == 0 || session == entry.view.session) return;
   auto& earlier = entry.earlier_sessions;
@@ -89,13 +89,12 @@ void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
 void MachineRegistry::contest(Entry& entry) {
   const SteadyTime now = parts_.clock.steady_now();
   if (now >= entry.contested_until) {
-    spdlog::error("two gateways say that they are machine={}: stop one of them",
-                  entry.view.machine.name);
+    spdlog::error("two gateways claim to be machine={}: stop one of them", entry.view.machine.name);
   }
   entry.contested_until = now + kContested;
 }
 
-/// A killed gateway and its successor: the first is never heard again. When it is, there are two.
+/// A killed gateway and its successor: the first is never heard again. If it is, there are two.
 void MachineRegistry::on_rival(const std::string& machine, bool is_there) {
   const std::lock_guard lock(mutex_);
   entries_[machine].has_rival = is_there;
@@ -168,13 +167,13 @@ Result<MachineView> MachineRegistry::view(const std::string& name) const {
   return shown(found->second);
 }
 
-/// However many changes arrive meanwhile, one task a machine tells the latest.
+/// However many changes arrive meanwhile, one task per machine publishes the latest.
 void MachineRegistry::schedule(Entry& entry) {
   if (std::exchange(entry.is_scheduled, true) || entry.is_telling) return;
-  parts_.pool.post([this, name = entry.view.machine.name] { tell(name); });
+  parts_.pool.post([this, name = entry.view.machine.name] { publish(name); });
 }
 
-void MachineRegistry::tell(const std::string& name) {
+void MachineRegistry::publish(const std::string& name) {
   MachineView view;
   bool is_dirty = false;
   {
@@ -190,7 +189,7 @@ void MachineRegistry::tell(const std::string& name) {
   const std::lock_guard lock(mutex_);
   Entry& entry = entries_.at(name);
   entry.is_telling = false;
-  if (entry.is_scheduled) parts_.pool.post([this, name] { tell(name); });
+  if (entry.is_scheduled) parts_.pool.post([this, name] { publish(name); });
 }
 
 void MachineRegistry::save_machine(const std::string& name) {

@@ -134,7 +134,7 @@ void MachineService::tick() {
   pool_.post_after(MachineRegistry::kSaveInterval, [this] { tick(); });
 }
 
-/// What was dropped is told at most once a minute: whoever sends it must not fill the log.
+/// Dropped messages are logged at most once a minute: their sender must not fill the log.
 void MachineService::log_rejected() {
   constexpr std::chrono::minutes kInterval{1};
   const SteadyTime now = clock_.steady_now();
@@ -202,14 +202,14 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
   if (view->is_contested) {
-    return fail(Errc::Busy, "two gateways say that they are machine '{}'; stop one of them",
+    return fail(Errc::Busy, "two gateways claim to be machine '{}'; stop one of them",
                 request.machine);
   }
-  if (auto told = check_protocol(*view); !told) return fail(told.error());
+  if (auto same = check_protocol(*view); !same) return fail(same.error());
   auto run = make_run(request, *view);
   if (!run) return run;
   if (auto fits = check_control_memory(store_, *run); !fits) return fail(fits.error());
-  // Nothing is begun that could not go on: the list of its chunks is looked through before.
+  // No run begins that could not continue: the list of its chunks is checked before.
   if (auto sound = store_.programs.verify_content(run->content); !sound) {
     return fail(sound.error().code, "program '{}' revision {}: {}", run->program, run->revision,
                 sound.error().what);
@@ -217,7 +217,7 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
   const auto setup = setup_of(*run);
   if (!setup) return fail(setup.error());
   if (*setup) run->setup = (*setup)->number;
-  // It may have announced itself this very moment, and a run needs its machine in the store.
+  // It may have announced itself just now, and a run needs its machine in the store.
   if (auto saved = store_.machines.save(view->machine); !saved) return fail(saved.error());
   if (auto created = store_.runs.create(*run); !created) return fail(created.error());
   parts->reconciler.watch(run->machine, run->id);
@@ -244,7 +244,7 @@ Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
   }
   spdlog::warn("run not started machine={} run={} program={}: {}", run.machine, run.id, run.program,
                outcome.error().what);
-  // When the server stops, nobody knows yet: the next one finds out.
+  // The server stops before the outcome is known: the next one determines it.
   if (outcome.error().code == Errc::Io) return fail(outcome.error());
   const auto refused = owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Refused,
                                                                 outcome.error().what);
@@ -254,7 +254,7 @@ Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
   return fail(outcome.error());
 }
 
-/// A gateway of another version keeps what it runs and reports, and can be stopped. That is all.
+/// A gateway of another version keeps its run and its reports, and can only be stopped.
 void MachineService::refuse_stranger(const dds::Announce& announce) {
   const std::string notice = protocol_notice(announce.protocol);
   if (notice.empty()) return;
@@ -263,7 +263,7 @@ void MachineService::refuse_stranger(const dds::Announce& announce) {
   command.action = dds::CommandAction::Refuse;
   command.argument = notice;
   if (auto sent = owned_parts_->commands.send(std::move(command)); !sent)
-    spdlog::warn("gateway not told machine={}: {}", announce.machine, sent.error().what);
+    spdlog::warn("gateway not notified machine={}: {}", announce.machine, sent.error().what);
 }
 
 Result<void> MachineService::check_protocol(const MachineView& view) {
@@ -301,7 +301,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   return parts->commands.carry_out(std::move(command));
 }
 
-/// At its panel: no run is needed.
+/// For its panel: no run is needed.
 Result<void> MachineService::command_machine(const CommandRequest& request) {
   const auto view = connected_machine(request.machine);
   if (!view) return fail(view.error());
@@ -315,7 +315,7 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   return owned_parts_->commands.carry_out(std::move(command));
 }
 
-/// The sender was told that nothing came of this start, so nothing may come of it.
+/// The sender has got an error for this start, so it must not run.
 void MachineService::on_late_start(const dds::Command& late) {
   storage::Run run;
   run.machine = late.machine;

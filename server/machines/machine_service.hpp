@@ -23,26 +23,26 @@ namespace dripline::machines {
 ///     auto endpoint = ServerEndpoint::open(network, feeds.handlers());
 ///     feeds.begin(std::move(*endpoint));      // nothing is handled before
 ///     ... feeds.end();                        // leaves DDS
-/// DDS threads only hand over; a pool of workers does everything that waits.
+/// DDS threads only enqueue; a pool of workers does everything that waits.
 class MachineService final : public MachineControl {
  public:
   struct Options {
     unsigned workers = 4;
     CommandDispatcher::Options commands;
-    /// A machine's records cannot be stored, and why; empty: they are again. Any thread.
-    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+    /// At every try: why a machine's records cannot be stored; empty: they can again. Any thread.
+    std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
   MachineService(const storage::Store& store, const Clock& clock, Options options,
                  MachineListener listener);
   ~MachineService() override;
 
-  /// Valid while the service lives; what arrives before begin() is left out, and asked or sent
-  /// again by the gateways.
+  /// Valid while the service lives; what arrives before begin() is dropped, and the gateways
+  /// request or send it again.
   dds::ServerHandlers handlers();
   Result<void> begin(std::unique_ptr<dds::ServerEndpoint> endpoint);
-  /// Whoever waits for a gateway's answer is told that the server stops. Called by end().
+  /// Callers that wait for a gateway's answer get an error. Called by end().
   void stop_waiting();
-  /// In order: no more from the network, waiting orders fail, what has arrived is stored, DDS is
+  /// In order: no more from the network, waiting commands fail, what has arrived is stored, DDS is
   /// left. Called by the destructor at the latest.
   void end();
 

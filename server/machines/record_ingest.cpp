@@ -27,20 +27,20 @@ storage::Record to_stored(const dds::Record& record) {
           .text = record.text};
 }
 
-/// What was after a gap has not been stored; it comes again.
+/// Records after a gap have not been stored; the gateway sends them again.
 void leave_out_after(std::uint64_t stored, storage::RecordBatch& batch) {
   if (batch.records.back().number <= stored) return;
   std::erase_if(batch.records, [&](const auto& record) { return record.number > stored; });
-  const auto is_told = [&](const std::string& run, std::string_view kind) {
+  const auto is_reported = [&](const std::string& run, std::string_view kind) {
     return std::ranges::any_of(batch.records, [&](const auto& record) {
       return record.run == run && record.kind == kind;
     });
   };
   std::erase_if(batch.beginnings, [&](const auto& b) {
-    return !is_told(b.run, dds::to_string(dds::RecordKind::RunStarted));
+    return !is_reported(b.run, dds::to_string(dds::RecordKind::RunStarted));
   });
   std::erase_if(batch.endings, [&](const auto& e) {
-    return !is_told(e.run, dds::to_string(dds::RecordKind::RunEnded));
+    return !is_reported(e.run, dds::to_string(dds::RecordKind::RunEnded));
   });
 }
 
@@ -62,13 +62,13 @@ void RecordIngest::take(dds::Record record) {
 RecordIngest::Lane& RecordIngest::lane(const std::string& machine) {
   Lane& lane = lanes_[machine];
   if (!lane.writer) {
-    lane.writer = std::make_unique<RecordWriter>(RecordWriter::Parts{
-        .store = parts_.store.records,
-        .machine = machine,
-        .consequence = "the gateway keeps them",
-        .on_fault = [this, machine](const std::string& fault) {
-          if (parts_.on_fault) parts_.on_fault(machine, fault);
-        }});
+    lane.writer = std::make_unique<RecordWriter>(
+        RecordWriter::Parts{.store = parts_.store.records,
+                            .machine = machine,
+                            .consequence = "the gateway keeps them",
+                            .on_fault = [this, machine](const std::string& fault) {
+                              if (parts_.on_fault) parts_.on_fault(machine, fault);
+                            }});
   }
   return lane;
 }
@@ -103,7 +103,7 @@ void RecordIngest::commit(const std::string& machine) {
     std::erase_if(batch.records, [&](const auto& r) { return foreign.contains(r.run); });
     parts_.on_stored(batch);
     succeed(machine, batch.epoch, *stored);
-  } else {  // not acknowledged; and those that wait after them are not held up
+  } else {  // not acknowledged; records after them are not delayed
     spdlog::error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
                   stored.error().what);
   }
@@ -148,7 +148,7 @@ std::set<std::string> RecordIngest::foreign_runs(const std::vector<dds::Record>&
   return foreign;
 }
 
-/// When it happened, by our clock, as well as we know: not later than now.
+/// When it happened by the server's clock, as far as known: not later than now.
 UtcTime RecordIngest::our_time(const dds::Record& record) const {
   return std::min(record.time - parts_.clock_ahead(record.machine), parts_.clock.now());
 }

@@ -21,7 +21,7 @@ namespace dripline::machines {
 
 /// Puts what the machines report on disk, then acknowledges it. What arrives while a commit runs
 /// is the next commit. While the store refuses (a full disk) nothing is acknowledged and nothing is
-/// lost: the gateways keep their records, and the ones that are here already are tried again.
+/// lost: the gateways keep their records, and those that have arrived are tried again.
 class RecordIngest {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;  ///< records of one machine; more are left to
@@ -33,7 +33,8 @@ class RecordIngest {
     dds::ServerEndpoint& endpoint;
     WorkerPool& pool;
     const Clock& clock;
-    /// How far the machine's time of day is ahead of ours, where that is known and worth it.
+    /// How far the machine's time of day is ahead of the server's, where that is known and
+    /// significant.
     std::function<std::chrono::microseconds(const std::string& machine)> clock_ahead;
     /// Held while run states are changed.
     std::mutex& state_mutex;
@@ -48,7 +49,7 @@ class RecordIngest {
 
   /// Any thread; returns at once.
   void take(dds::Record record);
-  /// Tells a machine that has just come what is on disk of this epoch.
+  /// Notifies a machine that has just connected of what is on disk of this epoch.
   void greet(const std::string& machine, std::uint64_t epoch);
   /// Records so far that named another machine's run.
   std::uint64_t foreign() const { return foreign_; }
@@ -59,7 +60,7 @@ class RecordIngest {
     std::deque<dds::Record> waiting;
     bool is_scheduled = false;
     std::string foreign_run;  ///< of another machine, named last
-    dds::RecordAck ack;  ///< the last one to be sent
+    dds::RecordAck ack;       ///< the last one to be sent
     bool ack_is_owed = false;
   };
   Lane& lane(const std::string& machine);

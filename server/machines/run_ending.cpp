@@ -29,7 +29,7 @@ std::optional<bool> verify(const storage::Store& store, const dds::Record& recor
   const auto run = store.runs.find(record.run);
   if (!run) return std::nullopt;
   const auto ours = prefix_digest(store.programs, *run, text.content_length);
-  // When our own bytes cannot be read, nothing is said about the machine's.
+  // When the stored bytes cannot be read, nothing is known of the machine's.
   if (!ours && ours.error().code != Errc::LimitExceeded) {
     spdlog::error("executed bytes not compared machine={} run={} program={}: {}", record.machine,
                   record.run, run->program, ours.error().what);

@@ -5,11 +5,11 @@
 
 namespace dripline::machines {
 
-/// What a RunEnded record says, with our own judgement of the bytes the machine executed: the
-/// gateway reports the SHA-256 of the first bytes of the program it received, and we hash the same
-/// bytes of the revision. Reads content when that is only a part of the program.
-/// Errors: Syntax (the text is not what gateways write). An unknown run is no error: then nothing
-/// is compared.
+/// The content of a RunEnded record, with the server's own judgment of the bytes the machine
+/// executed: the gateway reports the SHA-256 of the first bytes of the program it received, and the
+/// server hashes the same bytes of the revision. Reads content when that is only a part of the
+/// program. Errors: Syntax (the text is not what gateways write). An unknown run is no error: then
+/// nothing is compared.
 Result<storage::RunEnding> read_run_ending(const storage::Store& store, const dds::Record& record);
 
 /// The SHA-256 of the first `length` bytes of stored content. Errors: LimitExceeded (it is

@@ -48,7 +48,7 @@ void RunReconciler::compare(const std::vector<MachineView>& machines) {
   }
 }
 
-/// The start was taken, but neither its result nor a status came through in time.
+/// The start was accepted, but neither its result nor a status arrived in time.
 void RunReconciler::look_for_unwanted(const MachineView& view) {
   const auto run = parts_.runs.find(view.status->run);
   if (!run || run->state != storage::RunState::Refused) return;
@@ -93,7 +93,7 @@ void RunReconciler::give_up(const std::string& id) {
   spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
                reason);
   if (auto set = parts_.runs.set_state(id, state, reason); !set) {
-    // Still watched, so this too is tried again: or the machine would be busy for ever.
+    // Still watched, so this is tried again; otherwise the machine would be busy forever.
     spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
     return;
   }

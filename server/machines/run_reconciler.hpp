@@ -13,8 +13,8 @@
 
 namespace dripline::machines {
 
-/// Brings the stored state of unfinished runs and what the machines show together again, after a
-/// restart of the server, a lost order result or a gateway that lost its memory:
+/// Reconciles the stored state of unfinished runs with what the machines show, after a restart of
+/// the server, a lost command result or a gateway that lost its memory:
 /// a run that a machine shows is active; one that a connected machine with an empty outbox does not
 /// show for kAbsence was never begun (Ordered: Refused) or was cut off without a record of it
 /// (Active: Interrupted). A refused run that a machine shows all the same is unwanted. Everything
@@ -29,19 +29,19 @@ class RunReconciler {
     const CommandDispatcher& commands;
     std::mutex& state_mutex;
     std::function<void(const storage::Run&)> on_change;
-    /// A machine shows a run whose starter was told that nothing came of it; at every comparison.
+    /// A machine shows a run whose start was reported as refused; at every comparison.
     std::function<void(const storage::Run&)> on_unwanted;
   };
   explicit RunReconciler(Parts parts) : parts_(std::move(parts)) {}
 
-  /// Finds the unfinished runs of a former life of the server.
+  /// Finds the unfinished runs of the server before this start.
   Result<void> load();
   void watch(const std::string& machine, const std::string& run);
   void drop(const std::string& run);
   /// Compares; regularly, from one thread.
   void compare(const std::vector<MachineView>& machines);
 
-  /// Ordered becomes `state`, every other state stays: its record was faster. Returns the run.
+  /// Ordered becomes `state`, every other state stays: its record arrived first. Returns the run.
   Result<storage::Run> resolve_ordered(const std::string& run, storage::RunState state,
                                        const std::string& reason);
 

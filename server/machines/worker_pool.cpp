@@ -49,7 +49,7 @@ void WorkerPool::work() {
   for (Task task; take(task); task = nullptr) {
     try {
       task();
-    } catch (const std::exception& e) {  // want of memory, or a mistake of ours
+    } catch (const std::exception& e) {  // memory is exhausted, or a bug
       spdlog::error("task failed, tried again: {}", e.what());
       post_after(kRetry, std::move(task));
     }

@@ -12,9 +12,9 @@
 namespace dripline::machines {
 
 /// A fixed number of threads for work that may wait for storage or for a gateway. Tasks begin in
-/// the order they were posted, delayed ones when their time has come. Whoever posts keeps the
+/// the order they were posted, delayed ones when their time has come. The caller keeps the
 /// number of its own waiting tasks bounded. A task that throws is tried again after kRetry: it must
-/// not end the server, nor may what it serves stand still for ever.
+/// neither end the server nor stop what it serves forever.
 class WorkerPool {
  public:
   using Task = std::function<void()>;
@@ -27,7 +27,7 @@ class WorkerPool {
   /// Both from any thread; ignored after stop().
   void post(Task task);
   void post_after(std::chrono::milliseconds delay, Task task);
-  /// Runs what is waiting, forgets what is delayed, and ends the threads. Not from a task.
+  /// Runs what is waiting, drops what is delayed, and ends the threads. Not from a task.
   void stop();
 
  private:

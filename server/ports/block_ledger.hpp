@@ -20,22 +20,23 @@ struct BlockPlace {
 std::int64_t sequence_number(std::string_view block);
 
 /// Turns stored program text into text that a line is offered (no CR, LF after every block) and
-/// remembers where the blocks under way stand in both, so that "so many characters have left" can
-/// be said in bytes and blocks of the program. Keeps a few numbers per block under way. Pure; one
+/// remembers the position of the blocks under way in both, so that a number of characters sent can
+/// be given in bytes and blocks of the program. Keeps a few numbers per block under way. Pure; one
 /// thread.
 class BlockLedger {
  public:
   /// `first_line`: of the program, 1-based, where the run begins.
   explicit BlockLedger(std::uint64_t first_line = 1) : next_line_(first_line) {}
 
-  /// Whole blocks that are offered before the program and are none of it; what to offer for them.
+  /// Whole blocks that are offered before the program and do not belong to it; returns what to
+  /// offer.
   std::string add_head(std::string_view head);
-  /// The next piece of the program, cut anywhere; what to offer for it. `is_last`: the text ends
-  /// with this piece, and its last block is ended if it is not.
+  /// The next piece of the program, cut anywhere; returns what to offer for it. `is_last`: the text
+  /// ends with this piece, and an LF is added if its last block has none.
   std::string add(std::string_view piece, bool is_last);
-  /// So many characters of what `add` returned have left (or were accepted). Never backwards.
+  /// So many characters of what `add` returned were sent (or accepted). Never backwards.
   void advance(std::uint64_t offered);
-  /// Everything added has left.
+  /// Everything added was sent.
   void advance_to_end() { advance(offered_); }
 
   const BlockPlace& place() const { return place_; }

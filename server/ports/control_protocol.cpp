@@ -13,7 +13,7 @@ Result<void> check_protocol(storage::SetupStore& store, const std::string& machi
   const auto stored = store.find(machine, std::nullopt);
   if (!stored) return {};
   const auto setup = interpreter::parse_control_data(stored->text);
-  // What another control's options say is its own.
+  // Options of another control are no question here.
   const auto version = setup ? tnc155::version_of(setup->control)
                              : Result<tnc155::ControlVersion>(fail(setup.error()));
   if (!version || version->has(tnc155::Feature::BlockwiseTransfer)) return {};

@@ -8,9 +8,9 @@
 
 namespace dripline::ports {
 
-/// Whether the machine's control speaks a line's protocol, as far as its newest setup says which
-/// control it is: a TNC 151/155 E or V has no transfer blockwise. Nothing is known, and all is
-/// well, where there is no setup. Errors: Unsupported, naming machine and setup.
+/// Whether the machine's control has a line's protocol, as far as its newest setup names the
+/// control: a TNC 151/155 E or V has no transfer blockwise. Without a setup nothing is known, and
+/// nothing is refused. Errors: Unsupported, naming machine and setup.
 Result<void> check_protocol(storage::SetupStore& store, const std::string& machine,
                             wire::Flow flow);
 

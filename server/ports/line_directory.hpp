@@ -9,7 +9,7 @@
 
 namespace dripline::ports {
 
-/// Who hangs on which line now. Any thread.
+/// The line that each machine is connected to now. Any thread.
 class LineDirectory {
  public:
   virtual ~LineDirectory() = default;

@@ -10,7 +10,7 @@
 namespace dripline::ports {
 namespace {
 
-/// Waits for what somebody else's thread will say. The promise is shared: an answer that comes too
+/// Waits for the answer of another thread. The promise is shared: an answer that comes too
 /// late still has where to go.
 template <class T>
 Result<T> wait_for(std::future<Result<T>> answer, const std::string& what) {
@@ -29,7 +29,7 @@ dds::Execution execution_of(const PortView& port, const std::optional<SendProgre
 }
 
 std::string message_of(const PortView& port, const std::optional<SendProgress>& progress) {
-  if (!port.is_open) return fmt::format("port {} is not open: {}", port.port.name, port.trouble);
+  if (!port.is_open) return fmt::format("port {} is not open: {}", port.port.name, port.fault);
   if (progress && progress->is_waiting_for_line) return "waits for its line";
   if (progress && progress->is_held) return "held by the operator";
   if (progress && port.line.awaits_start) {
@@ -41,7 +41,7 @@ std::string message_of(const PortView& port, const std::optional<SendProgress>& 
   if (port.request) return request_words(*port.request);
   if (port.line.is_stopped && !port.line.waiting_for.empty()) return "the control holds the line";
   if (!port.line.waiting_for.empty()) return fmt::format("waits for {}", port.line.waiting_for);
-  return port.trouble;
+  return port.fault;
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void LineMachines::begin(const std::shared_ptr<PortLine>& line,
   if (!port.is_open) {
     return started(fail(Errc::Timeout, "machine '{}' is not connected: port {} is not open: {}",
                         request.machine, port.port.name,
-                        port.trouble.empty() ? "not yet" : port.trouble));
+                        port.fault.empty() ? "not yet" : port.fault));
   }
   line->drop_answer();
   if (line->is_busy()) {
@@ -154,7 +154,7 @@ Result<storage::Run> LineMachines::conclude(const storage::Run& run, const Resul
 
 Result<void> LineMachines::command(const machines::CommandRequest& request) {
   if (request.run.empty()) {
-    return fail(Errc::Unsupported, "machine '{}' hangs on a line: its panel is out of reach",
+    return fail(Errc::Unsupported, "machine '{}' is on a serial line: its panel cannot be reached",
                 request.machine);
   }
   const auto run = store_.runs.find(request.run);
@@ -172,14 +172,13 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
   } else if (request.action == dds::CommandAction::Resume) {
     line->resume(run->id, answered);
   } else if (request.action == dds::CommandAction::Abort) {
-    line->abort(run->id, "aborted by order", answered);
+    line->abort(run->id, "aborted by command", answered);
   } else {
     return fail(Errc::Unsupported,
-                "machine '{}' hangs on a line: it can be held, resumed and "
-                "aborted, not told to {}",
+                "machine '{}' is on a serial line: it takes hold, resume and abort, not {}",
                 run->machine, dds::to_string(request.action));
   }
-  spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
+  spdlog::info("command {} machine={} run={} program={}", dds::to_string(request.action),
                run->machine, run->id, run->program);
   auto done = wait_for<void>(std::move(answer), "run " + run->id);
   on_change(run->machine);

@@ -12,12 +12,12 @@
 namespace dripline::ports {
 
 /// The machines at the ends of lines: a run is a program sent over its machine's line. `connected`
-/// means that the line is open; of the machine itself a line tells nothing, so its status is made
+/// means that the line is open; a line reports nothing of the machine itself, so its status is made
 /// of what the line does.
 class LineMachines final : public machines::MachineControl {
  public:
   using Started = std::function<void(const Result<storage::Run>&)>;
-  /// How long `start` and `order` wait for the line's thread.
+  /// How long `start` and `command` wait for the line's thread.
   static constexpr std::chrono::seconds kAnswerLimit{10};
 
   LineMachines(const storage::Store& store, const Clock& clock, const LineDirectory& directory,
@@ -30,8 +30,8 @@ class LineMachines final : public machines::MachineControl {
   /// Hold, Resume and Abort; others are Unsupported.
   Result<void> command(const machines::CommandRequest& request) override;
 
-  /// As `start`, for whoever must not wait: `started` is called on the machine's strand.
-  /// `wire_name` is what the control calls the program; empty: as the library does.
+  /// The same as `start` for callers that must not wait: `started` is called on the machine's
+  /// strand. `wire_name` is what the control calls the program; empty: as the library does.
   void start_later(const machines::StartRequest& request, Started started,
                    const std::string& wire_name = "");
   /// On the strand of that line.
@@ -39,7 +39,7 @@ class LineMachines final : public machines::MachineControl {
   void on_change(const std::string& machine);
   void save_progress(const PortLine& line);
   LineRuns& runs() { return runs_; }
-  /// Tells the listener what the store says of it now.
+  /// Notifies the listener of the run as it is stored now.
   void announce(const std::string& run) const;
 
  private:

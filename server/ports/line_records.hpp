@@ -13,10 +13,10 @@
 
 namespace dripline::ports {
 
-/// What a machine without a gateway is known to have done, as records: numbered here, in an epoch
-/// of the server's process that is later than all before, and stored before anybody is told. While
-/// the store refuses, everything waits in its order and is tried again with the same numbers, so
-/// that a commit whose answer was lost doubles nothing. Used on the strand only.
+/// Records of a machine without a gateway: numbered here, in an epoch of the server's process that
+/// is later than all before, and stored before any listener is notified. While the store refuses,
+/// everything waits in its order and is tried again with the same numbers, so that a commit whose
+/// answer was lost duplicates nothing. Used on the strand only.
 class LineRecords : public std::enable_shared_from_this<LineRecords> {
  public:
   struct Parts {
@@ -37,7 +37,7 @@ class LineRecords : public std::enable_shared_from_this<LineRecords> {
   };
   explicit LineRecords(Parts parts);
 
-  /// Stores them, at once or later. Whoever adds keeps the number of waiting ones bounded.
+  /// Stores them, at once or later. The caller keeps the number of waiting ones bounded.
   void add(std::vector<Entry> entries);
   std::size_t waiting() const { return waiting_.size(); }
   std::uint64_t epoch() const { return parts_.epoch; }

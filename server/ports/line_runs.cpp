@@ -12,7 +12,7 @@
 namespace dripline::ports {
 namespace {
 
-constexpr std::string_view kCompleted = "sent to its end; a line does not tell what was executed";
+constexpr std::string_view kCompleted = "sent to its end; a line does not report what was executed";
 
 storage::RunState to_state(SendOutcome outcome) {
   switch (outcome) {
@@ -101,11 +101,10 @@ Result<storage::Run> LineRuns::create(const machines::StartRequest& request,
 
 Result<SendJob> LineRuns::job(const storage::Run& run, const machines::StartRequest& request) {
   if (request.from.pass || request.memory != machines::StartMemory::Ask) {
-    return fail(
-        Errc::Unsupported,
-        "pass and memory: the program is looked through at a gateway; machine '{}' hangs on "
-        "a serial line, and its control has its own memory",
-        run.machine);
+    return fail(Errc::Unsupported,
+                "pass and memory: only a gateway executes the skipped part; machine '{}' is on "
+                "a serial line, and its control has its own memory",
+                run.machine);
   }
   const auto place = find_start(store_.programs, run, request.from);
   if (!place) return fail(place.error());

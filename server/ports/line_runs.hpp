@@ -20,7 +20,7 @@ Result<void> check_control(const storage::Revision& revision, const storage::Mac
 
 /// The runs of machines on lines, as the store has them. What is counted: *sent* bytes that left
 /// the line (or were accepted, where the protocol checks), *accepted* blocks the control
-/// acknowledged (0 where it cannot), *executed* nothing: a line cannot tell. Any thread, one
+/// acknowledged (0 where it cannot), *executed* nothing: a line cannot report it. Any thread, one
 /// machine at a time.
 class LineRuns {
  public:

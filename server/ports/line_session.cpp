@@ -19,7 +19,7 @@ std::size_t ahead_of(const wire::LineSettings& settings) {
   return std::clamp(static_cast<std::size_t>(wanted), least, kMaxAhead);
 }
 
-/// What an operator has to know to go on.
+/// The place an operator needs to continue from.
 std::string place_words(const SendProgress& progress) {
   const auto& sent = progress.sent;
   const char* what = progress.is_checked ? "accepted" : "sent";
@@ -83,7 +83,7 @@ void LineSession::fetch_more() {
 
 void LineSession::supply(const std::string& id, std::uint64_t offset, const std::string& piece,
                          wire::Discipline& line, wire::LineTime now) {
-  // Asked for by a job that is over, or by one that has begun anew since.
+  // Requested by a job that is over, or that has started again since.
   if (!sending_ || sending_->job.id != id || offset != sending_->next_fetch) return;
   if (!std::exchange(sending_->is_fetching, false)) return;
   sending_->next_fetch += piece.size();
@@ -191,7 +191,7 @@ void LineSession::on_room(wire::Discipline& line, wire::LineTime now) {
 }
 
 void LineSession::on_lost(const Error& error, wire::Discipline& line) {
-  // It goes on unless it waited without a limit: then the driver has dropped it.
+  // It continues unless it waited without a limit: then the driver has dropped it.
   if (is_checked_ && line.state().phase != wire::Phase::Idle) return;
   if (is_receiving_) end_receiving({.what = Incoming::What::Failed, .text = error.what});
   if (!sending_ || sending_->waits_for_line) return;
@@ -243,7 +243,7 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     take_text(std::move(received->text), line, now);
   } else if (auto* began = std::get_if<wire::TransferBegan>(&event)) {
     if (!began->is_receiving) return;
-    if (std::exchange(is_asking_, false)) return;  // told when we asked for it
+    if (std::exchange(is_asking_, false)) return;  // reported when it was requested
     is_receiving_ = true;
     host_.on_incoming({.what = Incoming::What::Began, .text = std::move(began->name)});
   } else if (const auto* ended = std::get_if<wire::TransferEnded>(&event)) {
@@ -257,17 +257,17 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
     fill(line, now);
   } else if (const auto* failed = std::get_if<wire::TransferFailed>(&event)) {
     on_failed(failed->error, line);
-  } else if (const auto* trouble = std::get_if<wire::LineError>(&event)) {
-    host_.on_fault(trouble->error);
+  } else if (const auto* fault = std::get_if<wire::LineError>(&event)) {
+    host_.on_fault(fault->error);
     if (is_receiving_) {
-      host_.on_incoming({.what = Incoming::What::Damaged, .text = trouble->error.what});
+      host_.on_incoming({.what = Incoming::What::Damaged, .text = fault->error.what});
     }
   } else if (const auto* request = std::get_if<wire::TransferRequest>(&event)) {
     host_.on_request(*request);
   }
 }
 
-/// Both directions may have been under way; what the line still does has not failed.
+/// Both directions may have been under way; the one that the line still does has not failed.
 void LineSession::on_failed(const Error& error, wire::Discipline& line) {
   host_.on_fault(error);
   if (error.code == Errc::Io) return on_lost(error, line);
@@ -282,7 +282,7 @@ void LineSession::end_receiving(Incoming incoming) {
   host_.on_incoming(std::move(incoming));
 }
 
-/// Said once, not for every piece.
+/// Reported once, not for every piece.
 void LineSession::lose_text() {
   if (std::exchange(is_losing_, true)) return;
   const Error error{Errc::LimitExceeded,

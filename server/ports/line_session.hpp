@@ -24,9 +24,9 @@ enum class JobKind : std::uint8_t {
 /// or an answer to the control, which is here as a whole.
 struct SendJob {
   JobKind kind = JobKind::Run;
-  std::string id;                     ///< a run's is the run's own
-  std::string name;                   ///< of the program, for protocols that say it
-  std::vector<std::string> programs;  ///< of a transfer, for people
+  std::string id;                               ///< a run's is the run's own
+  std::string name;                             ///< of the program, for protocols that carry it
+  std::vector<std::string> programs;            ///< of a transfer, for people
   std::shared_ptr<const ProgramStream> stream;  ///< where pieces come from
   std::uint64_t size = 0;                       ///< its bytes
   std::uint64_t first_byte = 0;                 ///< where the run begins
@@ -40,9 +40,9 @@ struct SendProgress {
   JobKind kind = JobKind::Run;
   std::string id;
   std::uint64_t size = 0;
-  BlockPlace sent;          ///< left, or accepted where the protocol checks
+  BlockPlace sent;          ///< sent, or accepted where the protocol checks
   bool is_checked = false;  ///< the other end acknowledges what it takes
-  bool is_held = false;     ///< by our operator
+  bool is_held = false;     ///< by the operator
   bool is_waiting_for_line = false;
 };
 
@@ -54,15 +54,15 @@ struct SendEnd {
   std::string reason;
 };
 
-/// What the control sends us, in order. Received text ends with Ended or Failed.
+/// What the control sends, in order. Received text ends with Ended or Failed.
 struct Incoming {
   enum class What : std::uint8_t { Began, Text, Damaged, Ended, Failed };
   What what = What::Text;
-  std::string text;  ///< Began: the name, when the protocol tells; Text; Damaged, Failed: why
-  bool is_program = false;  ///< Began: somebody asked for a program; it is no printed line
+  std::string text;  ///< Began: the name, when the protocol carries it; Text; Damaged, Failed: why
+  bool is_program = false;  ///< Began: a program was requested; it is no printed line
 };
 
-/// What a session wants of its owner. Called on the line's thread; must return soon.
+/// What a session asks of its owner. Called on the line's thread; must return soon.
 class SessionHost {
  public:
   virtual ~SessionHost() = default;
@@ -114,13 +114,13 @@ class LineSession {
 
   void on_event(wire::Event event, wire::Discipline& line, wire::LineTime now);
   void on_room(wire::Discipline& line, wire::LineTime now);
-  /// The channel is gone. A checked protocol goes on by itself when it is back; of any other, what
-  /// has left may have got lost, so only a run of which nothing has left waits for the line.
+  /// The channel is lost. A checked protocol continues by itself when it is back; with any other,
+  /// characters sent may be lost, so only a run of which nothing was sent waits for the line.
   void on_lost(const Error& error, wire::Discipline& line);
   void on_open(wire::Discipline& line, wire::LineTime now);
-  /// Now and then, some times a second.
+  /// Called some times a second.
   void poll(wire::Discipline& line, wire::LineTime now);
-  /// The owner stops: what is under way is over.
+  /// The owner stops: what is under way ends.
   void stop(const std::string& reason);
 
   std::optional<SendProgress> progress() const;
@@ -153,9 +153,9 @@ class LineSession {
   const std::size_t ahead_;
   std::optional<Sending> sending_;
   bool is_receiving_ = false;
-  bool is_asking_ = false;  ///< what begins next was asked for, and told, by us
+  bool is_asking_ = false;  ///< what begins next was requested, and reported, by the server
   std::size_t backlog_ = 0;
-  bool is_held_off_ = false;  ///< the other end, by us
+  bool is_held_off_ = false;  ///< the other end, by the server
   bool is_losing_ = false;    ///< text, since it is not held
 };
 

@@ -37,7 +37,7 @@ Result<void> check_ready(PortLine& line) {
   const PortView port = line.view();
   if (!port.is_open) {
     return fail(Errc::Timeout, "port {} is not open: {}", port.port.name,
-                port.trouble.empty() ? "not yet" : port.trouble);
+                port.fault.empty() ? "not yet" : port.fault);
   }
   line.drop_answer();
   if (!line.is_busy()) return {};
@@ -82,7 +82,7 @@ Result<void> check_count(const PortView& port, const storage::Machine& machine, 
               count, port.port.name);
 }
 
-/// What the control's memory takes, where the port says it. Errors: LimitExceeded.
+/// The limit of the control's memory, where the port sets it. Errors: LimitExceeded.
 Result<void> check_memory(const PortView& port, const storage::Machine& machine,
                           std::uint64_t size) {
   const std::uint64_t memory = port.settings.program_memory;
@@ -94,7 +94,7 @@ Result<void> check_memory(const PortView& port, const storage::Machine& machine,
   return fail(with_control_words(std::move(error), machine.control, Refusal::MemoryFull));
 }
 
-/// Why several cannot be one text, as the control would say it.
+/// Why several programs cannot be one text, in the control's words.
 Error stream_error(const Error& error, const storage::Machine& machine) {
   const bool is_number = error.code == Errc::Syntax;
   return with_control_words(error, machine.control,

@@ -40,7 +40,7 @@ Result<storage::Run> MachineRouter::start(const machines::StartRequest& request)
   }
   if (const auto view = machine(request.machine); view && view->is_contested) {
     return fail(Errc::Busy,
-                "a gateway says that it is machine '{}', which has a port: stop the gateway or "
+                "a gateway claims to be machine '{}', which has a port: stop the gateway or "
                 "disable the port",
                 request.machine);
   }

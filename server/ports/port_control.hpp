@@ -46,7 +46,7 @@ struct PortView {
   storage::Port port;
   wire::LineSettings settings;  ///< effective: template, then the port's own
   bool is_open = false;         ///< the channel is there
-  std::string trouble;          ///< why not, or what was wrong last; for people
+  std::string fault;            ///< why not, or the last fault; for people
   wire::LineState line;
   std::string run;  ///< being sent, may be empty
   std::optional<PortTransfer> transfer;
@@ -75,7 +75,7 @@ struct RuleVerdict {
   std::string rule;              ///< its name; empty: none, the default
   std::string action;            ///< send, directory, restart, program, report, ignore
   std::string argument;          ///< program, file name, block ...
-  std::vector<std::string> why;  ///< one line a rule looked at, in order
+  std::vector<std::string> why;  ///< one line per rule that was tried, in order
 };
 
 struct PortTest {
@@ -90,20 +90,20 @@ class PortControl {
   virtual std::vector<PortView> ports() const = 0;
   /// Errors: NotFound.
   virtual Result<PortView> port(const std::string& name) const = 0;
-  /// Adds or changes one; an open line is closed and opened anew. Errors: Syntax, LimitExceeded,
+  /// Adds or changes one; an open line is closed and opened again. Errors: Syntax, LimitExceeded,
   /// NotFound (template, setting key), Unsupported (settings that exclude each other; a protocol
   /// that the control of the machine's setup has not), Busy (it has a run; or the address is
   /// another port's, named).
   virtual Result<PortView> save(const storage::Port& port) = 0;
   /// Errors: NotFound, Busy (it has a run).
   virtual Result<void> remove(const std::string& name) = 0;
-  /// Opens the line if need be and says what can be said without a program: modem lines, XOFF held,
-  /// stray characters. At most some seconds. Errors: NotFound, Busy.
+  /// Opens the line if necessary and reports what can be found without a program: modem lines, XOFF
+  /// held, stray characters. At most some seconds. Errors: NotFound, Busy.
   virtual Result<PortTest> test(const std::string& name) = 0;
   /// Sends programs to the control as one text, as they stand and without a run: a control that
   /// takes programs into its memory has them then. Several must bear O numbers; the whole is framed
-  /// as the line's settings say. Returns when the line has taken the job; `port` tells how it goes.
-  /// Errors: NotFound (port, program), Conflict (held), Unsupported (another control's;
+  /// as the line's settings say. Returns when the line has taken the job; `port` shows its
+  /// progress. Errors: NotFound (port, program), Conflict (held), Unsupported (another control's;
   /// several on a line whose protocol names one; a protocol as of `save`), Syntax (no number),
   /// LimitExceeded, Busy, Timeout.
   virtual Result<PortTransfer> send(const std::string& name,

@@ -26,8 +26,8 @@ TransferState state_of(SendOutcome outcome) {
   return TransferState::Interrupted;
 }
 
-/// Calls what was asked for exactly once: with a result, or when the work that should have given
-/// one was dropped with its line.
+/// Calls the answer exactly once: with a result, or when the work that should have given one was
+/// dropped with its line.
 class OnceAnswer {
  public:
   OnceAnswer(Strand strand, PortLine::Answer answer)
@@ -58,7 +58,7 @@ std::shared_ptr<PortLine> PortLine::make(Parts parts) {
 }
 
 PortLine::~PortLine() {
-  // The driver's thread calls us until it is joined.
+  // The driver's thread calls this object until it is joined.
   close("the server is stopping");
 }
 
@@ -158,7 +158,7 @@ PortView PortLine::view() const {
   view.sent = recorder_.sent();
   view.received = recorder_.received();
   const std::lock_guard lock(mutex_);
-  view.trouble = store_fault_.empty() ? fault_ : store_fault_;
+  view.fault = store_fault_.empty() ? fault_ : store_fault_;
   view.waiting_since = waiting_since_;
   if (progress_ && progress_->kind == JobKind::Run) view.run = progress_->id;
   view.transfer = transfer_;
@@ -345,12 +345,12 @@ void PortLine::end_transfer(const SendEnd& end) {
 
 void PortLine::on_sent(const SendEnd& end) {
   end_transfer(end);
-  refresh();  // whoever is told finds it gone
+  refresh();  // the listener must not find it any more
   parts_.strand.post([on_sent = parts_.listener.on_sent, end] { on_sent(end); });
 }
 
 void PortLine::on_incoming(Incoming incoming) {
-  refresh();  // who acts on what has ended must not find the line receiving
+  refresh();  // a listener that acts on the end must not find the line receiving
   // Destroyed lines keep nothing up: the text is kept all the same.
   parts_.strand.post([weak = weak_from_this(), on_incoming = parts_.listener.on_incoming,
                       incoming = std::move(incoming)] {

@@ -27,7 +27,7 @@ struct PortListener {
   std::function<void()> on_change;  ///< of what `view` shows; not for every character
 };
 
-/// One port in use: its driver, its session on the driver's thread, its recorder, and the way from
+/// One port in use: its driver, its session on the driver's thread, its recorder, and the path from
 /// there to the strand where storage is waited for. Any thread; alive while tasks need it.
 class PortLine final : public std::enable_shared_from_this<PortLine>, private SessionHost {
  public:
@@ -48,7 +48,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
 
   static std::shared_ptr<PortLine> make(Parts parts);
   ~PortLine() override;
-  /// Opens the line; when that cannot even be tried, `view` says why.
+  /// Opens the line; when that cannot even be tried, `view` shows why.
   void open();
   /// In order: the line is closed, what was under way ends with the reason, the recorder is
   /// flushed. Later calls find a closed line.
@@ -61,7 +61,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   bool is_busy() const;
   /// Whether what comes in may be a program.
   void note_kind(bool may_be_program);
-  /// Why what comes in cannot be stored now; empty: it can. Shown before all other trouble.
+  /// Why what comes in cannot be stored now; empty: it can. Shown before all other fault.
   void note_store_fault(const std::string& words);
   FlightRecorder& recorder() { return recorder_; }
   const storage::Port& port() const { return parts_.port; }
@@ -74,7 +74,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   void hold(const std::string& id, Answer answer);
   void resume(const std::string& id, Answer answer);
   void abort(const std::string& id, const std::string& reason, Answer answer);
-  /// An answer that the control may never fetch gives way to a run.
+  /// A run replaces an answer that the control may never fetch.
   void drop_answer();
   /// Answers to what the control asked for.
   void refuse(const std::string& reason);
@@ -106,7 +106,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
 
   const Parts parts_;
   FlightRecorder recorder_;
-  LineSession session_;  ///< the line's thread; when the line is closed, whoever closed it
+  LineSession session_;  ///< on the line's thread; when the line is closed, on the closing thread
   mutable std::mutex mutex_;
   std::unique_ptr<serial::LineDriver> driver_;
   bool is_closed_ = false;

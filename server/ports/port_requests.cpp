@@ -6,7 +6,7 @@
 namespace dripline::ports {
 namespace {
 
-PortListener nobody() {
+PortListener no_listener() {
   return {.on_incoming = [](const Incoming&, const std::function<void()>& kept) { kept(); },
           .on_sent = [](const SendEnd&) {},
           .on_request = [](const wire::TransferRequest&) {},
@@ -21,8 +21,8 @@ Result<PortTest> PortService::test(const std::string& name) {
   if (!entry) return fail(entry.error());
   if (auto idle = check_idle(name); !idle) return fail(idle.error());
   if (entry->line) return examine(*entry->line, {});
-  if (!entry->trouble.empty()) return PortTest{.is_passed = false, .findings = {entry->trouble}};
-  const auto line = make_line(*entry, Strand(pool_), nobody());
+  if (!entry->fault.empty()) return PortTest{.is_passed = false, .findings = {entry->fault}};
+  const auto line = make_line(*entry, Strand(pool_), no_listener());
   line->open();
   auto test = examine(*line, {});
   line->close("the test is over");
@@ -34,7 +34,7 @@ Result<std::shared_ptr<PortLine>> PortService::find_line(const std::string& name
   if (!entry) return fail(entry.error());
   if (entry->line) return entry->line;
   return fail(Errc::Conflict, "port '{}' is {}", name,
-              entry->trouble.empty() ? "disabled" : "not open: " + entry->trouble);
+              entry->fault.empty() ? "disabled" : "not open: " + entry->fault);
 }
 
 Result<PortTransfer> PortService::send(const std::string& name,
@@ -53,7 +53,7 @@ Result<void> PortService::stop_transfer(const std::string& name, const std::stri
   return line ? ports::stop_transfer(*line, reason) : fail(line.error());
 }
 
-/// For whoever watches the line, and the recording.
+/// For monitors of the line, and the recording.
 void PortService::note_transfer(const std::string& machine, const SendEnd& end) {
   const auto line = line_of(machine);
   if (!line) return;

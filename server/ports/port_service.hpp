@@ -19,8 +19,8 @@ namespace dripline::ports {
 
 /// The ports of the server. Wiring:
 ///     PortService ports(store, programs, clock, options, listener);
-///     ports.begin(configured);        // opens what is stored, and what the settings file says
-///     ... MachineRouter feeds(store, gateways, ports.machines());
+///     ports.begin(configured);        // opens what is stored, and what the settings file has
+///     ... MachineRouter machines(store.runs, gateways, ports.machines());
 ///     ... ports.end();
 /// Every enabled port is open and listens all the time. Each has the thread of its line, which
 /// never waits for storage; what waits is done on a pool, machine by machine in order.
@@ -32,14 +32,14 @@ class PortService final : public PortControl, private LineDirectory {
     std::filesystem::path recordings;  ///< folder; empty: in memory only
     LineOpener open = {};              ///< empty: serial::LineDriver::start
     /// Why records of a machine cannot be stored, at every try; empty: they can again.
-    std::function<void(const std::string& machine, const std::string& trouble)> on_fault = {};
+    std::function<void(const std::string& machine, const std::string& fault)> on_fault = {};
   };
   PortService(const storage::Store& store, library::Programs& programs, const Clock& clock,
               Options options, machines::MachineListener listener);
   ~PortService() override;
 
-  /// Runs of a former life of the server end Interrupted. A stored port that cannot be used is
-  /// shown with its trouble. Errors: those of save() for the configured ones, Io.
+  /// Unfinished runs of the server before this start end Interrupted. A stored port that cannot be
+  /// used is shown with its fault. Errors: those of save() for the configured ones, Io.
   Result<void> begin(const std::vector<storage::Port>& configured);
   /// Opens the ports that could not be opened because nothing could be stored.
   void open_due();
@@ -66,8 +66,8 @@ class PortService final : public PortControl, private LineDirectory {
     storage::Port port;
     wire::LineSettings settings;
     std::shared_ptr<const RuleSet> rules = std::make_shared<RuleSet>();
-    std::shared_ptr<PortLine> line;  ///< null: disabled, or `trouble`
-    std::string trouble;
+    std::shared_ptr<PortLine> line;  ///< null: disabled, or `fault`
+    std::string fault;
     bool is_open_due = false;  ///< the store refused what has to be written first
   };
   /// What stays with a machine when its port is changed.
@@ -97,7 +97,7 @@ class PortService final : public PortControl, private LineDirectory {
   void tell_traffic(const PortTraffic& traffic) const;
   void note_transfer(const std::string& machine, const SendEnd& end);
   void on_stored(const storage::RecordBatch& batch);
-  void on_store_fault(const std::string& machine, const std::string& trouble);
+  void on_store_fault(const std::string& machine, const std::string& fault);
   static PortView view_of(const Entry& entry);
 
   const storage::Store& store_;

@@ -17,12 +17,13 @@ bool wait_open(const PortLine& line, std::chrono::milliseconds limit) {
   return true;
 }
 
-/// What was said of the modem lines last.
+/// The last report on the modem lines.
 std::string modem_lines(PortLine& line) {
   auto entries = line.recorder().entries();
-  const auto last = std::find_if(entries.rbegin(), entries.rend(),
-                                 [](const PortTraffic& entry) { return entry.what == TrafficKind::Lines; });
-  if (last == entries.rend()) return "the line tells nothing of its modem lines";
+  const auto last = std::find_if(entries.rbegin(), entries.rend(), [](const PortTraffic& entry) {
+    return entry.what == TrafficKind::Lines;
+  });
+  if (last == entries.rend()) return "the line reports nothing of its modem lines";
   return "modem lines: " + last->text;
 }
 
@@ -44,7 +45,7 @@ void judge_flow(const PortView& view, PortTest& test) {
   }
 }
 
-/// What has come and is recorded, without DC1 and DC3: a control that begins to listen says so.
+/// What was received and recorded, without DC1 and DC3: a control that begins to listen sends them.
 std::uint64_t characters_of_text(PortLine& line) {
   std::uint64_t count = 0;
   for (const PortTraffic& entry : line.recorder().entries()) {
@@ -64,7 +65,7 @@ void judge_strays(std::uint64_t characters, std::uint64_t faults, PortTest& test
   }
   if (characters > 0) {
     test.is_passed = false;
-    test.findings.push_back(fmt::format("{} characters came that nobody asked for", characters));
+    test.findings.push_back(fmt::format("{} characters came unasked", characters));
   }
   if (characters == 0 && faults == 0) test.findings.push_back("the line is quiet");
 }
@@ -76,7 +77,7 @@ PortTest examine(PortLine& line, ExamineTimes times) {
   if (!wait_open(line, times.wait)) {
     const PortView view = line.view();
     test.findings.push_back(fmt::format("{} does not open: {}", view.port.address,
-                                        view.trouble.empty() ? "no answer" : view.trouble));
+                                        view.fault.empty() ? "no answer" : view.fault));
     return test;
   }
   test.is_passed = true;
@@ -86,7 +87,7 @@ PortTest examine(PortLine& line, ExamineTimes times) {
   const PortView view = line.view();
   if (!view.is_open) {
     test.is_passed = false;
-    test.findings.push_back(fmt::format("{} was lost: {}", view.port.address, view.trouble));
+    test.findings.push_back(fmt::format("{} was lost: {}", view.port.address, view.fault));
     return test;
   }
   test.findings.push_back(

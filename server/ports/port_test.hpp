@@ -4,8 +4,8 @@
 
 namespace dripline::ports {
 
-/// Looks at a line that nobody uses, for at most `wait` to open and `listen` more, and says in
-/// words what can be said without a program. Waits on the caller's thread.
+/// Examines an idle line, for at most `wait` to open and `listen` more, and reports in words what
+/// can be found without a program. Waits on the caller's thread.
 struct ExamineTimes {
   std::chrono::milliseconds wait{3000};
   std::chrono::milliseconds listen{1500};

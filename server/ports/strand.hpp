@@ -10,8 +10,8 @@
 namespace dripline::ports {
 
 /// Work of one port, one task after the other in the order of posting, on a pool of threads. Any
-/// thread. Whoever posts keeps the number of its waiting tasks bounded; a task keeps alive what it
-/// needs. The pool must outlive the strand; what is posted when the pool has stopped is forgotten.
+/// thread. The caller keeps the number of its waiting tasks bounded; a task keeps alive what it
+/// needs. The pool must outlive the strand; what is posted when the pool has stopped is dropped.
 class Strand {
  public:
   using Task = std::function<void()>;

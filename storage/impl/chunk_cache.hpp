@@ -28,7 +28,7 @@ class ChunkCache {
   };
 
   explicit ChunkCache(std::uint64_t capacity) : capacity_(capacity) {}
-  /// Null when it is not here.
+  /// Null when it is not cached.
   std::shared_ptr<const CachedChunk> find(const Key& key);
   void insert(const Key& key, std::shared_ptr<const CachedChunk> chunk);
 

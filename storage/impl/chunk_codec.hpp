@@ -26,7 +26,7 @@ std::vector<EncodedChunk> encode_chunks(std::span<const std::byte> tail,
                                         std::span<const std::byte> bytes);
 
 /// The plain bytes, checked. Never allocates more than `size` and kChunkBytes allow, whatever the
-/// stored bytes say. Errors: Corrupt (says what does not fit; the caller says of what).
+/// stored bytes are. Errors: Corrupt (what does not fit; the caller adds which chunk).
 Result<std::vector<std::byte>> decode_chunk(const Digest& digest, std::uint64_t size,
                                             std::span<const std::byte> data);
 

@@ -57,8 +57,8 @@ void Connections::note_file() {
   inode_ = facts.st_ino;
 }
 
-/// A file that was removed or replaced goes on to take what is written until it is closed, and then
-/// all of it is gone: nothing may be acknowledged there. Errors: Io.
+/// A file that was removed or replaced accepts what is written until it is closed, and then all of
+/// it is lost: nothing may be acknowledged there. Errors: Io.
 Result<void> Connections::check_file() const {
   struct stat facts {};
   if (::stat(file_.c_str(), &facts) == 0 && facts.st_dev == device_ && facts.st_ino == inode_)

@@ -6,7 +6,7 @@ namespace dripline::storage {
 namespace {
 
 Result<std::int64_t> put_chunk(sqlite::Database& database, const EncodedChunk& chunk) {
-  // The update heals a chunk whose stored bytes were damaged: what is here now is known to be good.
+  // The update heals a chunk whose stored bytes were damaged: the new bytes are known to be good.
   const auto stored = sqlite::run(
       database,
       "INSERT INTO chunk (sha256, size, data) VALUES (?1, ?2, ?3) ON CONFLICT (sha256) DO UPDATE "
@@ -41,7 +41,7 @@ Result<void> drop_chunk_if_unused(sqlite::Database& database, std::int64_t chunk
 
 Digest read_digest(const sqlite::Statement& row, int column) {
   Digest digest;
-  const auto stored = row.blob(column);  // the schema says 32 bytes
+  const auto stored = row.blob(column);  // the schema demands 32 bytes
   std::copy_n(stored.begin(), std::min(stored.size(), Digest::kSize), digest.bytes.begin());
   return digest;
 }

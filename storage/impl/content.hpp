@@ -27,10 +27,10 @@ Result<std::int64_t> create_content(sqlite::Database& database);
 Result<void> put_chunks(sqlite::Database& database, std::int64_t content, std::uint64_t position,
                         std::span<const EncodedChunk> chunks);
 
-/// Deletes the content and those of its chunks nobody else holds.
+/// Deletes the content and those of its chunks that no other content has.
 Result<void> drop_content(sqlite::Database& database, std::int64_t content);
 
-/// `content` gets the chunks of `replacement`, which is gone then.
+/// `content` gets the chunks of `replacement`, which is deleted.
 Result<void> replace_content(sqlite::Database& database, std::int64_t content,
                              std::int64_t replacement);
 

@@ -27,8 +27,8 @@ Record read_record(const sqlite::Statement& row) {
   return record;
 }
 
-/// What came in is from outside: the batch must speak of one machine and one epoch, and the epoch
-/// must have its order in SQL.
+/// The batch comes from outside: it must be of one machine and one epoch, and SQL must be able to
+/// order the epoch.
 Result<void> check(const RecordBatch& batch) {
   if (batch.epoch > std::numeric_limits<std::int64_t>::max()) {
     return fail(Errc::LimitExceeded, "records of {}: epoch {} is over 2^63", batch.machine,
@@ -90,8 +90,8 @@ Result<std::uint64_t> insert_contiguous(sqlite::Database& database, const Record
   return last;
 }
 
-/// Whether what the batch says of `run` is to be believed now: the record that says so is stored.
-/// When the batch holds no such record, nothing of the batch may have been left out.
+/// Whether what the batch reports of `run` applies now: the record that reports it is stored. When
+/// the batch holds no such record, nothing of the batch may have been left out.
 bool is_stored(const RecordBatch& batch, const std::string& run, std::string_view kind,
                std::uint64_t last) {
   bool is_complete = true;
@@ -145,7 +145,7 @@ Result<std::vector<Record>> RecordRepository::of_run(const std::string& run,
   static const std::string kSelect =
       "SELECT machine.name, record.epoch, number, time_us, run, kind, block, line, sequence, "
       "device, text, received_us FROM record JOIN machine ON machine.id = record.machine "
-      "WHERE run = ?1 AND NOT EXISTS "  // what another machine says of a run is not the run's
+      "WHERE run = ?1 AND NOT EXISTS "  // another machine's report on a run is not the run's
       "(SELECT 1 FROM run AS owned WHERE owned.id = ?1 AND owned.machine <> record.machine) ";
   static const std::string kOrder = "ORDER BY record.epoch, number LIMIT ?2 OFFSET ?3";
   static const std::string kOfKind = kSelect + "AND kind = ?4 " + kOrder;
@@ -184,8 +184,8 @@ struct MemoryPlace {
   UtcTime time;
 };
 
-/// Without being told SQLite goes through all records of the machine. Epochs of a gateway that
-/// lost its journal have no order, so our own time decides.
+/// Without the named index SQLite reads all records of the machine. Epochs of a gateway that lost
+/// its journal have no order, so the time of the server decides.
 Result<std::vector<MemoryPlace>> memory_places(sqlite::Database& database,
                                                const std::string& machine,
                                                const std::optional<std::string>& run, Page page) {

@@ -17,7 +17,8 @@ extern const std::string kRevisionTables;
 /// A condition: not removed, not rejected.
 extern const std::string kRevisionVisible;
 Revision read_revision(const sqlite::Statement& row);
-/// What a revision was stored with is its own digest. `named`: that of the content its row names.
+/// `named`: the digest of the content that the revision's row names; the revision has the one that
+/// it was stored with.
 /// Errors: Corrupt.
 Result<void> check_content(const Revision& revision, const Digest& named);
 

@@ -3,12 +3,12 @@
 #include "storage/record_store.hpp"
 #include "storage/sqlite/database.hpp"
 
-/// What records do to runs, inside the transaction that stores the records. Only the runs of the
-/// machine that reports them are touched.
+/// How records change runs, inside the transaction that stores the records. Only the runs of the
+/// machine that reports are changed.
 namespace dripline::storage {
 
 /// Ordered becomes Active. Unknown and other runs stay as they are: a record is never refused for
-/// what it says of a run.
+/// what it reports of a run.
 Result<void> apply_beginning(sqlite::Database& database, std::int64_t machine,
                              const RunBeginning& beginning);
 

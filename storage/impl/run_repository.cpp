@@ -26,7 +26,7 @@ Run read_run(const sqlite::Statement& row) {
   run.content = read_digest(row, 4);
   run.size = row.number(5);
   run.control = row.text(6);
-  // The schema knows only our words; a row that says otherwise is damaged, and damaged is cut off.
+  // The schema allows only these words; a row with another one is damaged, and its run was cut off.
   run.state = parse_run_state(row.text(7)).value_or(RunState::Interrupted);
   run.counters = {row.number(8), row.number(9), row.number(10)};
   run.line = row.number(11);

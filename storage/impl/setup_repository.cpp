@@ -42,7 +42,7 @@ Result<void> check_setup(const SetupRevision& setup) {
               setup.text.size(), kMaxSetup);
 }
 
-/// A text that was made from `base` does not go over what somebody has stored since.
+/// A text that was made from `base` never replaces one that was stored since.
 Result<void> check_base(const SetupRevision& setup, std::optional<std::uint64_t> base,
                         std::uint64_t newest) {
   if (!base || *base == newest) return {};

@@ -13,8 +13,8 @@
 
 namespace dripline::storage {
 
-/// What makes the next piece of an upload cheap: never more than the database knows, and made anew
-/// from it after a restart. Hold `mutex` while using it.
+/// Makes the next piece of an upload cheap: never ahead of the database, and loaded from it after a
+/// restart. Hold `mutex` while using it.
 struct UploadProgress {
   std::mutex mutex;
   std::int64_t content = 0;
@@ -29,9 +29,9 @@ struct UploadProgress {
 /// The uploads used last; bounded, so that abandoned ones cost no memory. Thread-safe.
 class UploadProgressTable {
  public:
-  /// Null when it is not here.
+  /// Null when it is not in the table.
   std::shared_ptr<UploadProgress> find(const std::string& id);
-  /// Returns the one that is kept: someone else's when that was faster.
+  /// Returns the one that is kept: another thread's when that was faster.
   std::shared_ptr<UploadProgress> insert(const std::string& id,
                                          std::shared_ptr<UploadProgress> progress);
   void erase(const std::string& id);

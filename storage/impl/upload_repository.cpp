@@ -41,7 +41,7 @@ std::string label_of(const std::string& id) {
   return fmt::format("upload {}", id);
 }
 
-/// Nobody guesses another one's upload.
+/// No client guesses the id of another one's upload.
 std::string new_upload_id() {
   constexpr std::size_t kBytes = 16;
   return random_hex(kBytes);
@@ -52,16 +52,17 @@ Result<void> drop_upload(sqlite::Database& database, const std::string& id, std:
   return drop_content(database, content);
 }
 
-/// The upload's content gets its name, or gives way to the same one that is here already.
-Result<std::int64_t> settle_content(sqlite::Database& database, const ContentRow& content,
-                                    const Digest& digest) {
+/// The upload's content gets its digest, or is replaced by the same content stored before. Returns
+/// the content that is kept.
+Result<std::int64_t> name_content(sqlite::Database& database, const ContentRow& content,
+                                  const Digest& digest) {
   const auto known = find_content(database, digest);
   if (!known) return fail(known.error());
   if (*known) {
     const auto sealed = check_seal(database, **known, digest);
     if (!sealed && sealed.error().code != Errc::Corrupt) return fail(sealed.error());
     const bool is_sound = sealed && *sealed != nullptr;
-    // What was uploaded has just been compared with the digest: it heals what is not sound.
+    // The uploaded bytes have just been compared with the digest: they heal a damaged content.
     const auto done = is_sound ? drop_content(database, content.id)
                                : replace_content(database, (*known)->id, content.id);
     if (!done) return fail(done.error());
@@ -78,7 +79,7 @@ Result<std::int64_t> settle_content(sqlite::Database& database, const ContentRow
 
 Result<void> check_unchanged(const UploadRow& row, const UploadProgress& progress) {
   if (row.content.size == progress.received) return {};
-  return fail(Errc::Conflict, "upload {} was changed by someone else meanwhile", row.upload.id);
+  return fail(Errc::Conflict, "upload {} was changed by another client meanwhile", row.upload.id);
 }
 
 }  // namespace
@@ -145,12 +146,13 @@ Result<Upload> UploadRepository::append(const std::string& id, std::uint64_t off
   const std::lock_guard lock((*progress)->mutex);
   const std::uint64_t received = (*progress)->received;
   if (offset > received) {
-    return fail(Errc::Conflict, "upload {}: the piece begins at {}, but only {} bytes are here", id,
-                offset, received);
+    return fail(Errc::Conflict,
+                "upload {}: the piece begins at {}, but only {} bytes were received", id, offset,
+                received);
   }
   if (offset < received) return check_resent(id, **progress, offset, bytes);
   auto stored = store_piece(id, **progress, bytes);
-  // Whatever went wrong, the next piece starts from what the database says.
+  // Whatever failed, the next piece starts from what the database holds.
   if (!stored) table_.erase(id);
   return stored;
 }
@@ -166,10 +168,10 @@ Result<Upload> UploadRepository::store_piece(const std::string& id, UploadProgre
     const auto put =
         put_chunks(database, progress.content, progress.received / kChunkBytes, chunks);
     if (!put) return fail(put.error());
-    const auto touched =
+    const auto updated =
         sqlite::run(database, "UPDATE upload SET touched_us = ?2, idle_seconds = 0 WHERE id = ?1",
                     id, clock_.now());
-    if (!touched) return fail(touched.error());
+    if (!updated) return fail(updated.error());
     row->upload.received += bytes.size();
     return std::move(row->upload);
   });
@@ -181,8 +183,9 @@ Result<Upload> UploadRepository::check_resent(const std::string& id, const Uploa
                                               std::uint64_t offset,
                                               std::span<const std::byte> bytes) {
   if (bytes.size() > progress.received - offset) {
-    return fail(Errc::Conflict, "upload {}: bytes {} to {} overlap what is here: go on at {}", id,
-                offset, offset + bytes.size(), progress.received);
+    return fail(Errc::Conflict,
+                "upload {}: bytes {} to {} overlap what was received: continue at {}", id, offset,
+                offset + bytes.size(), progress.received);
   }
   return connections_.read([&](sqlite::Database& database) -> Result<Upload> {
     auto row = find_row(database, id);
@@ -245,7 +248,7 @@ Result<Revision> UploadRepository::commit(const std::string& id,
     if (auto done = sqlite::run(database, "DELETE FROM upload WHERE id = ?1", id); !done) {
       return fail(done.error());
     }
-    const auto content = settle_content(database, row->content, *digest);
+    const auto content = name_content(database, row->content, *digest);
     if (!content) return fail(content.error());
     return publish_revision(database, row->upload, *content, clock_.now());
   });

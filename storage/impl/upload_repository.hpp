@@ -7,7 +7,7 @@
 namespace dripline::storage {
 
 /// Pieces are hashed and compressed before the writer is taken, so a big
-/// upload holds up nobody's records.
+/// upload delays no records.
 class UploadRepository final : public UploadStore {
  public:
   UploadRepository(Connections& connections, const Clock& clock)

@@ -38,7 +38,7 @@ Database& Database::operator=(Database&&) noexcept = default;
 Database::~Database() = default;
 
 Result<Database> Database::open(const std::filesystem::path& file, const OpenOptions& options) {
-  // One thread at a time uses a connection (the header says so): no mutex inside SQLite.
+  // One thread at a time uses a connection (see the header): no mutex inside SQLite.
   const int access = options.access == Access::ReadOnly
                          ? SQLite::OPEN_READONLY
                          : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;

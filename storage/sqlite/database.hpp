@@ -30,7 +30,7 @@ struct OpenOptions {
 
 /// One connection to one file: WAL, foreign keys on, no secure delete. One thread at a time; a
 /// thread may hand it to another. Errors of everything here: Busy (another connection writes),
-/// Corrupt, Io (a full disk says "disk full"), Conflict (a constraint of the schema); the text
+/// Corrupt, Io (of a full disk: "disk full"), Conflict (a constraint of the schema); the text
 /// holds SQLite's extended code and the SQL.
 class Database {
  public:
@@ -43,7 +43,7 @@ class Database {
   Result<void> execute(const std::string& sql);
 
   /// A prepared statement, kept for the next caller with the same text: so SQL texts are
-  /// constants, values are bound. It must be gone before the database is.
+  /// constants, values are bound. It must be destroyed before the database.
   Result<Statement> prepare(const std::string& sql);
 
   /// The first column of the only row, for PRAGMA and COUNT. Errors: also NotFound (no row).
@@ -58,7 +58,7 @@ class Database {
   /// Outside a transaction only: what the next commits promise.
   Result<void> set_synchronous(Synchronous synchronous);
 
-  /// From any thread: what runs on the connection now ends with an error soon.
+  /// From any thread: what the connection executes now soon ends with an error.
   void interrupt();
 
   const std::string& file() const;

@@ -23,7 +23,7 @@ Errc code_of(int primary) {
   }
 }
 
-/// Long SQL says no more in a log than its beginning.
+/// The beginning of long SQL is enough for a log.
 std::string_view shortened(std::string_view sql) {
   return sql.substr(0, 200);
 }

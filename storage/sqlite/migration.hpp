@@ -8,7 +8,7 @@
 
 namespace dripline::storage::sqlite {
 
-/// One numbered step of a schema. Texts live for ever (they are compiled in).
+/// One numbered step of a schema. Texts live as long as the program (they are compiled in).
 struct Migration {
   std::uint32_t version = 0;  ///< 1, 2, 3 ... without gaps
   std::string_view name;

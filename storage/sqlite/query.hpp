@@ -30,7 +30,7 @@ auto first_row(Database& database, const std::string& sql, Read read, const Valu
   return read(static_cast<const Statement&>(*statement));
 }
 
-/// All rows; the SQL says how many that can be (LIMIT).
+/// All rows; the SQL limits their number (LIMIT).
 template <class Read, class... Values>
 auto all_rows(Database& database, const std::string& sql, Read read, const Values&... values)
     -> Result<std::vector<std::invoke_result_t<Read, const Statement&>>> {

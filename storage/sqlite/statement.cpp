@@ -11,7 +11,7 @@
 namespace dripline::storage::sqlite {
 namespace {
 
-/// SQLiteCpp throws on a position that does not exist, or for want of memory: neither is an
+/// SQLiteCpp throws on a position that does not exist, or when memory is exhausted: neither is an
 /// expected failure.
 template <class Action>
 auto expect_position(Action action) {

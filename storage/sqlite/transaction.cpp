@@ -8,7 +8,7 @@ namespace {
 /// Some errors (a full disk among them) have rolled back already: then there is nothing to undo.
 void roll_back(Database& database) {
   if (!database.in_transaction()) return;
-  // The only way for this to fail is that SQLite rolled back by itself in the meantime.
+  // This fails only when SQLite has rolled back by itself in the meantime.
   static_cast<void>(database.execute("ROLLBACK"));
 }
 

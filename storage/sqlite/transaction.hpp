@@ -4,7 +4,7 @@
 
 namespace dripline::storage::sqlite {
 
-/// BEGIN IMMEDIATE: the right to write is taken at once, so a transaction never fails half way
+/// BEGIN IMMEDIATE: the right to write is taken at once, so a transaction never fails midway
 /// because of another writer. Rolls back unless committed. The database must outlive it.
 class Transaction {
  public:

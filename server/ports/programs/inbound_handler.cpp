@@ -87,7 +87,7 @@ void InboundHandler::handle(InboundSplitter::Item& item, std::vector<LineRecords
       return end_program(item.text);
     case InboundSplitter::Item::What::ProgramFailed:
       program_.reset();
-      return say("a program was cut off and not stored");
+      return report("a program was cut off and not stored");
   }
 }
 
@@ -127,7 +127,7 @@ void InboundHandler::end_program(const std::string& head) {
   if (!program_) return;
   const RuleHit hit = parts_.rules->judge(TextKind::Program, head);
   if (hit.action == RuleAction::Program) {
-    // A rule's name wins over the protocol's, that over the text's own.
+    // A rule's name overrides the protocol's, that overrides the text's own.
     const bool is_named = hit.rule != nullptr && !hit.argument.empty();
     store_program(is_named || program_name_.empty() ? hit.argument : program_name_);
   } else if (hit.action != RuleAction::Report && hit.action != RuleAction::Ignore) {
@@ -139,21 +139,22 @@ void InboundHandler::end_program(const std::string& head) {
 void InboundHandler::store_program(const std::string& name) {
   const auto stored = program_->store(name);
   if (!stored) {
-    spdlog::error("punched program not stored machine={}: {}", parts_.machine, stored.error().what);
+    spdlog::error("uploaded program not stored machine={}: {}", parts_.machine,
+                  stored.error().what);
     const bool is_full = stored.error().code == Errc::Io;
-    return say(library::with_control_words(
-                   {stored.error().code, "program not stored: " + stored.error().what},
-                   machine_control(),
-                   is_full ? library::Refusal::DiskFull : library::Refusal::NotSaved)
-                   .what);
+    return report(library::with_control_words(
+                      {stored.error().code, "program not stored: " + stored.error().what},
+                      machine_control(),
+                      is_full ? library::Refusal::DiskFull : library::Refusal::NotSaved)
+                      .what);
   }
   const auto& revision = stored->revision;
-  say(fmt::format("program {} is revision {}{}", revision.program, revision.number,
-                  revision.is_held ? ", held for acceptance" : ""));
+  report(fmt::format("program {} is revision {}{}", revision.program, revision.number,
+                     revision.is_held ? ", held for acceptance" : ""));
 }
 
-/// To whoever watches the line; and to the control, where the rules say how.
-void InboundHandler::say(const std::string& words) {
+/// To monitors of the line; and to the control, where the rules define how.
+void InboundHandler::report(const std::string& words) {
   if (const auto line = parts_.calls.directory.line_of(parts_.machine)) line->note(words);
   call(RuleAction::Report, words);
 }

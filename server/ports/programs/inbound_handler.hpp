@@ -13,8 +13,9 @@
 
 namespace dripline::ports {
 
-/// Everything a control sends, told apart by the port's rules and put where it belongs: printed
-/// lines become records, programs held revisions, calls are carried out once the line is free. On
+/// Takes everything a control sends, sorts it by the port's rules and puts it where it belongs:
+/// printed lines become records, programs held revisions, calls are carried out when the line is
+/// free. On
 /// the machine's strand.
 class InboundHandler {
  public:
@@ -36,7 +37,7 @@ class InboundHandler {
   void on_answer_over() { calls_.on_answer_over(); }
   void on_transfer_completed() { calls_.on_transfer_completed(); }
   /// What is printed from now on belongs to this run, until another one is on the line: a control
-  /// prints while it executes, and that goes on when everything has been sent.
+  /// prints while it executes, which continues after everything has been sent.
   void on_run(const std::string& run) {
     if (run.empty()) return;
     run_ = run;
@@ -55,7 +56,7 @@ class InboundHandler {
   void begin_program(const std::string& name);
   void end_program(const std::string& head);
   void store_program(const std::string& name);
-  void say(const std::string& words);
+  void report(const std::string& words);
   void call(RuleAction action, const std::string& argument);
   void do_calls();
 
@@ -63,7 +64,7 @@ class InboundHandler {
   RemoteRequestHandler calls_;
   InboundSplitter splitter_;
   std::optional<UploadedProgram> program_;
-  std::string program_name_;  ///< as the protocol told it
+  std::string program_name_;  ///< as the protocol carried it
   std::string run_;
   bool is_in_transfer_ = false;
   std::string early_damage_;   ///< since the last program began; the next may begin after it

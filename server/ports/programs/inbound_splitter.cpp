@@ -47,7 +47,8 @@ std::vector<InboundSplitter::Item> InboundSplitter::take(std::string_view text) 
   return taken();
 }
 
-/// A rule may say that such a line is printed, or begins a program; a call in it says neither.
+/// A rule may decide that such a line is printed, or begins a program; a call in it decides
+/// neither.
 bool InboundSplitter::is_program_line(const std::string& line) const {
   const auto hit = rules_.judge(TextKind::Line, line);
   if (hit.rule != nullptr && hit.action == RuleAction::Program) return true;

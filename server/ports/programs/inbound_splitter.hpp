@@ -11,19 +11,19 @@ namespace dripline::ports {
 
 class RuleSet;
 
-/// Cuts what a control sends into programs and printed lines while it arrives. A line is told when
-/// it is complete; a program piece by piece, because it may be of any size. NUL, DEL and CR are
+/// Cuts what a control sends into programs and printed lines while it arrives. A line is an item
+/// when it is complete; a program is several, because it may be of any size. NUL, DEL and CR are
 /// dropped. With `extracts` a program ends where the next one's O line begins, so a text with
 /// several becomes several; nothing is left out. One thread; the rules must outlive it.
 class InboundSplitter {
  public:
-  /// A longer line that is printed is told in pieces.
+  /// A longer line that is printed becomes several items.
   static constexpr std::size_t kMaxLine = 4096;
 
   struct Item {
     enum class What : std::uint8_t {
       Line,           ///< text: without its LF
-      ProgramBegan,   ///< text: the name, when the protocol told one
+      ProgramBegan,   ///< text: the name, when the protocol carries one
       ProgramText,    ///< text: a piece, LF after each block
       ProgramEnded,   ///< text: its head, at most kProgramHead bytes
       ProgramFailed,  ///< it was cut off
@@ -37,7 +37,7 @@ class InboundSplitter {
 
   /// What such a control sends is a program whatever it looks like: it prints nothing.
   void take_programs_only(bool only) { takes_programs_only_ = only; }
-  /// A transfer begins; one with a name, or that somebody asked for, is a program and nothing else.
+  /// A transfer begins; one with a name, or a requested one, is a program and nothing else.
   void begin(std::string name, bool is_program = false);
   std::vector<Item> take(std::string_view text);
   /// The transfer is over, whether one was begun or not.
@@ -64,7 +64,7 @@ class InboundSplitter {
   interpreter::centurion::ProgramSplitter programs_;  ///< of the text in hand
   std::vector<Item> items_;
   std::string line_;   ///< not complete
-  std::string piece_;  ///< of a program, not told
+  std::string piece_;  ///< of a program, not yet an item
   std::string head_;
   std::string name_;
   bool is_program_ = false;

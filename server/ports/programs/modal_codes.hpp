@@ -5,8 +5,8 @@
 
 namespace dripline::ports {
 
-/// What a word of a program sets until another one of the group does. In the order in which they
-/// are told where they stood in one block.
+/// What a word of a program sets until another one of the group does. In the order in which words
+/// of one block are listed.
 enum class ModalGroup : std::uint8_t {
   Header,
   Units,
@@ -46,7 +46,7 @@ enum class ModalGroup : std::uint8_t {
 enum class Resend : std::uint8_t {
   Word,   ///< by the word, with those in `with` that stand in its block
   Block,  ///< by its block, which moves nothing
-  Never,  ///< by none: it hangs on where the machine was, or on data of its block
+  Never,  ///< by none: it depends on where the machine was, or on data of its block
 };
 
 /// A G code and its group, as most controls have them.

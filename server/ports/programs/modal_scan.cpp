@@ -97,7 +97,7 @@ void ModalScan::set(ModalGroup group, std::string words, bool can_be_sent) {
       group, ModalWord{.words = std::move(words), .line = line_, .can_be_sent = can_be_sent});
 }
 
-/// What no word says: calls, jumps, variables. The first ones are enough to show.
+/// What no word carries: calls, jumps, variables. The first ones are enough to show.
 void ModalScan::name_unknown(std::string_view text) {
   if (unknown_.size() >= kMaxUnknown) return;
   unknown_.push_back({.words = std::string(trim(text)), .line = line_, .can_be_sent = false});
@@ -138,7 +138,7 @@ void ModalScan::skip_word(const Word& word, const Block& block, std::string_view
   const ModalCode* row = code_of(word);
   if (row == nullptr) return;
   if (row->group == Motion) {
-    settle(Cycle);
+    drop(Cycle);
     is_moving_ = word.value.find_first_not_of("0.") != std::string::npos;
   }
   std::string words =
@@ -161,10 +161,10 @@ void ModalScan::skip_tool(const Block& block) {
   if (std::ranges::none_of(block, is_change)) return;
   const auto next = in_force_.find(ModalGroup::NextTool);
   set(ModalGroup::Tool, next == in_force_.end() ? "M6" : next->second.words + " M6");
-  settle(ModalGroup::NextTool);
+  drop(ModalGroup::NextTool);
 }
 
-/// ProtoTRAK: what comes before the first event is the header; events say F, T and TC once for all,
+/// ProtoTRAK: what comes before the first event is the header; events carry F, T and TC,
 /// and begin where the one before ended.
 void ModalScan::skip_event(std::string_view text, const Block& block) {
   const bool is_event = std::ranges::any_of(
@@ -229,8 +229,8 @@ bool ModalScan::look(std::string_view text) {
       block, [](const Word& word) { return word.letter == 'M' && tenths(word.value) == 60; });
   const bool has_tool =
       std::ranges::any_of(block, [](const Word& word) { return word.letter == 'T'; });
-  if (has_tool) settle(ModalGroup::NextTool);
-  if (changes || (has_tool && !in_force_.contains(ModalGroup::Tool))) settle(ModalGroup::Tool);
+  if (has_tool) drop(ModalGroup::NextTool);
+  if (changes || (has_tool && !in_force_.contains(ModalGroup::Tool))) drop(ModalGroup::Tool);
   const bool has_axes = std::ranges::any_of(block, [](const Word& word) {
     return std::string_view("XYZABCUVWIJKR").find(word.letter) != std::string_view::npos;
   });
@@ -241,19 +241,19 @@ bool ModalScan::look(std::string_view text) {
 
 void ModalScan::look_word(const Word& word) {
   using enum ModalGroup;
-  if (word.letter == 'F') settle(Feed);
-  if (word.letter == 'S') settle(Speed);
+  if (word.letter == 'F') drop(Feed);
+  if (word.letter == 'S') drop(Speed);
   if (word.letter == 'M' && word.is_number) {
     const int code = tenths(word.value) / 10;
-    if (code >= 3 && code <= 5) settle(Spindle);
-    if (code >= 7 && code <= 9) settle(Coolant);
-    if (code == 48 || code == 49) settle(Overrides);
+    if (code >= 3 && code <= 5) drop(Spindle);
+    if (code >= 7 && code <= 9) drop(Coolant);
+    if (code == 48 || code == 49) drop(Overrides);
   }
   const ModalCode* row = code_of(word);
   if (row == nullptr) return;
-  settle(row->group);
+  drop(row->group);
   if (row->group != Motion) return;
-  settle(Cycle);
+  drop(Cycle);
   is_moving_ = word.value.find_first_not_of("0.") != std::string::npos;
 }
 
@@ -287,13 +287,13 @@ bool ModalScan::look_event(const Block& block) {
   for (const Word& word : block) {
     if (word.letter == 'G' && tenths(word.value) >= 1000) is_event = true;
     if (word.letter == 'B' && &word != block.data() && (&word)[-1].letter == 'X') has_begin = true;
-    if (word.letter == 'F') settle(ModalGroup::Feed);
-    if (word.letter == 'T' && !word.value.empty()) settle(ModalGroup::Tool);
+    if (word.letter == 'F') drop(ModalGroup::Feed);
+    if (word.letter == 'T' && !word.value.empty()) drop(ModalGroup::Tool);
     if (word.letter == 'C' && &word != block.data() && (&word)[-1].letter == 'T') {
-      settle(ModalGroup::EventOffset);
+      drop(ModalGroup::EventOffset);
     }
   }
-  if (has_begin) settle(ModalGroup::EventBegin);
+  if (has_begin) drop(ModalGroup::EventBegin);
   return !is_event;
 }
 
@@ -319,7 +319,7 @@ std::string head_text(const std::vector<ModalWord>& words) {
   std::string text;
   std::uint64_t line = 0;
   for (const auto& word : words) {
-    // A block that says several things is one block.
+    // Several words of one block are sent as one block.
     const bool is_said = std::ranges::any_of(words, [&](const ModalWord& other) {
       const bool is_longer = other.words.size() > word.words.size() ||
                              (other.words.size() == word.words.size() && &other < &word);

@@ -13,18 +13,18 @@ namespace dripline::ports {
 
 /// Something that the text before a run's beginning put in force, and that the rest relies on.
 struct ModalWord {
-  std::string words;       ///< "G21", "T2 M6", "G54.1 P3"; what a block of its own would say
-  std::uint64_t line = 0;  ///< where it stands in the program
-  /// Words that can be sent again by themselves. Others hang on where the machine was (G41, G92, a
-  /// cycle's data) or on what was computed (a call, a variable).
+  std::string words;       ///< "G21", "T2 M6", "G54.1 P3"; as in a block of its own
+  std::uint64_t line = 0;  ///< in the program
+  /// Words that can be sent again by themselves. Others depend on where the machine was (G41, G92,
+  /// a cycle's data) or on what was computed (a call, a variable).
   bool can_be_sent = true;
 };
 
 /// Finds what a run that begins in the middle of a program misses. Looks at words, not at what an
 /// interpreter makes of them, so that it works for text of every control and of any size: calls,
 /// jumps and variables before the beginning are named as what they are. Nothing is left out that is
-/// not said again before the rest needs it: F and the spindle by the first feed move, all others by
-/// the first block with axis words. Bounded memory; pure; one thread.
+/// not programmed again before the rest needs it: F and the spindle by the first feed move, all
+/// others by the first block with axis words. Bounded memory; pure; one thread.
 class ModalScan {
  public:
   /// `control`: the machine's dialect; its codes are read by that control's rules. Empty: as the
@@ -57,7 +57,7 @@ class ModalScan {
   void skip_event(std::string_view text, const Block& block);
   void skip_plain_language(std::string_view text);
   void name_unknown(std::string_view text);
-  void settle(ModalGroup group) { in_force_.erase(group); }
+  void drop(ModalGroup group) { in_force_.erase(group); }
   void look_word(const Word& word);
   bool look_event(const Block& block);
   bool is_feed_move(const Block& block) const;
@@ -69,7 +69,7 @@ class ModalScan {
   bool is_moving_ = false;  ///< G0 to G3: the last motion code of all is not G0
   bool is_axis_decided_ = false;
   bool has_events_ = false;
-  std::map<ModalGroup, ModalWord> in_force_;  ///< of the skipped part, not yet said again
+  std::map<ModalGroup, ModalWord> in_force_;  ///< of the skipped part, not yet programmed again
   std::vector<ModalWord> relied_, unknown_;
 };
 

@@ -12,7 +12,7 @@ inline constexpr std::size_t kProgramHead = 4096;
 /// Whether a line that comes from a control begins a program of its own accord: `O` or `:` and a
 /// number, `%` and a name, a TNC's `BEGIN PGM`, a ProtoTRAK's `PN7`; after a line of `%` alone
 /// also an N number, a G code, a comment or a block skip. What control prints (DPRNT) looks
-/// otherwise, or a rule says so.
+/// otherwise, or a rule decides it.
 bool begins_program(std::string_view line, bool is_after_percent);
 
 /// The name a program gives itself in its head: "O9999", "O15" for `:15`, a TNC's "15", a

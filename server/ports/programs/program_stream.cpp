@@ -45,11 +45,11 @@ Result<std::string> o_line_of(const std::string& program) {
   if (!number.empty()) return fmt::format("O{:0>4}\n", number);
   return fail(Errc::Syntax,
               "program '{}' has no O number, in its text or as its name: among several the control "
-              "could not tell it apart; send it alone",
+              "could not separate it; send it alone",
               program);
 }
 
-/// Where the O line of a text stands; comments may stand in front of it.
+/// The position of the O line of a text; comments may be in front of it.
 struct NumberLine {
   std::size_t begin = 0, end = 0;  ///< with its LF
 };
@@ -116,7 +116,7 @@ Result<void> ProgramStream::add(storage::ProgramStore& store, const storage::Rev
     add(*number);
     add(revision.content, front, end - front);
   } else if (line->begin > front && (*head)[line->end - 1] == '\n') {
-    // What stands in front of its O line would be the end of the program before.
+    // Text in front of its O line would be the end of the program before.
     add(revision.content, line->begin, line->end - line->begin);
     add(revision.content, front, line->begin - front);
     add(revision.content, line->end, end - line->end);

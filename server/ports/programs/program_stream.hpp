@@ -7,13 +7,13 @@
 
 namespace dripline::ports {
 
-/// A text that is sent as one, put together from pieces of stored programs and words of ours.
+/// A text that is sent as one, put together from pieces of stored programs and added words.
 /// Immutable; any thread.
 class ProgramStream {
  public:
-  /// One program as it stands.
+  /// One program as it is.
   static ProgramStream of(const Digest& content, std::uint64_t size);
-  /// Several, for a control that tells them apart by their O lines. Blank lines and lines of `%`
+  /// Several, for a control that separates them by their O lines. Blank lines and lines of `%`
   /// around each are left out: the line's own start and end characters stand around the whole. Each
   /// begins with its O line, comments in front of it follow it; without one it gets the number of
   /// its name. Errors: those of the store, Syntax (nothing to send in it; no number), each with the

@@ -8,7 +8,7 @@ namespace dripline::ports {
 namespace {
 
 constexpr std::uint64_t kPiece = 256 * 1024;
-constexpr std::size_t kMaxBlock = 4096;  ///< more of a block says nothing that is looked for
+constexpr std::size_t kMaxBlock = 4096;  ///< the rest of a longer block is not searched
 
 /// Gives a program's blocks to a scan, as its bytes come.
 class BlockCutter {
@@ -83,14 +83,14 @@ Result<std::string> start_head(storage::ProgramStore& store, const storage::Run&
   if (!lost.empty()) {
     return fail(Errc::Conflict,
                 "line {} and what follows rely on {}; of these {} cannot be sent again by itself: "
-                "begin at an earlier block, or say --modes-set when all of it is in force at the "
+                "begin at an earlier block, or give --modes-set when all of it is in force at the "
                 "control",
                 place.line, words_text(words), words_text(lost));
   }
   if (choice == machines::StartHead::Send) return head_text(words);
   return fail(Errc::Conflict,
               "line {} and what follows rely on {}, which would not be sent: --send-head sends "
-              "'{}' first, --modes-set says that all of it is in force at the control",
+              "'{}' first, --modes-set confirms that all of it is in force at the control",
               place.line, words_text(words), one_line(head_text(words)));
 }
 

@@ -8,7 +8,7 @@
 namespace dripline::ports {
 
 /// A program that a control sends while it arrives: the first 64 KiB in memory, longer ones as an
-/// upload. It becomes a revision that is held until somebody accepts it. One thread; dropped when
+/// upload. It becomes a revision that is held until it is accepted. One thread; dropped when
 /// it is destroyed before `store`.
 class UploadedProgram {
  public:
@@ -27,10 +27,10 @@ class UploadedProgram {
   Result<void> append(const std::string& text);
   /// `name` in the library, made fit to be one. Errors: the same, Syntax (empty).
   Result<library::Committed> store(const std::string& name);
-  /// Some of it came wrong: whoever is to accept it reads so in its comment. A long one, whose
-  /// comment was written before, cannot be stored any more.
+  /// Part of it was received damaged: its comment warns the operator who accepts it. A long one,
+  /// whose comment was written before, cannot be stored any more.
   void damage(const std::string& how);
-  /// What it is called when neither the protocol nor a rule nor the text says it.
+  /// Its name when neither the protocol nor a rule nor the text gives one.
   std::string fallback_name() const { return origin_.machine + "-punched"; }
 
  private:

@@ -28,7 +28,7 @@ FlightRecorder::FlightRecorder(Options options, const Clock& clock,
   drop_old(clock_.now());
 }
 
-/// Whether it goes on what the open entry says.
+/// Whether it continues the open entry.
 bool FlightRecorder::joins(const serial::LineTraffic& traffic, UtcTime now) const {
   return open_ && has_bytes(traffic.what) && open_->what == traffic.what &&
          open_->bytes.size() < kMaxEntry && now - open_->time < kMaxSpan;

@@ -33,11 +33,11 @@ class FlightRecorder {
   FlightRecorder(Options options, const Clock& clock,
                  std::function<void(const PortTraffic&)> on_entry);
 
-  /// Touches memory only: for the line's thread.
+  /// Uses memory only: for the line's thread.
   void add(const serial::LineTraffic& traffic);
-  /// Tells and writes down what is complete; some times a second, from one thread at a time.
+  /// Publishes and writes complete entries; called some times a second, from one thread at a time.
   void flush();
-  /// Counts begin anew.
+  /// Resets the counts.
   void on_opened();
   /// Oldest first.
   std::vector<PortTraffic> entries() const;

@@ -7,7 +7,7 @@
 
 #include "storage/store.hpp"
 
-/// What is said to a control in the only words it has: programs of comments.
+/// Answers to a control in the only form it can show: programs of comments.
 namespace dripline::ports {
 
 inline constexpr std::size_t kMaxListed = 200;
@@ -17,10 +17,10 @@ inline constexpr std::size_t kMaxListed = 200;
 std::string comment_text(std::string_view words);
 /// `words` broken at blanks into at most four lines of that length; none for no words.
 std::vector<std::string> comment_lines(std::string_view words);
-/// A program called `name` ("O9998") that says these lines and does nothing.
+/// A program called `name` ("O9998") that shows these lines and does nothing.
 std::string comment_program(const std::string& name, std::span<const std::string> lines);
 /// One line for each program that can be sent to a machine with that control (empty: any), at most
-/// kMaxListed, and a last line that says how many more there are.
+/// kMaxListed, and a last line with the number of the rest.
 std::vector<std::string> listing(std::span<const storage::ProgramSummary> programs,
                                  const std::string& control);
 

@@ -75,7 +75,7 @@ void RemoteRequestHandler::answer(const wire::TransferRequest& request) {
   send(request.name, true);
 }
 
-/// Nothing is sent that nobody ordered: the request stays for the run that is started next.
+/// Nothing is sent that was not commanded: the request waits for the run that is started next.
 void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
@@ -87,15 +87,15 @@ void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
 
 LineMachines::Started RemoteRequestHandler::on_started(bool is_request) const {
   return [handler = *this, is_request](const Result<storage::Run>& run) {
-    if (!run) handler.say_no(run.error().what, is_request);
+    if (!run) handler.refuse(run.error().what, is_request);
   };
 }
 
 void RemoteRequestHandler::send(const std::string& name, bool is_request) {
-  if (name.empty()) return say_no("no program is named", is_request);
+  if (name.empty()) return refuse("no program is named", is_request);
   const auto program = is_request ? find_offered(name) : find_program(name);
   if (!program) {
-    return say_no(program.error().what, is_request, library::Refusal::NoSuchProgram);
+    return refuse(program.error().what, is_request, library::Refusal::NoSuchProgram);
   }
   parts_.machines.start_later(
       {.machine = parts_.machine, .program = *program, .revision = {}, .author = kAuthor},
@@ -105,14 +105,14 @@ void RemoteRequestHandler::send(const std::string& name, bool is_request) {
 void RemoteRequestHandler::restart(const std::string& block) {
   const auto blank = block.find(' ');
   const auto point = machines::parse_start_point(block.substr(0, blank));
-  if (!point) return say_no(point.error().what, false);
+  if (!point) return refuse(point.error().what, false);
   const std::string choice = blank == std::string::npos ? "" : block.substr(blank + 1);
   if (!choice.empty() && choice != "HEAD" && choice != "SET") {
-    return say_no("after the block comes HEAD or SET, not " + choice, false);
+    return refuse("after the block comes HEAD or SET, not " + choice, false);
   }
   const auto last =
       parts_.store.runs.list({.machine = parts_.machine, .program = {}, .state = {}}, {.limit = 1});
-  if (!last || last->empty()) return say_no("there was no run to begin again", false);
+  if (!last || last->empty()) return refuse("there was no run to begin again", false);
   parts_.machines.start_later({.machine = parts_.machine,
                                .program = last->front().program,
                                .revision = last->front().revision,
@@ -126,7 +126,7 @@ void RemoteRequestHandler::restart(const std::string& block) {
 
 void RemoteRequestHandler::send_listing(bool is_request) {
   const auto programs = parts_.store.programs.list({.limit = kMaxPrograms});
-  if (!programs) return say_no(programs.error().what, is_request);
+  if (!programs) return refuse(programs.error().what, is_request);
   const std::string control = this->control();
   auto lines = listing(*programs, control);
   if (lines.empty() && !is_request) {
@@ -146,8 +146,8 @@ void RemoteRequestHandler::send_listing(bool is_request) {
 void RemoteRequestHandler::send_next() {
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
-  if (auto sound = check_last_run(); !sound) return say_no(sound.error().what, true);
-  if (auto listed = list_offers(); !listed) return say_no(listed.error().what, true);
+  if (auto sound = check_last_run(); !sound) return refuse(sound.error().what, true);
+  if (auto listed = list_offers(); !listed) return refuse(listed.error().what, true);
   if (next_offer_ >= offers_->size()) {
     if (!std::exchange(is_end_told_, true)) {
       line->note(
@@ -197,7 +197,7 @@ Result<void> RemoteRequestHandler::list_offers() {
   return {};
 }
 
-void RemoteRequestHandler::say_no(const std::string& why, bool is_request,
+void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
                                   library::Refusal refusal) const {
   spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);

@@ -11,16 +11,16 @@
 namespace dripline::ports {
 
 /// Does what an operator asks for from the control: sends a program, lists them, begins the last
-/// run again at a block. What cannot be done is said to the control where it can show it: a
+/// run again at a block. What cannot be done is reported to the control where it can show it: a
 /// refused request, or a program of comments when the rules name one. On the machine's strand.
 ///
-/// The rules say what a text from the control does. A request of the protocol (DC1, NAK or C of
+/// The rules define what a text from the control does. A request of the protocol (DC1, NAK or C of
 /// XMODEM, a TNC's heading) sends nothing by itself: it is there for the run that is started next,
-/// unless the port's `offer` says what else such a control gets.
+/// unless the port's `offer` defines what else such a control gets.
 class RemoteRequestHandler {
  public:
   /// A control that asks for "the next program" is offered each one once. It begins with the first
-  /// one again when it has been silent for so long: after it was told that none is left, or in the
+  /// one again when it has been silent for so long: after the answer that none is left, or in the
   /// middle.
   static constexpr std::chrono::seconds kOfferLife{60};
   static constexpr std::chrono::minutes kOfferPause{10};
@@ -34,17 +34,18 @@ class RemoteRequestHandler {
     std::shared_ptr<const RuleSet> rules;
     wire::Offer offer = wire::Offer::None;
     bool refuses = false;  ///< a request that is not answered at once is worth nothing: blockwise
-    bool tells_aborts = false;  ///< the protocol tells the control that a program is broken off
+    bool tells_aborts =
+        false;  ///< the protocol reports to the control that a program is broken off
   };
   explicit RemoteRequestHandler(Parts parts) : parts_(std::move(parts)) {}
 
   /// Send, Directory or Restart.
   void carry_out(RuleAction action, const std::string& argument);
-  /// The protocol's own way to ask.
+  /// A request of the protocol itself.
   void answer(const wire::TransferRequest& request);
   /// What `answer` put on the line has been sent, or not.
   void on_answer_over() { asked_at_ = parts_.clock.steady_now(); }
-  /// Programs that somebody had sent to the control have all arrived.
+  /// All programs of a transfer to the control have arrived.
   void on_transfer_completed() { is_sent_since_ = true; }
   /// A run is on the line, or was.
   void on_run() { is_sent_since_ = false; }
@@ -60,7 +61,7 @@ class RemoteRequestHandler {
   Result<void> check_last_run() const;
   Result<void> list_offers();
   /// `refusal`: what the control has a message of its own for.
-  void say_no(const std::string& why, bool is_request,
+  void refuse(const std::string& why, bool is_request,
               library::Refusal refusal = library::Refusal::None) const;
   void send_answer(std::string name, std::string text) const;
   void put_on_line(SendJob job) const;

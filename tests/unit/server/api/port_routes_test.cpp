@@ -71,7 +71,7 @@ TEST_F(PortRoutes, ShowHowALineStands) {
   view.sent = 12345;
   view.received = 7;
   view.waiting_since = clock_.now();
-  view.trouble = "parity error";
+  view.fault = "parity error";
   const Json port = json(get("/api/v1/ports/line-1"));
   EXPECT_EQ(port["open"], true);
   EXPECT_EQ(port["line"], (Json{{"phase", "sending"},

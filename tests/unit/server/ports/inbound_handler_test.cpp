@@ -82,7 +82,7 @@ TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
       "B 2\n\x14\x12"
       "B 3\n\x14");
   ASSERT_TRUE(wait([&] { return store_->records.machine_report("mill", {})->size() == 2; }));
-  EXPECT_EQ(ports_->port("com1")->trouble, "") << "nothing is wrong with it";
+  EXPECT_EQ(ports_->port("com1")->fault, "") << "nothing is wrong with it";
 }
 
 TEST_F(SerialTest, KeepsWhatAFanucPrintsWhileItIsFed) {
@@ -310,7 +310,7 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
   line().write(text);
   EXPECT_NE(line().read_until("\x13").find('\x13'), std::string::npos);
   EXPECT_TRUE(wait([&] {
-    return ports_->port("com1")->trouble == "what comes in cannot be stored: the disk is full";
+    return ports_->port("com1")->fault == "what comes in cannot be stored: the disk is full";
   }));
   records.is_full_ = false;
   EXPECT_NE(line().read_until("\x11").find('\x11'), std::string::npos);
@@ -318,7 +318,7 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
     const std::lock_guard lock(told_mutex_);
     return records_.size() == 200;
   }));
-  EXPECT_TRUE(wait([&] { return ports_->port("com1")->trouble.empty(); }));
+  EXPECT_TRUE(wait([&] { return ports_->port("com1")->fault.empty(); }));
   ports_.reset();  // before the store
   EXPECT_EQ(faults_.front(), "mill: the disk is full");
   EXPECT_EQ(faults_.back(), "mill: ") << "taken back";

@@ -31,9 +31,9 @@ class SerialTest : public ServerTest {
       parts.open = [this, address = parts.address] { return line(address).open(); };
       return serial::LineDriver::start(std::move(parts));
     };
-    options.on_fault = [this](const std::string& machine, const std::string& trouble) {
+    options.on_fault = [this](const std::string& machine, const std::string& fault) {
       const std::lock_guard lock(told_mutex_);
-      faults_.push_back(machine + ": " + trouble);
+      faults_.push_back(machine + ": " + fault);
     };
     machines::MachineListener listener{.on_machine = [](const machines::MachineView&) {},
                                        .on_run = [](const storage::Run&) {},

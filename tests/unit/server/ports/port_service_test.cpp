@@ -85,13 +85,13 @@ TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
   machines.is_full_ = true;
   storage::Store store = test_support::with(*store_, machines);
   start_ports(store);
-  EXPECT_EQ(ports_->port("com1")->trouble, "the disk is full");
+  EXPECT_EQ(ports_->port("com1")->fault, "the disk is full");
   ports_->open_due();
   EXPECT_FALSE(ports_->port("com1")->is_open);
   machines.is_full_ = false;
   ports_->open_due();
   EXPECT_TRUE(wait([&] { return ports_->port("com1")->is_open; }));
-  EXPECT_EQ(ports_->port("com1")->trouble, "");
+  EXPECT_EQ(ports_->port("com1")->fault, "");
   ports_.reset();  // before the store
 }
 

@@ -1,0 +1,167 @@
+#include <spdlog/spdlog.h>
+#include <algorithm>
+
+#include "server/ports/line_runs.hpp"
+#include "server/ports/port_service.hpp"
+#include "server/ports/port_settings.hpp"
+#include "server/ports/programs/inbound_handler.hpp"
+
+/// The part of PortService that puts an open port together: its machine, its line and what they
+/// report.
+namespace dripline::ports {
+namespace {
+
+constexpr unsigned kTicksPerSave = 5;
+
+LineOpener default_opener() {
+  return
+      [](serial::LineDriver::Parts parts) { return serial::LineDriver::start(std::move(parts)); };
+}
+
+}  // namespace
+
+/// Records are in order of their epochs, also when the clock was put back between two starts of the
+/// server: later than the last one that the store knows.
+std::uint64_t PortService::epoch_of(const storage::Machine& machine) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = machines_.find(machine.name);
+  if (found != machines_.end()) return found->second.records->epoch();
+  return std::max(epoch_, machine.epoch + 1);
+}
+
+/// A run needs its machine in the store, and its records an epoch, which is returned.
+Result<std::uint64_t> PortService::enter_machine(const storage::Port& port) {
+  storage::Machine machine;
+  machine.name = port.machine;
+  machine.first_seen = clock_.now();
+  if (auto known = store_.machines.find(port.machine)) machine = *std::move(known);
+  if (machine.control.empty()) machine.control = template_control(port);
+  machine.epoch = epoch_of(machine);
+  machine.last_seen = clock_.now();
+  if (auto saved = store_.machines.save(machine); !saved) return fail(saved.error());
+  return machine.epoch;
+}
+
+PortService::Machine PortService::machine_of(const std::string& name, std::uint64_t epoch) {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = machines_.find(name); found != machines_.end()) return found->second;
+  const Strand strand(pool_);
+  LineRecords::Parts parts{
+      .store = store_.records,
+      .clock = clock_,
+      .strand = strand,
+      .machine = name,
+      .epoch = epoch,
+      .on_stored = [this](const auto& batch) { on_stored(batch); },
+      .on_fault = [this, name](const std::string& fault) { on_store_fault(name, fault); }};
+  const Machine machine{.strand = strand,
+                        .records = std::make_shared<LineRecords>(std::move(parts))};
+  strand.post([this, name, records = machine.records] {
+    if (auto ended = line_machines_.runs().give_up_unfinished(name, *records); !ended) {
+      spdlog::error("unfinished runs not ended machine={}: {}", name, ended.error().what);
+    }
+  });
+  return machines_.emplace(name, machine).first->second;
+}
+
+void PortService::open(Entry& entry) {
+  if (!entry.port.is_enabled || !entry.fault.empty()) return;
+  const auto epoch = enter_machine(entry.port);
+  entry.is_open_due = !epoch;
+  if (!epoch) {
+    entry.fault = epoch.error().what;
+    return;
+  }
+  const Machine machine = machine_of(entry.port.machine, *epoch);
+  entry.line = make_line(entry, machine.strand, listener_for(entry, machine));
+  entry.line->open();
+  machine.strand.post([this, line = std::weak_ptr<PortLine>(entry.line)] { tick(line, 0); });
+}
+
+PortListener PortService::listener_for(const Entry& entry, const Machine& machine) {
+  const std::string& name = entry.port.machine;
+  RemoteRequestHandler::Parts calls{
+      .store = store_,
+      .machines = line_machines_,
+      .directory = *this,
+      .clock = clock_,
+      .machine = name,
+      .rules = entry.rules,
+      .offer = entry.settings.offer,
+      .refuses = entry.settings.flow == wire::Flow::HeidenhainBcc,
+      .tells_aborts = entry.settings.flow == wire::Flow::Heidenhain ||
+                      entry.settings.flow == wire::Flow::HeidenhainBcc ||
+                      entry.settings.flow == wire::Flow::Xmodem};
+  const auto inbound = std::make_shared<InboundHandler>(InboundHandler::Parts{
+      .machines = store_.machines,
+      .programs = programs_,
+      .records = machine.records,
+      .machine = name,
+      .port = entry.port.name,
+      .rules = entry.rules,
+      .extracts_programs = entry.settings.extracts_programs,
+      .sends_programs_only = entry.settings.control.kind == wire::ControlKind::ProtoTrak,
+      .calls = std::move(calls)});
+  return {
+      .on_incoming =
+          [inbound](Incoming incoming, std::function<void()> kept) {
+            inbound->take(std::move(incoming), std::move(kept));
+          },
+      .on_sent =
+          [this, inbound, name](const SendEnd& end) {
+            if (end.progress.kind == JobKind::Transfer) {
+              note_transfer(name, end);
+              if (end.outcome == SendOutcome::Completed) inbound->on_transfer_completed();
+            }
+            if (end.progress.kind == JobKind::Answer) inbound->on_answer_over();
+            if (end.progress.kind != JobKind::Run) return;
+            inbound->on_run(end.progress.id);
+            line_machines_.on_sent(name, end);
+          },
+      .on_request = [inbound](const wire::TransferRequest& request) { inbound->answer(request); },
+      .on_change = [this, name] { line_machines_.on_change(name); }};
+}
+
+std::shared_ptr<PortLine> PortService::make_line(const Entry& entry, const Strand& strand,
+                                                 PortListener listener) {
+  const auto broken = broken_run(store_.runs, entry.port.machine, true);
+  return PortLine::make(
+      {.port = entry.port,
+       .settings = entry.settings,
+       .programs = store_.programs,
+       .clock = clock_,
+       .strand = strand,
+       .open = options_.open ? options_.open : default_opener(),
+       .recording = {.port = entry.port.name, .folder = options_.recordings},
+       .on_traffic = [this](const PortTraffic& traffic) { tell_traffic(traffic); },
+       .listener = std::move(listener),
+       .is_program_broken = broken && broken->has_value()});
+}
+
+void PortService::tick(const std::weak_ptr<PortLine>& weak, unsigned count) {
+  const auto line = weak.lock();
+  if (!line) return;
+  line->tick();
+  if (count % kTicksPerSave == 0) line_machines_.save_progress(*line);
+  line->strand().post_after(kTick, [this, weak, count] { tick(weak, count + 1); });
+}
+
+void PortService::tell_traffic(const PortTraffic& traffic) const {
+  const std::lock_guard lock(traffic_mutex_);
+  if (on_traffic_) on_traffic_(traffic);
+}
+
+void PortService::on_store_fault(const std::string& machine, const std::string& fault) {
+  if (const auto line = line_of(machine)) {
+    line->note_store_fault(fault.empty() ? "" : "what comes in cannot be stored: " + fault);
+  }
+  if (options_.on_fault) options_.on_fault(machine, fault);
+}
+
+void PortService::on_stored(const storage::RecordBatch& batch) {
+  for (const auto& record : batch.records) listener_.on_record(record);
+  for (const auto& beginning : batch.beginnings) line_machines_.announce(beginning.run);
+  for (const auto& ending : batch.endings) line_machines_.announce(ending.run);
+}
+
+}  // namespace dripline::ports
