@@ -296,7 +296,7 @@ Result<void> MachineService::command(const CommandRequest& request) {
   command.run = run->id;
   command.argument = request.argument;
   command.value = request.value;
-  spdlog::info("order {} machine={} run={} program={}", dds::to_string(request.action),
+  spdlog::info("command {} machine={} run={} program={}", dds::to_string(request.action),
                run->machine, run->id, run->program);
   return parts->commands.carry_out(std::move(command));
 }
@@ -311,7 +311,7 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   command.action = request.action;
   command.argument = request.argument;
   command.value = request.value;
-  spdlog::info("order {} machine={}", dds::to_string(request.action), request.machine);
+  spdlog::info("command {} machine={}", dds::to_string(request.action), request.machine);
   return owned_parts_->commands.carry_out(std::move(command));
 }
 

@@ -81,7 +81,7 @@ TEST_F(FullDisk, ChangesNothingAndWorksAgainWhenThereIsRoom) {
   EXPECT_EQ(store_->runs.find("r1")->outputs, last);
   EXPECT_EQ(query("SELECT count(*) FROM record"), static_cast<std::int64_t>(last));
   EXPECT_TRUE(store_->check());
-  EXPECT_EQ(store_->programs.revision("p.nc", 1)->size, 12u) << "reading goes on";
+  EXPECT_EQ(store_->programs.revision("p.nc", 1)->size, 12u) << "reading continues";
 
   ASSERT_TRUE(store_->uploads.abandon(ballast_)) << "making room needs none";
   EXPECT_EQ(store_->records.store(make_batch(last + 1, last + 100)), last + 100);

@@ -36,7 +36,7 @@ TEST_F(HeldRevision, IsListedAndReadableButNeverTheLatest) {
   EXPECT_EQ(listed.held, 1u);
 }
 
-TEST_F(HeldRevision, AloneInItsProgramIsListedAndSaysWhatToDo) {
+TEST_F(HeldRevision, AloneInItsProgramIsListedWithWhatToDo) {
   ASSERT_TRUE(receive("O0012", "G00 X1.\n"));
   const auto listed = store_->programs.list({});
   ASSERT_EQ(listed->size(), 1u);

@@ -57,7 +57,7 @@ TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
   EXPECT_EQ(pull(revision->content), "G00 X1.\n");
 }
 
-TEST_F(ProgramTest, PushedAgainAfterRemovalGoesOnWithItsNumbers) {
+TEST_F(ProgramTest, PushedAgainAfterRemovalContinuesItsNumbers) {
   ASSERT_TRUE(push("p.nc", "G00 X1.\n"));
   ASSERT_TRUE(store_->programs.remove("p.nc"));
   EXPECT_EQ(push("p.nc", "G00 X1.\n")->number, 2u);

@@ -74,7 +74,7 @@ TEST_F(RecordTest, OutsideAnyRunAreTheMachinesReport) {
   }
   EXPECT_EQ(places, "7.1 output 7.2 probe 7.4 output 8.1 output ");
   EXPECT_EQ(store_->records.machine_report("m1", {.limit = 1, .offset = 1})->at(0).number, 2u);
-  EXPECT_TRUE(store_->records.machine_report("nobody", {})->empty());
+  EXPECT_TRUE(store_->records.machine_report("unknown", {})->empty());
   const auto reports = store_->records.machine_reports();
   ASSERT_EQ(reports->size(), 1u);
   EXPECT_EQ(reports->at(0).machine, "m1");
@@ -113,7 +113,7 @@ TEST_F(RecordTest, OfTheControlsMemoryAreFoundByMachineNewestFirst) {
       store_->records.memory_reports("m1", std::nullopt, {.limit = 1, .offset = 1})->at(0).run,
       "line-1");
   EXPECT_TRUE(store_->records.memory_reports("m1", "r2", {})->empty());
-  EXPECT_TRUE(store_->records.memory_reports("nobody", std::nullopt, {})->empty());
+  EXPECT_TRUE(store_->records.memory_reports("unknown", std::nullopt, {})->empty());
 }
 
 TEST_F(RecordTest, SentAgainAreStoredOnce) {

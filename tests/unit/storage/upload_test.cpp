@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(, AnyPieces,
                                          PieceCase{"bigger_than_chunks", 3'000'001, 1'000'000}),
                          [](const auto& i) { return std::string{i.param.name}; });
 
-TEST_F(UploadTest, GoesOnAfterARestartWhereItStopped) {
+TEST_F(UploadTest, ContinuesAfterARestartWhereItStopped) {
   const std::string text = nc_text(1'000'000);
   const std::string id = begin("p.nc");
   ASSERT_TRUE(store_->uploads.append(id, 0, bytes_of(text).first(400'000)));

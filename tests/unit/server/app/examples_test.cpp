@@ -32,7 +32,7 @@ TEST(Examples, PortsAreTakenByTheServersSettingsAndFitTheirTemplates) {
   EXPECT_EQ(wire::short_form(ports::effective_settings(settings.ports[1]).value()), "9600e71");
 }
 
-TEST(Examples, BaudOfAPortChangesWhatItsLineSays) {
+TEST(Examples, BaudOfAPortOverridesItsLine) {
   app::Settings settings;
   const auto taken = app::apply_toml(
       settings, "[[port]]\nmachine='m'\naddress='/dev/x'\nbaud=4800\nline='9600e72'\n");
@@ -58,7 +58,7 @@ TEST(Ports, OfATncHaveItsEightRates) {
   EXPECT_TRUE(ports::effective_settings(port)) << "other controls of the family are quicker";
 }
 
-TEST(Examples, CallsDoWhatTheirCommentsSay) {
+TEST(Examples, CallsDoWhatTheirCommentsDescribe) {
   const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
   ASSERT_TRUE(rules) << rules.error().what;
   const auto verdict = [&](const std::string& text) {

@@ -32,7 +32,7 @@ TEST(Settings, HaveDefaultsAndComeFromTheCommandLine) {
 TEST(Settings, FindTheStateFolderWhereDncLooksForIt) {
   ::setenv("DRIPLINE_STATE", "/named/by/all", 1);
   EXPECT_EQ(read({}).settings.state, "/named/by/all");
-  EXPECT_EQ(read({"--state", "/told"}).settings.state, "/told");
+  EXPECT_EQ(read({"--state", "/given"}).settings.state, "/given");
   ::unsetenv("DRIPLINE_STATE");
 }
 

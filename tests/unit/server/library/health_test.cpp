@@ -44,7 +44,7 @@ TEST_F(HealthState, AWatchThatNoLongerLooksIsAFailure) {
   EXPECT_EQ(health_.state().findings.at(0).subject, "store");
 }
 
-TEST_F(HealthState, TheWatchTellsWhatTheStoreSays) {
+TEST_F(HealthState, TheWatchReportsTheErrorOfTheStore) {
   const test_support::TemporaryFolder folder;
   {
     auto opened = storage::SqliteStore::open({.file = folder.path() / "store.sqlite"}, clock_);

@@ -23,8 +23,8 @@ TEST(MemoryTexts, WithAPartMissingAreNoMemory) {
   }
 }
 
-/// A gateway that was killed after its report tells it again.
-TEST(MemoryTexts, ThatWereToldAgainReplaceThoseBefore) {
+/// A gateway that was killed after its report reports it again.
+TEST(MemoryTexts, ThatWereSentAgainReplaceThoseBefore) {
   const auto cells =
       read_memory_texts({kFirst, kSecond, R"({"part":1,"parts":1,"cells":{"P1":[1,0]}})"});
   ASSERT_TRUE(cells);

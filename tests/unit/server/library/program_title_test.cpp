@@ -20,7 +20,7 @@ TEST(ProgramTitle, IsTheCommentOfTheFirstBlock) {
   EXPECT_EQ(program_title("O0100 (UNFINISHED"), "UNFINISHED");
 }
 
-TEST(ProgramTitle, IsWhatTheFirstBlockSaysWithoutAComment) {
+TEST(ProgramTitle, IsTheFirstBlockWithoutAComment) {
   EXPECT_EQ(program_title("O100 FLANGE\nG0\n"), "FLANGE");
   EXPECT_EQ(program_title("G20 G90\nG0 (FAST)\n"), "G20 G90");
   EXPECT_EQ(program_title("O0100\nG0 (FAST)\n"), "") << "a later block's comment is no name";

@@ -22,7 +22,7 @@ TEST_F(ProgramsTest, StoreAnUploadAsARevisionAndAuditIt) {
   EXPECT_EQ(entries->front().subject, "O1.nc");
 }
 
-TEST_F(ProgramsTest, SayWhenTheContentIsTheLatestAlready) {
+TEST_F(ProgramsTest, ReportThatTheContentIsTheLatestAlready) {
   push("O1", "O1\n");
   const std::string id = begin("O1");
   ASSERT_TRUE(programs_->append(id, 0, bytes_of("O1\n")));

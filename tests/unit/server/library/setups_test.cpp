@@ -19,7 +19,7 @@ TEST_F(SetupsTest, AreCheckedByTheirControlBeforeTheyAreKept) {
   EXPECT_TRUE(audit_->entries({})->empty());
 }
 
-TEST_F(SetupsTest, SayWhetherSomethingChanged) {
+TEST_F(SetupsTest, ReportWhetherTheTextChanged) {
   EXPECT_FALSE(save("a = 1")->is_unchanged);
   EXPECT_TRUE(save("a = 1")->is_unchanged);
   EXPECT_FALSE(save("a = 2")->is_unchanged);

@@ -13,7 +13,7 @@ std::string contour(std::size_t size) {
   return text;
 }
 
-class FeedBlocks : public MachineServiceTest {
+class BlockFeedTest : public MachineServiceTest {
  protected:
   /// A run that has begun, of a program with `text`.
   std::string running(const std::string& text) {
@@ -27,7 +27,7 @@ class FeedBlocks : public MachineServiceTest {
   }
 };
 
-TEST_F(FeedBlocks, AnswersARequestInPiecesUpToItsEnd) {
+TEST_F(BlockFeedTest, AnswersARequestInPiecesUpToItsEnd) {
   const std::string text = contour(600'000);
   const std::string run = running(text);
   request(run, 0, 400'000);
@@ -38,7 +38,7 @@ TEST_F(FeedBlocks, AnswersARequestInPiecesUpToItsEnd) {
   EXPECT_FALSE(first.ends);
 }
 
-TEST_F(FeedBlocks, SaysWhereTheProgramEnds) {
+TEST_F(BlockFeedTest, MarksTheEndOfTheProgram) {
   const std::string text = contour(1000);
   const std::string run = running(text);
   request(run, 500, 1'000'000);
@@ -47,7 +47,7 @@ TEST_F(FeedBlocks, SaysWhereTheProgramEnds) {
   EXPECT_TRUE(block.ends);
 }
 
-TEST_F(FeedBlocks, AnswersAtTheVeryEndWithNothing) {
+TEST_F(BlockFeedTest, AnswersAtTheVeryEndWithNothing) {
   const std::string text = contour(1000);
   const std::string run = running(text);
   request(run, text.size(), 100);
@@ -57,7 +57,7 @@ TEST_F(FeedBlocks, AnswersAtTheVeryEndWithNothing) {
   EXPECT_TRUE(block.ends);
 }
 
-TEST_F(FeedBlocks, GoesOnWhenTheQueueToTheGatewayWasFull) {
+TEST_F(BlockFeedTest, ContinuesWhenTheQueueToTheGatewayWasFull) {
   const std::string text = contour(200'000);
   const std::string run = running(text);
   written_->refusals = 3;
@@ -65,7 +65,7 @@ TEST_F(FeedBlocks, GoesOnWhenTheQueueToTheGatewayWasFull) {
   EXPECT_EQ(fed(7), text.substr(0, 200'000));
 }
 
-TEST_F(FeedBlocks, StaysWithTheRevisionTheRunBeganWith) {
+TEST_F(BlockFeedTest, StaysWithTheRevisionTheRunBeganWith) {
   const std::string text = contour(1000);
   const std::string run = running(text);
   clock_.advance(std::chrono::seconds(1));
@@ -74,7 +74,7 @@ TEST_F(FeedBlocks, StaysWithTheRevisionTheRunBeganWith) {
   EXPECT_EQ(fed(1), text);
 }
 
-TEST_F(FeedBlocks, RefusesAnUnknownRunAndOneThatHasEnded) {
+TEST_F(BlockFeedTest, RefusesAnUnknownRunAndOneThatHasEnded) {
   const std::string run = running("M30\n");
   request("no-such-run", 0, 10);
   EXPECT_EQ(first_block().status, dds::BlockStatus::NoSuchRun);
@@ -86,13 +86,13 @@ TEST_F(FeedBlocks, RefusesAnUnknownRunAndOneThatHasEnded) {
   EXPECT_NE(written_->blocks[1].reason.find("completed"), std::string::npos);
 }
 
-TEST_F(FeedBlocks, RefusesAnOffsetAfterTheEnd) {
+TEST_F(BlockFeedTest, RefusesAnOffsetAfterTheEnd) {
   const std::string run = running("M30\n");
   request(run, 5, 10);
   EXPECT_EQ(first_block().status, dds::BlockStatus::OutOfRange);
 }
 
-TEST_F(FeedBlocks, FindsACalledProgramByItsNumber) {
+TEST_F(BlockFeedTest, FindsACalledProgramByItsNumber) {
   push("O2.nc", "O2\nM99\n");
   clock_.advance(std::chrono::seconds(1));
   const std::string run = running("M98 P2\n");
@@ -100,7 +100,7 @@ TEST_F(FeedBlocks, FindsACalledProgramByItsNumber) {
   EXPECT_EQ(fed(1), "O2\nM99\n");
 }
 
-TEST_F(FeedBlocks, KeepsACalledProgramAsItWasWhenTheRunBegan) {
+TEST_F(BlockFeedTest, KeepsACalledProgramAsItWasWhenTheRunBegan) {
   push("O0002", "O2\nM99\n");
   clock_.advance(std::chrono::seconds(1));
   const std::string run = running("M98 P2\n");
@@ -113,7 +113,7 @@ TEST_F(FeedBlocks, KeepsACalledProgramAsItWasWhenTheRunBegan) {
   EXPECT_EQ(written_->blocks[1].status, dds::BlockStatus::NoSuchProgram);
 }
 
-TEST_F(FeedBlocks, NeverAnswersACorruptChunkWithBytes) {
+TEST_F(BlockFeedTest, NeverAnswersACorruptChunkWithBytes) {
   struct CorruptPrograms final : test_support::ProgramStoreDecorator {
     using ProgramStoreDecorator::ProgramStoreDecorator;
     Result<std::vector<std::byte>> read_content(const Digest&, std::uint64_t,
@@ -136,7 +136,7 @@ TEST_F(FeedBlocks, NeverAnswersACorruptChunkWithBytes) {
   service_.reset();  // before the store it uses
 }
 
-TEST_F(FeedBlocks, AnswersARepeatedRequestOnce) {
+TEST_F(BlockFeedTest, AnswersARepeatedRequestOnce) {
   const std::string text = contour(300'000);
   const std::string run = running(text);
   written_->refusals = 20;  // the first answer waits, so the others find it waiting

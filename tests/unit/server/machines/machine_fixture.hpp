@@ -62,7 +62,7 @@ class MachineServiceTest : public ServerTest {
     return kSteadyAhead + std::chrono::duration_cast<std::chrono::microseconds>(
                               clock_.steady_now().time_since_epoch());
   }
-  /// The gateway answers every order as soon as it comes.
+  /// The gateway answers every command as soon as it comes.
   void answer_commands(bool accepted, const std::string& reason = "") {
     written_->on_command = [this, accepted, reason](const dds::Command& command) {
       network_.on_command_result(
@@ -125,12 +125,12 @@ class MachineServiceTest : public ServerTest {
     const std::lock_guard lock(written_->mutex);
     return written_->blocks.empty() ? dds::BlockData{} : written_->blocks.front();
   }
-  /// Waits for something the listener was told.
+  /// Waits for something the listener received.
   template <class Thing, class Matches>
-  bool wait_told(const std::vector<Thing>& things, const Matches& matches) {
-    std::unique_lock lock(told_mutex_);
-    return told_.wait_for(lock, std::chrono::seconds(10),
-                          [&] { return std::any_of(things.begin(), things.end(), matches); });
+  bool wait_notified(const std::vector<Thing>& things, const Matches& matches) {
+    std::unique_lock lock(notified_mutex_);
+    return notified_.wait_for(lock, std::chrono::seconds(10),
+                              [&] { return std::any_of(things.begin(), things.end(), matches); });
   }
 
   std::shared_ptr<test_support::WrittenMessages> written_ =
@@ -146,13 +146,13 @@ class MachineServiceTest : public ServerTest {
   template <class Thing>
   void keep(std::vector<Thing>& things, const Thing& thing) {
     {
-      const std::lock_guard lock(told_mutex_);
+      const std::lock_guard lock(notified_mutex_);
       things.push_back(thing);
     }
-    told_.notify_all();
+    notified_.notify_all();
   }
-  std::mutex told_mutex_;
-  std::condition_variable told_;
+  std::mutex notified_mutex_;
+  std::condition_variable notified_;
 
  protected:
   std::unique_ptr<machines::MachineService> service_;  // last: it ends before what its threads use

@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class FeedRuns : public MachineServiceTest {
+class MachineRuns : public MachineServiceTest {
  protected:
   void status(const std::string& run, std::uint32_t outbox = 0) {
     dds::Status status;
@@ -36,11 +36,11 @@ class FeedRuns : public MachineServiceTest {
   }
   /// Waits until the stored run is in this state; the service compares every two seconds.
   bool wait_state(const std::string& run, storage::RunState state) {
-    return wait_told(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
+    return wait_notified(runs_, [&](const Run& r) { return r.id == run && r.state == state; });
   }
 };
 
-TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
+TEST_F(MachineRuns, SendAStartCommandAndAreActiveOnceItIsAccepted) {
   const auto revision = push("O0100", "M30\n");
   start_service();
   announce();
@@ -59,7 +59,7 @@ TEST_F(FeedRuns, SendAStartOrderAndAreActiveOnceItIsAccepted) {
   EXPECT_EQ(command.deadline, gateway_steady() + 200ms) << "by the gateway's clock";
 }
 
-TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
+TEST_F(MachineRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   push("O0100", "N5 M30\n");
   start_service();
   announce();
@@ -75,7 +75,7 @@ TEST_F(FeedRuns, TellTheGatewayWhereToBegin) {  // CEN-163
   EXPECT_EQ(written_->commands.at(0).argument, "T12 pass=3 memory=begin");
 }
 
-TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
+TEST_F(MachineRuns, AreRefusedWithTheGatewaysReason) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -89,7 +89,7 @@ TEST_F(FeedRuns, AreRefusedWithTheGatewaysReason) {
   EXPECT_EQ(runs->front().state, storage::RunState::Refused);
 }
 
-TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLate) {
+TEST_F(MachineRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLate) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -105,7 +105,7 @@ TEST_F(FeedRuns, AreRefusedWhenTheGatewayDoesNotAnswerAndAbortedShouldItAnswerLa
   EXPECT_EQ(written_->commands[1].run, command.run);
 }
 
-TEST_F(FeedRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
+TEST_F(MachineRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -117,7 +117,7 @@ TEST_F(FeedRuns, ThatWereRefusedAreAbortedShouldTheMachineShowThemAllTheSame) {
   EXPECT_EQ(written_->commands[1].run, run);
 }
 
-TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
+TEST_F(MachineRuns, NeedAConnectedMachineThatIsKnown) {
   push("O0100", "M30\n");
   start_service();
   EXPECT_EQ(start("O0100").error().code, Errc::NotFound);
@@ -130,7 +130,7 @@ TEST_F(FeedRuns, NeedAConnectedMachineThatIsKnown) {
   EXPECT_TRUE(store_->runs.list({}, {})->empty());
 }
 
-TEST_F(FeedRuns, AreOnlyOfProgramsForTheMachinesControl) {
+TEST_F(MachineRuns, AreOnlyOfProgramsForTheMachinesControl) {
   push("H1", "0 BEGIN PGM\n", "tnc155");
   start_service();
   announce();
@@ -140,7 +140,7 @@ TEST_F(FeedRuns, AreOnlyOfProgramsForTheMachinesControl) {
   EXPECT_NE(run.error().what.find("tnc155"), std::string::npos);
 }
 
-TEST_F(FeedRuns, AreOneAtATimeOnAMachine) {
+TEST_F(MachineRuns, AreOneAtATimeOnAMachine) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -149,7 +149,7 @@ TEST_F(FeedRuns, AreOneAtATimeOnAMachine) {
   EXPECT_EQ(start("O0100").error().code, Errc::Busy);
 }
 
-TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
+TEST_F(MachineRuns, TakeCommandsUntilTheyHaveEnded) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -171,7 +171,7 @@ TEST_F(FeedRuns, TakeOrdersUntilTheyHaveEnded) {
 }
 
 /// A switch of the panel is there without a run.
-TEST_F(FeedRuns, AreNotNeededToOrderSomethingOfAMachinesPanel) {
+TEST_F(MachineRuns, AreNotNeededForCommandsToAMachinesPanel) {
   start_service();
   machines::CommandRequest request;
   request.machine = "lathe-1";
@@ -190,7 +190,7 @@ TEST_F(FeedRuns, AreNotNeededToOrderSomethingOfAMachinesPanel) {
   EXPECT_EQ(service_->command(request).error().code, Errc::Timeout);
 }
 
-TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
+TEST_F(MachineRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
   const std::string run = stored_run();
   start_service();
   announce();
@@ -198,7 +198,7 @@ TEST_F(FeedRuns, AreActiveWhenTheMachineShowsThemAfterARestart) {
   EXPECT_TRUE(wait_state(run, storage::RunState::Active));
 }
 
-TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThem) {
+TEST_F(MachineRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThem) {
   const std::string run = stored_run();
   auto endpoint = test_support::FakeServerEndpoint(written_);
   machines::CommandDispatcher dispatcher(endpoint, clock_, {}, [](const dds::Command&) {});
@@ -229,7 +229,7 @@ TEST_F(FeedRuns, AreGivenUpOnlyOnceAConnectedMachineWithoutRecordsDoesNotShowThe
   EXPECT_EQ(compare_twice(), storage::RunState::Refused);
 }
 
-TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
+TEST_F(MachineRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   struct FullDisk final : test_support::RunStoreDecorator {
     using RunStoreDecorator::RunStoreDecorator;
     Result<void> set_state(const std::string& id, storage::RunState state,
@@ -264,7 +264,7 @@ TEST_F(FeedRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Refused);
 }
 
-TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
+TEST_F(MachineRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   auto endpoint = test_support::FakeServerEndpoint(written_);
   machines::CommandDispatcher::Options options;
   options.repeat = std::chrono::milliseconds(5);
@@ -282,10 +282,10 @@ TEST_F(FeedRuns, AreStartedByTheGatewayThatHasJustReplacedTheOneAddressed) {
   command.session = 1;
   EXPECT_TRUE(dispatcher.carry_out(command));
   EXPECT_EQ(written_->commands.at(0).id, written_->commands.back().id)
-      << "the same order, said again";
+      << "the same command, sent again";
 }
 
-TEST_F(FeedRuns, AreOrderedInSequence) {
+TEST_F(MachineRuns, AreCommandedInSequence) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -303,7 +303,7 @@ TEST_F(FeedRuns, AreOrderedInSequence) {
 }
 
 /// A deadline by the gateway's clock needs to know that clock; a stop has none.
-TEST_F(FeedRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
+TEST_F(MachineRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
   auto endpoint = test_support::FakeServerEndpoint(written_);
   std::atomic<bool> is_told = false;
   machines::CommandDispatcher::Options options;
@@ -331,7 +331,7 @@ TEST_F(FeedRuns, AreStartedOnceTheGatewayHasReportedItsClock) {
   EXPECT_EQ(written_->commands.back().deadline, gateway_steady() + 300ms);
 }
 
-TEST_F(FeedRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsTold) {
+TEST_F(MachineRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsNotified) {
   push("O0100", "M30\n");
   start_service();
   protocol_ = 4711;
@@ -355,7 +355,7 @@ TEST_F(FeedRuns, AreNotStartedByAGatewayOfAnotherProtocolWhichIsTold) {
   EXPECT_EQ(service_->command(stop).error().code, Errc::Unsupported);
 }
 
-TEST_F(FeedRuns, ShowHowFarTheGatewaysClockIsOff) {
+TEST_F(MachineRuns, ShowHowFarTheGatewaysClockIsOff) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -374,7 +374,7 @@ TEST_F(FeedRuns, ShowHowFarTheGatewaysClockIsOff) {
   EXPECT_TRUE(machines::notices_of(*service_->machine("lathe-1")).empty());
 }
 
-TEST_F(FeedRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
+TEST_F(MachineRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
   push("O0100", "M30\n");
   start_service();
   announce();
@@ -389,11 +389,11 @@ TEST_F(FeedRuns, AreRefusedWhileTwoGatewaysSpeakForTheMachine) {
   EXPECT_FALSE(service_->machine("lathe-1")->is_contested);
 }
 
-TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
+TEST_F(MachineRuns, ShowTheMachinesLatestStatus) {
   start_service();
   announce();
   status("", 5);
-  EXPECT_TRUE(wait_told(machines_, [](const machines::MachineView& view) {
+  EXPECT_TRUE(wait_notified(machines_, [](const machines::MachineView& view) {
     return view.is_connected && view.status && view.status->outbox == 5;
   }));
   service_->end();  // saves at the latest now
@@ -403,7 +403,7 @@ TEST_F(FeedRuns, ShowTheMachinesLatestStatus) {
 }
 
 // HD-052, HD-053: only where the setup says that the control keeps its programs.
-TEST_F(FeedRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
+TEST_F(MachineRuns, AreRefusedWhereTheControlCannotKeepWhatTheProgramCalls) {
   std::string called = "BEGIN PGM 8 MM\n";
   for (int i = 1; i < 1000; ++i) called += "CC\n";
   push("8.h", called, "tnc155");

@@ -19,7 +19,7 @@ struct FullDisk final : test_support::RecordStoreDecorator {
   std::atomic<int> refused{0};
 };
 
-class FeedRecords : public MachineServiceTest {
+class RecordIngestTest : public MachineServiceTest {
  protected:
   std::string running(const std::string& text) {
     push("O0100", text);
@@ -32,7 +32,7 @@ class FeedRecords : public MachineServiceTest {
   }
 };
 
-TEST_F(FeedRecords, AreAcknowledgedOnceTheyAreStored) {
+TEST_F(RecordIngestTest, AreAcknowledgedOnceTheyAreStored) {
   const std::string run = running("M30\n");
   for (std::uint64_t n = 1; n <= 100; ++n) {
     record(n, run, dds::RecordKind::Output, fmt::format("LINE {}", n));
@@ -44,7 +44,7 @@ TEST_F(FeedRecords, AreAcknowledgedOnceTheyAreStored) {
   EXPECT_EQ(stored->back().text, "LINE 100");
 }
 
-TEST_F(FeedRecords, AreStoredOnceHoweverOftenTheyCome) {
+TEST_F(RecordIngestTest, AreStoredOnceHoweverOftenTheyCome) {
   const std::string run = running("M30\n");
   for (int i = 0; i < 3; ++i) {
     for (std::uint64_t n = 1; n <= 5; ++n) record(n, run, dds::RecordKind::Output, "X");
@@ -54,7 +54,7 @@ TEST_F(FeedRecords, AreStoredOnceHoweverOftenTheyCome) {
   EXPECT_EQ(store_->records.of_run(run, "output", {.limit = 1000, .offset = 0})->size(), 5u);
 }
 
-TEST_F(FeedRecords, AfterAGapAreNotAcknowledged) {
+TEST_F(RecordIngestTest, AfterAGapAreNotAcknowledged) {
   const std::string run = running("M30\n");
   record(1, run, dds::RecordKind::Output, "one");
   record(3, run, dds::RecordKind::Output, "three");
@@ -65,7 +65,7 @@ TEST_F(FeedRecords, AfterAGapAreNotAcknowledged) {
   EXPECT_EQ(store_->records.of_run(run, "output", {})->size(), 3u);
 }
 
-TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
+TEST_F(RecordIngestTest, OfAnUnknownRunAreKept) {
   start_service();
   announce();
   record(1, "a-run-of-another-server", dds::RecordKind::Output, "X");
@@ -73,7 +73,7 @@ TEST_F(FeedRecords, OfARunNobodyKnowsAreKept) {
   EXPECT_TRUE(wait_ack(2));
 }
 
-TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
+TEST_F(RecordIngestTest, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
   FullDisk disk(*store_);
   storage::Store store = test_support::with(*store_, disk);
   start_service(store);
@@ -90,7 +90,7 @@ TEST_F(FeedRecords, AreKeptBackWhileTheDiskIsFullAndStoredAfterwards) {
   service_.reset();  // before the store it uses
 }
 
-TEST_F(FeedRecords, ThatCanNeverBeStoredDoNotHoldUpTheOthers) {
+TEST_F(RecordIngestTest, ThatCanNeverBeStoredDoNotHoldUpTheOthers) {
   const std::string run = running("M30\n");
   dds::Record impossible;
   impossible.machine = "lathe-1";
@@ -102,7 +102,7 @@ TEST_F(FeedRecords, ThatCanNeverBeStoredDoNotHoldUpTheOthers) {
   EXPECT_EQ(written_->acks.back().epoch, kEpoch);
 }
 
-TEST_F(FeedRecords, TellANewcomerWhatIsOnDiskAlready) {
+TEST_F(RecordIngestTest, TellANewcomerWhatIsOnDiskAlready) {
   const std::string run = running("M30\n");
   record(1, run, dds::RecordKind::Output, "X");
   ASSERT_TRUE(wait_ack(1));
@@ -114,7 +114,7 @@ TEST_F(FeedRecords, TellANewcomerWhatIsOnDiskAlready) {
   EXPECT_TRUE(wait_ack(1));
 }
 
-TEST_F(FeedRecords, EndARunWithItsCountersAndAVerdictOnItsBytes) {
+TEST_F(RecordIngestTest, EndARunWithItsCountersAndAVerdictOnItsBytes) {
   const std::string text = "O1\nM30\n";
   const std::string run = running(text);
   record(1, run, dds::RecordKind::RunStarted,
@@ -129,10 +129,10 @@ TEST_F(FeedRecords, EndARunWithItsCountersAndAVerdictOnItsBytes) {
   EXPECT_TRUE(ended->started.has_value());
   EXPECT_EQ(ended->content_verified, true);
   EXPECT_TRUE(
-      wait_told(runs_, [](const Run& r) { return r.state == storage::RunState::Completed; }));
+      wait_notified(runs_, [](const Run& r) { return r.state == storage::RunState::Completed; }));
 }
 
-TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
+TEST_F(RecordIngestTest, VerifyTheBytesOfARunThatWasCutOff) {
   const std::string text = "O1\nG0 X1\nM30\n";
   const std::string run = running(text);
   dds::RunEndText cut;
@@ -150,7 +150,7 @@ TEST_F(FeedRecords, VerifyTheBytesOfARunThatWasCutOff) {
 }
 
 /// The gateway's clock is an hour off; what the run shows is in our time.
-TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
+TEST_F(RecordIngestTest, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
   const std::string run = running("M30\n");
   const UtcTime created = store_->runs.find(run)->created;
   gateway_ahead_ = std::chrono::hours(-1);
@@ -168,7 +168,7 @@ TEST_F(FeedRecords, OfAGatewayWithAnotherTimeOfDayAreSetRight) {
       << "the record keeps the gateway's own";
 }
 
-TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
+TEST_F(RecordIngestTest, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
   const std::string run = running("M30\n");
   announce("mill-9");
   dds::Record forged;
@@ -195,15 +195,15 @@ TEST_F(FeedRecords, OfAnotherMachinesRunNeitherEndItNorAreItsLines) {
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Active);
   EXPECT_TRUE(store_->records.of_run(run, "", {})->empty());
   record(1, run, dds::RecordKind::RunEnded, completed("M30\n", 1));
-  EXPECT_TRUE(wait_told(
+  EXPECT_TRUE(wait_notified(
       runs_, [&](const Run& r) { return r.id == run && r.state == storage::RunState::Completed; }));
   service_->end();
   EXPECT_EQ(store_->runs.find(run)->counters.executed, 1u);
-  for (const auto& told : records_) EXPECT_NE(told.text, "FORGED");
+  for (const auto& record : records_) EXPECT_NE(record.text, "FORGED");
 }
 
 /// A list of chunks that is not the revision's: nothing is begun.
-TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
+TEST_F(RecordIngestTest, DoNotComeOfARunWhoseProgramIsDamaged) {
   const auto revision = push("O0100", "O1\nM30\n");
   ASSERT_TRUE(revision.size > 0);
   struct DamagedContent final : test_support::ProgramStoreDecorator {
@@ -227,14 +227,14 @@ TEST_F(FeedRecords, DoNotComeOfARunWhoseProgramIsDamaged) {
   service_.reset();
 }
 
-TEST_F(FeedRecords, SayWhenTheMachineExecutedOtherBytes) {
+TEST_F(RecordIngestTest, ReportThatTheMachineExecutedOtherBytes) {
   const std::string run = running("O1\nM30\n");
   record(1, run, dds::RecordKind::RunEnded, completed("O1\nM31\n", 2));
   ASSERT_TRUE(wait_ack(1));
   EXPECT_EQ(store_->runs.find(run)->content_verified, false);
 }
 
-TEST_F(FeedRecords, WithATextNobodyUnderstandsAreStoredAllTheSame) {
+TEST_F(RecordIngestTest, WithAnUnreadableTextAreStoredAllTheSame) {
   const std::string run = running("M30\n");
   record(1, run, dds::RecordKind::RunEnded, "{broken");
   ASSERT_TRUE(wait_ack(1));

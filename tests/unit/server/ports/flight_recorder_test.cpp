@@ -24,11 +24,11 @@ class RecorderTest : public testing::Test {
   FlightRecorder make(FlightRecorder::Options options) {
     options.port = "com1";
     return FlightRecorder(std::move(options), clock_,
-                          [this](const PortTraffic& entry) { told_.push_back(entry); });
+                          [this](const PortTraffic& entry) { notified_.push_back(entry); });
   }
   test_support::TemporaryFolder folder_;
   test_support::ManualClock clock_;
-  std::vector<PortTraffic> told_;
+  std::vector<PortTraffic> notified_;
 };
 
 TEST_F(RecorderTest, JoinsCharactersThatFollowEachOther) {
@@ -69,25 +69,25 @@ TEST_F(RecorderTest, IsBoundedInBytesAndInTime) {
   EXPECT_TRUE(recorder.entries().empty());
 }
 
-TEST_F(RecorderTest, TellsEachEntryOnceAndLeavesItOnDisk) {
+TEST_F(RecorderTest, PublishesEachEntryOnceAndKeepsItOnDisk) {
   {
     auto recorder = make({.port = {}, .folder = folder_.path()});
     add(recorder, What::Note, "open");
     add(recorder, What::Sent, "G0\r\n");
     recorder.flush();
-    EXPECT_EQ(told_.size(), 1u);  // the other one may still grow
+    EXPECT_EQ(notified_.size(), 1u);  // the other one may still grow
     clock_.advance(std::chrono::milliseconds(100));
     recorder.flush();
     recorder.flush();
-    EXPECT_EQ(told_.size(), 2u);
+    EXPECT_EQ(notified_.size(), 2u);
   }
   std::ofstream(folder_.path() / "com1.jsonl", std::ios::app) << "{\"time\": \"cut o";
   auto next = make({.port = {}, .folder = folder_.path()});
   const auto entries = next.entries();
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[1].bytes, "G0\r\n");
-  EXPECT_EQ(entries[1].time, told_[1].time);
-  EXPECT_EQ(told_.size(), 2u);
+  EXPECT_EQ(entries[1].time, notified_[1].time);
+  EXPECT_EQ(notified_.size(), 2u);
   add(next, What::Note, "open");
   next.flush();
   EXPECT_EQ(RecordingFile(folder_.path(), "com1").read().size(), 3u);
@@ -103,7 +103,7 @@ TEST_F(RecorderTest, ReadsNothingFromLinesOfAnotherForm) {
   }
 }
 
-TEST(BlockLedger, SaysInBytesAndBlocksWhatHasLeft) {
+TEST(BlockLedger, CountsWhatWasSentInBytesAndBlocks) {
   BlockLedger ledger(5);
   EXPECT_EQ(ledger.add("N10 G0\r\n/N20 X1\r", false), "N10 G0\n/N20 X1");
   EXPECT_EQ(ledger.add("\nM30", true), "\nM30\n");

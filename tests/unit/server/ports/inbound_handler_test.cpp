@@ -29,7 +29,7 @@ action = "report"
 probe = true
 )";
 
-TEST_F(SerialTest, PutsPrintedLinesIntoTheReportOfTheRun) {
+TEST_F(PortServiceTest, PutsPrintedLinesIntoTheReportOfTheRun) {
   start_ports();
   add_port(mill(kCalls));
   push("O1", blocks(3));
@@ -54,7 +54,7 @@ std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
   return texts;
 }
 
-TEST_F(SerialTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
+TEST_F(PortServiceTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   start_ports();
   add_port(mill(kCalls));
   line().write("B 2\nPROBE Z-1.125\n");
@@ -70,7 +70,7 @@ TEST_F(SerialTest, KeepsWhatIsPrintedWithoutARunAsTheMachinesReport) {
   EXPECT_EQ(store_->records.machine_reports()->at(0).lines, 3u);
 }
 
-TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
+TEST_F(PortServiceTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
   start_ports();
   add_machine("mill", "fanuc");
   auto port = mill();
@@ -85,7 +85,7 @@ TEST_F(SerialTest, KeepsWhatAFanucPrintsFromItsOwnMemory) {
   EXPECT_EQ(ports_->port("com1")->fault, "") << "nothing is wrong with it";
 }
 
-TEST_F(SerialTest, KeepsWhatAFanucPrintsWhileItIsFed) {
+TEST_F(PortServiceTest, KeepsWhatAFanucPrintsWhileItIsFed) {
   start_ports();
   add_machine("mill", "fanuc");
   auto port = mill();
@@ -110,7 +110,7 @@ TEST_F(SerialTest, KeepsWhatAFanucPrintsWhileItIsFed) {
   EXPECT_TRUE(wait_state(run->id, RunState::Completed));
 }
 
-TEST_F(SerialTest, BeginsARunInSpiteOfStrayCharacters) {
+TEST_F(PortServiceTest, BeginsARunInSpiteOfStrayCharacters) {
   start_ports();
   add_machine("mill", "fanuc");
   auto port = mill();
@@ -126,7 +126,7 @@ TEST_F(SerialTest, BeginsARunInSpiteOfStrayCharacters) {
   EXPECT_EQ(line().read_until("M30\n%"), "%\nO1\nM30\n%");
 }
 
-TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
+TEST_F(PortServiceTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
   start_ports();
   add_machine("mill", "prototrak-plus");
   auto port = mill();
@@ -143,7 +143,7 @@ TEST_F(SerialTest, HoldsTheProgramThatAProtoTrakSends) {  // PT-04
   EXPECT_TRUE(store_->records.machine_reports()->empty());
 }
 
-TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
+TEST_F(PortServiceTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockShows) {
   storage::Machine machine;
   machine.name = "mill";
   machine.first_seen = machine.last_seen = system_clock_.now();
@@ -158,7 +158,7 @@ TEST_F(SerialTest, NumbersItsRecordsAfterAllBeforeThemWhateverTheClockSays) {
   EXPECT_EQ(store_->records.machine_report("mill", {})->at(0).epoch, machine.epoch + 1);
 }
 
-TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
+TEST_F(PortServiceTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
   start_ports();
   add_machine("mill");
   add_port(mill());
@@ -175,7 +175,7 @@ TEST_F(SerialTest, HoldsAPunchedProgramForAcceptance) {  // CEN-200
   EXPECT_TRUE(wait([&] { return start("O0042").has_value(); }));
 }
 
-TEST_F(SerialTest, KeepsAPunchedProgramOfAnySize) {
+TEST_F(PortServiceTest, KeepsAPunchedProgramOfAnySize) {
   start_ports();
   add_machine("mill");
   auto port = mill();
@@ -187,7 +187,7 @@ TEST_F(SerialTest, KeepsAPunchedProgramOfAnySize) {
   EXPECT_EQ(store_->programs.revision("O0043", 1)->content, sha256(text));
 }
 
-TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
+TEST_F(PortServiceTest, StoresNothingOfAProgramThatIsCutOff) {
   start_ports();
   add_machine("mill");
   add_port(mill());
@@ -203,7 +203,7 @@ TEST_F(SerialTest, StoresNothingOfAProgramThatIsCutOff) {
   EXPECT_FALSE(store_->programs.revision("O0044", 1));
 }
 
-TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
+TEST_F(PortServiceTest, MarksADamagedProgram) {
   start_ports();
   add_machine("mill");
   add_port(mill());
@@ -217,7 +217,7 @@ TEST_F(SerialTest, SaysOfADamagedProgramThatItIs) {
   EXPECT_TRUE(revision->is_held);
 }
 
-TEST_F(SerialTest, SendsWhatIsCalledFromTheControl) {
+TEST_F(PortServiceTest, SendsWhatIsCalledFromTheControl) {
   start_ports();
   add_machine("mill");
   add_port(mill(kCalls));
@@ -233,7 +233,7 @@ TEST_F(SerialTest, SendsWhatIsCalledFromTheControl) {
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");
 }
 
-TEST_F(SerialTest, SaysWhatCouldNotBeDoneAsAProgramOfComments) {
+TEST_F(PortServiceTest, ReportsARefusalAsAProgramOfComments) {
   start_ports();
   add_machine("mill");
   add_port(mill(kCalls));
@@ -243,7 +243,7 @@ TEST_F(SerialTest, SaysWhatCouldNotBeDoneAsAProgramOfComments) {
       << answer;
 }
 
-TEST_F(SerialTest, ListsProgramsForTheControl) {
+TEST_F(PortServiceTest, ListsProgramsForTheControl) {
   start_ports();
   add_machine("mill");
   add_port(mill(kCalls));
@@ -268,7 +268,7 @@ class ForgetfulRecords final : public test_support::RecordStoreDecorator {
   std::atomic<int> failures_{0};
 };
 
-TEST_F(SerialTest, StoresEveryLineOnceWhateverTheStoreSays) {
+TEST_F(PortServiceTest, StoresEveryLineOnceWhateverTheStoreAnswers) {
   ForgetfulRecords records(*store_);
   storage::Store store = test_support::with(*store_, records);
   start_ports(store);
@@ -299,7 +299,7 @@ class FullDisk final : public test_support::RecordStoreDecorator {
   std::atomic<bool> is_full_{false};
 };
 
-TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
+TEST_F(PortServiceTest, HoldsTheControlWhileNothingCanBeStored) {
   FullDisk records(*store_);
   storage::Store store = test_support::with(*store_, records);
   start_ports(store);
@@ -315,7 +315,7 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
   records.is_full_ = false;
   EXPECT_NE(line().read_until("\x11").find('\x11'), std::string::npos);
   ASSERT_TRUE(wait([&] {
-    const std::lock_guard lock(told_mutex_);
+    const std::lock_guard lock(notified_mutex_);
     return records_.size() == 200;
   }));
   EXPECT_TRUE(wait([&] { return ports_->port("com1")->fault.empty(); }));
@@ -325,7 +325,7 @@ TEST_F(SerialTest, HoldsTheControlWhileNothingCanBeStored) {
 }
 
 /// A control that prints without end must not keep programs from its line.
-TEST_F(SerialTest, BeginsARunWhileTheControlPrints) {
+TEST_F(PortServiceTest, BeginsARunWhileTheControlPrints) {
   start_ports();
   auto port = mill();
   port.settings = {{"baud", "115200"}, {"idle_end_ms", "60000"}, {"eob", "lf"}};
@@ -333,7 +333,7 @@ TEST_F(SerialTest, BeginsARunWhileTheControlPrints) {
   push("O1", blocks(1));
   line().write("LINE 1\nLINE 2\nLI");
   ASSERT_TRUE(wait([&] {
-    const std::lock_guard lock(told_mutex_);
+    const std::lock_guard lock(notified_mutex_);
     return records_.size() == 2;
   }));
   const auto run = start("O1");

@@ -7,7 +7,7 @@ namespace {
 
 using storage::RunState;
 
-TEST_F(SerialTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
+TEST_F(PortServiceTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
   start_ports();
   add_port(mill());
   const std::string text = blocks(100);
@@ -18,14 +18,14 @@ TEST_F(SerialTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
   const auto stored = store_->runs.find(run->id);
   EXPECT_EQ(stored->counters.sent, text.size());
-  EXPECT_EQ(stored->counters.accepted, 0u);  // nobody acknowledges on such a line
-  EXPECT_EQ(stored->counters.executed, 0u);  // and nobody tells what was executed
+  EXPECT_EQ(stored->counters.accepted, 0u);  // such a line has no acknowledgement
+  EXPECT_EQ(stored->counters.executed, 0u);  // and no report of what was executed
   EXPECT_TRUE(stored->started);
   EXPECT_EQ(records_of(run->id, "run_started").size(), 1u);
   EXPECT_EQ(records_of(run->id, "run_ended").size(), 1u);
 }
 
-TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
+TEST_F(PortServiceTest, StopsForXoffAndShowsTheWait) {
   start_ports();
   add_port(mill());
   const std::string text = blocks(300);
@@ -35,7 +35,7 @@ TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
   std::string came = line().read_until("N20 ");
   line().write("\x13");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
-  came += line().read_for(std::chrono::milliseconds(50));  // what was on its way
+  came += line().read_for(std::chrono::milliseconds(50));  // what was under way
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
   EXPECT_EQ(ports_->machines().machine("mill")->status->execution, dds::Execution::Waiting);
@@ -47,7 +47,7 @@ TEST_F(SerialTest, StopsForXoffAndShowsTheWait) {
   EXPECT_FALSE(ports_->port("com1")->waiting_since);
 }
 
-TEST_F(SerialTest, IsHeldResumedAndAborted) {
+TEST_F(PortServiceTest, IsHeldResumedAndAborted) {
   start_ports();
   add_port(mill());
   push("O1", blocks(20000));
@@ -68,10 +68,10 @@ TEST_F(SerialTest, IsHeldResumedAndAborted) {
   EXPECT_NE(stored->reason.find("the last block sent is line"), std::string::npos)
       << stored->reason;
   EXPECT_EQ(command(run->id, dds::CommandAction::Hold).error().code, Errc::Conflict);
-  EXPECT_EQ(command("nobody", dds::CommandAction::Hold).error().code, Errc::NotFound);
+  EXPECT_EQ(command("no-such-run", dds::CommandAction::Hold).error().code, Errc::NotFound);
 }
 
-TEST_F(SerialTest, RefusesWhatALineCannotCarry) {
+TEST_F(PortServiceTest, RefusesWhatALineCannotCarry) {
   start_ports();
   add_port(mill());
   push("O1", blocks(20000));
@@ -84,7 +84,7 @@ TEST_F(SerialTest, RefusesWhatALineCannotCarry) {
   EXPECT_EQ(ports_->machines().command(panel).error().code, Errc::Unsupported);
 }
 
-TEST_F(SerialTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
+TEST_F(PortServiceTest, EndsAtAKnownBlockWhenTheCableIsPulled) {
   start_ports();
   add_port(mill());
   push("O1", blocks(20000));
@@ -116,7 +116,7 @@ machines::StartPoint at_line(std::uint64_t number) {
   return point;
 }
 
-TEST_F(SerialTest, BeginsWhereItIsTold) {
+TEST_F(PortServiceTest, BeginsAtTheGivenBlock) {
   start_ports();
   add_port(mill());
   const std::string text = blocks(30);
@@ -137,7 +137,7 @@ TEST_F(SerialTest, BeginsWhereItIsTold) {
   EXPECT_NE(nowhere.error().what.find("N7"), std::string::npos);
 }
 
-TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
+TEST_F(PortServiceTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   start_ports();
   add_machine("mill", "fanuc");
   add_port(mill());
@@ -170,7 +170,7 @@ TEST_F(SerialTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   EXPECT_EQ(line().read_until("M30\n"), "N6 Y2.\nM30\n");
 }
 
-TEST_F(SerialTest, RefusesASecondRunAndAHeldRevision) {
+TEST_F(PortServiceTest, RefusesASecondRunAndAHeldRevision) {
   start_ports();
   add_port(mill());
   push("O1", blocks(20000));
@@ -186,7 +186,7 @@ TEST_F(SerialTest, RefusesASecondRunAndAHeldRevision) {
   EXPECT_EQ(ports_->test("com1").error().code, Errc::Busy);
 }
 
-TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
+TEST_F(PortServiceTest, EndsTheRunsOfAFormerLifeOfTheServer) {
   start_ports();
   add_port(mill());
   add_machine("mill");
@@ -213,7 +213,7 @@ TEST_F(SerialTest, EndsTheRunsOfAFormerLifeOfTheServer) {
   EXPECT_NE(store_->runs.find(other.id)->reason.find("1234"), std::string::npos);
 }
 
-TEST_F(SerialTest, ListsMachinesOfBothKinds) {
+TEST_F(PortServiceTest, ListsMachinesOfBothKinds) {
   start_ports();
   add_port(mill());
   FakeMachines gateways;

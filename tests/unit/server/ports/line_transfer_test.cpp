@@ -7,7 +7,7 @@ namespace {
 
 using test_support::PlayedControl;
 
-class SerialTransferTest : public SerialTest {
+class LineTransferTest : public PortServiceTest {
  protected:
   void add_mill(const std::vector<std::pair<std::string, std::string>>& more) {
     start_ports();
@@ -40,7 +40,7 @@ class SerialTransferTest : public SerialTest {
 };
 
 /// CEN-202.
-TEST_F(SerialTransferTest, MakesAProgramOfEachONumberInATextAndLosesNothing) {
+TEST_F(LineTransferTest, MakesAProgramOfEachONumberInATextAndLosesNothing) {
   add_mill({{"extract_programs", "yes"}});
   const std::string first = "%\n(SHIFT 2)\nO0101(FIRST)\nG0 X1\nM30\n";
   const std::string second = "O0102\nG0 X2 (O7 IN A COMMENT)\nM99\n\n";
@@ -56,7 +56,7 @@ TEST_F(SerialTransferTest, MakesAProgramOfEachONumberInATextAndLosesNothing) {
   }
 }
 
-TEST_F(SerialTransferTest, KeepsBlocksInFrontOfTheFirstONumber) {
+TEST_F(LineTransferTest, KeepsBlocksInFrontOfTheFirstONumber) {
   add_mill({{"extract_programs", "yes"}});
   line().write("%\nG0 X9\n:0104\nG0 X4\n%\n");
   ASSERT_TRUE(wait_stored("O0104"));
@@ -64,7 +64,7 @@ TEST_F(SerialTransferTest, KeepsBlocksInFrontOfTheFirstONumber) {
   EXPECT_EQ(text_of("O0104"), ":0104\nG0 X4\n%\n");
 }
 
-TEST_F(SerialTransferTest, KeepsBothOfTwoProgramsWithOneNumber) {
+TEST_F(LineTransferTest, KeepsBothOfTwoProgramsWithOneNumber) {
   add_mill({{"extract_programs", "yes"}});
   line().write("%\nO7\nG0 X1\nO7\nG0 X2\n%\n");
   ASSERT_TRUE(wait_stored("O7", 2));
@@ -72,7 +72,7 @@ TEST_F(SerialTransferTest, KeepsBothOfTwoProgramsWithOneNumber) {
   EXPECT_EQ(text_of("O7", 2), "O7\nG0 X2\n%\n");
 }
 
-TEST_F(SerialTransferTest, KeepsOneTextWhereThePortDoesNotExtract) {
+TEST_F(LineTransferTest, KeepsOneTextWhereThePortDoesNotExtract) {
   add_mill({});
   line().write("%\nO1\nG0 X1\nO2\nG0 X2\n%\n");
   ASSERT_TRUE(wait_stored("O1"));
@@ -80,14 +80,14 @@ TEST_F(SerialTransferTest, KeepsOneTextWhereThePortDoesNotExtract) {
   EXPECT_FALSE(store_->programs.revision("O2", 1));
 }
 
-TEST_F(SerialTransferTest, ExtractsUnlessItIsSaidOtherwiseOnLinesOfControlsWithONumbers) {
+TEST_F(LineTransferTest, ExtractsUnlessItIsSaidOtherwiseOnLinesOfControlsWithONumbers) {
   for (const auto& row : wire::line_templates()) {
     const bool has_numbers = row.control == "centurion" || row.control == "fanuc";
     EXPECT_EQ(row.settings.extracts_programs, has_numbers) << row.name;
   }
 }
 
-TEST_F(SerialTransferTest, KeepsTheWholeProgramsOfATextThatIsCutOff) {
+TEST_F(LineTransferTest, KeepsTheWholeProgramsOfATextThatIsCutOff) {
   add_mill({{"extract_programs", "yes"}});
   line().write("%\nO11\nG0 X1\nO12\nG0 X");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 19; }));
@@ -97,7 +97,7 @@ TEST_F(SerialTransferTest, KeepsTheWholeProgramsOfATextThatIsCutOff) {
   EXPECT_FALSE(store_->programs.revision("O12", 1));
 }
 
-TEST_F(SerialTransferTest, MarksOnlyWhatCanBeDamagedAsDamaged) {
+TEST_F(LineTransferTest, MarksOnlyWhatCanBeDamagedAsDamaged) {
   add_mill({{"extract_programs", "yes"}});
   line().write("%\nO21\nG0 X1\nO22\nG0 X");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->received > 19; }));
@@ -112,7 +112,7 @@ TEST_F(SerialTransferTest, MarksOnlyWhatCanBeDamagedAsDamaged) {
   EXPECT_FALSE(is_marked("O24"));
 }
 
-TEST_F(SerialTransferTest, JudgesEachProgramOfATextByTheRules) {
+TEST_F(LineTransferTest, JudgesEachProgramOfATextByTheRules) {
   start_ports();
   add_machine("mill");
   auto port = mill("[[rule]]\nprogram = \"O9999\"\ntrigger = \"PRG\"\naction = \"send\"\n");
@@ -126,7 +126,7 @@ TEST_F(SerialTransferTest, JudgesEachProgramOfATextByTheRules) {
 }
 
 /// CEN-200.
-TEST_F(SerialTransferTest, SendsSeveralProgramsAsOneText) {
+TEST_F(LineTransferTest, SendsSeveralProgramsAsOneText) {
   add_mill({{"start_char", "%"}, {"end_char", "%"}});
   push("O0001", "%\nO0001 (A)\nG0 X1\nM30\n%\n");
   push("15.nc", "(NO NUMBER)\nG0 X2\nM30");
@@ -145,14 +145,14 @@ TEST_F(SerialTransferTest, SendsSeveralProgramsAsOneText) {
       << "it is no run";
 }
 
-TEST_F(SerialTransferTest, SendsOneProgramAsItStands) {
+TEST_F(LineTransferTest, SendsOneProgramAsItIs) {
   add_mill({});
   push("table", "TOOL DATA\nT1 5.0\n");
   ASSERT_TRUE(send({"table"}));
   EXPECT_EQ(line().read_until("5.0\n"), "TOOL DATA\nT1 5.0\n");
 }
 
-TEST_F(SerialTransferTest, SendsTheRevisionThatIsNamed) {
+TEST_F(LineTransferTest, SendsTheRevisionThatIsNamed) {
   add_mill({});
   push("O1", "O1\nG0 X1\n");
   push("O1", "O1\nG0 X2\n");
@@ -160,7 +160,7 @@ TEST_F(SerialTransferTest, SendsTheRevisionThatIsNamed) {
   EXPECT_EQ(line().read_until("X1\n"), "O1\nG0 X1\n");
 }
 
-TEST_F(SerialTransferTest, SaysWhichProgramCannotBeSentAndWhy) {
+TEST_F(LineTransferTest, ReportsWhichProgramCannotBeSentAndWhy) {
   add_mill({});
   push("O1", "O1\n");
   push("clamp", "G0 X1\n");
@@ -183,7 +183,7 @@ TEST_F(SerialTransferTest, SaysWhichProgramCannotBeSentAndWhy) {
 }
 
 /// CEN-213.
-TEST_F(SerialTransferTest, RefusesInTheWordsOfTheControlToo) {
+TEST_F(LineTransferTest, RefusesInTheWordsOfTheControlToo) {
   add_mill({{"program_memory", "12"}});
   push("O1", "O1\nM30\n");
   push("clamp", "G0 X1\n");
@@ -200,7 +200,7 @@ TEST_F(SerialTransferTest, RefusesInTheWordsOfTheControlToo) {
   ASSERT_TRUE(send({"O1"})) << "7 bytes fit into 12";
 }
 
-TEST_F(SerialTransferTest, TellsTheControlItsOwnErrorNumbers) {
+TEST_F(LineTransferTest, ReportsTheControlsOwnErrorNumbers) {
   start_ports();
   add_machine("mill");
   auto port = mill(
@@ -217,7 +217,7 @@ TEST_F(SerialTransferTest, TellsTheControlItsOwnErrorNumbers) {
             std::string::npos);
 }
 
-TEST_F(SerialTransferTest, ATransferHoldsTheLineUntilItIsStopped) {
+TEST_F(LineTransferTest, ATransferHoldsTheLineUntilItIsStopped) {
   add_mill({{"wait_for_xon", "yes"}});
   push("O1", "O1\nM30\n");
   ASSERT_TRUE(send({"O1"}));
@@ -235,7 +235,7 @@ TEST_F(SerialTransferTest, ATransferHoldsTheLineUntilItIsStopped) {
   EXPECT_TRUE(wait([&] { return start("O1").has_value(); }));
 }
 
-class XmodemTransferTest : public SerialTransferTest {
+class XmodemTransferTest : public LineTransferTest {
  protected:
   void add_control() {
     add_mill({{"flow", "xmodem"}, {"extract_programs", "yes"}});
@@ -266,7 +266,7 @@ TEST_F(XmodemTransferTest, TakesForAProgramWhateverItAskedFor) {
   EXPECT_EQ(text_of("mill-punched"), "X1 Y2\nX3\n");
 }
 
-TEST_F(XmodemTransferTest, CanBeToldToAskNoMore) {
+TEST_F(XmodemTransferTest, CanBeStoppedFromAsking) {
   add_control();
   ASSERT_TRUE(ports_->receive("com1"));
   ASSERT_TRUE(ports_->stop_transfer("com1", "stopped by cam"));
@@ -275,7 +275,7 @@ TEST_F(XmodemTransferTest, CanBeToldToAskNoMore) {
   EXPECT_TRUE(run) << run.error().what;
 }
 
-TEST_F(SerialTransferTest, AsksNobodyWhoSendsUnasked) {
+TEST_F(LineTransferTest, AsksNoControlThatSendsUnasked) {
   add_mill({});
   const auto begun = ports_->receive("com1");
   ASSERT_FALSE(begun);

@@ -17,11 +17,11 @@ namespace dripline::server_test {
 
 /// The ports on a real store and real line drivers; the test plays the controls at the other ends
 /// of cables.
-class SerialTest : public ServerTest {
+class PortServiceTest : public ServerTest {
  protected:
   static constexpr std::chrono::seconds kPatience{10};
 
-  SerialTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
+  PortServiceTest() { catalog_.known.insert(catalog_.known.end(), {"fanuc", "prototrak-plus"}); }
 
   void start_ports(const storage::Store& store, const std::vector<storage::Port>& configured = {}) {
     ports::PortService::Options options;
@@ -32,14 +32,14 @@ class SerialTest : public ServerTest {
       return serial::LineDriver::start(std::move(parts));
     };
     options.on_fault = [this](const std::string& machine, const std::string& fault) {
-      const std::lock_guard lock(told_mutex_);
+      const std::lock_guard lock(notified_mutex_);
       faults_.push_back(machine + ": " + fault);
     };
     machines::MachineListener listener{.on_machine = [](const machines::MachineView&) {},
                                        .on_run = [](const storage::Run&) {},
                                        .on_record =
                                            [this](const storage::Record& record) {
-                                             const std::lock_guard lock(told_mutex_);
+                                             const std::lock_guard lock(notified_mutex_);
                                              records_.push_back(record);
                                            }};
     ports_ = std::make_unique<ports::PortService>(store, *programs_, system_clock_, options,
@@ -100,7 +100,7 @@ class SerialTest : public ServerTest {
   }
 
   SystemClock system_clock_;
-  std::mutex lines_mutex_, told_mutex_;
+  std::mutex lines_mutex_, notified_mutex_;
   std::map<std::string, std::unique_ptr<test_support::TestLine>> lines_;
   std::vector<storage::Record> records_;
   std::vector<std::string> faults_;

@@ -4,7 +4,7 @@
 namespace dripline::server_test {
 namespace {
 
-TEST_F(SerialTest, KeepsPortsAndOpensThemAgain) {
+TEST_F(PortServiceTest, KeepsPortsAndOpensThemAgain) {
   start_ports();
   add_port(mill());
   ports_.reset();
@@ -17,7 +17,7 @@ TEST_F(SerialTest, KeepsPortsAndOpensThemAgain) {
   EXPECT_EQ(ports_->machines().machine("mill").error().code, Errc::NotFound);
 }
 
-TEST_F(SerialTest, HasOneOwnerForALineAndOneLineForAMachine) {
+TEST_F(PortServiceTest, HasOneOwnerForALineAndOneLineForAMachine) {
   start_ports();
   add_port(mill());
   auto other = mill();
@@ -37,7 +37,7 @@ TEST_F(SerialTest, HasOneOwnerForALineAndOneLineForAMachine) {
   EXPECT_EQ(ports_->ports().size(), 2u);
 }
 
-TEST_F(SerialTest, RefusesBadPortsAndChangesNothing) {
+TEST_F(PortServiceTest, RefusesBadPortsAndChangesNothing) {
   start_ports();
   const auto code = [&](auto change) {
     auto port = mill();
@@ -59,7 +59,7 @@ TEST_F(SerialTest, RefusesBadPortsAndChangesNothing) {
   EXPECT_TRUE(store_->ports.list()->empty());
 }
 
-TEST_F(SerialTest, TakesPortsFromTheConfiguration) {
+TEST_F(PortServiceTest, TakesPortsFromTheConfiguration) {
   auto port = mill();
   port.line_template = "centurion";
   start_ports(*store_, {port});
@@ -79,7 +79,7 @@ class ClosedMachines final : public test_support::MachineStoreDecorator {
   std::atomic<bool> is_full_{false};
 };
 
-TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
+TEST_F(PortServiceTest, OpensPortsWhenThereIsRoomToStoreAgain) {
   ASSERT_TRUE(store_->ports.save(mill()));
   ClosedMachines machines(*store_);
   machines.is_full_ = true;
@@ -95,7 +95,7 @@ TEST_F(SerialTest, OpensPortsWhenThereIsRoomToStoreAgain) {
   ports_.reset();  // before the store
 }
 
-TEST_F(SerialTest, ChangesAnOpenPort) {
+TEST_F(PortServiceTest, ChangesAnOpenPort) {
   start_ports();
   add_port(mill());
   auto port = mill();
@@ -108,7 +108,7 @@ TEST_F(SerialTest, ChangesAnOpenPort) {
   EXPECT_EQ(line().read_until("\n"), "G0\n");
 }
 
-TEST_F(SerialTest, TestsALineInWords) {
+TEST_F(PortServiceTest, TestsALineInWords) {
   start_ports();
   add_port(mill());
   const auto quiet = ports_->test("com1");
@@ -125,7 +125,7 @@ TEST_F(SerialTest, TestsALineInWords) {
   EXPECT_EQ(ports_->test("com9").error().code, Errc::NotFound);
 }
 
-TEST_F(SerialTest, RecordsWhatPassesAndTellsIt) {
+TEST_F(PortServiceTest, RecordsAndPublishesTraffic) {
   start_ports();
   std::mutex mutex;
   std::string sent;
@@ -150,7 +150,7 @@ TEST_F(SerialTest, RecordsWhatPassesAndTellsIt) {
   ports_->on_traffic({});
 }
 
-TEST_F(SerialTest, JudgesATextByThePortsRules) {
+TEST_F(PortServiceTest, JudgesATextByThePortsRules) {
   start_ports();
   add_port(mill("[[rule]]\nname = \"all\"\nmatches = \"^X\"\naction = \"ignore\"\n"));
   EXPECT_EQ(ports_->test_rules("com1", "X1\n")->rule, "all");

@@ -8,7 +8,7 @@ using storage::RunState;
 using test_support::PlayedControl;
 
 /// A control that speaks a protocol of its own, at the end of the port's line.
-class SerialProtocolTest : public SerialTest {
+class LineProtocolTest : public PortServiceTest {
  protected:
   void add_control(const std::string& flow, const std::string& offer = "none") {
     start_ports();
@@ -29,7 +29,7 @@ class SerialProtocolTest : public SerialTest {
   std::unique_ptr<PlayedControl> control_;
 };
 
-TEST_F(SerialProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
+TEST_F(LineProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
   add_control("xmodem");
   const std::string text = blocks(200);
   push("O1", text, "tnc155");
@@ -47,7 +47,7 @@ TEST_F(SerialProtocolTest, CountsWhatAnXmodemReceiverAccepts) {
   EXPECT_EQ(stored->counters.executed, 0u);
 }
 
-TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
+TEST_F(LineProtocolTest, ContinuesACheckedTransferWhenTheCableIsBack) {
   add_control("xmodem");
   const std::string text = blocks(300);
   push("O1", text, "tnc155");
@@ -64,7 +64,7 @@ TEST_F(SerialProtocolTest, GoesOnWithACheckedTransferWhenTheCableIsBack) {
   EXPECT_TRUE(control_->received == text) << control_->received.size();
 }
 
-TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
+TEST_F(LineProtocolTest, SendsTheProgramThatATncAsksFor) {
   add_control("heidenhain_bcc", "all");
   const std::string text = tnc_program(15, 50);
   push("15.h", text, "tnc155");
@@ -77,7 +77,7 @@ TEST_F(SerialProtocolTest, SendsTheProgramThatATncAsksFor) {
   EXPECT_EQ(runs().front().counters.accepted, 52u);
 }
 
-TEST_F(SerialProtocolTest, TellsATncWhatThereIsNot) {
+TEST_F(LineProtocolTest, ReportsAMissingProgramToATnc) {
   add_control("heidenhain_bcc", "all");
   ASSERT_TRUE(
       control_->line().request({wire::TransferRequest::Kind::SendProgram, "77"}, control_->now()));
@@ -85,7 +85,7 @@ TEST_F(SerialProtocolTest, TellsATncWhatThereIsNot) {
   EXPECT_TRUE(runs().empty());
 }
 
-TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
+TEST_F(LineProtocolTest, ListsItsProgramsForATncOneByOne) {
   add_control("heidenhain_bcc", "all");
   push("O0007", tnc_program(7, 2), "tnc155");
   push("15.h", tnc_program(15, 2), "tnc155");
@@ -113,7 +113,7 @@ TEST_F(SerialProtocolTest, ListsItsProgramsForATncOneByOne) {
 }
 
 /// A control that was fed asks for the rest of its program with the words that ask for any program.
-TEST_F(SerialProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
+TEST_F(LineProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
   start_ports();
   add_machine("mill", "tnc155");
   auto port = mill();
@@ -153,7 +153,7 @@ TEST_F(SerialProtocolTest, OffersNothingAfterARunThatWasBrokenOff) {
   EXPECT_NE(again.find("BEGIN PGM "), std::string::npos) << "offered again";
 }
 
-TEST_F(SerialProtocolTest, EndsTheRunThatAnXmodemReceiverCancels) {
+TEST_F(LineProtocolTest, EndsTheRunThatAnXmodemReceiverCancels) {
   add_control("xmodem");
   push("O1", blocks(100), "tnc155");
   const auto run = start("O1");
@@ -164,7 +164,7 @@ TEST_F(SerialProtocolTest, EndsTheRunThatAnXmodemReceiverCancels) {
   ASSERT_TRUE(wait_state(run->id, RunState::Interrupted)) << "not kept for a line that is there";
 }
 
-TEST_F(SerialProtocolTest, OffersOnlyWhatIsKnownToBeForTheControl) {
+TEST_F(LineProtocolTest, OffersOnlyWhatIsKnownToBeForTheControl) {
   add_control("heidenhain_bcc", "all");
   push("O3", "%C\nG0\n", "centurion");
   ASSERT_TRUE(
@@ -177,7 +177,7 @@ TEST_F(SerialProtocolTest, OffersOnlyWhatIsKnownToBeForTheControl) {
   EXPECT_TRUE(runs().empty());
 }
 
-TEST_F(SerialProtocolTest, SendsATncNothingThatIsNotOffered) {
+TEST_F(LineProtocolTest, SendsATncNothingThatIsNotOffered) {
   add_control("heidenhain_bcc");
   push("15.h", tnc_program(15, 2), "tnc155");
   for (const auto* name : {"15", ""}) {
@@ -196,7 +196,7 @@ TEST_F(SerialProtocolTest, SendsATncNothingThatIsNotOffered) {
   EXPECT_TRUE(runs().empty());
 }
 
-TEST_F(SerialProtocolTest, LetsAnXmodemReceiverWaitForTheRun) {
+TEST_F(LineProtocolTest, LetsAnXmodemReceiverWaitForTheRun) {
   add_control("xmodem");
   push("21.h", tnc_program(21, 2), "tnc155");
   const std::string text = blocks(20);
@@ -213,7 +213,7 @@ TEST_F(SerialProtocolTest, LetsAnXmodemReceiverWaitForTheRun) {
 }
 
 /// A Fanuc at the end of the line.
-class SerialFanucTest : public SerialTest {
+class FanucLineTest : public PortServiceTest {
  protected:
   void add_fanuc(const std::string& more_key = "retries", const std::string& more_value = "10") {
     start_ports();
@@ -231,7 +231,7 @@ class SerialFanucTest : public SerialTest {
   }
 };
 
-TEST_F(SerialFanucTest, SendsNothingThatNobodyOrdered) {
+TEST_F(FanucLineTest, SendsNothingThatWasNotCommanded) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");
   line().write("\x11");
@@ -246,7 +246,7 @@ TEST_F(SerialFanucTest, SendsNothingThatNobodyOrdered) {
   EXPECT_TRUE(wait([&] { return !ports_->port("com1")->request.has_value(); }));
 }
 
-TEST_F(SerialFanucTest, SendsTheRunThatIsStartedAfterTheOperatorAsked) {
+TEST_F(FanucLineTest, SendsTheRunThatIsStartedAfterTheOperatorAsked) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");
   push("O2002", "O2002\nG0\nM30\n", "fanuc");
@@ -261,7 +261,7 @@ TEST_F(SerialFanucTest, SendsTheRunThatIsStartedAfterTheOperatorAsked) {
 }
 
 /// The server was started again in the middle of a program; the control has room for more of it.
-TEST_F(SerialFanucTest, WaitsForAResetAfterAFormerLifeOfTheServerBrokeAProgramOff) {
+TEST_F(FanucLineTest, WaitsForAResetAfterAFormerLifeOfTheServerBrokeAProgramOff) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");
   push("O2002", blocks(20000), "fanuc");
@@ -284,7 +284,7 @@ TEST_F(SerialFanucTest, WaitsForAResetAfterAFormerLifeOfTheServerBrokeAProgramOf
   EXPECT_EQ(line().read_until("M30\n%"), "%\nO2001\nM30\n%");
 }
 
-TEST_F(SerialFanucTest, ForgetsARequestWithItsLine) {
+TEST_F(FanucLineTest, DropsARequestWithItsLine) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");
   line().write("\x11");
@@ -300,7 +300,7 @@ TEST_F(SerialFanucTest, ForgetsARequestWithItsLine) {
   EXPECT_EQ(line().read_until("M30\n%"), "%\nO2001\nM30\n%");
 }
 
-TEST_F(SerialFanucTest, WaitsForTheOperatorAtTheControl) {
+TEST_F(FanucLineTest, WaitsForTheOperatorAtTheControl) {
   add_fanuc();
   push("O2001", "O2001\nM30\n", "fanuc");
   const auto run = start("O2001");
@@ -311,7 +311,7 @@ TEST_F(SerialFanucTest, WaitsForTheOperatorAtTheControl) {
   EXPECT_EQ(status->message, "waits for the operator to start it at the control (DC1)");
 }
 
-TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
+TEST_F(LineProtocolTest, HoldsAProgramThatATncSends) {
   add_control("heidenhain_bcc");
   const std::string text = tnc_program(33, 20);
   ASSERT_TRUE(control_->send(text, "33"));
@@ -321,7 +321,7 @@ TEST_F(SerialProtocolTest, HoldsAProgramThatATncSends) {
 }
 
 // HD-235: the setup came after the port, so that it is the start that is refused.
-TEST_F(SerialProtocolTest, StartsNothingBlockwiseOnATncWithoutIt) {
+TEST_F(LineProtocolTest, StartsNothingBlockwiseOnATncWithoutIt) {
   add_control("heidenhain_bcc", "all");
   push("O0015", tnc_program(15, 5), "tnc155");
   const auto keep = [&](const std::string& model) {
@@ -348,7 +348,7 @@ TEST_F(SerialProtocolTest, StartsNothingBlockwiseOnATncWithoutIt) {
 }
 
 // HD-235
-TEST_F(SerialProtocolTest, KeepsNoBlockwisePortForATncWithoutIt) {
+TEST_F(LineProtocolTest, KeepsNoBlockwisePortForATncWithoutIt) {
   start_ports();
   add_machine("mill", "tnc155");
   ASSERT_TRUE(setups_->save({"mill", "tnc155", "[control]\nmodel = \"TNC 151 E\"\n", ""}, "cam"));
@@ -367,7 +367,7 @@ TEST_F(SerialProtocolTest, KeepsNoBlockwisePortForATncWithoutIt) {
 }
 
 // HD-235: a server whose settings file names such a port begins all the same.
-TEST_F(SerialProtocolTest, BeginsWithABlockwisePortOfATncWithoutIt) {
+TEST_F(LineProtocolTest, BeginsWithABlockwisePortOfATncWithoutIt) {
   add_machine("mill", "tnc155");
   ASSERT_TRUE(setups_->save({"mill", "tnc155", "[control]\nmodel = \"TNC 151 E\"\n", ""}, "cam"));
   auto port = mill();
@@ -377,7 +377,7 @@ TEST_F(SerialProtocolTest, BeginsWithABlockwisePortOfATncWithoutIt) {
   EXPECT_EQ(ports_->ports().size(), 1u);
 }
 
-TEST_F(SerialProtocolTest, WaitsForTheTncToAskForTheRun) {
+TEST_F(LineProtocolTest, WaitsForTheTncToAskForTheRun) {
   add_control("heidenhain_bcc");
   const std::string text = tnc_program(15, 5);
   push("O0015", text, "tnc155");

@@ -63,7 +63,7 @@ probe = true
   EXPECT_EQ(hit.action, RuleAction::Report);
 }
 
-TEST(Rules, SayWhyEachOneFiresOrNot) {
+TEST(Rules, ExplainWhyEachOneFiresOrNot) {
   const auto set = rules(R"(
 [[rule]]
 name = "call"
@@ -154,7 +154,7 @@ TEST(Rules, MakeNamesFitForTheLibrary) {
   EXPECT_EQ(fit_program_name(std::string(300, 'a')).size(), 128u);
 }
 
-std::string told(std::vector<InboundSplitter::Item> items) {
+std::string text_of_items(std::vector<InboundSplitter::Item> items) {
   std::string text;
   for (const auto& item : items) {
     using What = InboundSplitter::Item::What;
@@ -167,14 +167,14 @@ std::string told(std::vector<InboundSplitter::Item> items) {
   return text;
 }
 
-std::string whole(InboundSplitter& intake, std::string_view text) {
-  std::string all = told(intake.take(text));
-  return all += told(intake.end());
+std::string whole(InboundSplitter& splitter, std::string_view text) {
+  std::string all = text_of_items(splitter.take(text));
+  return all += text_of_items(splitter.end());
 }
 
-std::string cut_off(InboundSplitter& intake, std::string_view text) {
-  std::string all = told(intake.take(text));
-  return all += told(intake.fail());
+std::string cut_off(InboundSplitter& splitter, std::string_view text) {
+  std::string all = text_of_items(splitter.take(text));
+  return all += text_of_items(splitter.fail());
 }
 
 TEST(InboundSplitter, CutsTheSameHoweverTheTextArrives) {
@@ -183,12 +183,12 @@ TEST(InboundSplitter, CutsTheSameHoweverTheTextArrives) {
   const std::string text(kText, sizeof kText - 1);
   const RuleSet none;
   for (std::size_t step = 1; step <= text.size(); ++step) {
-    InboundSplitter intake(none);
+    InboundSplitter splitter(none);
     std::string all;
     for (std::size_t at = 0; at < text.size(); at += step) {
-      all += told(intake.take(std::string_view(text).substr(at, step)));
+      all += text_of_items(splitter.take(std::string_view(text).substr(at, step)));
     }
-    all += told(intake.end());
+    all += text_of_items(splitter.end());
     EXPECT_EQ(all, "L<X1>P<:%\nO1\nG0\n%\n>L<READY>L<DPRNT 1>L<N2>P<:%\n(A)\nM30\n%\n>P<:O2\nG1\n>")
         << step;
   }
@@ -196,56 +196,56 @@ TEST(InboundSplitter, CutsTheSameHoweverTheTextArrives) {
 
 TEST(InboundSplitter, TakesWhatAProtocolNamesAsAProgram) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  intake.begin("15");
-  EXPECT_EQ(whole(intake, "X1\n%\n%\n"), "P<15:X1\n%\n%\n>");
-  EXPECT_EQ(told(intake.take("X1\n")), "L<X1>");
+  InboundSplitter splitter(none);
+  splitter.begin("15");
+  EXPECT_EQ(whole(splitter, "X1\n%\n%\n"), "P<15:X1\n%\n%\n>");
+  EXPECT_EQ(text_of_items(splitter.take("X1\n")), "L<X1>");
 }
 
 TEST(InboundSplitter, DropsAProgramThatIsCutOffAndKeepsPrintedLines) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  EXPECT_EQ(cut_off(intake, "O1\nG0\nG1"), "P<:O1\nG0\n!");
-  EXPECT_EQ(cut_off(intake, "X1"), "L<X1>");
+  InboundSplitter splitter(none);
+  EXPECT_EQ(cut_off(splitter, "O1\nG0\nG1"), "P<:O1\nG0\n!");
+  EXPECT_EQ(cut_off(splitter, "X1"), "L<X1>");
 }
 
 TEST(InboundSplitter, DropsAProgramThatIsCutOffInItsFirstLine) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  EXPECT_EQ(cut_off(intake, "O1 G0 X1"), "P<:!");
-  intake.take_programs_only(true);
-  EXPECT_EQ(cut_off(intake, "PN8 G20 ;G01 X1 Y1 F5 ;"), "P<:!");
+  InboundSplitter splitter(none);
+  EXPECT_EQ(cut_off(splitter, "O1 G0 X1"), "P<:!");
+  splitter.take_programs_only(true);
+  EXPECT_EQ(cut_off(splitter, "PN8 G20 ;G01 X1 Y1 F5 ;"), "P<:!");
 }
 
 TEST(InboundSplitter, TakesAProgramInOneLongLineForAProgram) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  intake.take_programs_only(true);
+  InboundSplitter splitter(none);
+  splitter.take_programs_only(true);
   std::string text = "PN8 G20 ;";
   while (text.size() < 3 * InboundSplitter::kMaxLine) text += "G01 X1 Y1 F5 ;";
-  EXPECT_EQ(whole(intake, text), "P<:" + text + "\n%\n>");
+  EXPECT_EQ(whole(splitter, text), "P<:" + text + "\n%\n>");
 }
 
 TEST(InboundSplitter, KnowsPrintedLinesFromWhatMayBeAProgram) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  (void)intake.take("V 1\nV 2");
-  EXPECT_FALSE(intake.may_be_program());
-  (void)intake.take("\nO12");
-  EXPECT_TRUE(intake.may_be_program());
-  (void)intake.take("\nG0\n");
-  EXPECT_TRUE(intake.may_be_program());
+  InboundSplitter splitter(none);
+  (void)splitter.take("V 1\nV 2");
+  EXPECT_FALSE(splitter.may_be_program());
+  (void)splitter.take("\nO12");
+  EXPECT_TRUE(splitter.may_be_program());
+  (void)splitter.take("\nG0\n");
+  EXPECT_TRUE(splitter.may_be_program());
 }
 
 TEST(InboundSplitter, BoundsALine) {
   const RuleSet none;
-  InboundSplitter intake(none);
-  const auto items = intake.take(std::string(10'000, 'X') + "\n");
+  InboundSplitter splitter(none);
+  const auto items = splitter.take(std::string(10'000, 'X') + "\n");
   ASSERT_EQ(items.size(), 3u);
   for (const auto& item : items) EXPECT_LE(item.text.size(), InboundSplitter::kMaxLine);
 }
 
-TEST(InboundSplitter, LetsRulesSayWhatALineIs) {
+TEST(InboundSplitter, LetsRulesDecideWhatALineIs) {
   const auto set = rules(R"(
 [[rule]]
 matches = "^START "
@@ -254,8 +254,8 @@ action = "program"
 matches = "^O[0-9]+ READY"
 action = "report"
 )");
-  InboundSplitter intake(set);
-  EXPECT_EQ(whole(intake, "O12 READY\nSTART A\nX1\n"), "L<O12 READY>P<:START A\nX1\n>");
+  InboundSplitter splitter(set);
+  EXPECT_EQ(whole(splitter, "O12 READY\nSTART A\nX1\n"), "L<O12 READY>P<:START A\nX1\n>");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class DatabaseTest : public testing::Test {
   std::filesystem::path file_ = directory_ / "test.sqlite";
 };
 
-TEST_F(DatabaseTest, ReturnsWhatWasBoundAndTellsNullFromEmpty) {
+TEST_F(DatabaseTest, ReturnsWhatWasBoundAndSeparatesNullFromEmpty) {
   Database database = with_table();
   const std::vector<std::byte> bytes{std::byte{0}, std::byte{255}};
   auto insert = database.prepare(kInsert);
@@ -102,7 +102,7 @@ TEST_F(DatabaseTest, SnapshotDoesNotSeeLaterCommits) {
   EXPECT_EQ(count(reader), 1);
 }
 
-TEST_F(DatabaseTest, FullDiskIsAnIoErrorThatSaysSoAndChangesNothing) {
+TEST_F(DatabaseTest, FullDiskIsAnIoErrorThatNamesItAndChangesNothing) {
   Database database = with_table({.max_bytes = 64 << 10});
   const std::vector<std::byte> big(256 << 10, std::byte{7});
   auto transaction = Transaction::begin(database);
