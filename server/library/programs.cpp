@@ -47,24 +47,33 @@ Result<storage::Upload> Programs::append(const std::string& id, std::uint64_t of
                                          std::span<const std::byte> bytes) {
   const auto session = this->session(id);
   const std::lock_guard lock(session->mutex);
-  auto upload = uploads_.find(id);
-  if (!upload) return drop_session(id), fail(upload.error());
+  if (!session->upload) {
+    auto known = uploads_.find(id);
+    if (!known) return drop_session(id), fail(known.error());
+    session->upload = *std::move(known);
+  }
   // Only a piece that begins where the upload ends is new; the store judges all others.
-  if (offset == upload->received) {
-    if (auto caught_up = catch_up(*session, *upload); !caught_up) return fail(caught_up.error());
-    ContentCheck check = session->check;
-    if (auto good = check.feed(bytes); !good) return drop(*upload, good.error());
-    upload = uploads_.append(id, offset, bytes);
-    if (!upload) return fail(upload.error());
-    session->check = check;
-  } else {
-    upload = uploads_.append(id, offset, bytes);
-    if (!upload) return fail(upload.error());
+  const bool is_new = offset == session->upload->received;
+  if (is_new) {
+    if (auto caught_up = catch_up(*session, *session->upload); !caught_up) {
+      return fail(caught_up.error());
+    }
   }
+  ContentCheck check = session->check;
+  if (is_new) {
+    if (auto good = check.feed(bytes); !good) return drop(*session->upload, good.error());
+  }
+  auto upload = uploads_.append(id, offset, bytes);
+  if (!upload) {
+    session->upload.reset();  // the next piece begins from what is stored
+    return fail(upload.error());
+  }
+  session->check = check;
+  session->upload = *upload;
   if (upload->control.empty() && upload->received >= kHead) {
-    if (auto known = determine_control(*upload); !known) return fail(known.error());
+    if (auto known = determine_control(*session->upload); !known) return fail(known.error());
   }
-  return upload;
+  return *session->upload;
 }
 
 Result<Committed> Programs::commit(const std::string& id, const std::optional<Digest>& expected,

@@ -94,6 +94,7 @@ class Programs {
   struct Session {
     std::mutex mutex;
     ContentCheck check;
+    std::optional<storage::Upload> upload;  ///< as the store returned it last; absent: read it
   };
   std::shared_ptr<Session> session(const std::string& id);
   void drop_session(const std::string& id);
