@@ -1,12 +1,7 @@
 #include "storage/sqlite_store.hpp"
 
-#include "storage/impl/audit_repository.hpp"
-#include "storage/impl/machine_repository.hpp"
-#include "storage/impl/port_repository.hpp"
 #include "storage/impl/program_repository.hpp"
-#include "storage/impl/record_repository.hpp"
-#include "storage/impl/run_repository.hpp"
-#include "storage/impl/setup_repository.hpp"
+#include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
 #include "storage/sqlite/deadline.hpp"
 

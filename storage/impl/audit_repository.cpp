@@ -1,4 +1,4 @@
-#include "storage/impl/audit_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include "storage/sqlite/query.hpp"
 

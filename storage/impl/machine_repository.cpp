@@ -1,4 +1,4 @@
-#include "storage/impl/machine_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include "protocol/base/names.hpp"
 #include "storage/sqlite/query.hpp"

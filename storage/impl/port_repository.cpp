@@ -1,4 +1,4 @@
-#include "storage/impl/port_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include <algorithm>
 

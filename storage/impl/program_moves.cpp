@@ -1,8 +1,8 @@
 #include "storage/impl/program_moves.hpp"
 
 #include "protocol/base/names.hpp"
-#include "storage/impl/audit_repository.hpp"
 #include "storage/impl/content.hpp"
+#include "storage/impl/repositories.hpp"
 #include "storage/impl/revision_rows.hpp"
 
 namespace dripline::storage {

@@ -1,9 +1,8 @@
-#include "storage/impl/record_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include <limits>
 #include <map>
 
-#include "storage/impl/machine_repository.hpp"
 #include "storage/impl/run_endings.hpp"
 #include "storage/sqlite/query.hpp"
 

@@ -1,7 +1,7 @@
 #include "storage/impl/revision_rows.hpp"
 
-#include "storage/impl/audit_repository.hpp"
 #include "storage/impl/content.hpp"
+#include "storage/impl/repositories.hpp"
 
 namespace dripline::storage {
 

@@ -1,4 +1,4 @@
-#include "storage/impl/run_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include "storage/impl/content.hpp"
 #include "storage/impl/revision_rows.hpp"

@@ -1,4 +1,4 @@
-#include "storage/impl/setup_repository.hpp"
+#include "storage/impl/repositories.hpp"
 
 #include "protocol/base/names.hpp"
 #include "storage/impl/content.hpp"

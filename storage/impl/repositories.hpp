@@ -1,0 +1,108 @@
+#pragma once
+
+#include "storage/audit_store.hpp"
+#include "storage/impl/connections.hpp"
+#include "storage/machine_store.hpp"
+#include "storage/port_store.hpp"
+#include "storage/record_store.hpp"
+#include "storage/run_store.hpp"
+#include "storage/setup_store.hpp"
+
+/// The repositories without a state of their own; each has a .cpp with its SQL. Thread-safe.
+namespace dripline::storage {
+
+/// Inside the caller's transaction.
+Result<void> add_audit(sqlite::Database& database, const AuditEntry& entry);
+
+class AuditRepository final : public AuditStore {
+ public:
+  explicit AuditRepository(Connections& connections) : connections_(connections) {}
+
+  Result<void> add(const AuditEntry& entry) override;
+  Result<std::vector<AuditEntry>> list(Page page) override;
+
+ private:
+  Connections& connections_;
+};
+
+/// Inside the caller's transaction: the machine's row id, made when it is new (a gateway's records
+/// may come before its announcement). Errors: Syntax and LimitExceeded for a new name.
+Result<std::int64_t> machine_id(sqlite::Database& database, const std::string& name,
+                                std::uint64_t epoch, UtcTime now);
+
+class MachineRepository final : public MachineStore {
+ public:
+  explicit MachineRepository(Connections& connections) : connections_(connections) {}
+
+  Result<void> save(const Machine& machine) override;
+  Result<Machine> find(const std::string& name) override;
+  Result<std::vector<Machine>> list() override;
+
+ private:
+  Connections& connections_;
+};
+
+class PortRepository final : public PortStore {
+ public:
+  explicit PortRepository(Connections& connections) : connections_(connections) {}
+
+  Result<void> save(const Port& port) override;
+  Result<std::vector<Port>> list() override;
+  Result<void> remove(const std::string& name) override;
+
+ private:
+  Connections& connections_;
+};
+
+class RecordRepository final : public RecordStore {
+ public:
+  RecordRepository(Connections& connections, const Clock& clock)
+      : connections_(connections), clock_(clock) {}
+
+  Result<std::uint64_t> store(const RecordBatch& batch) override;
+  Result<std::vector<Record>> of_run(const std::string& run, const std::string& kind,
+                                     Page page) override;
+  Result<std::vector<MachineReport>> machine_reports() override;
+  Result<std::vector<Record>> machine_report(const std::string& machine, Page page) override;
+  Result<std::vector<MemoryReport>> memory_reports(const std::string& machine,
+                                                   const std::optional<std::string>& run,
+                                                   Page page) override;
+
+ private:
+  Connections& connections_;
+  const Clock& clock_;
+};
+
+class RunRepository final : public RunStore {
+ public:
+  RunRepository(Connections& connections, const Clock& clock)
+      : connections_(connections), clock_(clock) {}
+
+  Result<void> create(const Run& run) override;
+  Result<Run> find(const std::string& id) override;
+  Result<std::vector<Run>> list(const RunFilter& filter, Page page) override;
+  Result<void> set_state(const std::string& id, RunState state, const std::string& reason) override;
+  Result<void> update_counters(const RunProgress& progress) override;
+
+ private:
+  Connections& connections_;
+  const Clock& clock_;
+};
+
+class SetupRepository final : public SetupStore {
+ public:
+  SetupRepository(Connections& connections, const Clock& clock)
+      : connections_(connections), clock_(clock) {}
+
+  Result<SetupRevision> save(const SetupRevision& setup,
+                             std::optional<std::uint64_t> base) override;
+  Result<std::vector<SetupRevision>> list(const std::string& machine, Page page) override;
+  Result<SetupRevision> find(const std::string& machine,
+                             std::optional<std::uint64_t> number) override;
+
+ private:
+  Connections& connections_;
+  const Clock& clock_;
+};
+
+}  // namespace dripline::storage
