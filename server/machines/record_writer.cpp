@@ -13,8 +13,8 @@ Result<std::uint64_t> RecordWriter::store(const storage::RecordBatch& batch) {
   {
     const std::lock_guard lock(mutex_);
     before = pause_;
-    pause_ = stored ? std::chrono::milliseconds{0}
-                    : std::clamp(pause_ * 2, kFirstPause, kLongestPause);
+    pause_ =
+        stored ? std::chrono::milliseconds{0} : std::clamp(pause_ * 2, kFirstPause, kLongestPause);
   }
   if (!stored) {
     if (before.count() == 0) {

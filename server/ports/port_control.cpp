@@ -17,8 +17,10 @@ constexpr std::array kTransferStates{
     Name<TransferState>{TransferState::Interrupted, "interrupted"},
 };
 constexpr std::array kTrafficKinds{
-    Name<TrafficKind>{TrafficKind::Sent, "sent"},   Name<TrafficKind>{TrafficKind::Received, "received"},
-    Name<TrafficKind>{TrafficKind::Fault, "fault"}, Name<TrafficKind>{TrafficKind::Lines, "lines"},
+    Name<TrafficKind>{TrafficKind::Sent, "sent"},
+    Name<TrafficKind>{TrafficKind::Received, "received"},
+    Name<TrafficKind>{TrafficKind::Fault, "fault"},
+    Name<TrafficKind>{TrafficKind::Lines, "lines"},
     Name<TrafficKind>{TrafficKind::Note, "note"},
 };
 
