@@ -259,7 +259,7 @@ TEST_F(MachineRuns, AreGivenUpOnceTheDiskTakesItAgain) {
   clock_.advance(machines::RunReconciler::kAbsence);
   reconciler.compare({view});
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Ordered);
-  store.is_full = false;
+  runs.is_full = false;
   reconciler.compare({view});
   EXPECT_EQ(store_->runs.find(run)->state, storage::RunState::Refused);
 }
