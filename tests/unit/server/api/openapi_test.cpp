@@ -39,7 +39,7 @@ class OpenApi : public ApiTest {
              {.body = R"({"machine":"mill-3","address":"/dev/ttyS0"})", .headers = {}});
     EXPECT_EQ(put.status, 201) << put.body;
     expect_described("PUT", "/api/v1/ports/{name}", put);
-    ports_.traffic.push_back({"line-1", clock_.now(), "sent", "M30", ""});
+    ports_.traffic.push_back({"line-1", clock_.now(), ports::TrafficKind::Sent, "M30", ""});
     expect_described("GET", "/api/v1/ports", get("/api/v1/ports"));
     expect_described("GET", "/api/v1/ports/{name}", get("/api/v1/ports/line-1"));
     expect_described("POST", "/api/v1/ports/{name}/test",
