@@ -103,7 +103,7 @@ TEST_F(Http, StreamsWhatPassesOverALineToOurClient) {
     if (!item) continue;
     if (std::get_if<client::Port>(&*item) != nullptr) {
       has_port = true;
-      publish({"line-1", clock_.now(), "received", "\x13", ""});
+      publish({"line-1", clock_.now(), ports::TrafficKind::Received, "\x13", ""});
     }
     if (const auto* traffic = std::get_if<client::Traffic>(&*item)) {
       has_traffic = true;

@@ -107,7 +107,7 @@ TEST_F(PortRoutes, TestALineAndJudgeAText) {
 TEST_F(PortRoutes, GiveTheRecordingAsJsonLines) {
   add_port("line-1");
   for (int i = 0; i < 600; ++i) ports_.traffic.push_back(traffic(std::string("\x11\xFF\n", 3)));
-  ports_.traffic.push_back({"line-1", clock_.now(), "fault", "", "parity"});
+  ports_.traffic.push_back({"line-1", clock_.now(), ports::TrafficKind::Fault, "", "parity"});
   const auto response = get("/api/v1/ports/line-1/recording");
   EXPECT_EQ(response.content_type, "application/x-ndjson");
   const std::string text = body(response);
