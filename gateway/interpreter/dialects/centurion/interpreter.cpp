@@ -123,7 +123,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
     }
     if (run_.pause != Pause::None) [[unlikely]]
       return BlockOutcome::Paused;
-    if (!run_.state.has_header && !run_.name_is_settled) [[unlikely]]
+    if (!run_.state.has_header && !run_.is_name_final) [[unlikely]]
       settle_name();
   }
   if (parts.stage == Stage::Items) {
@@ -274,7 +274,7 @@ void CenturionInterpreter::settle_name() {
     while (*close != ')' && !is_end_of_block(*close)) ++close;
     if (run_.name.empty() && *close == ')') run_.name.assign(at + 1, close);
   }
-  run_.name_is_settled = head.kind != BlockHead::Kind::Empty;
+  run_.is_name_final = head.kind != BlockHead::Kind::Empty;
 }
 
 bool CenturionInterpreter::finish_block() {

@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::centurion {
 
-void Run::choose_stages() {
+void Run::connect_stages() {
   if (!state.has_header) deliver_header();
   EventSink* last = guards_travel() ? static_cast<EventSink*>(&guard) : &sink;
   if (state.pattern.phase == PatternPhase::Reading) last = &recorder;
@@ -29,7 +29,7 @@ void Run::restart_stages() {
   }
   blender.place(present_position());
   resume_compensation(*this);
-  choose_stages();
+  connect_stages();
 }
 
 /// Brings the guard up to date. True when it has anything to look after.
@@ -57,10 +57,6 @@ bool Run::guards_travel() {
   return is_active;
 }
 
-void Run::command(const PathCommand& command) {
-  carry_out(blender, command);
-}
-
 /// A block says that it is over even where it does nothing, header or not.
 void Run::end_block() {
   if (front != nullptr) return blender.on_block_end(origin);
@@ -86,11 +82,11 @@ void Run::deliver_header() {
   header.x_is_diameter = true;
   sink.on_program(header);
   if (state.modes.path == PathMode::Tapping) sink.on_override_inhibit(override_inhibit(*this));
-  tell_material();
+  report_blank();
 }
 
 /// From the face at Z0 towards the chuck, about the program's X0 (spec 24.6).
-void Run::tell_material() {
+void Run::report_blank() {
   const double size = parameters[kMaterialLength], diameter = parameters[kMaterialDiameter];
   if (!(size > 0 && diameter > 0)) return;
   Blank blank{.origin = origin, .spindle_axis = Axis::Z, .min = {}, .max = {}};
@@ -120,7 +116,7 @@ bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view
   return false;
 }
 
-bool Run::settle_path() {
+bool Run::flush_path() {
   blender.settle();
   if (state.uses_compensator) compensator.settle();
   return !may_have_failed() || check_path(*this);
@@ -130,7 +126,7 @@ bool Run::ask(Question asked) {
   // an operator or a probe needs the tool in its place
   const bool meets_tool =
       std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
-  if (meets_tool && !settle_path()) return false;
+  if (meets_tool && !flush_path()) return false;
   loops.note_progress();
   pause = Pause::Question;
   question = std::move(asked);

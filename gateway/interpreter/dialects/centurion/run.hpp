@@ -36,43 +36,41 @@ struct Run {
         guard(event_sink),
         recorder(guard, state),
         compensator(compensation_policy(), recorder),
-        blender(blending_policy(), event_sink),
+        blender({}, event_sink),
         transform(*this, blender),
         text(program_source) {}
 
   /// Where events go, after the header has been delivered: through the stages in use, to the sink.
   EventSink& events() {
     if (front == nullptr) [[unlikely]]
-      choose_stages();
+      connect_stages();
     return *front;
   }
   /// After a change of what is in use, or of the state as a whole: the stages between the program's
   /// events and the sink are put together anew.
-  void choose_stages();
+  void connect_stages();
   /// The same, when there has been an event; else the first one does it.
-  void stages_changed() {
+  void update_stages() {
     if (front == nullptr) return;
     // a move that waits is made as things were when it was read
     if (guard.has_zone() != state.modes.checks_zone) blender.settle();
-    choose_stages();
+    connect_stages();
   }
   /// A stage may have refused what it was given: `check_path` says more.
   bool may_have_failed() const { return has_stages || blender.fault(); }
   /// For moves of the machine's own, which nothing transforms.
   EventSink& machine_events() {
     if (front == nullptr) [[unlikely]]
-      choose_stages();
+      connect_stages();
     return blender;
   }
   /// P156 and P157: the bar that the program cuts, for graphics. Nothing while one of them is 0.
-  void tell_material();
+  void report_blank();
   /// From here on, with the machine at the program's position and compensation, if on, anew.
   void restart_stages();
-  /// To the compensation stage, in order with the events. The blending stage stands in front.
-  void command(const PathCommand& command);
   void end_block();
   /// Moves that wait in the stages end as programmed. False: they are refused.
-  bool settle_path();
+  bool flush_path();
   /// Whether the move of the block ends at rest (G9, G61).
   bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
 
@@ -104,10 +102,10 @@ struct Run {
   Position present_position() const;
   /// After a change of anything the active coordinates are made of.
   void update_origin();
-  /// What the axis words of the block are for; None: a move.
-  GAction action() const {
-    const std::uint8_t row = block.parts.action;
-    return row == kNoRow ? GAction::None : g_row(row).action;
+  /// The G code that decides what the axis words of the block mean; 0: they are a move's.
+  unsigned axis_code() const {
+    const std::uint8_t row = block.parts.axis_row;
+    return row == kNoRow ? 0 : g_row(row).code;
   }
   Length length(double program_units) const {
     return Length::mm(program_units * state.mm_per_unit());
@@ -130,7 +128,7 @@ struct Run {
   Parameters parameters;
   StartNotes start;  ///< while a start is looked for
   std::string name;  ///< as the program calls itself; empty when it does not
-  bool name_is_settled = false;
+  bool is_name_final = false;
 
   Block block;
   language::LoopGuard loops;

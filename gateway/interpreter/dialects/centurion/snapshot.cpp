@@ -279,7 +279,7 @@ Snapshot take_snapshot(const Run& run) {
   Parameters parameters = run.parameters;
   Origin origin = run.origin;
   std::string name = run.name;
-  bool is_settled = run.name_is_settled;
+  bool is_settled = run.is_name_final;
   visit_states(writer, state);
   StartNotes notes = run.start;
   if (state.is_searching) visit_notes(writer, notes);
@@ -325,9 +325,9 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   run.start = std::move(notes);
   run.origin = origin;
   run.name = std::move(name);
-  run.name_is_settled = is_settled;
+  run.is_name_final = is_settled;
   run.front = nullptr;
-  if (run.state.has_header) run.choose_stages();
+  if (run.state.has_header) run.connect_stages();
   return {};
 }
 

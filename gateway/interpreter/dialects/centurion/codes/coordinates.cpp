@@ -35,11 +35,33 @@ void transform(Run& run, Change change) {
   state.position = programmed_of(run, machine);
   state.previous = state.position;
   if (state.transformation.rotates) state.moved_axes = 3;
-  run.stages_changed();
+  run.update_stages();
 }
 
+bool check_factor(Run& run, Address address) {
+  constexpr double kLeast = 0.0001;
+  constexpr double kMax = 999.9999;
+  const Words& words = run.block.words;
+  if (!words.has(address)) return true;
+  const double size = std::fabs(words[address]);
+  if (size >= kLeast && size <= kMax) return true;
+  return run.fail(ErrorCode::ParameterOutOfRange, words.column(address),
+                  fmt::format("scale factor {}", words[address]));
+}
+
+bool refuse_both(Run& run, Address one, Address other) {
+  return run.fail(ErrorCode::DuplicateAddress, run.block.words.column(other),
+                  fmt::format("{} and {} mean the same", to_string(one), to_string(other)));
+}
+
+void reset(Run& run, int first, double value) {
+  run.parameters[first] = run.parameters[first + 1] = value;
+}
+
+}  // namespace
+
 /// The present position gets the given coordinates, whatever is transformed; every G50 ends G52.
-void set_floating_zero(Run& run) {
+bool set_floating_zero(Run& run) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
   const Point machine = machine_of(run, state.position);
@@ -52,13 +74,15 @@ void set_floating_zero(Run& run) {
     state.floating_zero.z += machine.z - state.origin.z - words[Address::Z];
   }
   run.update_origin();
+  return true;
 }
 
-void set_local_zero(Run& run) {
+bool set_local_zero(Run& run) {
   const Words& words = run.block.words;
   if (words.has(Address::X)) run.state.local_zero.x = words[Address::X] / 2;
   if (words.has(Address::Z)) run.state.local_zero.z = words[Address::Z];
   run.update_origin();
+  return true;
 }
 
 /// The axes named are mirrored from now on, besides those that are already.
@@ -75,17 +99,6 @@ bool set_mirror(Run& run) {
     how.mirror = position_of(run, kMirrorPosition);
   });
   return true;
-}
-
-bool check_factor(Run& run, Address address) {
-  constexpr double kLeast = 0.0001;
-  constexpr double kMax = 999.9999;
-  const Words& words = run.block.words;
-  if (!words.has(address)) return true;
-  const double size = std::fabs(words[address]);
-  if (size >= kLeast && size <= kMax) return true;
-  return run.fail(ErrorCode::ParameterOutOfRange, words.column(address),
-                  fmt::format("scale factor {}", words[address]));
 }
 
 bool set_scaling(Run& run) {
@@ -107,11 +120,6 @@ bool set_scaling(Run& run) {
     how.factor = {run.parameters[kScaleFactor + 1], run.parameters[kScaleFactor]};
   });
   return true;
-}
-
-bool refuse_both(Run& run, Address one, Address other) {
-  return run.fail(ErrorCode::DuplicateAddress, run.block.words.column(other),
-                  fmt::format("{} and {} mean the same", to_string(one), to_string(other)));
 }
 
 /// X, Z and R may stand for I, K and AA. A center that is set while scaling is on is scaled, and
@@ -146,53 +154,32 @@ bool set_rotation(Run& run) {
   return true;
 }
 
-void forget(Run& run, int first, double value) {
-  run.parameters[first] = run.parameters[first + 1] = value;
-}
-
-}  // namespace
-
-bool set_coordinates(Run& run) {
-  switch (run.action()) {
-    case GAction::FloatingZero:
-      set_floating_zero(run);
-      return true;
-    case GAction::LocalZero:
-      set_local_zero(run);
-      return true;
-    case GAction::Mirror:
-      return set_mirror(run);
-    case GAction::Scaling:
-      return set_scaling(run);
-    case GAction::Rotation:
-      return set_rotation(run);
-    default:
-      return true;
-  }
-}
-
-void clear_floating_zero(Run& run) {
+bool clear_floating_zero(Run& run, const GRow&) {
   run.state.floating_zero = {};
   run.update_origin();
+  return true;
 }
 
-void end_mirror(Run& run) {
+bool end_mirror(Run& run, const GRow&) {
   transform(run, [](Transformation& how) { how.mirrors_x = how.mirrors_z = false; });
+  return true;
 }
 
-void end_scaling(Run& run) {
-  forget(run, kScalePosition, 0);
-  forget(run, kScaleFactor, 1);
+bool end_scaling(Run& run, const GRow&) {
+  reset(run, kScalePosition, 0);
+  reset(run, kScaleFactor, 1);
   transform(run, [](Transformation& how) {
     how.scales = false;
     how.factor = {1, 1};
   });
+  return true;
 }
 
-void end_rotation(Run& run) {
-  forget(run, kRotatePosition, 0);
+bool end_rotation(Run& run, const GRow&) {
+  reset(run, kRotatePosition, 0);
   run.parameters[kRotateAngle] = 0;
   transform(run, [](Transformation& how) { how.rotates = false; });
+  return true;
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -2,16 +2,19 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// Zeroes and transformations: G12, G50, G52 (spec 8.3, 8.4), G511, G551, G568 and what ends them
-/// (spec 19). The machine never moves by them: the program's position follows.
+/// Zeroes and transformations. The machine never moves by them: the program's position follows.
+/// (Manual: G50, G12, G52; mirror, scaling and rotation.)
 namespace dripline::interpreter::centurion {
 
-/// What the axis words of a G50, G52, G511, G551 or G568 say; nothing for other blocks.
-bool set_coordinates(Run& run);
-void clear_floating_zero(Run& run);
+bool set_floating_zero(Run& run);
+bool set_local_zero(Run& run);
+bool set_mirror(Run& run);
+bool set_scaling(Run& run);
+bool set_rotation(Run& run);
 
-void end_mirror(Run& run);
-void end_scaling(Run& run);
-void end_rotation(Run& run);
+bool clear_floating_zero(Run& run, const GRow& row);
+bool end_mirror(Run& run, const GRow& row);
+bool end_scaling(Run& run, const GRow& row);
+bool end_rotation(Run& run, const GRow& row);
 
 }  // namespace dripline::interpreter::centurion

@@ -1,11 +1,25 @@
 #include "gateway/interpreter/dialects/centurion/codes/g_codes.hpp"
 
+#include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/box_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/drilling_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/groove_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
+#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
+
 namespace dripline::interpreter::centurion {
 namespace {
 
 using enum Address;
 using Group = ModalGroup;
-using Act = GAction;
+using Name = std::string_view;
+using Set = bool (*)(Run&, const GRow&);
+using Act = bool (*)(Run&);
 
 constexpr AddressSet kNone = 0;
 constexpr AddressSet kAllWords = (AddressSet{1} << kAddressCount) - 1;
@@ -14,91 +28,138 @@ constexpr AddressSet kGrooveWords = set_of(R, Z, X, V, Q, E, U, D, A, C);
 constexpr AddressSet kRoughingWords = set_of(P, Q, U, W, I, K, V, D, R);
 constexpr AddressSet kMultipleThreadWords = set_of(X, Z, U, W, I, Q, D, A, P, K);
 
+constexpr GRow motion(std::uint16_t code, Name name) {
+  return {.code = code,
+          .group = Group::Motion,
+          .words = kLineWords,
+          .name = name,
+          .set = set_motion,
+          .kind = GKind::Motion};
+}
+constexpr GRow mode(std::uint16_t code, Group group, Set set, Name name) {
+  return {.code = code, .group = group, .words = kNone, .name = name, .set = set};
+}
+/// It does its work with the modes of the block, and once.
+constexpr GRow once(std::uint16_t code, AddressSet words, Set set, Name name) {
+  return {.code = code, .group = Group::OneShot, .words = words, .name = name, .set = set};
+}
+constexpr GRow before_move(std::uint16_t code, Set function, Name name) {
+  return {
+      .code = code, .group = Group::OneShot, .words = kNone, .name = name, .before_move = function};
+}
+constexpr GRow action(std::uint16_t code, Group group, AddressSet words, Act act, Name name) {
+  return {.code = code, .group = group, .words = words, .name = name, .act = act};
+}
+constexpr GRow action(std::uint16_t code, AddressSet words, Act act, Name name) {
+  return action(code, Group::OneShot, words, act, name);
+}
+constexpr GRow cycle(std::uint16_t code, AddressSet words, Act act, Name name) {
+  return {.code = code,
+          .group = Group::OneShot,
+          .words = words,
+          .name = name,
+          .act = act,
+          .kind = GKind::Cycle};
+}
+constexpr GRow thread_line(std::uint16_t code, Name name) {
+  return {.code = code,
+          .group = Group::OneShot,
+          .words = set_of(E, Q),
+          .name = name,
+          .kind = GKind::ThreadLine};
+}
+/// Cancels what is never on here, or has no effect on this control.
+constexpr GRow without_effect(std::uint16_t code, Group group, Name name) {
+  return {.code = code, .group = group, .words = kNone, .name = name};
+}
+constexpr GRow dwell(std::uint16_t code, Name name) {
+  return {
+      .code = code, .group = Group::OneShot, .words = kNone, .name = name, .kind = GKind::Dwell};
+}
+
 constexpr std::array kRows{
-    GRow{0, Group::Motion, Act::Motion, kLineWords, "positioning"},
-    GRow{1, Group::Motion, Act::Motion, kLineWords, "linear interpolation"},
-    GRow{2, Group::Motion, Act::Motion, kLineWords, "circular interpolation clockwise"},
-    GRow{3, Group::Motion, Act::Motion, kLineWords, "circular interpolation counterclockwise"},
-    GRow{4, Group::OneShot, Act::Dwell, kNone, "dwell"},
-    GRow{9, Group::OneShot, Act::ExactStop, kNone, "exact stop"},
-    GRow{10, Group::Data, Act::DataOn, kNone, "set data on"},
-    GRow{11, Group::Data, Act::DataOff, kNone, "set data off"},
-    GRow{12, Group::OneShot, Act::ClearFloatingZero, kNone, "clear floating zero"},
-    GRow{18, Group::OneShot, Act::None, kNone, "ZX plane"},
-    GRow{20, Group::Units, Act::Inch, kNone, "inch"},
-    GRow{21, Group::Units, Act::Metric, kNone, "metric"},
-    GRow{22, Group::SafeZone, Act::SafeZone, kNone, "safe zone check on"},
-    GRow{23, Group::SafeZone, Act::SafeZone, kNone, "safe zone check off"},
-    GRow{28, Group::OneShot, Act::FirstReference, kEndWords, "reference return"},
-    GRow{29, Group::OneShot, Act::ReturnFromReference, kEndWords, "return from reference"},
-    GRow{30, Group::OneShot, Act::OtherReference, kEndWords | set_of(P),
-         "return to 2nd-4th reference"},
-    GRow{32, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
-    GRow{34, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line of variable lead"},
-    GRow{35, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
-    GRow{36, Group::OneShot, Act::ThreadLine, set_of(E, Q), "thread line"},
-    GRow{38, Group::ReturnLevel, Act::InitialLevel, kNone, "return to initial level"},
-    GRow{39, Group::ReturnLevel, Act::ClearanceLevel, kNone, "return to R level"},
-    GRow{40, Group::Compensation, Act::Compensation, kNone, "nose compensation off"},
-    GRow{41, Group::Compensation, Act::Compensation, kNone, "nose compensation left"},
-    GRow{42, Group::Compensation, Act::Compensation, kNone, "nose compensation right"},
-    GRow{45, Group::OneShot, Act::Retract, kNone, "Z to clearance"},
-    GRow{46, Group::OneShot, Act::Retract, kNone, "X to clearance"},
-    GRow{47, Group::OneShot, Act::Retract, kNone, "Z to tool change position"},
-    GRow{48, Group::OneShot, Act::Retract, kNone, "X to tool change position"},
-    GRow{49, Group::OneShot, Act::CancelToolLength, kNone, "cancel tool length offsets"},
-    GRow{50, Group::OneShot, Act::FloatingZero, set_of(X, Z), "set floating zero"},
-    GRow{52, Group::OneShot, Act::LocalZero, set_of(X, Z), "local coordinates"},
-    GRow{53, Group::OneShot, Act::MachineCoordinates, set_of(X, Z), "machine coordinates"},
-    GRow{54, Group::WorkSystem, Act::WorkSystem, kNone, "work system 1"},
-    GRow{55, Group::WorkSystem, Act::WorkSystem, kNone, "work system 2"},
-    GRow{56, Group::WorkSystem, Act::WorkSystem, kNone, "work system 3"},
-    GRow{57, Group::WorkSystem, Act::WorkSystem, kNone, "work system 4"},
-    GRow{58, Group::WorkSystem, Act::WorkSystem, kNone, "work system 5"},
-    GRow{59, Group::WorkSystem, Act::WorkSystem, kNone, "work system 6"},
-    GRow{60, Group::OneShot, Act::SingleDirection, kLineWords, "single direction rapid"},
-    GRow{61, Group::PathMode, Act::PathMode, kNone, "exact stop mode"},
-    GRow{63, Group::PathMode, Act::PathMode, kNone, "tapping mode"},
-    GRow{64, Group::PathMode, Act::PathMode, kNone, "cutting mode"},
-    GRow{65, Group::OneShot, Act::MacroCall, kAllWords, "macro call or non-movement block"},
-    GRow{70, Group::OneShot, Act::PatternCycle, set_of(P, Q), "finish cycle"},
-    GRow{71, Group::OneShot, Act::PatternCycle, kRoughingWords, "rough turning"},
-    GRow{72, Group::OneShot, Act::PatternCycle, kRoughingWords, "rough facing"},
-    GRow{73, Group::OneShot, Act::PatternCycle, set_of(P, Q, U, W, I, K, D), "pattern repeat"},
-    GRow{74, Group::OneShot, Act::FaceGroove, kGrooveWords | set_of(I), "face grooving"},
-    GRow{75, Group::OneShot, Act::DiameterGroove, kGrooveWords | set_of(K), "diameter grooving"},
-    GRow{76, Group::OneShot, Act::MultipleThread, kMultipleThreadWords, "multiple thread cycle"},
-    GRow{80, Group::Cycle, Act::None, kNone, "cancel canned cycle"},
-    GRow{81, Group::OneShot, Act::DrillingCycle, kHoleWords, "drill"},
-    GRow{82, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "drill with dwell"},
-    GRow{83, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(V, Q, E), "peck drill"},
-    GRow{84, Group::OneShot, Act::DrillingCycle, kHoleWords, "tap"},
-    GRow{85, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore"},
-    GRow{86, Group::OneShot, Act::DrillingCycle, kHoleWords, "bore with spindle stop"},
-    GRow{89, Group::OneShot, Act::DrillingCycle, kHoleWords | set_of(P), "bore with dwell"},
-    GRow{90, Group::OneShot, Act::TurningBox, set_of(X, Z, U, W, I), "turning cycle"},
-    GRow{91, Group::Distance, Act::Incremental, kNone, "incremental"},
-    GRow{92, Group::OneShot, Act::SingleThread, set_of(X, Z, U, W, I, Q), "thread cycle"},
-    GRow{93, Group::Distance, Act::Absolute, kNone, "absolute"},
-    GRow{94, Group::OneShot, Act::FacingBox, set_of(X, Z, U, W, K), "facing cycle"},
-    GRow{96, Group::SpindleUnit, Act::SurfaceSpeed, kNone, "constant surface speed"},
-    GRow{97, Group::SpindleUnit, Act::Revolutions, kNone, "revolutions per minute"},
-    GRow{98, Group::FeedUnit, Act::FeedPerMinute, kNone, "feed per minute"},
-    GRow{99, Group::FeedUnit, Act::FeedPerRevolution, kNone, "feed per revolution"},
-    GRow{501, Group::Mirror, Act::MirrorOff, kNone, "mirror off"},
-    GRow{511, Group::Mirror, Act::Mirror, set_of(X, Z), "mirror on"},
-    GRow{550, Group::Scaling, Act::ScalingOff, kNone, "scaling off"},
-    GRow{551, Group::Scaling, Act::Scaling, set_of(I, K, X, Z, P), "scaling on"},
-    GRow{568, Group::Rotation, Act::Rotation, set_of(AA, I, K, X, Z, R), "rotation on"},
-    GRow{569, Group::Rotation, Act::RotationOff, kNone, "rotation off"},
-    GRow{990, Group::OneShot, Act::SaveParameters, set_of(P, L, Q), "store parameters in a file"},
-    GRow{991, Group::OneShot, Act::LoadParameters, set_of(P, L, Q),
-         "restore parameters from a file"},
-    GRow{995, Group::OneShot, Act::ReadByte, kNone, "read byte parameter"},
-    GRow{996, Group::OneShot, Act::WriteByte, kNone, "write byte parameter"},
-    GRow{997, Group::OneShot, Act::ForceError, kNone, "force error"},
-    GRow{998, Group::OneShot, Act::Beep, kNone, "beep"},
-    GRow{999, Group::OneShot, Act::FatalError, kNone, "force fatal error"},
+    motion(0, "positioning"),
+    motion(1, "linear interpolation"),
+    motion(2, "circular interpolation clockwise"),
+    motion(3, "circular interpolation counterclockwise"),
+    dwell(4, "dwell"),
+    once(9, kNone, set_exact_stop, "exact stop"),
+    mode(10, Group::Data, set_data_mode, "set data on"),
+    mode(11, Group::Data, set_data_mode, "set data off"),
+    before_move(12, clear_floating_zero, "clear floating zero"),
+    without_effect(18, Group::OneShot, "ZX plane"),
+    mode(20, Group::Units, set_units, "inch"),
+    mode(21, Group::Units, set_units, "metric"),
+    mode(22, Group::SafeZone, set_safe_zone, "safe zone check on"),
+    mode(23, Group::SafeZone, set_safe_zone, "safe zone check off"),
+    action(28, kEndWords, go_to_reference, "reference return"),
+    action(29, kEndWords, return_from_reference, "return from reference"),
+    action(30, kEndWords | set_of(P), go_to_reference, "return to 2nd-4th reference"),
+    thread_line(32, "thread line"),
+    thread_line(34, "thread line of variable lead"),
+    thread_line(35, "thread line"),
+    thread_line(36, "thread line"),
+    mode(38, Group::ReturnLevel, set_return_level, "return to initial level"),
+    mode(39, Group::ReturnLevel, set_return_level, "return to R level"),
+    mode(40, Group::Compensation, set_compensation, "nose compensation off"),
+    mode(41, Group::Compensation, set_compensation, "nose compensation left"),
+    mode(42, Group::Compensation, set_compensation, "nose compensation right"),
+    before_move(45, retract, "Z to clearance"),
+    before_move(46, retract, "X to clearance"),
+    before_move(47, retract, "Z to tool change position"),
+    before_move(48, retract, "X to tool change position"),
+    once(49, kNone, cancel_tool_length, "cancel tool length offsets"),
+    action(50, set_of(X, Z), set_floating_zero, "set floating zero"),
+    action(52, set_of(X, Z), set_local_zero, "local coordinates"),
+    action(53, set_of(X, Z), move_in_machine, "machine coordinates"),
+    mode(54, Group::WorkSystem, set_work_system, "work system 1"),
+    mode(55, Group::WorkSystem, set_work_system, "work system 2"),
+    mode(56, Group::WorkSystem, set_work_system, "work system 3"),
+    mode(57, Group::WorkSystem, set_work_system, "work system 4"),
+    mode(58, Group::WorkSystem, set_work_system, "work system 5"),
+    mode(59, Group::WorkSystem, set_work_system, "work system 6"),
+    action(60, kLineWords, move, "single direction rapid"),
+    mode(61, Group::PathMode, set_path_mode, "exact stop mode"),
+    mode(63, Group::PathMode, set_path_mode, "tapping mode"),
+    mode(64, Group::PathMode, set_path_mode, "cutting mode"),
+    action(65, kAllWords, call_or_suppress, "macro call or non-movement block"),
+    cycle(70, set_of(P, Q), plan_pattern_cycle, "finish cycle"),
+    cycle(71, kRoughingWords, plan_pattern_cycle, "rough turning"),
+    cycle(72, kRoughingWords, plan_pattern_cycle, "rough facing"),
+    cycle(73, set_of(P, Q, U, W, I, K, D), plan_pattern_cycle, "pattern repeat"),
+    cycle(74, kGrooveWords | set_of(I), run_groove_cycle, "face grooving"),
+    cycle(75, kGrooveWords | set_of(K), run_groove_cycle, "diameter grooving"),
+    cycle(76, kMultipleThreadWords, cut_multiple_thread, "multiple thread cycle"),
+    without_effect(80, Group::Cycle, "cancel canned cycle"),
+    cycle(81, kHoleWords, run_drilling_cycle, "drill"),
+    cycle(82, kHoleWords | set_of(P), run_drilling_cycle, "drill with dwell"),
+    cycle(83, kHoleWords | set_of(V, Q, E), run_drilling_cycle, "peck drill"),
+    cycle(84, kHoleWords, run_drilling_cycle, "tap"),
+    cycle(85, kHoleWords, run_drilling_cycle, "bore"),
+    cycle(86, kHoleWords, run_drilling_cycle, "bore with spindle stop"),
+    cycle(89, kHoleWords | set_of(P), run_drilling_cycle, "bore with dwell"),
+    cycle(90, set_of(X, Z, U, W, I), cut_turning_box, "turning cycle"),
+    mode(91, Group::Distance, set_distance_mode, "incremental"),
+    cycle(92, set_of(X, Z, U, W, I, Q), cut_single_thread, "thread cycle"),
+    mode(93, Group::Distance, set_distance_mode, "absolute"),
+    cycle(94, set_of(X, Z, U, W, K), cut_facing_box, "facing cycle"),
+    mode(96, Group::SpindleUnit, set_spindle_unit, "constant surface speed"),
+    mode(97, Group::SpindleUnit, set_spindle_unit, "revolutions per minute"),
+    mode(98, Group::FeedUnit, set_feed_unit, "feed per minute"),
+    mode(99, Group::FeedUnit, set_feed_unit, "feed per revolution"),
+    mode(501, Group::Mirror, end_mirror, "mirror off"),
+    action(511, Group::Mirror, set_of(X, Z), set_mirror, "mirror on"),
+    mode(550, Group::Scaling, end_scaling, "scaling off"),
+    action(551, Group::Scaling, set_of(I, K, X, Z, P), set_scaling, "scaling on"),
+    action(568, Group::Rotation, set_of(AA, I, K, X, Z, R), set_rotation, "rotation on"),
+    mode(569, Group::Rotation, end_rotation, "rotation off"),
+    once(990, set_of(P, L, Q), save_parameters, "store parameters in a file"),
+    once(991, set_of(P, L, Q), load_parameters, "restore parameters from a file"),
+    once(995, kNone, read_byte_parameter, "read byte parameter"),
+    once(996, kNone, write_byte_parameter, "write byte parameter"),
+    once(997, kNone, force_error, "force error"),
+    once(998, kNone, beep, "beep"),
+    once(999, kNone, force_fatal_error, "force fatal error"),
 };
 static_assert(kRows.size() < kNoRow);
 

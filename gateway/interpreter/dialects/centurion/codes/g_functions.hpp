@@ -2,13 +2,13 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// What the G codes, F and S of a block do before anything moves (spec 12.3, step 3), and the
-/// one-shot functions that act in the place of a move (step 5).
+/// The G codes, F and S of a block, as far as they take effect before the axis words do, and the
+/// check that something takes each word.
 namespace dripline::interpreter::centurion {
 
 bool apply_modes(Run& run);
-/// Dwell and coordinate settings; leaves moves to motion.hpp.
-bool apply_one_shots(Run& run);
+/// The dwell, G12 and G45 to G48, in the order written.
+bool act_before_move(Run& run);
 
 /// Words that nothing in the block takes are error 501: before anything is done by the tables of
 /// the codes, which say what each may have, afterwards by what has used them.

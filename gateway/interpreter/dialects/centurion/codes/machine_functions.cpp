@@ -34,10 +34,10 @@ void emit_coolant(Run& run) {
   run.events().on_coolant(run.state.coolant);
 }
 
-bool has_m(const Run& run, MAction action) {
+bool has_m(const Run& run, std::uint8_t code) {
   const auto* begin = run.block.m.data();
-  return std::any_of(begin, begin + run.block.parts.m_count,
-                     [action](std::uint8_t code) { return m_row(code).action == action; });
+  const auto* end = begin + run.block.parts.m_count;
+  return std::find(begin, end, code) != end;
 }
 
 void use_offset(Run& run, int offset) {
@@ -86,24 +86,24 @@ bool change_tool(Run& run) {
   return true;
 }
 
-bool change_tool_or_call(Run& run) {
-  if (const std::uint16_t program = tool_change_program(run); program != 0) {
-    return request_macro(run, program, MacroCaller::M6, 0);
-  }
-  return change_tool(run);
-}
-
 constexpr int kWaitChannelInput = 6;
 
-void strobe(Run& run, const MRow& row) {
-  run.events().on_miscellaneous({run.origin, row.code});
-}
-
-/// The machine is told by number, then the program stands until the input has come; the answer
-/// resumes after the telling.
+/// Strobes the code, then waits for the input; with the answer only the rest is done.
 bool strobe_and_wait(Run& run, const MRow& row, int pin) {
   if (run.answers.empty()) strobe(run, row);
   return wait_for_input(run, pin);
+}
+
+/// The number of the pin in codes that come in tens: M20 and M60 mean the first.
+int pin_number(const MRow& row) {
+  return row.code % 10 + 1;
+}
+
+bool stop(Run& run, StopKind kind) {
+  show_comment(run);
+  run.loops.note_progress();
+  run.events().on_stop({run.origin, kind});
+  return true;
 }
 
 void set_flood(Run& run, bool on) {
@@ -131,67 +131,66 @@ MTiming timing_of(const Run& run, const MRow& row) {
   return is_post ? MTiming::PostMove : row.timing;
 }
 
-bool apply_m(Run& run, const MRow& row) {
-  const int pin_number = row.code % 10 + 1;  // of the codes that come in tens
-  switch (row.action) {
-    case MAction::Strobe:
-    case MAction::SpindleRange:
-      strobe(run, row);
-      return true;
-    case MAction::SpindleClockwise:
-      spindle_to(run, SpindleState::Clockwise);
-      return true;
-    case MAction::SpindleCounterclockwise:
-      spindle_to(run, SpindleState::Counterclockwise);
-      return true;
-    case MAction::SpindleOff:
-      spindle_to(run, SpindleState::Off);
-      return true;
-    case MAction::ToolChange:
-      return change_tool_or_call(run);
-    case MAction::FloodOn:
-      set_flood(run, true);
-      return true;
-    case MAction::CoolantOff:
-      set_flood(run, false);
-      return true;
-    case MAction::ProgramStop:
-      show_comment(run);
-      run.loops.note_progress();
-      run.events().on_stop({run.origin, StopKind::Program});
-      return true;
-    case MAction::OptionalStop:
-      if (!run.options.optional_stop) return true;
-      show_comment(run);
-      run.loops.note_progress();
-      run.events().on_stop({run.origin, StopKind::Optional});
-      return true;
-    case MAction::End:
-    case MAction::EndAllOff:
-    case MAction::Call:
-      return true;  // flow.cpp
-    case MAction::PulseAndWait:
-    case MAction::WaitInput:
-      return strobe_and_wait(run, row, input_pin(Axis::X, pin_number));
-    case MAction::WaitChannel:
-      return strobe_and_wait(run, row, input_pin(Axis::Z, kWaitChannelInput));
-    case MAction::SetOutput:
-    case MAction::ClearOutput:
-      remember_output(run, {Axis::X, pin_number}, row.action == MAction::SetOutput);
-      strobe(run, row);
-      return true;
-  }
+}  // namespace
+
+bool strobe(Run& run, const MRow& row) {
+  run.events().on_miscellaneous({run.origin, row.code});
   return true;
 }
 
-}  // namespace
+bool stop_program(Run& run, const MRow&) {
+  return stop(run, StopKind::Program);
+}
+
+bool stop_if_switched_on(Run& run, const MRow&) {
+  return !run.options.optional_stop || stop(run, StopKind::Optional);
+}
+
+bool start_spindle(Run& run, const MRow& row) {
+  spindle_to(run, row.code == 3 ? SpindleState::Clockwise : SpindleState::Counterclockwise);
+  return true;
+}
+
+bool stop_spindle(Run& run, const MRow&) {
+  spindle_to(run, SpindleState::Off);
+  return true;
+}
+
+bool start_coolant(Run& run, const MRow&) {
+  set_flood(run, true);
+  return true;
+}
+
+bool stop_coolant(Run& run, const MRow&) {
+  set_flood(run, false);
+  return true;
+}
+
+bool change_tool_or_call(Run& run, const MRow&) {
+  const std::uint16_t program = tool_change_program(run);
+  return program != 0 ? request_macro(run, program, MacroCaller::M6, 0) : change_tool(run);
+}
+
+bool wait_for_x_input(Run& run, const MRow& row) {
+  return strobe_and_wait(run, row, input_pin(Axis::X, pin_number(row)));
+}
+
+bool wait_for_channel(Run& run, const MRow& row) {
+  return strobe_and_wait(run, row, input_pin(Axis::Z, kWaitChannelInput));
+}
+
+bool set_x_output(Run& run, const MRow& row) {
+  remember_output(run, {Axis::X, pin_number(row)}, row.code < 70);
+  return strobe(run, row);
+}
 
 bool apply_machine_functions(Run& run, MTiming timing) {
   Block& block = run.block;
   std::sort(block.m.begin(), block.m.begin() + block.parts.m_count);
   for (std::uint8_t& next = block.parts.m_next; next < block.parts.m_count; ++next) {
     const MRow& row = m_row(block.m[next]);
-    if (timing_of(run, row) == timing && !apply_m(run, row)) return false;
+    if (timing_of(run, row) != timing || row.apply == nullptr) continue;
+    if (!row.apply(run, row)) return false;
   }
   return true;
 }
@@ -206,7 +205,7 @@ void apply_tool(Run& run) {
   ToolModes& tool = run.state.tool;
   tool.pending = *run.block.parts.tool;
   tool.pending_offset = run.block.parts.tool_offset;
-  if (has_m(run, MAction::ToolChange)) return;  // M6 of this block shows it
+  if (has_m(run, 6)) return;  // M6 of this block shows it
   const bool is_preselection = tool.pending != tool.active;
   if (!is_preselection) {
     if (tool.pending_offset < 0) return;
@@ -232,16 +231,16 @@ void show_speed_change(Run& run, const SpindleModes& before, bool was_surface_sp
       (is_surface_speed ? now.surface != before.surface || now.limit != before.limit
                         : now.revolutions != before.revolutions);
   if (!changed) return;
-  if (has_m(run, MAction::SpindleClockwise) || has_m(run, MAction::SpindleCounterclockwise)) return;
+  if (has_m(run, 3) || has_m(run, 4)) return;
   emit_spindle(run);
 }
 
 void apply_spindle_range(Run& run) {
   for (std::uint8_t i = 0; i < run.block.parts.m_count; ++i) {
-    const MRow& row = m_row(run.block.m[i]);
-    if (row.action != MAction::SpindleRange) continue;
+    const std::uint8_t code = run.block.m[i];
+    if (code < 41 || code > 43) continue;
     run.start.note_byte_set(kSpindleRange);
-    run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(row.code - 40);
+    run.parameters.byte(kSpindleRange) = static_cast<std::uint8_t>(code - 40);
   }
 }
 

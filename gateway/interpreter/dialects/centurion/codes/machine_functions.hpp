@@ -9,6 +9,22 @@ namespace dripline::interpreter::centurion {
 /// The M codes of the block that act at `timing`, in numerical order, from `Parts::m_next` on: a
 /// wait for an input resumes there.
 bool apply_machine_functions(Run& run, MTiming timing);
+
+// What the rows of m_codes.cpp name.
+/// Hands the number to the machine.
+bool strobe(Run& run, const MRow& row);
+bool stop_program(Run& run, const MRow& row);
+bool stop_if_switched_on(Run& run, const MRow& row);
+bool start_spindle(Run& run, const MRow& row);
+bool stop_spindle(Run& run, const MRow& row);
+bool start_coolant(Run& run, const MRow& row);
+bool stop_coolant(Run& run, const MRow& row);
+/// M6, or the program in its place.
+bool change_tool_or_call(Run& run, const MRow& row);
+bool wait_for_x_input(Run& run, const MRow& row);
+bool wait_for_channel(Run& run, const MRow& row);
+bool set_x_output(Run& run, const MRow& row);
+
 /// The program that stands for M6 has ended: the pending tool is in use, if it is not yet.
 void finish_tool_change(Run& run);
 

@@ -32,7 +32,7 @@ bool read_via(Run& run, Target& target) {
 bool read_reference(Run& run, Point& point) {
   int number = 1;
   const Words& words = run.block.words;
-  if (run.action() == GAction::OtherReference) {
+  if (run.axis_code() == 30) {
     const double given = words.has(Address::P) ? words[Address::P] : 2;
     if (given != 2 && given != 3 && given != 4) {
       return run.fail(ErrorCode::IllegalReference, words.column(Address::P),
@@ -41,6 +41,27 @@ bool read_reference(Run& run, Point& point) {
     number = static_cast<int>(given);
   }
   point = run.parameters.point(kReferencePoints + 2 * (number - 1));
+  return true;
+}
+
+bool retract_for(Run& run, int code) {
+  const AxesNamed axis = code == 45 || code == 47 ? kZOnly : kXOnly;
+  const Point& zero = run.state.origin;
+  const Point clearance{zero.x + run.parameters[kClearances] / 2,
+                        zero.z + run.parameters[kClearances + 1]};
+  const Point change = in_axes(run, run.parameters.point(kToolChangePoint), axis);
+  Point to = run.state.position;
+  if (axis.x) to.x = clearance.x;
+  if (axis.z) to.z = clearance.z;
+  const bool is_clearance = code == 45 || code == 46;
+  if (!check_target(run, is_clearance ? to : change)) return false;
+  cancel_compensation(run);
+  if (is_clearance) {
+    rapid_to(run, to, axis);
+  } else {
+    machine_rapid_to(run, change, axis);
+  }
+  resume_compensation(run);
   return true;
 }
 
@@ -55,7 +76,7 @@ bool move_in_machine(Run& run) {
   Target target;
   if (!read_end_words(run, {here(run), {}, false}, target)) return false;
   if (mode == MotionMode::Line && !check_feed(run)) return false;
-  leave_compensation(run);
+  cancel_compensation(run);
   if (mode == MotionMode::Rapid) {
     machine_rapid_to(run, target.to, target.named);
   } else {
@@ -72,7 +93,7 @@ bool go_to_reference(Run& run) {
   if (!via.named.x && !via.named.z) return true;
   const Point last = in_axes(run, reference, via.named);
   if (!check_target(run, last)) return false;
-  leave_compensation(run);
+  cancel_compensation(run);
   run.state.reference_via = {via.to, via.named.x, via.named.z};
   machine_rapid_to(run, via.to, via.named);
   machine_rapid_to(run, in_axes(run, last, via.named), via.named);
@@ -85,7 +106,7 @@ bool return_from_reference(Run& run) {
   const ReferenceVia& via = run.state.reference_via;
   const AxesNamed axes{via.x, via.z};
   Target target;
-  leave_compensation(run);
+  cancel_compensation(run);
   machine_rapid_to(run, in_axes(run, via.at, axes), axes);
   const bool is_read = read_via(run, target);
   if (is_read) machine_rapid_to(run, target.to, target.named);
@@ -93,29 +114,12 @@ bool return_from_reference(Run& run) {
   return is_read;
 }
 
-bool retract(Run& run, int code) {
-  const AxesNamed axis = code == 45 || code == 47 ? kZOnly : kXOnly;
-  const Point& zero = run.state.origin;
-  const Point clearance{zero.x + run.parameters[kClearances] / 2,
-                        zero.z + run.parameters[kClearances + 1]};
-  const Point change = in_axes(run, run.parameters.point(kToolChangePoint), axis);
-  Point to = run.state.position;
-  if (axis.x) to.x = clearance.x;
-  if (axis.z) to.z = clearance.z;
-  const bool is_clearance = code == 45 || code == 46;
-  if (!check_target(run, is_clearance ? to : change)) return false;
-  leave_compensation(run);
-  if (is_clearance) {
-    rapid_to(run, to, axis);
-  } else {
-    machine_rapid_to(run, change, axis);
-  }
-  resume_compensation(run);
-  return true;
+bool retract(Run& run, const GRow& row) {
+  return retract_for(run, row.code);
 }
 
 bool go_to_tool_change(Run& run) {
-  return retract(run, 48);
+  return retract_for(run, 48);
 }
 
 }  // namespace dripline::interpreter::centurion

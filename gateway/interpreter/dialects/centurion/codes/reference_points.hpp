@@ -13,7 +13,7 @@ bool go_to_reference(Run& run);
 /// G29.
 bool return_from_reference(Run& run);
 /// G45 to G48, one axis each.
-bool retract(Run& run, int code);
+bool retract(Run& run, const GRow& row);
 /// X to the place where tools are changed (M6).
 bool go_to_tool_change(Run& run);
 

@@ -3,29 +3,13 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-bool is_cycle(GAction action) {
-  switch (action) {
-    case GAction::ThreadLine:
-    case GAction::PatternCycle:
-    case GAction::TurningBox:
-    case GAction::FacingBox:
-    case GAction::SingleThread:
-    case GAction::MultipleThread:
-    case GAction::DrillingCycle:
-    case GAction::FaceGroove:
-    case GAction::DiameterGroove:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// A cycle that follows a pattern lasts for many blocks, all others for their own.
 std::string_view cycle_of(const Run& run) {
   if (run.state.pattern.phase != PatternPhase::None)
     return g_row(g_row_index(run.state.pattern.code)).name;
   if (run.block.parts.thread_code != 0) return g_row(g_row_index(run.block.parts.thread_code)).name;
-  return is_cycle(run.action()) ? g_row(run.block.parts.action).name : std::string_view();
+  const std::uint8_t row = run.block.parts.axis_row;
+  return row != kNoRow && g_row(row).kind == GKind::Cycle ? g_row(row).name : std::string_view();
 }
 
 }  // namespace

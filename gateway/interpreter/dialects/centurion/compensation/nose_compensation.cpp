@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -62,25 +62,10 @@ void begin_use(Run& run) {
   run.compensator.turn_on(none);
   run.compensator.turn_off();
   run.state.uses_compensator = true;
-  run.choose_stages();
+  run.connect_stages();
 }
 
 }  // namespace
-
-void carry_out(blending::CornerBlender& front, const PathCommand& command) {
-  switch (command.kind) {
-    case PathCommand::Kind::TurnOn:
-      return front.turn_on(command.cutter);
-    case PathCommand::Kind::TurnOff:
-      return front.turn_off();
-    case PathCommand::Kind::Leave:
-      return front.leave();
-    case PathCommand::Kind::SuppressOutput:
-      return front.suppress_output(true);
-    case PathCommand::Kind::Go:
-      return front.suppress_output(false);
-  }
-}
 
 compensation::Policy compensation_policy() {
   compensation::Policy policy;
@@ -123,26 +108,26 @@ bool update_compensation(Run& run) {
   now = use;
   if (use.code != 0) {
     begin_use(run);
-    run.command({PathCommand::Kind::TurnOn, nose_of(run, use.code == 1)});
+    run.blender.turn_on(nose_of(run, use.code == 1));
   } else if (run.state.uses_compensator) {
-    run.command({PathCommand::Kind::TurnOff, {}});
+    run.blender.turn_off();
   }
   return true;
 }
 
-void leave_compensation(Run& run) {
+void cancel_compensation(Run& run) {
   if (run.state.nose.code == 0) return;
-  run.command({PathCommand::Kind::Leave, {}});
+  run.blender.leave();
 }
 
 void resume_compensation(Run& run) {
   if (run.state.nose.code == 0) return;
-  run.command({PathCommand::Kind::TurnOn, nose_of(run, run.state.nose.code == 1)});
+  run.blender.turn_on(nose_of(run, run.state.nose.code == 1));
 }
 
-void suppress_output(Run& run, bool still) {
+void suppress_output(Run& run, bool is_suppressed) {
   begin_use(run);
-  run.command({still ? PathCommand::Kind::SuppressOutput : PathCommand::Kind::Go, {}});
+  run.blender.suppress_output(is_suppressed);
 }
 
 bool check_path(Run& run) {

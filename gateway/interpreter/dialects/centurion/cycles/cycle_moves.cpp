@@ -75,4 +75,15 @@ bool check_cycle_spindle(Run& run) {
   return true;
 }
 
+bool run_canned_cycle(Run& run, bool (*cycle)(Run&)) {
+  if (run.parameters[kNoCannedCycles] != 0) {
+    return run.fail(ErrorCode::UndefinedCycle, 0,
+                    fmt::format("G{}: the canned cycles are not loaded", run.axis_code()));
+  }
+  cancel_compensation(run);
+  const bool is_done = cycle(run);
+  resume_compensation(run);
+  return is_done;
+}
+
 }  // namespace dripline::interpreter::centurion

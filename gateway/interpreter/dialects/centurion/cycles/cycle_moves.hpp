@@ -21,6 +21,10 @@ void cycle_dwell(Run& run, double seconds);
 inline constexpr double kMaxCycleMoves = 2000;
 bool check_cycle_length(Run& run, double moves);
 
+/// Runs a drilling or grooving cycle with compensation suspended (manual: G40 to G42). Errors: the
+/// control has no canned cycles.
+bool run_canned_cycle(Run& run, bool (*cycle)(Run&));
+
 /// Whether the spindle turns; what is done when not is an option of the control.
 bool check_cycle_spindle(Run& run);
 

@@ -30,7 +30,7 @@ struct Pecks {
 };
 
 unsigned cycle_code(const Run& run) {
-  return g_row(run.block.parts.action).code;
+  return run.axis_code();
 }
 
 bool read_hole(Run& run, Hole& hole) {
@@ -172,9 +172,7 @@ bool bore_with_stop(Run& run, const Hole& hole) {
   return true;
 }
 
-}  // namespace
-
-bool run_drilling_cycle(Run& run) {
+bool make_hole(Run& run) {
   if (run.block.parts.probe) {
     return run.fail(ErrorCode::IllegalStatement, 0, "a probe move is no cycle");
   }
@@ -188,6 +186,12 @@ bool run_drilling_cycle(Run& run) {
   if (code == 83) return drill_in_pecks(run, hole);
   drill(run, hole, code == 85 || code == 89);
   return true;
+}
+
+}  // namespace
+
+bool run_drilling_cycle(Run& run) {
+  return run_canned_cycle(run, make_hole);
 }
 
 }  // namespace dripline::interpreter::centurion

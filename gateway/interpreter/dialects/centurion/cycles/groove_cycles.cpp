@@ -227,13 +227,11 @@ class GrooveCutter {
   double across_;
 };
 
-}  // namespace
-
-bool run_groove_cycle(Run& run) {
+bool cut_groove(Run& run) {
   if (run.block.parts.probe) {
     return run.fail(ErrorCode::IllegalStatement, 0, "a probe move is no cycle");
   }
-  const bool is_face = run.action() == GAction::FaceGroove;
+  const bool is_face = run.axis_code() == 74;
   Groove groove;
   if (!read_groove(run, is_face ? kFace : kDiameter, groove)) return false;
   GrooveCutter cutter(run, groove);
@@ -242,6 +240,12 @@ bool run_groove_cycle(Run& run) {
   if (!check_cycle_spindle(run)) return false;
   cutter.cut();
   return true;
+}
+
+}  // namespace
+
+bool run_groove_cycle(Run& run) {
+  return run_canned_cycle(run, cut_groove);
 }
 
 }  // namespace dripline::interpreter::centurion

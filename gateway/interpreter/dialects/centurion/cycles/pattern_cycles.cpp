@@ -28,11 +28,11 @@ JumpOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t la
 bool begin_reading(Run& run) {
   PatternCycle& cycle = run.state.pattern;
   run.events();  // the header first
-  if (!run.settle_path()) return false;
+  if (!run.flush_path()) return false;
   run.state.before_pattern.clear();
   run.state.before_pattern.push_back(ModalState(run.state));
   cycle.phase = PatternPhase::Reading;
-  run.choose_stages();
+  run.connect_stages();
   return true;
 }
 
@@ -108,7 +108,7 @@ bool undo_transformation(Run& run) {
 /// The pattern's last block has been read: what cuts it?
 bool end_reading(Run& run) {
   PatternCycle& cycle = run.state.pattern;
-  if (!run.settle_path() || !check_pattern(run)) return false;
+  if (!run.flush_path() || !check_pattern(run)) return false;
   if (run.state.units != run.state.before_pattern.front().units) {
     return refuse(run, cycle.origin, "the units change in the pattern");
   }
@@ -126,16 +126,16 @@ bool end_reading(Run& run) {
   cycle.done = 0;
   cycle.tool = cycle.start;
   run.origin = origin;
-  run.choose_stages();
+  run.connect_stages();
   return true;
 }
 
 /// Back at the start point, to the last digit.
 void end_passes(Run& run) {
-  run.settle_path();  // a refusal is met again at the end of the pass
+  run.flush_path();  // a refusal is met again at the end of the pass
   run.state.position = run.state.pattern.home;
   run.state.pattern = PatternCycle{};
-  run.choose_stages();
+  run.connect_stages();
 }
 
 void cut_next_level(Run& run) {
@@ -184,7 +184,7 @@ bool plan_pattern_cycle(Run& run) {
     return run.fail(ErrorCode::IllegalStatement, 0, "a cycle in the pattern of a cycle");
   }
   PatternCycle cycle;
-  cycle.code = static_cast<std::uint8_t>(g_row(run.block.parts.action).code);
+  cycle.code = static_cast<std::uint8_t>(run.axis_code());
   std::uint32_t first_label = 0;
   if (!read_pattern_words(run, cycle, first_label)) return false;
   cycle.phase = PatternPhase::Searching;

@@ -6,7 +6,7 @@
 #include "gateway/interpreter/core/language/expression.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/thread_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -147,9 +147,8 @@ Length path_of(const Run& run, const Target& target, const std::optional<ThreadA
 }  // namespace
 
 bool takes_lead(const Run& run) {
-  const GAction action = run.action();
-  return run.block.parts.thread_code != 0 || action == GAction::SingleThread ||
-         action == GAction::MultipleThread;
+  const unsigned code = run.axis_code();
+  return run.block.parts.thread_code != 0 || code == 92 || code == 76;
 }
 
 void take_lead_change(Run& run) {

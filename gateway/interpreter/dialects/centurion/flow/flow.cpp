@@ -131,7 +131,7 @@ void end_program(Run& run, std::uint64_t blocks) {
   close_open_device(run);
   EventSink& events = run.events();
   // what still waits may be refused: then there is no end
-  if (!run.settle_path()) return;
+  if (!run.flush_path()) return;
   events.on_end({run.origin, blocks, true});
   run.state.phase = RunPhase::Ended;
 }
@@ -144,7 +144,7 @@ bool refuse_end_in_pattern(Run& run) {
 
 bool has_m30(const Run& run) {
   for (std::uint8_t i = 0; i < run.block.parts.m_count; ++i) {
-    if (m_row(run.block.m[i]).action == MAction::EndAllOff) return true;
+    if (run.block.m[i] == 30) return true;
   }
   return false;
 }
@@ -288,9 +288,9 @@ JumpOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop
 bool plan_flow(Run& run) {
   Block::Parts& parts = run.block.parts;
   for (std::uint8_t i = 0; i < parts.m_count; ++i) {
-    const MAction action = m_row(run.block.m[i]).action;
-    const bool is_end = action == MAction::End || action == MAction::EndAllOff;
-    if (!is_end && action != MAction::Call) continue;
+    const unsigned code = run.block.m[i];
+    const bool is_end = code == 2 || code == 30 || code == 99;
+    if (!is_end && code != 98) continue;
     if (parts.jump != JumpKind::None || parts.ending != Ending::None) return refuse_two(run);
     if (is_end) {
       parts.ending = Ending::EndOfProgram;

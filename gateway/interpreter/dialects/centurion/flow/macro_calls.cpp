@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
+
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -26,6 +28,27 @@ std::uint16_t bound_program(const Run& run, const std::array<int, 10>& codes, un
   if (entry == codes.end()) return 0;
   const auto program = static_cast<std::uint16_t>(first + (entry - codes.begin()));
   return is_running(run, program) ? std::uint16_t{0} : program;
+}
+
+/// The program that P names.
+bool call_by_g65(Run& run) {
+  const Words& words = run.block.words;
+  const double number = std::round(words[Address::P]);
+  if (!(number >= 1 && number <= 9999)) {
+    return run.fail(ErrorCode::InvalidProgramNumber, words.column(Address::P),
+                    fmt::format("P{}", words[Address::P]));
+  }
+  run.block.words.set(Address::P, number, words.column(Address::P));
+  return request_macro(run, static_cast<std::uint16_t>(number), MacroCaller::G65,
+                       words.column(Address::P));
+}
+
+/// G65 without P: the program and compensation go on to the end point, the machine does not move.
+bool suppressed_move(Run& run) {
+  suppress_output(run, true);
+  const bool is_done = move(run);
+  suppress_output(run, false);
+  return is_done;
 }
 
 }  // namespace
@@ -57,20 +80,13 @@ bool request_macro(Run& run, std::uint16_t program, MacroCaller caller, std::uin
 }
 
 bool passes_arguments(const Run& run) {
-  if (run.action() != GAction::MacroCall) return false;
+  if (run.axis_code() != 65) return false;
   return run.block.parts.macro != 0 || run.block.words.has(Address::P);
 }
 
-bool call_by_g65(Run& run) {
-  const Words& words = run.block.words;
-  const double number = std::round(words[Address::P]);
-  if (!(number >= 1 && number <= 9999)) {
-    return run.fail(ErrorCode::InvalidProgramNumber, words.column(Address::P),
-                    fmt::format("P{}", words[Address::P]));
-  }
-  run.block.words.set(Address::P, number, words.column(Address::P));
-  return request_macro(run, static_cast<std::uint16_t>(number), MacroCaller::G65,
-                       words.column(Address::P));
+bool call_or_suppress(Run& run) {
+  if (run.block.parts.macro != 0) return true;
+  return passes_arguments(run) ? call_by_g65(run) : suppressed_move(run);
 }
 
 void pass_arguments(Run& run) {

@@ -21,8 +21,8 @@ bool request_macro(Run& run, std::uint16_t program, MacroCaller caller, std::uin
 /// Whether the block's words are arguments and nothing else: of G65 with P, of a custom G code. G65
 /// without P is a block without movement.
 bool passes_arguments(const Run& run);
-/// The program that P names.
-bool call_by_g65(Run& run);
+/// G65: calls the program that P names; without P it moves without output.
+bool call_or_suppress(Run& run);
 
 /// The block's words become P1-P26, by their place in the alphabet (spec 13.4): not G, H, M, N and
 /// T, nor the two-letter words.

@@ -7,8 +7,9 @@
 #include "gateway/interpreter/dialects/centurion/compensation/geometry_statements.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -256,7 +257,7 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
   run.start.note_set(number);
   run.parameters[number] = value;
   const bool is_material = number == kMaterialLength || number == kMaterialDiameter;
-  if (is_material && state.has_header) run.tell_material();
+  if (is_material && state.has_header) run.report_blank();
   return true;
 }
 

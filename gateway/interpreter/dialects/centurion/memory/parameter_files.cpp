@@ -50,7 +50,7 @@ ParameterFile* find_file(ModalState& state, std::uint32_t number) {
 
 }  // namespace
 
-bool save_parameters(Run& run) {
+bool save_parameters(Run& run, const GRow&) {
   Request request;
   if (!read_request(run, request)) return false;
   ParameterFile* file = find_file(run.state, request.file);
@@ -69,7 +69,7 @@ bool save_parameters(Run& run) {
   return true;
 }
 
-bool load_parameters(Run& run) {
+bool load_parameters(Run& run, const GRow&) {
   Request request;
   if (!read_request(run, request)) return false;
   const ParameterFile* file = find_file(run.state, request.file);

@@ -6,7 +6,7 @@
 /// back (spec 15.6). Left out: p 0, n 10, q 0.
 namespace dripline::interpreter::centurion {
 
-bool save_parameters(Run& run);
-bool load_parameters(Run& run);
+bool save_parameters(Run& run, const GRow&);
+bool load_parameters(Run& run, const GRow&);
 
 }  // namespace dripline::interpreter::centurion

@@ -3,8 +3,9 @@
 
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -159,7 +160,7 @@ bool refuse_missing_center(Run& run) {
 bool move_on_arc(Run& run) {
   const Words& words = run.block.words;
   RetainedWords& retained = run.state.retained;
-  if (run.block.parts.action != kNoRow || run.block.parts.probe) {
+  if (run.block.parts.axis_row != kNoRow || run.block.parts.probe) {
     return run.fail(ErrorCode::IllegalStatement, motion_column(run),
                     "G53 and PROBE move on straight lines");
   }

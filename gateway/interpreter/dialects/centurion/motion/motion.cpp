@@ -5,8 +5,9 @@
 
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -49,7 +50,7 @@ bool refuse_two_of_one_axis(Run& run, Address incremental) {
 /// G60, and G0 with an overrun: beyond the target and back to it, always from the same side, which
 /// is one of the machine (spec 7.3).
 void position_to(Run& run, const Target& target) {
-  const bool is_single = run.action() == GAction::SingleDirection;
+  const bool is_single = run.axis_code() == 60;
   const Point overrun = run.parameters.point(is_single ? kSingleOverrun : kRapidOverrun);
   const Point from = machine_of(run, run.state.position);
   const Point to = machine_of(run, target.to);
@@ -123,8 +124,7 @@ bool move(Run& run) {
   run.ledger.take_all();
   if (run.block.parts.thread_code != 0) [[unlikely]]
     take_lead_change(run);
-  const MotionMode mode =
-      run.action() == GAction::SingleDirection ? MotionMode::Rapid : run.state.modes.motion;
+  const MotionMode mode = run.axis_code() == 60 ? MotionMode::Rapid : run.state.modes.motion;
   if (mode >= MotionMode::Clockwise) return move_on_arc(run);
   Target target;
   if (words.has_any(kPolarWords)) [[unlikely]] {
@@ -148,7 +148,7 @@ bool move(Run& run) {
     return true;
   }
   if (!check_feed(run)) return false;
-  if (target.to == run.state.position && !run.block.leads_back()) return true;
+  if (target.to == run.state.position && !run.block.is_back_line()) return true;
   announce_line(run);
   run.events().on_line(
       {run.origin, event_position(run, target.to, target.named), run.active_feed(), run.rests()});

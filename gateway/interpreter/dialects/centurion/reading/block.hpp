@@ -36,7 +36,7 @@ struct TextRange {
 };
 
 /// `,R` `,C` and BACK, in program units.
-struct JoinWords {
+struct CornerWords {
   struct Back {
     double slope = 0;  ///< degrees
     blending::Back which = blending::Back::Nearest;
@@ -62,8 +62,8 @@ struct Block {
     std::uint8_t m_next = 0;  ///< the M code to go on with in the stage at hand
     std::uint16_t macro = 0;  ///< the program that is called with the words as arguments
     MacroCaller caller = MacroCaller::G65;
-    std::uint8_t action = kNoRow;  ///< the G row that decides what the axis words mean
-    bool rests = false;            ///< G9
+    std::uint8_t axis_row = kNoRow;  ///< the G row that decides what the axis words mean
+    bool rests = false;              ///< G9
     std::optional<ProbeUntil> probe;
     std::uint8_t thread_code = 0;  ///< G32, G34, G35 or G36; 0 = none
     std::uint32_t resume = 0;      ///< offset of the item to go on with
@@ -76,10 +76,10 @@ struct Block {
     bool jump_is_call_word = false;
     bool while_condition = false;
     std::uint32_t jump_number = 0;
-    bool has_joins = false;  ///< `Block::joins` says more
+    bool has_corner_words = false;  ///< they are in `Block::corner_words`
   };
 
-  bool leads_back() const { return parts.has_joins && joins.back; }
+  bool is_back_line() const { return parts.has_corner_words && corner_words.back; }
   void clear() {
     words.clear();
     parts = Parts{};
@@ -87,7 +87,7 @@ struct Block {
 
   Words words;
   Parts parts;
-  JoinWords joins;                          ///< when `Parts::has_joins`
+  CornerWords corner_words;                 ///< when `Parts::has_corner_words`
   std::array<std::uint8_t, kMaxCodes> g{};  ///< row indexes, in the order written
   std::array<std::uint8_t, kMaxCodes> m{};  ///< numbers
 };

@@ -6,8 +6,9 @@
 #include "gateway/interpreter/dialects/centurion/codes/m_codes.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 
@@ -90,22 +91,18 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
   if (run.options.is_dnc_fast && word.value == 90) [[unlikely]]
     index = g_row_index(93);  // FAST's list of codes has it for "absolute"
   const GRow& row = g_row(index);
-  if (row.action != GAction::Motion) [[unlikely]] {
-    if (row.action == GAction::Later) {
-      return run.fail(ErrorCode::NotSupported, run.column(word.start),
-                      fmt::format("G{} ({})", row.code, row.name));
-    }
-    if ((row.words & kEndWords) != 0 || row.action == GAction::PatternCycle) {
-      if (block.parts.action != kNoRow) {
+  if (row.kind != GKind::Motion) [[unlikely]] {
+    if (row.act != nullptr) {
+      if (block.parts.axis_row != kNoRow) {
         return run.fail(ErrorCode::IllegalStatement, run.column(word.start),
                         fmt::format("G{} and G{} both want the axis words", row.code,
-                                    g_row(block.parts.action).code));
+                                    g_row(block.parts.axis_row).code));
       }
-      block.parts.action = index;
+      block.parts.axis_row = index;
     }
-    if (row.action == GAction::ThreadLine)
+    if (row.kind == GKind::ThreadLine)
       block.parts.thread_code = static_cast<std::uint8_t>(row.code);
-    if (row.action == GAction::Dwell && !read_dwell(run, at)) return false;
+    if (row.kind == GKind::Dwell && !read_dwell(run, at)) return false;
     block.parts.taken |= row.words;
   }
   if (block.parts.g_count == Block::kMaxCodes) [[unlikely]] {
@@ -169,7 +166,7 @@ bool set_sequence(Run& run, const WordText& word) {
 
 /// An O word begins a program; where code came before, the one before it is over (spec 20.2).
 bool begin_program(Run& run, const WordText& word) {
-  if (run.action() == GAction::MacroCall) return add_word(run, Address::O, word);
+  if (run.axis_code() == 65) return add_word(run, Address::O, word);
   if (read_head(run.text.begin()).kind != BlockHead::Kind::Program) {
     return run.fail(ErrorCode::IllegalStatement, run.column(word.start), "O stands first");
   }
@@ -177,7 +174,7 @@ bool begin_program(Run& run, const WordText& word) {
     return run.fail(ErrorCode::InvalidProgramNumber, run.column(word.start),
                     fmt::format("O{} is not in 1 to 9999", word.value));
   }
-  if (run.state.at.program == kMainProgram && !run.name_is_settled) {
+  if (run.state.at.program == kMainProgram && !run.is_name_final) {
     run.name = fmt::format("O{:04}", static_cast<int>(word.value));
   }
   return true;

@@ -150,8 +150,8 @@ bool StartSearch::begin_here(Run& run) {
   if (const std::string why = refusal(run); !why.empty())
     return run.fail(ErrorCode::StartUndefined, 0, fmt::format("{}: {}", start_.text, why));
   run.start.end();
-  run.settle_path();  // what still waits is part of what came before; the block's end looks at
-                      // faults
+  run.flush_path();  // what still waits is part of what came before; the block's end looks at
+                     // faults
   state.is_searching = false;
   const std::string withheld = withheld_text(run.start);
   if (!withheld.empty()) {

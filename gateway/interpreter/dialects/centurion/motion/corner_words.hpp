@@ -14,7 +14,7 @@ bool read_back_words(Run& run, const char* start, const char*& at);
 
 /// Corner words and BACK need a block whose move takes them: error 518. Those of a rapid move mean
 /// nothing, but BACK does.
-bool check_join_words(Run& run);
+bool check_corner_words(Run& run);
 
 /// Absolute data with Trig Help on: the block's move may be joined to a neighbour of the kind.
 bool has_trig_help(const Run& run);

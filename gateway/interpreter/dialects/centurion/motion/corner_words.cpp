@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/reading/join_words.hpp"
+#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
@@ -14,10 +14,10 @@ using blending::FaultKind;
 
 constexpr std::uint8_t kTrigHelpOff = 2;  ///< of the special flags
 
-JoinWords& joins_of(Block& block) {
-  if (!block.parts.has_joins) block.joins = {};
-  block.parts.has_joins = true;
-  return block.joins;
+CornerWords& corner_words_of(Block& block) {
+  if (!block.parts.has_corner_words) block.corner_words = {};
+  block.parts.has_corner_words = true;
+  return block.corner_words;
 }
 
 bool read_value(Run& run, const char*& at, double& value) {
@@ -53,17 +53,13 @@ Angle transformed_slope(const Run& run, double degrees) {
 }
 
 void announce_corner(Run& run) {
-  const JoinWords& words = run.block.joins;
+  const CornerWords& words = run.block.corner_words;
   if (words.round) run.blender.round_next_corner(transformed(run, *words.round));
   if (words.chamfer)
     run.blender.chamfer_next_corner(transformed(run, *words.chamfer), run.options.chamfer);
 }
 
 }  // namespace
-
-blending::Policy blending_policy() {
-  return {};  // every feed move waits: BACK of the next block may move its end
-}
 
 bool read_corner_word(Run& run, const char*& at) {
   const char* start = at;
@@ -74,7 +70,7 @@ bool read_corner_word(Run& run, const char*& at) {
   if (!is_round && !take_word(at, "C")) {
     return run.fail(ErrorCode::IllegalStatement, run.column(start), "R or C belongs after \",\"");
   }
-  JoinWords& words = joins_of(run.block);
+  CornerWords& words = corner_words_of(run.block);
   std::optional<double>& word = is_round ? words.round : words.chamfer;
   double value = 0;
   if (!read_value(run, at, value)) return false;
@@ -93,9 +89,9 @@ bool read_corner_word(Run& run, const char*& at) {
 }
 
 bool read_back_words(Run& run, const char* start, const char*& at) {
-  JoinWords& words = joins_of(run.block);
+  CornerWords& words = corner_words_of(run.block);
   if (words.back) return run.fail(ErrorCode::DuplicateAddress, run.column(start), "BACK");
-  JoinWords::Back back;
+  CornerWords::Back back;
   bool has_which = false, has_slope = false;
   for (;;) {
     if (!skip_gaps(run, at)) return false;
@@ -117,9 +113,9 @@ bool read_back_words(Run& run, const char* start, const char*& at) {
   return true;
 }
 
-bool check_join_words(Run& run) {
-  const JoinWords& words = run.block.joins;
-  const bool is_move = run.action() == GAction::None &&
+bool check_corner_words(Run& run) {
+  const CornerWords& words = run.block.corner_words;
+  const bool is_move = run.block.parts.axis_row == kNoRow &&
                        run.block.words.has_any(kEndWords | kPolarWords) && !run.block.parts.probe;
   if (run.block.parts.thread_code != 0 && (words.round || words.chamfer)) {
     return run.fail(ErrorCode::NotSupported, words.column, "a corner at the end of a thread");
@@ -133,7 +129,7 @@ bool check_join_words(Run& run) {
 bool has_trig_help(const Run& run) {
   const Transformation& how = run.state.transformation;
   if (how.scales && std::fabs(how.factor.x) != std::fabs(how.factor.z)) return false;
-  return !run.options.is_dnc_fast && run.action() == GAction::None &&
+  return !run.options.is_dnc_fast && run.block.parts.axis_row == kNoRow &&
          run.block.parts.thread_code == 0 && !run.state.modes.is_incremental &&
          !run.block.words.has_any(set_of(Address::U, Address::W)) &&
          (run.parameters.byte(kSpecialFlags) & kTrigHelpOff) == 0;
@@ -145,22 +141,22 @@ double arc_tolerance(const Run& run) {
 
 void announce_line(Run& run) {
   if (has_trig_help(run)) run.blender.approximate_end(run.length(arc_tolerance(run)));
-  if (!run.block.parts.has_joins) [[likely]]
+  if (!run.block.parts.has_corner_words) [[likely]]
     return;
   announce_corner(run);
   announce_back(run);
 }
 
 void announce_back(Run& run) {
-  if (!run.block.leads_back()) return;
-  const JoinWords::Back& back = *run.block.joins.back;
+  if (!run.block.is_back_line()) return;
+  const CornerWords::Back& back = *run.block.corner_words.back;
   run.blender.back_solve_line(transformed_slope(run, back.slope), back.which);
 }
 
 void announce_arc(Run& run, std::optional<double> radius) {
   if (radius)
     run.blender.approximate_end(run.length(arc_tolerance(run)), transformed(run, *radius));
-  if (run.block.parts.has_joins) announce_corner(run);
+  if (run.block.parts.has_corner_words) announce_corner(run);
 }
 
 ErrorCode code_of(const blending::Fault& fault) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "gateway/interpreter/dialects/centurion/run.hpp"
+
+/// What the rows of the G codes (g_codes.cpp) name for codes that have no axis words: the modes,
+/// and G995 to G999. The row tells a function that serves several codes which one it is.
+namespace dripline::interpreter::centurion {
+
+bool set_motion(Run& run, const GRow& row);
+bool set_exact_stop(Run& run, const GRow& row);
+/// G10 begins a list of parameters; G11 puts it into force as a whole.
+bool set_data_mode(Run& run, const GRow& row);
+bool set_units(Run& run, const GRow& row);
+bool set_safe_zone(Run& run, const GRow& row);
+bool set_return_level(Run& run, const GRow& row);
+bool set_compensation(Run& run, const GRow& row);
+bool cancel_tool_length(Run& run, const GRow& row);
+bool set_work_system(Run& run, const GRow& row);
+bool set_path_mode(Run& run, const GRow& row);
+bool set_distance_mode(Run& run, const GRow& row);
+bool set_spindle_unit(Run& run, const GRow& row);
+bool set_feed_unit(Run& run, const GRow& row);
+
+/// G995: P0 = PB[P1]; G996: PB[P1] = P0.
+bool read_byte_parameter(Run& run, const GRow& row);
+bool write_byte_parameter(Run& run, const GRow& row);
+/// G997: the error whose number is in P1, none for 0.
+bool force_error(Run& run, const GRow& row);
+bool beep(Run& run, const GRow& row);
+bool force_fatal_error(Run& run, const GRow& row);
+
+}  // namespace dripline::interpreter::centurion
