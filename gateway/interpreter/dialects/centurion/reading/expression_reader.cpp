@@ -143,32 +143,7 @@ class Terms {
     if (!language::evaluate(*this, kSumRank, argument) || !close_bracket()) return false;
     if (function == Function::Pin) return pin(argument, value);
     if (function == Function::Rnd) return random(argument, value);
-    return finish(compute(function, argument), value);
-  }
-
-  static Computed compute(Function function, double argument) {
-    switch (function) {
-      case Function::Sin:
-        return language::sine(argument);
-      case Function::Cos:
-        return language::cosine(argument);
-      case Function::Tan:
-        return language::tangent(argument);
-      case Function::Sqrt:
-        return language::square_root(argument);
-      case Function::Abs:
-        return language::absolute(argument);
-      case Function::Int:
-        return language::integer_part(argument);
-      case Function::Ln:
-        return language::natural_logarithm(argument);
-      case Function::Exp:
-        return language::exponential(argument);
-      case Function::Round:
-        return language::rounded(argument);
-      default:
-        return {0, MathFault::Undefined};
-    }
+    return finish(language::compute(function, argument), value);
   }
 
   bool finish(const Computed& computed, double& value) {

@@ -2,18 +2,14 @@
 
 #include <array>
 
+#include "gateway/interpreter/core/language/spelling.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
 
 using language::Operator;
-
-template <class Meaning>
-struct Spelling {
-  std::string_view text;
-  Meaning meaning;
-};
+using language::Spelling;
 
 constexpr std::array kKeywords{
     Spelling<Keyword>{"IF", Keyword::If},         Spelling<Keyword>{"THEN", Keyword::Then},
@@ -62,15 +58,6 @@ constexpr std::array kOperators{
     Spelling<Operator>{"GE", Operator::GreaterOrEqual},
 };
 
-template <class Table>
-auto take_spelling(const Table& table, const char*& at) -> decltype(table[0].meaning) {
-  const char first = kind_of(*at) == CharKind::Letter ? upper(*at) : *at;
-  for (const auto& spelling : table) {
-    if (spelling.text[0] == first && take_word(at, spelling.text)) return spelling.meaning;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string_view to_string(Keyword keyword) {
@@ -81,27 +68,19 @@ std::string_view to_string(Keyword keyword) {
 }
 
 bool take_word(const char*& at, std::string_view word) {
-  const char* s = at;
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    if (i != 0) s = skip_blanks(s);
-    const char c = kind_of(*s) == CharKind::Letter ? upper(*s) : *s;
-    if (c != word[i]) return false;
-    ++s;
-  }
-  at = s;
-  return true;
+  return language::take_word<kCharKinds>(at, word);
 }
 
 Keyword take_keyword(const char*& at) {
-  return take_spelling(kKeywords, at);
+  return language::take_spelling<kCharKinds>(kKeywords, at);
 }
 Function take_function(const char*& at) {
-  return take_spelling(kFunctions, at);
+  return language::take_spelling<kCharKinds>(kFunctions, at);
 }
 
 Operator operator_at(const char* at, const char*& after) {
   after = at;
-  return take_spelling(kOperators, after);
+  return language::take_spelling<kCharKinds>(kOperators, after);
 }
 
 }  // namespace dripline::interpreter::centurion

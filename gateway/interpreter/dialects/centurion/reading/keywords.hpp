@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/core/language/function.hpp"
 
-/// The words of several letters. Blanks inside them carry no information (spec 3.5).
+/// The words of several letters; blanks inside them mean nothing (manual: addresses and keywords).
 namespace dripline::interpreter::centurion {
 
 enum class Keyword : std::uint8_t {
@@ -35,32 +35,18 @@ enum class Keyword : std::uint8_t {
   Cgen,
   Back,
 };
+
 std::string_view to_string(Keyword keyword);
 
-enum class Function : std::uint8_t {
-  None,
-  Sin,
-  Cos,
-  Tan,
-  Atan,
-  Sqrt,
-  Abs,
-  Int,
-  Rnd,
-  Ln,
-  Exp,
-  Round,
-  Pin,
-};
+using language::Function;
 
-/// Whether `word` (capitals) stands at `at`, blanks between its letters allowed; then `at` moves
-/// after it.
+/// Moves `at` past `word` (in capitals) when the text continues with it.
 bool take_word(const char*& at, std::string_view word);
 
-/// The longest keyword at `at`, which then moves after it; None leaves it.
+/// The keyword at `at`, which moves past it; None leaves it where it is.
 Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
-/// The operator at `at` and where it ends; None when something else stands there.
+/// The operator at `at` and where it ends; None when the text continues with something else.
 language::Operator operator_at(const char* at, const char*& after);
 
 }  // namespace dripline::interpreter::centurion

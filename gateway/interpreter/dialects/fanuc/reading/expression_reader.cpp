@@ -263,28 +263,13 @@ class Terms {
   }
 
   Computed compute(Function function, double argument) const {
-    const bool is_signed = run_.options.atan_is_signed;
     switch (function) {
-      case Function::Sin:
-        return language::sine(argument);
-      case Function::Cos:
-        return language::cosine(argument);
-      case Function::Tan:
-        return language::tangent(argument);
       case Function::Asin:
         if (!(std::fabs(argument) <= 1)) return {0, MathFault::Undefined};
-        return degrees_of(std::asin(argument), is_signed);
+        return degrees_of(std::asin(argument), run_.options.atan_is_signed);
       case Function::Acos:
         if (!(std::fabs(argument) <= 1)) return {0, MathFault::Undefined};
         return degrees_of(std::acos(argument), true);
-      case Function::Sqrt:
-        return language::square_root(argument);
-      case Function::Abs:
-        return language::absolute(argument);
-      case Function::Ln:
-        return language::natural_logarithm(argument);
-      case Function::Exp:
-        return language::exponential(argument);
       case Function::Round:
         return {std::round(argument / least_) * least_, MathFault::None};
       case Function::Fix:
@@ -293,8 +278,10 @@ class Terms {
         return cut_fraction(argument, true);
       case Function::Bin:
         return binary_of(argument);
-      default:
+      case Function::Bcd:
         return bcd_of(argument);
+      default:
+        return language::compute(function, argument);
     }
   }
 

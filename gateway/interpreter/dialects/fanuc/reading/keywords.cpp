@@ -2,18 +2,14 @@
 
 #include <array>
 
+#include "gateway/interpreter/core/language/spelling.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/characters.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
 
 using language::Operator;
-
-template <class Meaning>
-struct Spelling {
-  std::string_view text;
-  Meaning meaning;
-};
+using language::Spelling;
 
 constexpr std::array kKeywords{
     Spelling<Keyword>{"IF", Keyword::If},       Spelling<Keyword>{"THEN", Keyword::Then},
@@ -50,10 +46,10 @@ constexpr std::array kOperators{
 
 template <class Table>
 auto take_from(const Table& table, const char*& at) {
-  for (const auto& spelling : table) {
-    if (take_word(at, spelling.text)) return spelling.meaning;
-  }
-  return decltype(table[0].meaning){};
+  const char* next = skip_blanks(at);
+  const auto meaning = language::take_spelling<kCharKinds>(table, next);
+  if (meaning != decltype(table[0].meaning){}) at = next;
+  return meaning;
 }
 
 }  // namespace
@@ -77,14 +73,9 @@ int rank(language::Operator op) {
 }
 
 bool take_word(const char*& at, std::string_view word) {
-  const char* after = at;
-  for (const char expected : word) {
-    after = skip_blanks(after);
-    const char met = is_letter(*after) ? upper(*after) : *after;
-    if (met != expected) return false;
-    ++after;
-  }
-  at = after;
+  const char* next = skip_blanks(at);
+  if (!language::take_word<kCharKinds>(next, word)) return false;
+  at = next;
   return true;
 }
 

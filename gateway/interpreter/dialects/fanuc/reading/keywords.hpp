@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "gateway/interpreter/core/language/expression.hpp"
+#include "gateway/interpreter/core/language/function.hpp"
 
 /// The words of custom macro B. Capitals or not; blanks within mean nothing.
 namespace dripline::interpreter::fanuc {
@@ -21,28 +21,12 @@ enum class Keyword : std::uint8_t {
   Dprnt,
   Bprnt  // clang-format off
 };  // clang-format on
-enum class Function : std::uint8_t {
-  None,
-  Sin,
-  Cos,
-  Tan,
-  Asin,
-  Acos,
-  Atan,
-  Sqrt,
-  Abs,
-  Ln,
-  Exp,
-  Round,
-  Fix,
-  Fup,
-  Bin,
-  Bcd  // clang-format off
-};  // clang-format on
+using language::Function;
+// clang-format on
 /// 3 products and AND, 2 sums, OR and XOR, 1 comparisons, 0 none.
 int rank(language::Operator op);
 
-/// Moves `at` after `word` when it stands there.
+/// Moves `at` past `word` when the text continues with it.
 bool take_word(const char*& at, std::string_view word);
 Keyword take_keyword(const char*& at);
 Function take_function(const char*& at);
