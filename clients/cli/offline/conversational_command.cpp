@@ -54,7 +54,7 @@ int post(const ConversationalCommand& command) {
 }
 
 ordered_json limits_json(const conversational::Limits& limits) {
-  return {{"least", limits.least}, {"most", limits.most}, {"decimals", limits.decimals}};
+  return {{"least", limits.min}, {"most", limits.max}, {"decimals", limits.decimals}};
 }
 
 ordered_json field_json(const FieldDescription& field) {
@@ -67,7 +67,7 @@ ordered_json field_json(const FieldDescription& field) {
   if (field.kind == FieldKind::Choice) {
     json["choices"] = field.choices;
   } else if (field.kind == FieldKind::Text) {
-    json["max_characters"] = field.english.most;
+    json["max_characters"] = field.english.max;
   } else {
     json["english"] = limits_json(field.english);
     json["metric"] = limits_json(field.metric);
@@ -93,8 +93,8 @@ std::string values_text(const FieldDescription& field) {
   if (field.kind == FieldKind::Choice) return fmt::format("{}", fmt::join(field.choices, " | "));
   if (field.kind == FieldKind::Text) return "text";
   const auto& limits = field.english;
-  const std::string range = fmt::format("{} to {}", conversational::number_text(limits.least),
-                                        conversational::number_text(limits.most));
+  const std::string range = fmt::format("{} to {}", conversational::number_text(limits.min),
+                                        conversational::number_text(limits.max));
   return field.kind == FieldKind::Feedrate ? "rapid | " + range : range;
 }
 

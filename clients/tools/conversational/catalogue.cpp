@@ -3,7 +3,7 @@
 namespace dripline::conversational {
 namespace {
 
-/// Writes down what it is shown; leaves the event as it is.
+/// Lists the fields that the walk shows it; the event stays unchanged.
 class FormLister : public Form {
  public:
   explicit FormLister(EventDescription& description) : description_(description) {}
@@ -33,8 +33,8 @@ class FormLister : public Form {
     added.condition = field.condition;
     added.is_required = field.is_required;
     const bool is_text = kind == FieldKind::Text;
-    added.english = is_text ? Limits{0, field.most, 0} : limits_of(field, UnitSystem::English);
-    added.metric = is_text ? Limits{0, field.most, 0} : limits_of(field, UnitSystem::Metric);
+    added.english = is_text ? Limits{0, field.max, 0} : limits_of(field, UnitSystem::English);
+    added.metric = is_text ? Limits{0, field.max, 0} : limits_of(field, UnitSystem::Metric);
     return description_.fields.emplace_back(std::move(added));
   }
   EventDescription& description_;

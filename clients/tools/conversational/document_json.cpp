@@ -24,7 +24,7 @@ Result<FileEvent> event_of(const Json& object, std::size_t number) {
   return event;
 }
 
-/// Nothing in such a file lies deeper; deeper files are not built up in memory.
+/// No value of such a file is deeper; deeper files are not read into memory.
 Json parse(std::string_view text) {
   constexpr int kDeepest = 4;
   bool is_too_deep = false;
@@ -45,7 +45,7 @@ Result<std::vector<FileEvent>> read_json(std::string_view text) {
     return fail(Errc::Syntax, "expected {{\"event\": [{{\"type\": ...}}, ...]}} in JSON");
   const Json& list = file["event"];
   if (list.size() > kMaxEvents) {
-    return fail(Errc::LimitExceeded, "{} events: at most {}", list.size(), kMaxEvents);
+    return fail(Errc::LimitExceeded, "{} events are more than {}", list.size(), kMaxEvents);
   }
   std::vector<FileEvent> events;
   for (const Json& object : list) {

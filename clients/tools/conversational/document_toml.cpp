@@ -38,7 +38,7 @@ Result<std::vector<FileEvent>> events_of(const toml::table& file) {
       return fail(Errc::Syntax, "line {}: {}: {}", line_of(node), key.str(), kShape);
     }
     if (list->size() > kMaxEvents) {
-      return fail(Errc::LimitExceeded, "{} events: at most {}", list->size(), kMaxEvents);
+      return fail(Errc::LimitExceeded, "{} events are more than {}", list->size(), kMaxEvents);
     }
     for (const auto& element : *list) {
       auto event = event_of(element);

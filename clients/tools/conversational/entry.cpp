@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxCharacters = 20;
 
-/// Digits with at most one point; no sign, no exponent.
+/// Digits with one point or none; no sign, no exponent.
 std::optional<double> unsigned_number(std::string_view text) {
   if (text.empty() || text.size() > kMaxCharacters) return std::nullopt;
   bool has_digit = false, has_point = false;

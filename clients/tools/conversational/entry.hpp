@@ -23,7 +23,7 @@ struct TypedNumber {
 /// Syntax.
 Result<TypedNumber> parse_entry(std::string_view typed);
 
-/// As the control writes numbers into a program: at most six decimals, no zero before the point,
+/// As the control writes numbers into a program: up to six decimals, no zero before the point,
 /// none at the end (".5", "-2", "0").
 std::string number_text(double value);
 

@@ -9,7 +9,7 @@
 
 /// The events of conversational programming, one record a screen. Lengths are in the program's
 /// units; X positions are diameters unless a member says radius. What each field means, its limits
-/// and its default stand in `fields.hpp`.
+/// and its default are in `fields.hpp`.
 namespace dripline::conversational {
 
 enum class Dimensions { Absolute, Incremental };
@@ -44,7 +44,7 @@ struct Position {
 };
 
 enum class CornerKind { None, Round, Chamfer };
-/// What joins an element to the next one.
+/// The corner between an element and the next one.
 struct Corner {
   CornerKind kind = CornerKind::None;
   Entry radius, length;
@@ -81,8 +81,8 @@ struct Arc {
 
 enum class Side { Left, Right };
 enum class Connection { Line, Arc };
-/// Two circles joined by a tangent line or arc. Posts the first arc and the connection; the second
-/// arc is the next event's.
+/// Two circles connected by a tangent line or arc. Posts the first arc and the connection; the
+/// second arc is the next event's.
 struct Tangents {
   ArcDirection direction = ArcDirection::Clockwise;  ///< of the first arc
   Entry r1, xc1, zc1, r2, xc2, zc2;

@@ -88,7 +88,7 @@ const EventKind& kind_of(const Event& event) {
   for (const auto& kind : kinds()) {
     if (kind.blank.index() == event.index() && variety(kind.blank) == variety(event)) return kind;
   }
-  return kinds().front();  // not reached: every record has a kind
+  return kinds().front();  // not reached: each record has a kind
 }
 
 void walk_fields(Form& form, Event& event) {

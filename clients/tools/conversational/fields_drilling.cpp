@@ -4,7 +4,8 @@ namespace dripline::conversational {
 namespace {
 
 void walk_return(Form& form, ReturnPoint& point) {
-  form.toggle({.name = "return", .help = "where the tool ends: at the clearance or where it began"},
+  form.toggle({.name = "return",
+               .help = "level of the tool after the cycle: the clearance or the initial level"},
               {"clearance", "initial"}, point);
 }
 
@@ -12,7 +13,7 @@ void walk_clearance(Form& form, Quantity quantity, Entry& clearance) {
   form.number({.name = "clearance",
                .word = "R",
                .quantity = quantity,
-               .help = "rapid as far as this",
+               .help = "rapid moves end here",
                .is_required = true},
               clearance);
 }
@@ -26,15 +27,15 @@ void walk_feed(Form& form, Entry& feed) {
 void walk_pecks(Form& form, Entry& increment, Entry& clearance, bool applies_clearance) {
   form.number({.name = "increment",
                .word = "Q",
-               .help = "from peck to peck, unsigned",
+               .help = "depth of each peck, unsigned",
                .is_required = true,
-               .least = 0},
+               .min = 0},
               increment);
   form.number({.name = "peck_clearance",
                .word = "E",
-               .help = "rapid ends this far before the last depth",
+               .help = "distance before the last depth at which rapid ends",
                .applies = applies_clearance,
-               .least = 0},
+               .min = 0},
               clearance);
 }
 
@@ -67,9 +68,9 @@ void walk(Form& form, TapCycle& event) {
   form.number({.name = "threads_per_unit",
                .word = "P",
                .quantity = Quantity::Factor,
-               .help = "of the tap",
+               .help = "threads per inch or mm of the tap",
                .is_required = true,
-               .least = 0.0001},
+               .min = 0.0001},
               event.threads_per_unit);
   walk_return(form, event.return_point);
   walk_clearance(form, Quantity::Length, event.clearance);
@@ -97,34 +98,33 @@ void walk(Form& form, GrooveCycle& event) {
                .help = is_face ? "final depth" : "end of the groove; blank: one column of pecks",
                .is_required = is_face},
               event.z);
-  form.number({.name = "first_depth", .word = "V", .quantity = depth, .help = "of the first peck"},
-              event.first_depth);
+  form.number(
+      {.name = "first_depth", .word = "V", .quantity = depth, .help = "depth of the first peck"},
+      event.first_depth);
   walk_pecks(form, event.increment, event.peck_clearance, true);
   form.number({.name = "peck_up",
                .word = "U",
                .quantity = Quantity::Radius,
-               .help = "rapid back after each peck",
-               .least = 0},
+               .help = "rapid retraction after each peck",
+               .min = 0},
               event.peck_up);
   form.number({.name = "step",
                .word = is_face ? "I" : "K",
                .quantity = Quantity::Radius,
-               .help = "from column to column, unsigned",
-               .least = 0},
+               .help = "step between columns, unsigned",
+               .min = 0},
               event.step);
-  form.number({.name = "relief",
-               .word = "D",
-               .quantity = Quantity::Radius,
-               .help = "back off at the bottom"},
-              event.relief);
+  form.number(
+      {.name = "relief", .word = "D", .quantity = Quantity::Radius, .help = "relief at the bottom"},
+      event.relief);
   form.number({.name = "x_finish_stock",
                .word = "A",
                .quantity = Quantity::Radius,
-               .help = "left for the finish pass",
-               .least = 0},
+               .help = "stock for the finish pass",
+               .min = 0},
               event.x_finish_stock);
   form.number(
-      {.name = "z_finish_stock", .word = "C", .help = "left for the finish pass", .least = 0},
+      {.name = "z_finish_stock", .word = "C", .help = "stock for the finish pass", .min = 0},
       event.z_finish_stock);
 }
 

@@ -44,7 +44,7 @@ void walk_target(Form& form, Target& target) {
                .help = "from the pole; blank: the last one",
                .applies = is_polar,
                .condition = "coordinates = polar",
-               .least = 0},
+               .min = 0},
               target.length);
   form.number({.name = "angle",
                .word = "AB",
@@ -70,11 +70,11 @@ void walk_round(Form& form, Corner& corner) {
   form.number({.name = "corner_radius",
                .word = "R",
                .quantity = Quantity::Radius,
-               .help = "of the arc to the next element",
+               .help = "radius of the rounding to the next element",
                .is_required = true,
                .applies = is_round,
                .condition = "corner = round",
-               .least = 0},
+               .min = 0},
               corner.radius);
 }
 
@@ -166,7 +166,7 @@ void walk_arc_center(Form& form, Arc& arc) {
                .is_required = arc.center == ArcCenter::RadiusOnly,
                .applies = !is_incremental,
                .condition = "center not incremental",
-               .least = 0},
+               .min = 0},
               arc.radius);
   form.toggle({.name = "length",
                .help = "short: less than half a circle",
@@ -192,11 +192,11 @@ void walk(Form& form, Line& event) {
   walk_round(form, event.corner);
   form.number({.name = "chamfer_length",
                .word = "C",
-               .help = "next to another line only",
+               .help = "between two lines only",
                .is_required = true,
                .applies = event.corner.kind == CornerKind::Chamfer,
                .condition = "corner = chamfer",
-               .least = 0},
+               .min = 0},
               event.corner.length);
   walk_extend_back(form, event.back);
 }
@@ -208,7 +208,7 @@ void walk_extend_back(Form& form, ExtendBack& back) {
   form.number({.name = "extend_angle",
                .word = "W",
                .quantity = Quantity::Angle,
-               .help = "of the line",
+               .help = "angle of the line",
                .is_required = true,
                .applies = back.extension != Extension::Off,
                .condition = "extend_back = short or long"},
@@ -217,7 +217,7 @@ void walk_extend_back(Form& form, ExtendBack& back) {
 
 void walk(Form& form, Arc& event) {
   walk_feed(form, event.feed);
-  form.demand(!event.feed.is_rapid, "feed = \"rapid\" is for lines");
+  form.demand(!event.feed.is_rapid, "feed = \"rapid\" is for lines only");
   form.toggle({.name = "direction", .help = "seen with +X up and +Z to the right"}, {"cw", "ccw"},
               event.direction);
   walk_arc_center(form, event);
@@ -234,13 +234,14 @@ void walk(Form& form, Tangents& event) {
     form.number(x, xc);
     form.number(z, zc);
   };
-  form.toggle({.name = "direction", .help = "of the first arc"}, {"cw", "ccw"}, event.direction);
+  form.toggle({.name = "direction", .help = "direction of the first arc"}, {"cw", "ccw"},
+              event.direction);
   circle({.name = "r1",
           .word = "R1",
           .quantity = Quantity::Radius,
-          .help = "first arc",
+          .help = "radius of the first arc",
           .is_required = true,
-          .least = 0},
+          .min = 0},
          event.r1,
          {.name = "xc1",
           .word = "XC1",
@@ -253,9 +254,9 @@ void walk(Form& form, Tangents& event) {
   circle({.name = "r2",
           .word = "R2",
           .quantity = Quantity::Radius,
-          .help = "second arc",
+          .help = "radius of the second arc",
           .is_required = true,
-          .least = 0},
+          .min = 0},
          event.r2,
          {.name = "xc2",
           .word = "XC2",
@@ -273,21 +274,21 @@ void walk(Form& form, Tangents& event) {
               event.connection);
   const bool is_arc = event.connection == Connection::Arc;
   form.toggle({.name = "arc_center",
-               .help = "its side of the line between the centers",
+               .help = "side of its center, seen along the line between the centers",
                .applies = is_arc,
                .condition = "connect = arc"},
               {"left", "right"}, event.arc_center);
   form.number({.name = "arc_radius",
                .word = "R",
                .quantity = Quantity::Radius,
-               .help = "of the connecting arc",
+               .help = "radius of the connecting arc",
                .is_required = true,
                .applies = is_arc,
                .condition = "connect = arc",
-               .least = 0},
+               .min = 0},
               event.arc_radius);
   form.toggle({.name = "arc_direction",
-               .help = "of the connecting arc",
+               .help = "direction of the connecting arc",
                .applies = is_arc,
                .condition = "connect = arc"},
               {"cw", "ccw"}, event.arc_direction);
@@ -306,8 +307,9 @@ void walk(Form& form, ThreePointArc& event) {
   point("x1", "z1", event.x1, event.z1);
   point("x2", "z2", event.x2, event.z2);
   point("x3", "z3", event.x3, event.z3);
-  form.toggle({.name = "end_at_point_3", .help = "else at the angle ab"}, {"no", "yes"},
-              event.ends_at_third);
+  form.toggle(
+      {.name = "end_at_point_3", .help = "yes: end at the third point; no: at the angle ab"},
+      {"no", "yes"}, event.ends_at_third);
   form.number({.name = "ab",
                .word = "AB",
                .quantity = Quantity::Angle,

@@ -8,7 +8,7 @@ void walk_start_angle(Form& form, Entry& angle) {
                .word = "Q",
                .quantity = Quantity::Angle,
                .help = "shift of the start, for threads of several starts",
-               .least = 0},
+               .min = 0},
               angle);
 }
 
@@ -22,15 +22,17 @@ void walk_lead(Form& form, Entry& lead) {
 }
 
 void walk_chamfer(Form& form, Entry& length, Entry& angle) {
-  form.number(
-      {.name = "chamfer_length", .word = "P103", .help = "of the pull-out at the end", .least = 0},
-      length);
+  form.number({.name = "chamfer_length",
+               .word = "P103",
+               .help = "length of the pull-out at the end",
+               .min = 0},
+              length);
   form.number({.name = "chamfer_angle",
                .word = "P104",
                .quantity = Quantity::Angle,
                .help = "0: straight out in X",
-               .least = 0,
-               .most = 90},
+               .min = 0,
+               .max = 90},
               angle);
 }
 
@@ -61,7 +63,7 @@ void walk_size(Form& form, MultipleThread& event) {
                .is_required = true,
                .applies = !is_crest,
                .condition = "entry = root and height",
-               .least = 0},
+               .min = 0},
               event.height);
 }
 
@@ -80,7 +82,7 @@ void walk(Form& form, ThreadLine& event) {
                .word = "E",
                .quantity = Quantity::Factor,
                .help = "instead of the lead",
-               .least = 0.0001},
+               .min = 0.0001},
               event.threads_per_unit);
   walk_start_angle(form, event.start_angle);
   form.demand(event.x || event.z, "x or z must be given");
@@ -107,34 +109,34 @@ void walk(Form& form, MultipleThread& event) {
                .quantity = Quantity::Radius,
                .help = "depth of the first cut",
                .is_required = true,
-               .least = 0},
+               .min = 0},
               event.first_cut);
   form.number({.name = "nose_angle",
                .word = "A",
                .quantity = Quantity::Angle,
                .help = "included angle of the tool nose",
                .is_required = true,
-               .least = 0.001,
-               .most = 179},
+               .min = 0.001,
+               .max = 179},
               event.nose_angle);
   form.number({.name = "minimum_cut",
                .word = "P130",
                .quantity = Quantity::Radius,
-               .help = "no cut is thinner",
-               .least = 0},
+               .help = "minimum depth of a cut",
+               .min = 0},
               event.minimum_cut);
   form.whole({.name = "finish_passes",
               .word = "P131",
               .quantity = Quantity::Count,
-              .help = "at full depth"},
+              .help = "number of passes at full depth"},
              event.finish_passes);
   form.whole({.name = "method",
               .word = "P",
               .quantity = Quantity::Count,
               .help = "1, 2: constant amount, 3, 4: constant depth; odd: one edge, even: both",
               .is_required = true,
-              .least = 1,
-              .most = 4},
+              .min = 1,
+              .max = 4},
              event.method);
 }
 

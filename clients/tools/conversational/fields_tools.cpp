@@ -9,21 +9,22 @@ void walk(Form& form, ProgramSetup& event) {
               .quantity = Quantity::Count,
               .help = "number of the program",
               .is_required = true,
-              .least = 1},
+              .min = 1},
              event.program);
   form.text({.name = "name",
              .quantity = Quantity::Comment,
              .help = "up to 60 characters without parentheses",
-             .most = 60},
+             .max = 60},
             event.name);
-  form.toggle({.name = "dimensions", .help = "of the program"}, {"absolute", "incremental"},
-              event.dimensions);
-  form.toggle({.name = "units", .help = "of the program and of every field"}, {"english", "metric"},
-              event.units);
+  form.toggle({.name = "dimensions", .help = "dimensions of the program"},
+              {"absolute", "incremental"}, event.dimensions);
+  form.toggle({.name = "units", .help = "units of the program and of every field"},
+              {"english", "metric"}, event.units);
   form.set_units(event.units);
-  form.number(
-      {.name = "material_length", .word = "P", .help = "chuck face to Z0, for the graphics"},
-      event.material_length);
+  form.number({.name = "material_length",
+               .word = "P",
+               .help = "from the chuck face to Z0, for the graphics"},
+              event.material_length);
   form.number({.name = "material_diameter",
                .word = "P",
                .quantity = Quantity::Diameter,
@@ -37,18 +38,21 @@ void walk(Form& form, ToolSelection& event) {
               .quantity = Quantity::Count,
               .help = "tool and offset number",
               .is_required = true,
-              .most = 24},
+              .max = 24},
              event.tool);
   form.text({.name = "description",
              .quantity = Quantity::Comment,
              .help = "shown at the change",
              .applies = event.is_change,
              .condition = "not posted by a tool call",
-             .most = 60},
+             .max = 60},
             event.description);
   form.toggle({.name = "feed_per", .help = "unit of feeds"}, {"revolution", "minute"},
               event.feed_mode);
-  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "from here on"},
+  form.number({.name = "feed",
+               .word = "F",
+               .quantity = Quantity::Feed,
+               .help = "in force from this event on"},
               event.feed);
   form.toggle({.name = "spindle", .help = "constant surface speed or revolutions per minute"},
               {"surface speed", "rpm"}, event.spindle_mode);
@@ -60,7 +64,8 @@ void walk(Form& form, ToolSelection& event) {
   form.number(
       {.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "in the spindle's unit"},
       event.speed);
-  form.toggle({.name = "restart", .help = "of the spindle"}, {"none", "cw", "ccw"}, event.restart);
+  form.toggle({.name = "restart", .help = "start the spindle after the change"},
+              {"none", "cw", "ccw"}, event.restart);
   form.toggle({.name = "coolant", .help = "after the change"}, {"off", "on"}, event.has_coolant);
 }
 
@@ -71,15 +76,21 @@ void walk(Form& form, Miscellaneous& event) {
     form.choice({.name = name, .help = help}, names, index);
   };
   choose("feed_per", "unit of feeds", kFeedModes, event.feed_mode);
-  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "from here on"},
+  form.number({.name = "feed",
+               .word = "F",
+               .quantity = Quantity::Feed,
+               .help = "in force from this event on"},
               event.feed);
   choose("spindle_mode", "unit of speeds", kSpindleModes, event.spindle_mode);
-  form.number({.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "from here on"},
+  form.number({.name = "speed",
+               .word = "S",
+               .quantity = Quantity::Speed,
+               .help = "in force from this event on"},
               event.speed);
   choose("gear", "range of the spindle", kGears, event.gear);
   choose("spindle", "direction", kSpindles, event.spindle);
   choose("coolant", "flood", kCoolants, event.coolant);
-  choose("compensation", "of the tool nose", kCompensations, event.compensation);
+  choose("compensation", "tool nose compensation", kCompensations, event.compensation);
   choose("stop", "wait for CYCLE START", kStops, event.stop);
   choose("retract", "to the clearances or the tool change position", kRetracts, event.retract);
   choose("cutting_mode", "at the ends of moves", kCuttingModes, event.cutting_mode);
@@ -89,7 +100,7 @@ void walk(Form& form, Miscellaneous& event) {
   form.text({.name = "text",
              .quantity = Quantity::Text,
              .help = "a block as typed, up to 70 characters",
-             .most = 70},
+             .max = 70},
             event.text);
 }
 
@@ -99,13 +110,13 @@ void walk(Form& form, ProgramCall& event) {
               .quantity = Quantity::Count,
               .help = "number of the program",
               .is_required = true,
-              .least = 1},
+              .min = 1},
              event.program);
   form.whole({.name = "repeats",
               .word = "L",
               .quantity = Quantity::Count,
-              .help = "how often; blank: once",
-              .least = 1},
+              .help = "number of calls; blank: one",
+              .min = 1},
              event.repeats);
 }
 
@@ -170,13 +181,13 @@ void walk(Form& form, Mirror& event) {
   form.number({.name = "x",
                .word = "X",
                .quantity = Quantity::Diameter,
-               .help = "mirror X about this",
+               .help = "X of the mirror line",
                .applies = event.is_on,
                .condition = condition},
               event.x);
   form.number({.name = "z",
                .word = "Z",
-               .help = "mirror Z about this",
+               .help = "Z of the mirror line",
                .applies = event.is_on,
                .condition = condition},
               event.z);
@@ -187,9 +198,10 @@ void walk(Form& form, FloatingZero& event) {
   form.number({.name = "x",
                .word = "X",
                .quantity = Quantity::Diameter,
-               .help = "coordinate of the present position"},
+               .help = "new coordinate of the current position"},
               event.x);
-  form.number({.name = "z", .word = "Z", .help = "coordinate of the present position"}, event.z);
+  form.number({.name = "z", .word = "Z", .help = "new coordinate of the current position"},
+              event.z);
   form.demand(event.x || event.z, "x or z must be given");
 }
 

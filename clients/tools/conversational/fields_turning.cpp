@@ -37,12 +37,12 @@ void walk_pattern_number(Form& form, std::optional<int>& pattern) {
               .quantity = Quantity::Count,
               .help = "number of the pattern; its labels are N98nn and N99nn",
               .is_required = true,
-              .most = 99},
+              .max = 99},
              pattern);
 }
 
 void walk_compensation(Form& form, Compensation& compensation) {
-  form.toggle({.name = "compensation", .help = "of the tool nose"}, {"off", "left", "right"},
+  form.toggle({.name = "compensation", .help = "tool nose compensation"}, {"off", "left", "right"},
               compensation);
 }
 
@@ -56,8 +56,8 @@ void walk_taper(Form& form, const Field& taper, bool& is_tapered, Entry& value) 
 }
 
 void walk_cut_end(Form& form, const CutEnd& end) {
-  form.toggle({.name = "dimensions", .help = "of the end"}, {"absolute", "incremental"},
-              end.dimensions);
+  form.toggle({.name = "dimensions", .help = "dimensions of the end point"},
+              {"absolute", "incremental"}, end.dimensions);
   const bool is_absolute = end.dimensions == Dimensions::Absolute;
   form.number({.name = "x",
                .word = "X",
@@ -105,7 +105,7 @@ void walk(Form& form, RoughCycle& event) {
                .quantity = is_turning ? Quantity::Radius : Quantity::Length,
                .help = "from cut to cut, unsigned",
                .is_required = true,
-               .least = 0},
+               .min = 0},
               event.cut_increment);
   form.toggle({.name = "relief", .help = "how the tool leaves a cut"}, {"pattern", "45 degrees"},
               event.relief);
@@ -113,7 +113,7 @@ void walk(Form& form, RoughCycle& event) {
                .word = "R",
                .quantity = Quantity::Radius,
                .help = "how far the tool pulls away",
-               .least = 0},
+               .min = 0},
               event.clearance);
   walk_compensation(form, event.compensation);
   walk_start_point(form, event.start_x, event.start_z);
@@ -128,7 +128,7 @@ void walk(Form& form, PatternRepeat& event) {
               .quantity = Quantity::Count,
               .help = "how often the pattern is followed",
               .is_required = true,
-              .least = 1},
+              .min = 1},
              event.passes);
   walk_compensation(form, event.compensation);
   walk_start_point(form, event.start_x, event.start_z);
@@ -150,10 +150,11 @@ void walk(Form& form, FinishCycle& event) {
 void walk(Form& form, SingleCut& event) {
   const bool is_turning = event.work == Work::Turning;
   walk_compensation(form, event.compensation);
-  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "of the cut"},
+  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "feed of the cut"},
               event.feed);
-  form.number({.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "of the cut"},
-              event.speed);
+  form.number(
+      {.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "speed of the cut"},
+      event.speed);
   walk_start_point(form, event.start_x, event.start_z);
   walk_cut_end(form, {event.dimensions, event.x, event.u, event.z, event.w});
   walk_taper(form,

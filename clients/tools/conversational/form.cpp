@@ -34,8 +34,8 @@ Limits range_of(Quantity quantity, bool is_metric) {
 
 Limits limits_of(const Field& field, UnitSystem units) {
   Limits limits = range_of(field.quantity, units == UnitSystem::Metric);
-  limits.least = std::max(limits.least, field.least);
-  limits.most = std::min(limits.most, field.most);
+  limits.min = std::max(limits.min, field.min);
+  limits.max = std::min(limits.max, field.max);
   return limits;
 }
 

@@ -34,14 +34,14 @@ struct Field {
   Quantity quantity = Quantity::Length;
   std::string_view help = {};
   bool is_required = false;
-  bool applies = true;              ///< with the toggles before it as they stand
-  std::string_view condition = {};  ///< those toggles, for people: "coordinates = polar"
-  double least = std::numeric_limits<double>::lowest();  ///< in addition to the quantity's
-  double most = std::numeric_limits<double>::max();
+  bool applies = true;              ///< with the present choices of the toggles before it
+  std::string_view condition = {};  ///< those choices, to be read: "coordinates = polar"
+  double min = std::numeric_limits<double>::lowest();  ///< in addition to the quantity's
+  double max = std::numeric_limits<double>::max();
 };
 
 struct Limits {
-  double least = 0, most = 0;
+  double min = 0, max = 0;
   int decimals = 0;
 };
 /// What fits the field: the quantity's range and decimals in these units, within the field's own.
@@ -58,7 +58,7 @@ class Form {
   virtual void feedrate(const Field& field, Feedrate& entry) = 0;
   virtual void choice(const Field& field, std::span<const std::string_view> names,
                       std::size_t& index) = 0;
-  /// A rule over several fields; `text` says it when it does not hold.
+  /// A rule over several fields; `text` states it when it does not hold.
   virtual void demand(bool holds, std::string_view text) = 0;
   /// The units of all fields from here on.
   virtual void set_units(UnitSystem units) = 0;

@@ -15,12 +15,12 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Values of files may be long or hold anything: enough of them to be found again.
+/// Values of files may be long and hold anything; this shows enough to find them again.
 std::string shown(const FileValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  constexpr std::size_t kLongest = 40;
-  return fmt::format("\"{}\"", std::get<std::string>(value).substr(0, kLongest));
+  constexpr std::size_t kMaxShown = 40;
+  return fmt::format("\"{}\"", std::get<std::string>(value).substr(0, kMaxShown));
 }
 
 }  // namespace
@@ -30,11 +30,11 @@ const FileValue* FormReader::find(const Field& field) {
   if (error_) return nullptr;
   const auto found = std::ranges::find(event_.fields, field.name, &FileField::name);
   if (found == event_.fields.end()) {
-    if (field.is_required && field.applies) complain("{} is missing", field.name);
+    if (field.is_required && field.applies) report("{} is missing", field.name);
     return nullptr;
   }
   if (!field.applies) {
-    complain("{} has no place here ({})", field.name, field.condition);
+    report("{} does not apply here ({})", field.name, field.condition);
     return nullptr;
   }
   return &found->value;
@@ -42,16 +42,16 @@ const FileValue* FormReader::find(const Field& field) {
 
 Entry FormReader::rounded(const Field& field, const TypedNumber& typed) {
   const Limits limits = limits_of(field, units_);
-  if (!(typed.value >= limits.least && typed.value <= limits.most)) {
-    complain("{} = {:g} is not between {} and {}", field.name, typed.value,
-             number_text(limits.least), number_text(limits.most));
+  if (!(typed.value >= limits.min && typed.value <= limits.max)) {
+    report("{} = {:g} is not between {} and {}", field.name, typed.value, number_text(limits.min),
+           number_text(limits.max));
     return std::nullopt;
   }
   const double scale = std::pow(10.0, limits.decimals);
   const double steps = std::round(typed.value * scale);
-  constexpr double kNoise = 1e-4;  // of the last decimal: what binary numbers add
+  constexpr double kNoise = 1e-4;  // of the last decimal, for the error of binary numbers
   if (!typed.is_fraction && std::abs(typed.value * scale - steps) > kNoise) {
-    complain("{} = {} has more than {} decimals", field.name, typed.value, limits.decimals);
+    report("{} = {} has more than {} decimals", field.name, typed.value, limits.decimals);
     return std::nullopt;
   }
   return steps / scale;
@@ -61,12 +61,12 @@ Entry FormReader::number_of(const Field& field, const FileValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return rounded(field, {*number, false});
   const auto* text = std::get_if<std::string>(&value);
   if (text == nullptr) {
-    complain("{} = {}: expected a number", field.name, shown(value));
+    report("{} = {}: expected a number", field.name, shown(value));
     return std::nullopt;
   }
   const auto typed = parse_entry(*text);
   if (typed) return rounded(field, *typed);
-  complain("{} = {}", field.name, typed.error().what);
+  report("{} = {}", field.name, typed.error().what);
   return std::nullopt;
 }
 
@@ -84,19 +84,19 @@ void FormReader::text(const Field& field, std::string& entry) {
   const auto* value = find(field);
   if (value == nullptr) return;
   const auto* text = std::get_if<std::string>(value);
-  if (text == nullptr) return complain("{} = {}: expected a text", field.name, shown(*value));
-  if (text->size() > static_cast<std::size_t>(field.most)) {
-    return complain("{} has {} characters: at most {}", field.name, text->size(), field.most);
+  if (text == nullptr) return report("{} = {}: expected a text", field.name, shown(*value));
+  if (text->size() > static_cast<std::size_t>(field.max)) {
+    return report("{} has {} characters, more than {}", field.name, text->size(), field.max);
   }
   for (const char c : *text) {
     if (c < ' ' || c > '~') {
-      return complain("{} has a character {:#04x}: only those of plain text can be posted",
-                      field.name, static_cast<unsigned char>(c));
+      return report("{} has a character {:#04x}: only those of plain text can be posted",
+                    field.name, static_cast<unsigned char>(c));
     }
   }
   const bool is_comment = field.quantity == Quantity::Comment;
   if (is_comment && text->find_first_of("()") != std::string::npos) {
-    return complain("{} = {}: no parentheses inside a comment", field.name, shown(*value));
+    return report("{} = {}: no parentheses inside a comment", field.name, shown(*value));
   }
   entry = *text;
 }
@@ -120,21 +120,20 @@ void FormReader::choice(const Field& field, std::span<const std::string_view> na
   if (const auto* number = std::get_if<double>(value)) wanted = fmt::format("{:g}", *number);
   const auto found = std::ranges::find(names, wanted);
   if (found == names.end()) {
-    return complain("{} = {}: expected one of {}", field.name, shown(*value),
-                    fmt::join(names, ", "));
+    return report("{} = {}: expected one of {}", field.name, shown(*value), fmt::join(names, ", "));
   }
   index = static_cast<std::size_t>(found - names.begin());
 }
 
 void FormReader::demand(bool holds, std::string_view text) {
-  if (!holds) complain("{}", text);
+  if (!holds) report("{}", text);
 }
 
 void FormReader::finish() {
   for (const auto& field : event_.fields) {
     if (field.name == "type" || std::ranges::count(known_, field.name) > 0) continue;
-    complain("{} is not a field here; known are {}", field.name.substr(0, 40),
-             fmt::join(known_, ", "));
+    report("{} is not a field here; known are {}", field.name.substr(0, 40),
+           fmt::join(known_, ", "));
   }
 }
 

@@ -8,9 +8,9 @@
 namespace dripline::conversational {
 
 struct PostOptions {
-  /// A thread given by its crest: how far the round nose stays off a sharp root is found as the
-  /// manual prints it, from compensated non-movement blocks, and taken off twice, which makes the
-  /// thread too shallow. False posts the geometry as a formula of the nose's radius (P261).
+  /// A thread given by its crest: the distance of the round nose from a sharp root is computed as
+  /// the manual prints it, from compensated non-movement blocks, and subtracted twice, which makes
+  /// the thread too shallow. False posts a formula of the nose radius (P261).
   bool has_printed_crest_formula = false;
 };
 

@@ -7,8 +7,8 @@ BlockText start_of(const Entry& x, const Entry& z) {
   return BlockText("G0").word("X", x).word("Z", z);
 }
 
-/// How far the nose stays off the point of a sharp thread, into P124, as the manual prints it:
-/// non-movement blocks lead it, as a tool of type 0, around a vertex at the origin.
+/// The distance of the nose from the root of a sharp thread, into P124, as the manual prints it:
+/// non-movement blocks move it, as a tool of type 0, around a vertex at the origin.
 void post_printed_truncation(Posting& out) {
   out.parameter(92, "P262");
   out.parameter(262, 0.0);
@@ -19,7 +19,7 @@ void post_printed_truncation(Posting& out) {
   out.parameter(262, "P92");
 }
 
-/// The height that is left, and with it the diameter to cut to.
+/// The remaining height, and the diameter to cut to.
 void post_crest(Posting& out, const MultipleThread& event) {
   out.parameter(91, event.crest_x);
   out.parameter(101, event.lead);

@@ -50,7 +50,7 @@ Result<Event> read_event(const FileEvent& file, std::size_t number, UnitSystem& 
 
 Result<Events> read_events(std::string_view text) {
   if (text.size() > kMaxFile) {
-    return fail(Errc::LimitExceeded, "the file has {} bytes: at most {}", text.size(), kMaxFile);
+    return fail(Errc::LimitExceeded, "the file has {} bytes, more than {}", text.size(), kMaxFile);
   }
   const auto document = read_document(text);
   if (!document) {

@@ -12,7 +12,7 @@ std::string starter_file(int program) {
 #   dnc check --control centurion OUT      the program, interpreted
 #
 # One [[event]] each, in the order of the program; the first is the program_setup, the last the
-# end_of_program. A field left out is a blank field: it posts nothing. X positions are diameters.
+# end_of_program. An omitted field is a blank field: it posts nothing. X positions are diameters.
 # Numbers may be fractions in quotes: x = "5/16".
 
 [[event]]

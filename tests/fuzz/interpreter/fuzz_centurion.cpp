@@ -1,7 +1,7 @@
 #include "tests/fuzz/interpreter/run_in_windows.hpp"
 
-/// Any text is executed or refused, in a bounded number of steps, and the windows it comes in can
-/// not be seen in what it does; no axis word vanishes. The first byte chooses the windows.
+/// Any text is executed or refused, in a bounded number of steps, with the same
+/// events whatever windows it comes in; no axis word vanishes. The first byte chooses the windows.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::interpreter;
   if (size == 0) return 0;

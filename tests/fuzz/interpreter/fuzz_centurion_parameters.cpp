@@ -5,7 +5,7 @@
 #include "protocol/base/invariant.hpp"
 
 /// The parameters of a Centurion as text, and the map of their numbers. Up to the first zero byte:
-/// the map; after it the text. What is taken is written again without an error of form.
+/// the map; after it the text. A text that is accepted can be written again without a syntax error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;
   using namespace dripline::interpreter::centurion;

@@ -8,7 +8,7 @@
 namespace dripline::conversational {
 namespace {
 
-/// Any text either becomes a program of plain lines or an error with words.
+/// Any text becomes either a program of plain lines or an error with a text.
 void read_and_post(std::string_view text) {
   const auto events = read_events(text);
   if (!events) {

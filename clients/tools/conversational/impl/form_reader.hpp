@@ -7,8 +7,8 @@
 
 namespace dripline::conversational {
 
-/// Fills an event's fields from a file, checking each. The first error wins; after it nothing more
-/// is looked at.
+/// Fills an event's fields from a file, checking each. The first error is kept; the
+/// rest of the event is not checked.
 class FormReader : public Form {
  public:
   /// The file's event must outlive this.
@@ -23,18 +23,18 @@ class FormReader : public Form {
   void demand(bool holds, std::string_view text) override;
   void set_units(UnitSystem units) override { units_ = units; }
 
-  /// To be called when the walk is done: fields the event does not have are errors.
+  /// Call this after the walk: fields that the event does not have are errors.
   void finish();
   UnitSystem units() const { return units_; }
   const std::optional<std::string>& error() const { return error_; }
 
  private:
-  /// What the file says, if it says anything; complains of fields that do not apply or are missing.
+  /// The value in the file, if there is one; reports fields that do not apply or are missing.
   const FileValue* find(const Field& field);
   Entry number_of(const Field& field, const FileValue& value);
   Entry rounded(const Field& field, const TypedNumber& typed);
   template <class... Args>
-  void complain(fmt::format_string<Args...> format, Args&&... args) {
+  void report(fmt::format_string<Args...> format, Args&&... args) {
     if (!error_) error_ = fmt::format(format, std::forward<Args>(args)...);
   }
 

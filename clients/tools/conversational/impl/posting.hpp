@@ -14,7 +14,7 @@ class BlockText {
  public:
   BlockText() = default;
   explicit BlockText(std::string_view first) { code(first); }
-  /// A word or several, as they stand.
+  /// A word or several, copied.
   BlockText& code(std::string_view text);
   BlockText& word(std::string_view letters, const Entry& value);
   const std::string& text() const { return text_; }

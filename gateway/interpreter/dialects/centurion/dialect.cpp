@@ -23,7 +23,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
       std::move(*options), std::move(state), parameters, source, sink));
 }
 
-/// The text without blanks and comments, in capitals: marks are looked for in this.
+/// The text without blanks and comments, in capitals.
 std::string squeeze(std::string_view head) {
   std::string text;
   bool in_comment = false;
@@ -35,7 +35,7 @@ std::string squeeze(std::string_view head) {
   return text;
 }
 
-/// `P12=` is this control's way to assign: parameters are letters here, not # or Q.
+/// This control assigns with `P12=`: its parameters are written with P, not with # or Q.
 bool assigns_parameter(std::string_view text) {
   for (std::size_t at = text.find('P'); at != std::string_view::npos; at = text.find('P', at + 1)) {
     std::size_t after = at + 1;
@@ -69,7 +69,7 @@ const Dialect kCenturionDialect{"centurion",
                                 Units::Inch,
                                 MachineKind::Lathe,
                                 {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
-                                true,  // M6 prompts and waits (manual 4, M06; spec 12.2)
+                                true,  // M6 prompts and waits (manual: M6)
                                 nullptr,
                                 &read_panel_tables};
 

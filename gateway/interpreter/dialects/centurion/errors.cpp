@@ -13,8 +13,8 @@ struct ErrorText {
   std::string_view text;
 };
 
-/// Every number the control has, in its order; its wording, shortened. 401-412 are printed as
-/// ranges over the axes: X first, as the manual's own use of 408 for Y says.
+/// Every number the control has, in its order, with its wording, shortened. The manual prints 401
+/// to 412 as ranges over the axes; X is first, since it uses 408 for Y.
 constexpr std::array kTexts{
     ErrorText{1, "invalid function number"},
     ErrorText{2, "file not found"},
@@ -191,7 +191,7 @@ constexpr std::array kTexts{
     ErrorText{950, "obsolete controller software"},
     ErrorText{951, "obsolete acroloop software"},
     ErrorText{952, "obsolete keyboard software"},
-    // Ours: what the control never had to say.
+    // Of this software only.
     ErrorText{1001, "not supported yet"},
     ErrorText{1002, "block too long"},
     ErrorText{1003, "character not allowed"},
@@ -237,6 +237,12 @@ constexpr auto kRows = [] {
   return rows;
 }();
 
+static_assert(std::adjacent_find(kTexts.begin(), kTexts.end(),
+                                 [](const ErrorText& a, const ErrorText& b) {
+                                   return a.number >= b.number;
+                                 }) == kTexts.end(),
+              "find_row needs every number once, in order");
+
 const ErrorRow* find_row(unsigned number) {
   const auto* row = std::lower_bound(
       kRows.begin(), kRows.end(), number,
@@ -257,10 +263,6 @@ const ErrorRow& error_row_of_number(int number) {
   const ErrorRow* row =
       number > 0 && number < 1000 ? find_row(static_cast<unsigned>(number)) : nullptr;
   return row != nullptr ? *row : error_row(ErrorCode::ForcedError);
-}
-
-std::span<const ErrorRow> error_rows() {
-  return kRows;
 }
 
 }  // namespace dripline::interpreter::centurion

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 
-/// What this control calls an error, with its own numbers (spec 25), and below 1100 what it never
-/// had to say. The ids are stable: CEN0549 is the control's error 549.
+/// The errors of this control with its own numbers (manual: appendix), and from 1001 on those that
+/// only this software has. The ids are stable: CEN0549 is the control's error 549.
 namespace dripline::interpreter::centurion {
 
 enum class ErrorCode : std::uint16_t {
@@ -71,11 +70,11 @@ enum class ErrorCode : std::uint16_t {
   CompensatedArcsApart = 579,
   LogArgument = 580,
   PowerBase = 581,
-  TurningDepthTurns = 582,
-  TurningAlongTurns = 583,
+  TurningDepthReverses = 582,
+  TurningAlongReverses = 583,
   TurningExceedsStart = 584,
-  FacingDepthTurns = 585,
-  FacingAlongTurns = 586,
+  FacingDepthReverses = 585,
+  FacingAlongReverses = 586,
   FacingExceedsStart = 587,
   MissingWhile = 601,
   MissingWend = 602,
@@ -95,7 +94,7 @@ enum class ErrorCode : std::uint16_t {
   SpindleNeeded = 1009,
   InputMissing = 1010,
   ProbeBeforeStart = 1011,
-  LoopLimit = 1012,       ///< the program repeats, and nothing moves or takes time
+  LoopLimit = 1012,       ///< the program repeats without a move or a wait
   StartUndefined = 1013,  ///< the state at a start in the middle is not known
 
   CompensationNotStraight = 1020,  ///< an arc where compensation begins or ends
@@ -114,7 +113,5 @@ struct ErrorRow {
 const ErrorRow& error_row(ErrorCode code);
 /// For G997, which forces any number: its row, or that of ForcedError.
 const ErrorRow& error_row_of_number(int number);
-/// All of them, by number. A code here that has no row ends the process when it is used.
-std::span<const ErrorRow> error_rows();
 
 }  // namespace dripline::interpreter::centurion

@@ -57,7 +57,7 @@ StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
   if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
   if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
   if (is_asking_) return StepState::NeedsAnswer;
-  run_.text.forget();  // its text was good only until the owner used the source
+  run_.text.invalidate();  // its text was good only until the owner used the source
   for (std::uint64_t left = max_blocks; left > 0;) {
     if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
       const JumpOutcome outcome = take_jump(run_, search_);
@@ -119,7 +119,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
     return look_back();
   if (parts.stage == Stage::Start) {
     if (!begin_block()) [[unlikely]] {
-      return departure_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+      return end_without_code(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
     }
     if (run_.pause != Pause::None) [[unlikely]]
       return BlockOutcome::Paused;
@@ -132,7 +132,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
     parts.stage = Stage::Execution;
   }
   if (run_.state.is_searching && parts.tool && start_->is_tool(run_, *parts.tool)) [[unlikely]] {
-    if (!is_way_back_known_ && start_->asks_for_way_back(run_)) return look_back();
+    if (!is_way_back_known_ && start_->needs_jump_back(run_)) return look_back();
     if (!start_->arrive(run_)) return BlockOutcome::Paused;
   }
   if (!execute_block(run_) || !finish_block()) [[unlikely]]
@@ -147,7 +147,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::meet_line_state(TextCur
       run_.pause = Pause::Text;
       return BlockOutcome::Paused;
     case TextCursor::State::EndOfText:
-      return departure_end(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
+      return end_without_code(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
     case TextCursor::State::TooLong:
       place_origin();
       run_.fail(ErrorCode::BlockTooLong, 0, "more than 4096 characters");
@@ -202,7 +202,7 @@ bool CenturionInterpreter::starts_here() const {
 
 /// At a block that is not begun yet.
 bool CenturionInterpreter::may_start_here() {
-  if (run_.block.parts.stage != Stage::Start || !start_->asks_for_way_back(run_)) return false;
+  if (run_.block.parts.stage != Stage::Start || !start_->needs_jump_back(run_)) return false;
   place_origin();
   run_.origin.offset = run_.text.offset();
   return starts_here();
@@ -216,7 +216,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::look_back() {
 /// Finished: it is known now.
 CenturionInterpreter::BlockOutcome CenturionInterpreter::find_way_back() {
   std::uint64_t line = 0;
-  const TextSearch::Outcome outcome = search_.find_way_back(run_.state.at, line);
+  const TextSearch::Outcome outcome = search_.find_jump_back(run_.state.at, line);
   if (outcome == TextSearch::Outcome::More) return BlockOutcome::More;
   if (outcome == TextSearch::Outcome::NotYet) {
     run_.pause = Pause::Text;
@@ -227,7 +227,7 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::find_way_back() {
     return BlockOutcome::Paused;
   }
   const bool is_found = outcome == TextSearch::Outcome::Found;
-  start_->note_way_back(is_found ? std::optional(line) : std::nullopt);
+  start_->note_jump_back(is_found ? std::optional(line) : std::nullopt);
   is_way_back_known_ = true;
   is_looking_back_ = false;
   return BlockOutcome::Finished;
@@ -263,7 +263,7 @@ bool CenturionInterpreter::is_skipped() const {
 }
 
 /// The program's name comes from its first block that is not empty: the O word (block_reader.cpp
-/// has it then) or else the comment; and before that block is executed (spec 3.2).
+/// has it then) or else the comment; and before that block is executed (manual: program numbers).
 void CenturionInterpreter::settle_name() {
   const char* at = skip_blanks(run_.text.begin());
   if (*at == '%' || is_end_of_block(*at)) return;
@@ -311,7 +311,7 @@ Snapshot CenturionInterpreter::snapshot() const {
 
 Result<void> CenturionInterpreter::restore(const Snapshot& snapshot) {
   if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
-  run_.text.forget();
+  run_.text.invalidate();
   run_.block.clear();
   run_.answers.clear();
   run_.answers_used = 0;

@@ -13,18 +13,18 @@
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says
 /// which), X is a radius, positions are machine coordinates with the tool length left out, unless
-/// said otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+/// a comment states otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there.
 namespace dripline::interpreter::centurion {
 
 enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, Counterclockwise };
-/// How cutting moves end; tapping mode also holds off overrides and feed hold (spec 7.4).
+/// How cutting moves end; tapping mode also inhibits overrides and feed hold (manual: G63).
 enum class PathMode : std::uint8_t { Cutting, ExactStop, Tapping };
 enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 inline constexpr std::size_t kMaxNesting = 50;  ///< calls, subroutines and loops, each
 inline constexpr int kOffsetCount = 24;
 
-/// Words that a later block may leave out (spec 5.4, "Retained words").
+/// Words that a later block may omit (manual: arcs, retained words).
 struct RetainedWords {
   double radius = 0;
   double start_angle = 0;
@@ -32,7 +32,7 @@ struct RetainedWords {
   double center_x = 0;  ///< I
   double center_z = 0;  ///< K
   bool has_radius = false;
-  bool arc_has_radius = false;  ///< the arc before had R: one without R and center has it too
+  bool arc_has_radius = false;  ///< the last arc had R: the next one without R and center uses it
 };
 
 struct Modes {
@@ -51,7 +51,7 @@ struct Modes {
 struct SpindleModes {
   SpindleState state = SpindleState::Off;
   double revolutions = 0;  ///< last S under G97
-  double surface = 0;      ///< last S under G96, feet or metres per minute
+  double surface = 0;      ///< last S under G96, feet or meters per minute
   double limit = 0;        ///< G50 S; 0 = none
 };
 
@@ -63,7 +63,7 @@ struct ToolModes {
   bool has_no_length = false;  ///< G49, until a T word brings an offset
 };
 
-/// What the compensation stage was last told.
+/// What the compensation stage was last set to.
 struct NoseUse {
   std::uint8_t code = 0;  ///< 1 left, 2 right, 0 off
   double radius_mm = 0;
@@ -159,8 +159,8 @@ struct ModalState {
   NoseUse nose;
   bool nose_is_stale = false;     ///< something that `nose` depends on may have changed
   bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
-  /// A start elsewhere than at the first block (start_search.hpp): where the machine stands, where
-  /// the program would have brought it (machine millimetres, X a radius), and the axes it moved.
+  /// A start elsewhere than at the first block (start_search.hpp): where the machine is, where
+  /// the program would have moved it (machine millimetres, X a radius), and the axes it moved.
   bool is_searching = false;
   Point searched_from;
   Point searched_to;
@@ -174,9 +174,9 @@ struct ModalState {
   std::vector<GosubFrame> gosubs;
   std::vector<LoopFrame> loops;
   std::vector<ParameterFile> files;
-  std::vector<DataChange> data_changes;  ///< each number once; they count from G11 on
+  std::vector<DataChange> data_changes;  ///< each number once; G11 puts them into force
   Jump jump;
-  PatternCycle pattern;                    ///< of G70-G73, while one is under way
+  PatternCycle pattern;                    ///< of G70-G73, while one runs
   std::vector<ModalState> before_pattern;  ///< one while a pattern is read: what it must not change
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }

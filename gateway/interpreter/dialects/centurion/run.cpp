@@ -17,7 +17,7 @@ void Run::connect_stages() {
   has_stages = passes_compensator() || last != &sink || front != &blender;
 }
 
-/// The passes of a cycle are made from moves that are compensated.
+/// The passes of a cycle are made from moves that are compensated already.
 bool Run::passes_compensator() const {
   return state.uses_compensator && !is_making_passes(state.pattern);
 }
@@ -32,7 +32,7 @@ void Run::restart_stages() {
   connect_stages();
 }
 
-/// Brings the guard up to date. True when it has anything to look after.
+/// Brings the guard up to date. True when it has a limit, a zone or a feed to watch.
 bool Run::guards_travel() {
   const auto area = [this](int positive, int negative) {
     const Point a = parameters.point(positive);
@@ -43,21 +43,21 @@ bool Run::guards_travel() {
   std::optional<TravelArea> zone;
   if (state.modes.checks_zone) {
     zone = area(kPositiveZone, kNegativeZone);
-    if (zone->least_x > zone->max_x) std::swap(zone->least_x, zone->max_x);
-    if (zone->least_z > zone->max_z) std::swap(zone->least_z, zone->max_z);
+    if (zone->min_x > zone->max_x) std::swap(zone->min_x, zone->max_x);
+    if (zone->min_z > zone->max_z) std::swap(zone->min_z, zone->max_z);
   }
-  const Point most = parameters.point(kMaximumFeed);
-  guard.set_maximum_feed({length(most.x).mm(), length(most.z).mm()});
+  const Point maximum = parameters.point(kMaximumFeed);
+  guard.set_maximum_feed({length(maximum.x).mm(), length(maximum.z).mm()});
   guard.set_limits(limits);
   guard.set_zone(zone);
   guard.place(passes_compensator() ? compensator.tool() : blender.given());
-  const bool is_active = zone || most.x > 0 || most.z > 0 || limits.least_x < limits.max_x ||
-                         limits.least_z < limits.max_z;
+  const bool is_active = zone || maximum.x > 0 || maximum.z > 0 || limits.min_x < limits.max_x ||
+                         limits.min_z < limits.max_z;
   guard.set_active(is_active);
   return is_active;
 }
 
-/// A block says that it is over even where it does nothing, header or not.
+/// Every block reports its end, even one that does nothing, before the header or after it.
 void Run::end_block() {
   if (front != nullptr) return blender.on_block_end(origin);
   sink.on_block_end(origin);
@@ -85,7 +85,8 @@ void Run::deliver_header() {
   report_blank();
 }
 
-/// From the face at Z0 towards the chuck, about the program's X0 (spec 24.6).
+/// The bar reaches from the face at Z0 towards the chuck, about the program's X0 (manual:
+/// graphics).
 void Run::report_blank() {
   const double size = parameters[kMaterialLength], diameter = parameters[kMaterialDiameter];
   if (!(size > 0 && diameter > 0)) return;
@@ -123,7 +124,7 @@ bool Run::flush_path() {
 }
 
 bool Run::ask(Question asked) {
-  // an operator or a probe needs the tool in its place
+  // for an operator or a probe the tool must have arrived
   const bool meets_tool =
       std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
   if (meets_tool && !flush_path()) return false;

@@ -22,12 +22,12 @@
 
 namespace dripline::interpreter::centurion {
 
-/// Why a function gave false.
+/// Why a function returned false.
 enum class Pause : std::uint8_t { None, Alarm, Question, Text };
 
-/// One run: what the files of this folder work on. Functions that cannot go on give false and
-/// leave the reason in `pause`; a question leaves no trace of the item that asked, which is done
-/// again from its start once the answer is there.
+/// One run: what the files of this folder work on. A function that cannot continue returns false
+/// and leaves the reason in `pause`. A question undoes the item that asked it; the item is read
+/// again from its start when the answer has come.
 struct Run {
   Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
       : options(std::move(control_options)),
@@ -40,36 +40,36 @@ struct Run {
         transform(*this, blender),
         text(program_source) {}
 
-  /// Where events go, after the header has been delivered: through the stages in use, to the sink.
+  /// The first stage in use. The header is delivered before the first event.
   EventSink& events() {
     if (front == nullptr) [[unlikely]]
       connect_stages();
     return *front;
   }
-  /// After a change of what is in use, or of the state as a whole: the stages between the program's
-  /// events and the sink are put together anew.
+  /// Connects the stages that the state needs between the program's events and the sink. To be
+  /// called when that or the state as a whole has changed.
   void connect_stages();
-  /// The same, when there has been an event; else the first one does it.
+  /// Does the same once there has been an event; until then the first event will do it.
   void update_stages() {
     if (front == nullptr) return;
-    // a move that waits is made as things were when it was read
+    // a move that waits is made under the rules it was read under
     if (guard.has_zone() != state.modes.checks_zone) blender.settle();
     connect_stages();
   }
-  /// A stage may have refused what it was given: `check_path` says more.
+  /// Whether a stage may have refused an event; `check_path` reports which and why.
   bool may_have_failed() const { return has_stages || blender.fault(); }
-  /// For moves of the machine's own, which nothing transforms.
+  /// Where moves in machine coordinates go, which are not transformed.
   EventSink& machine_events() {
     if (front == nullptr) [[unlikely]]
       connect_stages();
     return blender;
   }
-  /// P156 and P157: the bar that the program cuts, for graphics. Nothing while one of them is 0.
+  /// Reports the bar that the program cuts (P156 and P157), for graphics, if neither is 0.
   void report_blank();
-  /// From here on, with the machine at the program's position and compensation, if on, anew.
+  /// Restarts all stages at the program's position, compensation included if it is on.
   void restart_stages();
   void end_block();
-  /// Moves that wait in the stages end as programmed. False: they are refused.
+  /// Ends the moves that wait in the stages as they are programmed. False: one was refused.
   bool flush_path();
   /// Whether the move of the block ends at rest (G9, G61).
   bool rests() const { return block.parts.rests || state.modes.path == PathMode::ExactStop; }
@@ -80,7 +80,7 @@ struct Run {
   }
   std::uint32_t column(const char* at) const { return offset(at) + 1; }
 
-  /// Both give false. `detail` is added to the control's text: which value, which limit.
+  /// Both return false. `detail` is added to the control's text: which value, which limit.
   [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
   [[gnu::cold]] bool fail_as(const ErrorRow& row, std::uint32_t at_column,
                              std::string_view detail = {});
@@ -98,9 +98,9 @@ struct Run {
     answers_used = 0;
   }
 
-  /// Where the machine is, as an event shows it.
+  /// The machine's position, as an event shows it.
   Position present_position() const;
-  /// After a change of anything the active coordinates are made of.
+  /// To be called when anything has changed that the active coordinates are the sum of.
   void update_origin();
   /// The G code that decides what the axis words of the block mean; 0: they are a move's.
   unsigned axis_code() const {
@@ -126,21 +126,21 @@ struct Run {
   TextCursor text;
   ModalState state;
   Parameters parameters;
-  StartNotes start;  ///< while a start is looked for
-  std::string name;  ///< as the program calls itself; empty when it does not
+  StartNotes start;  ///< used while a start is searched for
+  std::string name;  ///< that the program gives itself, or empty
   bool is_name_final = false;
 
   Block block;
   language::LoopGuard loops;
-  language::WordLedger ledger;  ///< of the block in hand: the words of a line
+  language::WordLedger ledger;  ///< the line words of this block
   Origin origin;
-  std::vector<Answer> answers;  ///< of the item in hand, in the order asked
+  std::vector<Answer> answers;  ///< to the questions of this item, in order
   std::size_t answers_used = 0;
-  std::uint64_t random_at_item = 0;  ///< where the item in hand found the random numbers
+  std::uint64_t random_at_item = 0;  ///< `state.random` when this item began
   Question question;
   Diagnostic alarm;
   Pause pause = Pause::None;
-  std::string scratch;  ///< output text being made
+  std::string scratch;  ///< buffer for output text
 
   EventSink* front = nullptr;  ///< the first stage; none before the header
   bool has_stages = false;     ///< besides the blending stage

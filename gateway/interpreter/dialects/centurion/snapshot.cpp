@@ -56,7 +56,7 @@ void visit(Archive& archive, PatternMove& move) {
   all(archive, move.kind, move.is_clockwise, move.is_feed_per_revolution);
   visit(archive, move.to);
   visit(archive, move.center);
-  all(archive, move.sweep, move.feed, move.spindle, move.revolutions, move.surface, move.max_turns,
+  all(archive, move.sweep, move.feed, move.spindle, move.revolutions, move.surface, move.max_revolutions,
       move.line, move.sequence);
   if (move.kind > PatternMove::Kind::Spindle) archive.damage();
 }

@@ -8,7 +8,7 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-// Where programs find what they transformed by (spec 15.2); X is a diameter.
+// The parameters that show the transformation to programs (manual: ranges); X is a diameter.
 constexpr int kMirrorPosition = 172;
 constexpr int kScalePosition = 180;
 constexpr int kScaleFactor = 188;
@@ -23,7 +23,7 @@ void keep(Run& run, int first, Address address) {
   if (run.block.words.has(address)) run.parameters[first] = run.block.words[address];
 }
 
-/// The machine stays where it is; so the program's position is another one.
+/// The machine stays where it is, so the program's position changes.
 template <class Change>
 void transform(Run& run, Change change) {
   ModalState& state = run.state;
@@ -85,7 +85,7 @@ bool set_local_zero(Run& run) {
   return true;
 }
 
-/// The axes named are mirrored from now on, besides those that are already.
+/// The axes named are mirrored in addition to those that are already.
 bool set_mirror(Run& run) {
   const Words& words = run.block.words;
   if (!words.has_any(set_of(Address::X, Address::Z))) {
@@ -122,8 +122,8 @@ bool set_scaling(Run& run) {
   return true;
 }
 
-/// X, Z and R may stand for I, K and AA. A center that is set while scaling is on is scaled, and
-/// stays where that leads.
+/// X, Z and R may be written for I, K and AA. A center that is set while scaling is on is scaled,
+/// and keeps that place.
 bool set_rotation(Run& run) {
   struct Twin {
     int parameter;

@@ -1,6 +1,5 @@
 #include "gateway/interpreter/dialects/centurion/codes/execution.hpp"
 
-#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
@@ -16,7 +15,7 @@ bool act(Run& run) {
     return false;
   if (parts.axis_row == kNoRow) [[likely]]
     return move(run);
-  run.ledger.take_all();  // each of these refuses what it has no use for
+  run.ledger.take_all();  // each of these refuses the words it does not use
   return g_row(parts.axis_row).act(run);
 }
 
@@ -31,7 +30,7 @@ bool execute_move(Run& run) {
   return run.ledger.left() == 0 || check_words_used(run);
 }
 
-/// A question in a stage resumes there.
+/// After a question the block resumes in its stage.
 void enter(Block::Parts& parts, Stage stage) {
   parts.stage = stage;
   parts.m_next = 0;

@@ -3,13 +3,10 @@
 #include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/box_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/drilling_cycles.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/groove_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
 namespace dripline::interpreter::centurion {

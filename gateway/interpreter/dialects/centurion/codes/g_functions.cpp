@@ -1,20 +1,21 @@
-#include "gateway/interpreter/dialects/centurion/codes/g_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/execution.hpp"
 
 #include <fmt/core.h>
 
 #include "gateway/interpreter/dialects/centurion/codes/machine_functions.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 #include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/threads.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/macro_calls.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
-#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
 
 constexpr AddressSet kWordsOfAnyBlock = set_of(Address::F, Address::S);
 
-/// DNC FAST has neither compensation nor transformations, and takes no change of units (spec 21).
+/// DNC FAST has neither compensation nor transformations, and takes no change of units (manual:
+/// DNC).
 bool check_fast(Run& run, const GRow& row) {
   switch (row.code) {
     case 20:
@@ -37,14 +38,14 @@ bool apply_g(Run& run, const GRow& row) {
   return row.set == nullptr || row.set(run, row);
 }
 
-/// F belongs to the feed unit in force at the end of the block (spec 10.3).
+/// F is in the feed unit that is in force at the end of the block (manual: G98 and G99).
 bool apply_feed(Run& run) {
   const double feed = run.block.words[Address::F];
   const bool is_inch = run.state.units == Units::Inch;
-  const double least = is_inch ? 0.0001 : 0.01;
+  const double lowest_per_minute = is_inch ? 0.0001 : 0.01;
   const double most = is_inch ? 999.9999 : 99999.99;
-  // The metric range is one of mm/min; per revolution the least increment counts.
-  const double lowest = run.state.modes.is_feed_per_revolution ? 0.0001 : least;
+  // The metric range is one of mm/min; per revolution the minimum is the least increment.
+  const double lowest = run.state.modes.is_feed_per_revolution ? 0.0001 : lowest_per_minute;
   if (!(feed >= lowest && feed <= most)) {
     return run.fail(ErrorCode::FeedOutOfRange, run.block.words.column(Address::F),
                     fmt::format("F{} is not in {} to {}", feed, lowest, most));
@@ -84,7 +85,7 @@ bool apply_speed(Run& run) {
     if ((left & set_of(address)) == 0) continue;
     return run.fail(
         ErrorCode::IllegalAddress, block.words.column(address),
-        fmt::format("nothing in this block takes {}{}", to_string(address), block.words[address]));
+        fmt::format("no code in this block uses {}{}", to_string(address), block.words[address]));
   }
   return true;
 }

@@ -57,7 +57,7 @@ void take_pending_tool(Run& run) {
   run.events().on_tool({run.origin, tool.active, false, offset_or_none(tool.pending_offset)});
 }
 
-/// A changer that has pockets finds no tool outside of them. T00 puts back what is in the spindle.
+/// A changer with pockets finds no tool outside of them. T00 puts away the tool in the spindle.
 bool check_pocket(Run& run) {
   const int pockets = static_cast<int>(run.parameters[kAtcPockets]);
   const int tool = run.state.tool.pending;
@@ -68,8 +68,8 @@ bool check_pocket(Run& run) {
 }
 
 /// X goes to the tool change position, the machine is signalled, and without a changer the program
-/// waits for the operator (spec 12.2). The spindle is locked until then; what that means to one
-/// that turns is the machine's.
+/// waits for the operator (manual: M6). The spindle is locked until then; the machine decides what
+/// that means while it rotates.
 bool change_tool(Run& run) {
   constexpr double kPulseMs = 150;
   if (!check_pocket(run)) return false;
@@ -114,13 +114,13 @@ void set_flood(Run& run, bool on) {
   emit_coolant(run);
 }
 
-/// With the interlock, what M8 asked for follows the spindle.
+/// With the interlock, the coolant of M8 follows the spindle.
 void follow_spindle(Run& run) {
-  const bool turns = run.state.spindle.state != SpindleState::Off;
+  const bool is_running = run.state.spindle.state != SpindleState::Off;
   if (!run.options.interlocks_coolant ||
-      run.state.coolant.flood == (turns && run.state.wants_flood))
+      run.state.coolant.flood == (is_running && run.state.wants_flood))
     return;
-  run.state.coolant.flood = turns;
+  run.state.coolant.flood = is_running;
   emit_coolant(run);
 }
 
@@ -205,7 +205,7 @@ void apply_tool(Run& run) {
   ToolModes& tool = run.state.tool;
   tool.pending = *run.block.parts.tool;
   tool.pending_offset = run.block.parts.tool_offset;
-  if (has_m(run, 6)) return;  // M6 of this block shows it
+  if (has_m(run, 6)) return;  // M6 of this block reports it
   const bool is_preselection = tool.pending != tool.active;
   if (!is_preselection) {
     if (tool.pending_offset < 0) return;

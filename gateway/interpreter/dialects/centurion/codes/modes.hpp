@@ -3,7 +3,7 @@
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 /// What the rows of the G codes (g_codes.cpp) name for codes that have no axis words: the modes,
-/// and G995 to G999. The row tells a function that serves several codes which one it is.
+/// and G990 to G999. A function that serves several codes looks at the row for which one it is.
 namespace dripline::interpreter::centurion {
 
 bool set_motion(Run& run, const GRow& row);
@@ -21,6 +21,10 @@ bool set_distance_mode(Run& run, const GRow& row);
 bool set_spindle_unit(Run& run, const GRow& row);
 bool set_feed_unit(Run& run, const GRow& row);
 
+/// G990 keeps L user parameters from P on in file Q of the control, G991 restores them; defaults:
+/// P0, L10, Q0 (memory/parameter_files.cpp).
+bool save_parameters(Run& run, const GRow& row);
+bool load_parameters(Run& run, const GRow& row);
 /// G995: P0 = PB[P1]; G996: PB[P1] = P0.
 bool read_byte_parameter(Run& run, const GRow& row);
 bool write_byte_parameter(Run& run, const GRow& row);

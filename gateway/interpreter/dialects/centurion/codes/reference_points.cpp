@@ -24,7 +24,7 @@ Point in_axes(const Run& run, const Point& point, AxesNamed named) {
   return to;
 }
 
-/// The point that the words of G28, G29, G30 name, in machine coordinates.
+/// The point that the words of G28, G29 and G30 name, in machine coordinates.
 bool read_via(Run& run, Target& target) {
   return read_end_words(run, {here(run), run.state.origin, run.state.modes.is_incremental}, target);
 }

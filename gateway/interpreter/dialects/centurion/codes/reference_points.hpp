@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
-/// Moves to places of the machine (spec 8.5, 8.6, 8.8). They are made without compensation and
-/// without mirror, scaling and rotation.
+/// Moves to places of the machine, made without compensation and without mirror, scaling and
+/// rotation (manual: G28 to G30; G45 to G48; G53).
 namespace dripline::interpreter::centurion {
 
 /// G53: the words are machine coordinates; on a straight line.

@@ -5,7 +5,7 @@
 
 namespace dripline::interpreter::centurion {
 
-/// What the control's status window says of the block that was executed last.
+/// What the control's status window shows for the block that was executed last.
 ActiveModes active_modes(const Run& run);
 
 }  // namespace dripline::interpreter::centurion

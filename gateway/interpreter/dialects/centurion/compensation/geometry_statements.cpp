@@ -28,7 +28,7 @@ constexpr std::array<TangentCase, 8> kCases{{{kRight, kRight, kLeft},
                                              {kLeft, kRight, kRight},
                                              {kRight, kRight, kRight}}};
 
-/// X of a point in the parameters is a diameter unless the option says otherwise (spec 16).
+/// X of a point in the parameters is a diameter unless the option `solver_x` makes it a radius.
 double x_scale(const Run& run) {
   return run.options.solver_x_is_radius ? 1 : 2;
 }
@@ -76,7 +76,8 @@ bool tangent_line(Run& run, const char* start, const char*& at) {
   }
   const auto points = tangent_points(TangentLine{first, second, wanted.on_first, wanted.on_second});
   if (!points) {
-    return run.fail(ErrorCode::TangentOverflow, run.column(start), "no line touches both arcs so");
+    return run.fail(ErrorCode::TangentOverflow, run.column(start),
+                    "no line of this case is tangent to both arcs");
   }
   store_point(run, kFirstOutput, points->on_first);
   store_point(run, kFirstOutput + 2, points->on_second);
@@ -95,7 +96,8 @@ bool tangent_arc(Run& run, const char* start, const char*& at) {
   const auto points = tangent_points(
       TangentArc{first, second, wanted.on_first, wanted.on_second, wanted.center, radius});
   if (!points) {
-    return run.fail(ErrorCode::ArcsApart, run.column(start), "no such arc touches both arcs so");
+    return run.fail(ErrorCode::ArcsApart, run.column(start),
+                    "no arc of this case is tangent to both arcs");
   }
   store_point(run, kFirstOutput, points->on_first);
   store_point(run, kFirstOutput + 2, points->on_second);
@@ -108,7 +110,7 @@ bool circle_of_points(Run& run, const char* start) {
       {point_at(run, kFirstInput), point_at(run, kFirstInput + 2), point_at(run, kFirstInput + 4)});
   if (!found) {
     return run.fail(ErrorCode::TangentOverflow, run.column(start),
-                    "the three points lie on one line");
+                    "the three points are on one line");
   }
   store_point(run, kFirstOutput, found->circle.center);
   run.start.note_set(kRadius);

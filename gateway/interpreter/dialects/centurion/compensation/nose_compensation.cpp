@@ -14,7 +14,7 @@ using compensation::Fault;
 using compensation::FaultKind;
 using compensation::Side;
 
-/// From the center of the nose to the point that is programmed, in nose radii (spec 9.5).
+/// From the center of the nose to the point that is programmed, in nose radii (manual: tool types).
 struct TipDirection {
   int z, x;
 };
@@ -51,12 +51,12 @@ ErrorCode code_of(const Fault& fault) {
   }
 }
 
-/// From the first G41, G42 or G65 on, all events pass the stage.
+/// All events pass through the stage from the first G41, G42 or G65 on.
 void begin_use(Run& run) {
   if (run.state.uses_compensator) return;
   run.events();  // the header first
   run.compensator.reset(run.blender.given());
-  // the stage learns its plane from a cutter
+  // the stage takes its plane from a cutter
   compensation::Cutter none;
   none.plane = Plane::ZX;
   run.compensator.turn_on(none);
@@ -82,7 +82,7 @@ compensation::Cutter nose_of(const Run& run, bool is_left) {
   const double size = std::fabs(radius.mm());
   compensation::Cutter cutter;
   cutter.plane = Plane::ZX;
-  // a mirrored path has the tool on its other side
+  // on a mirrored path the tool is on the other side
   cutter.side = is_left != run.state.nose.is_mirrored ? Side::Left : Side::Right;
   cutter.radius = radius;
   cutter.tip_first = Length::mm(tip.z * size);

@@ -2,24 +2,24 @@
 
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
-/// Tool nose radius compensation (spec 9.4-9.6): how G40, G41, G42, the tool's data and G65 drive
-/// the shared stage that offsets the path.
+/// Tool nose radius compensation (manual: G40 to G42, tool types): how G40, G41, G42, the tool's
+/// data and G65 drive the shared stage that offsets the path.
 namespace dripline::interpreter::centurion {
 
 struct ControlOptions;
 struct Run;
 
-/// The control's rules: pure intersections, no inserted pieces.
+/// The control's rules: intersections only, no inserted elements.
 compensation::Policy compensation_policy();
-/// The active tool's nose, for the side of G41 (true) or G42, as a stage would be given it. A
-/// mirrored path swaps the sides.
+/// The active tool's nose, for the side of G41 (true) or G42, as the stage takes it. A mirrored
+/// path swaps the sides.
 compensation::Cutter nose_of(const Run& run, bool is_left);
 
-/// Before the block's move: tells the stage what G40-G42, the tool or the special flags changed.
-/// False: nose compensation does not go with a scale factor below 0 (spec 9.4).
+/// Before the block's move: passes to the stage what G40-G42, the tool or the special flags
+/// changed. False: nose compensation cannot be used with a scale factor below 0.
 bool update_compensation(Run& run);
-/// Moves of the machine's own (G28, G53, M6) are made without compensation: `cancel` before them,
-/// `resume` after.
+/// Moves in machine coordinates (G28, G53, M6) are made without compensation: cancel it before them
+/// and resume it after them.
 void cancel_compensation(Run& run);
 void resume_compensation(Run& run);
 /// Around the move of a G65 without P.

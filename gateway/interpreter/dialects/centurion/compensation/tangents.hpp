@@ -4,16 +4,16 @@
 
 #include "gateway/interpreter/core/geometry/plane_curves.hpp"
 
-/// The built-in geometry of TANL, TANA and CGEN (spec 16). Plane vectors are (Z, X radius), all in
-/// one unit. Pure.
+/// The built-in geometry of TANL, TANA and CGEN (manual: TANL, TANA, CGEN). Plane vectors are (Z, X
+/// radius), all in one unit. Pure.
 namespace dripline::interpreter::centurion {
 
-/// Beside the way from the first center to the second, looking along it.
+/// The side of the line from the first center to the second, seen along it.
 enum class Beside : std::int8_t { Right = -1, Left = 1 };
 
 struct TangentLine {
   PlaneCircle first, second;
-  Beside on_first, on_second;  ///< where it touches
+  Beside on_first, on_second;  ///< the sides of the tangent points
 };
 struct TangentArc {
   PlaneCircle first, second;
@@ -21,14 +21,14 @@ struct TangentArc {
   Beside center;
   double radius = 0;
 };
-struct TouchingPoints {
+struct TangentPoints {
   PlaneVector on_first, on_second;
   PlaneVector center;  ///< of a tangent arc
 };
 
 /// Nothing where no such line or arc exists.
-std::optional<TouchingPoints> tangent_points(const TangentLine& line);
-std::optional<TouchingPoints> tangent_points(const TangentArc& arc);
+std::optional<TangentPoints> tangent_points(const TangentLine& line);
+std::optional<TangentPoints> tangent_points(const TangentArc& arc);
 
 struct ThreePoints {
   PlaneVector first, second, third;

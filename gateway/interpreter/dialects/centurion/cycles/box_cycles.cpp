@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/cycles/box_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
 
 #include <cmath>
 

@@ -12,7 +12,7 @@ Point machine_point(const Run& run, const Point& at) {
   return {run.state.origin.x + at.x, run.state.origin.z + at.z};
 }
 
-/// An axis that stands still is not part of the move, however its coordinate was worked out.
+/// An axis that does not move is not part of the move, however its coordinate was computed.
 AxesNamed moved_axes(const Run& run, Point& to) {
   constexpr double kSame = 1e-9;
   const Point& from = run.state.position;

@@ -3,21 +3,21 @@
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
 /// Moves of the drilling and grooving cycles. They are made in the coordinates the program is
-/// written in, X as a radius, and never compensated (spec 11.9: the dimensions allow for the tool).
+/// written in, X as a radius, and never compensated: the dimensions allow for the tool.
 namespace dripline::interpreter::centurion {
 
-/// Where the tool is.
+/// The tool's position.
 Point cycle_position(const Run& run);
 
 void cycle_rapid(Run& run, const Point& to);
-/// The way to the clearance with which a cycle begins; in single block the operator is waited for
-/// there (spec 11.7).
+/// The rapid move to the clearance with which a cycle begins; in single block it waits there for
+/// the operator (manual: drilling cycles).
 void cycle_rapid_to_clearance(Run& run, const Point& to);
 void cycle_feed(Run& run, const Point& to, Feed feed);
 void cycle_dwell(Run& run, double seconds);
 
-/// As many moves as one block may cause: a machine queues a block as a whole. More is an alarm
-/// before the first of them.
+/// The maximum number of moves of one block, since a machine queues a block as a whole. More is an
+/// alarm before the first of them.
 inline constexpr double kMaxCycleMoves = 2000;
 bool check_cycle_length(Run& run, double moves);
 
@@ -25,7 +25,7 @@ bool check_cycle_length(Run& run, double moves);
 /// control has no canned cycles.
 bool run_canned_cycle(Run& run, bool (*cycle)(Run&));
 
-/// Whether the spindle turns; what is done when not is an option of the control.
+/// Checks that the spindle rotates; the option `cycle_spindle` decides what happens if not.
 bool check_cycle_spindle(Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// The words of the drilling and grooving cycles, and what they leave after for the next cycle
-/// (spec 11.2): a word a block does not have is the one an earlier cycle had.
+/// The words of the drilling and grooving cycles, and what they leave for the next cycle: a
+/// word that a block does not have keeps its value of an earlier cycle (manual: data of a cycle).
 namespace dripline::interpreter::centurion {
 
 /// P116-P148 as these cycles use them. Positions are work coordinates as programmed (X a diameter),
@@ -28,7 +28,7 @@ double cycle_position_word(Run& run, Address address, int parameter, double from
 
 /// A word without a sign; a negative one is error 517.
 bool cycle_length_word(Run& run, Address address, int parameter, double& value);
-/// The same, and not 0.
+/// The same, but 0 is an error too.
 bool cycle_step_word(Run& run, Address address, int parameter, double& value);
 
 /// P: seconds to wait. Errors: 539.

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/cycles/drilling_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -61,7 +61,7 @@ double return_level(const Run& run, const Hole& hole) {
 void return_rapid(Run& run, const Hole& hole) {
   rapid_z(run, hole, return_level(run, hole));
 }
-/// Feed out to the clearance; the rest of the way is rapid.
+/// Feed out to the clearance; the rest is rapid.
 void return_feed(Run& run, const Hole& hole) {
   feed_z(run, hole, hole.clearance);
   return_rapid(run, hole);
@@ -121,10 +121,10 @@ bool refuse_tap(Run& run, const char* why) {
   return run.fail(ErrorCode::IllegalStatement, 0, why);
 }
 
-/// How far the tap still goes while the spindle slows down: half of what it does at full speed.
+/// How far the tap advances while the spindle stops: half of the distance at full speed.
 double coasting(const Run& run) {
-  const double turns = run.state.spindle.revolutions / 60 * run.options.tap_ramp_seconds / 2;
-  return turns * run.parameters[kCycleFeed];
+  const double revolutions = run.state.spindle.revolutions / 60 * run.options.tap_ramp_seconds / 2;
+  return revolutions * run.parameters[kCycleFeed];
 }
 
 SpindleState reverse_of(SpindleState state) {
@@ -134,32 +134,32 @@ SpindleState reverse_of(SpindleState state) {
 
 /// G84: the feed is the lead. M3 cuts right-hand threads, M4 left-hand ones.
 bool tap(Run& run, const Hole& hole) {
-  const SpindleState turns = run.state.spindle.state;
+  const SpindleState direction = run.state.spindle.state;
   if (run.state.modes.is_surface_speed) return refuse_tap(run, "G84 needs G97");
   if (!run.state.modes.is_feed_per_revolution) return refuse_tap(run, "G84 needs G99");
-  if (turns == SpindleState::Off) return refuse_tap(run, "G84 needs M3 or M4");
+  if (direction == SpindleState::Off) return refuse_tap(run, "G84 needs M3 or M4");
   if (!(run.state.spindle.revolutions > 0))
     return run.fail(ErrorCode::SpindleOutOfRange, 0, "G84 needs S");
-  const double way = hole.bottom - hole.clearance;
+  const double length = hole.bottom - hole.clearance;
   const double coast = coasting(run);
-  if (!(coast < std::fabs(way))) {
+  if (!(coast < std::fabs(length))) {
     return run.fail(
         ErrorCode::ParameterOutOfRange, 0,
-        fmt::format("the tap coasts {} and the thread is {} long", coast, std::fabs(way)));
+        fmt::format("the tap coasts {} and the thread is {} long", coast, std::fabs(length)));
   }
   go_to_clearance(run, hole);
   run.events().on_override_inhibit(tapping_lock(run.origin));
-  feed_z(run, hole, hole.bottom - std::copysign(coast, way));
-  spindle_to(run, reverse_of(turns));
+  feed_z(run, hole, hole.bottom - std::copysign(coast, length));
+  spindle_to(run, reverse_of(direction));
   feed_z(run, hole, hole.clearance);
-  spindle_to(run, turns);
+  spindle_to(run, direction);
   run.events().on_override_inhibit(lock_after_tap(override_inhibit(run)));
   return_rapid(run, hole);
   run.events().on_override_inhibit(override_inhibit(run));
   return true;
 }
 
-/// G86 starts the spindle and leaves it standing.
+/// G86 starts the spindle and stops it at the bottom.
 bool bore_with_stop(Run& run, const Hole& hole) {
   const SpindleModes& spindle = run.state.spindle;
   const double speed = run.state.modes.is_surface_speed ? spindle.surface : spindle.revolutions;

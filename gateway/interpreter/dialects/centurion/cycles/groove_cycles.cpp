@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/cycles/groove_cycles.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSame = 1e-9;
 
-/// Which words and parameters are which: a face groove is cut along Z and widens in X.
+/// The words and parameters of a kind: a face groove is cut along Z and widens in X.
 struct GrooveKind {
   bool cuts_along_x;
   Address bottom;     ///< final depth
@@ -69,8 +69,8 @@ bool read_stock(Run& run, Address address, double& stock) {
   return stock >= 0 || refuse(run, address, "is no stock");
 }
 
-/// Without an end and a step it is one column of high-speed pecks; the sign of D then says which
-/// way the tool backs off, else it is back towards the start.
+/// Without an end and a step it is one column of high-speed pecks; the sign of D is then
+/// the direction in which the tool backs off; else it backs off towards the start.
 bool read_width(Run& run, const GrooveKind& kind, Groove& groove) {
   const Words& words = run.block.words;
   groove.has_width = words.has_any(set_of(kind.end, kind.step));
@@ -180,8 +180,8 @@ class GrooveCutter {
     return is_out ? groove_.clearance : out;
   }
 
-  /// Back towards the columns before it the first one has the groove's wall beside it, and on
-  /// towards the end the last one: nothing is cut there to back off into.
+  /// Whether there is room to back off: the first column has the groove's wall on the side of the
+  /// start, the last one on the side of the end.
   bool has_room_beside(double column, double columns) const {
     if (!groove_.has_width) return true;
     return groove_.relief * groove_.across() < 0 ? column > 0 : column + 1 < columns;

@@ -16,7 +16,7 @@ Spindle spindle_of(const PatternMove& move, const Origin& origin) {
   event.state = move.spindle;
   event.revolutions_per_minute = move.revolutions;
   if (move.surface >= 0) event.surface_speed = Length::mm(move.surface);
-  if (move.max_turns >= 0) event.max_revolutions = move.max_turns;
+  if (move.max_revolutions >= 0) event.max_revolutions = move.max_revolutions;
   return event;
 }
 
@@ -27,7 +27,7 @@ Feed feed_of(const PatternMove& move) {
 
 }  // namespace
 
-bool PassWriter::leads_nowhere(const PlanePoint& to) const {
+bool PassWriter::is_at(const PlanePoint& to) const {
   return std::fabs(to.x - cycle_.tool.x) < kNoMove && std::fabs(to.z - cycle_.tool.z) < kNoMove;
 }
 
@@ -47,13 +47,13 @@ void PassWriter::arrive(const PlanePoint& to) {
 }
 
 void PassWriter::rapid(const PlanePoint& to) {
-  if (leads_nowhere(to)) return;
+  if (is_at(to)) return;
   run_.events().on_rapid({run_.origin, position_of(to)});
   arrive(to);
 }
 
 void PassWriter::line(const PlanePoint& to, Feed feed) {
-  if (leads_nowhere(to)) return;
+  if (is_at(to)) return;
   run_.events().on_line({run_.origin, position_of(to), feed});
   arrive(to);
 }

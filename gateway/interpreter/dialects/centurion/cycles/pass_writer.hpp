@@ -4,8 +4,8 @@
 
 namespace dripline::interpreter::centurion {
 
-/// The moves of a cycle that follows a pattern; past compensation, which the pattern has been
-/// through.
+/// Writes the moves of a cycle that follows a pattern, after the compensation stage: the pattern is
+/// compensated already.
 class PassWriter {
  public:
   explicit PassWriter(Run& run) : run_(run), cycle_(run.state.pattern) {}
@@ -14,12 +14,12 @@ class PassWriter {
   void rapid(const PlanePoint& to);
   void line(const PlanePoint& to, Feed feed);
   void arc(const PlanePoint& to, const PlanePoint& center, bool is_clockwise, Feed feed);
-  /// A move of the pattern, shifted by `stock`. `feed` counts instead of its own, if given; speeds
-  /// are then left out.
+  /// A move of the pattern, shifted by `stock`. `feed`, if given, replaces its own feed, and
+  /// speeds are omitted.
   void follow(const PatternMove& move, const PlanePoint& stock, std::optional<Feed> feed);
 
  private:
-  bool leads_nowhere(const PlanePoint& to) const;
+  bool is_at(const PlanePoint& to) const;
   Position position_of(const PlanePoint& to);
   void arrive(const PlanePoint& to);
 

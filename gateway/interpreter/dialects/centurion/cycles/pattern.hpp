@@ -7,18 +7,17 @@
 #include "gateway/interpreter/dialects/centurion/compensation/plane_point.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 
-/// What the cycles that follow a pattern (G70-G73) keep from block to block. Part of the run's
-/// state: a cycle goes on from any snapshot.
+/// What the cycles that follow a pattern (G70-G73) keep from block to block. It is part of the
+/// run's state, so a cycle resumes from any snapshot.
 namespace dripline::interpreter::centurion {
 
-/// Of one pattern. So no pass of a cycle causes more moves than a machine queues.
+/// The moves of one pattern, so that no pass of a cycle makes more moves than a machine queues.
 inline constexpr std::size_t kMaxPatternMoves = 500;
 
-/// In millimetres.
+/// In millimeters.
 using PlanePoint = Point;
 
-/// One thing a pattern does, as its interpretation gave it, compensation included, before
-/// transformations.
+/// One step of a pattern as its interpretation made it: compensated, not transformed.
 struct PatternMove {
   enum class Kind : std::uint8_t { Rapid, Line, Arc, Spindle };
   Kind kind = Kind::Line;
@@ -27,12 +26,12 @@ struct PatternMove {
   PlanePoint to;
   PlanePoint center;
   double sweep = 0;  ///< degrees
-  double feed = 0;   ///< millimetres
+  double feed = 0;   ///< millimeters
   SpindleState spindle = SpindleState::Off;
   double revolutions = 0;
-  double surface = -1;     ///< millimetres a minute; -1: `revolutions` counts
-  double max_turns = -1;   ///< -1: no limit
-  std::uint64_t line = 0;  ///< of its block
+  double surface = -1;          ///< millimeters per minute; -1: `revolutions` applies
+  double max_revolutions = -1;  ///< -1: no limit
+  std::uint64_t line = 0;       ///< of its block
   std::int64_t sequence = Origin::kNone;
 };
 
@@ -56,12 +55,12 @@ struct PatternCycle {
   ProgramIndex program = kMainProgram;
   std::uint64_t end_offset = 0;  ///< of the last block of the pattern
   std::uint8_t calls = 0;        ///< level of the program the pattern is in
-  TextPosition back;             ///< G70: where the program goes on
+  TextPosition back;             ///< G70: where the program continues
   Origin origin;                 ///< of the cycle's block
 
   Point home;  ///< the start point in program units
 
-  // Lengths in millimetres; those along X are radii.
+  // Lengths in millimeters; those along X are radii.
   PlanePoint start;
   PlanePoint finish;  ///< stock that is left
   PlanePoint rough;   ///< stock that the contour pass takes
@@ -73,7 +72,7 @@ struct PatternCycle {
   std::uint32_t passes = 1;  ///< of G73
   Feed feed;                 ///< of the cuts
 
-  PlanePoint tool;         ///< where the passes have led
+  PlanePoint tool;         ///< where the passes have moved it
   std::uint32_t done = 0;  ///< levels or passes
   std::vector<PatternMove> moves;
 };

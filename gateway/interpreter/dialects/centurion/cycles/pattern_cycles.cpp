@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "gateway/interpreter/dialects/centurion/compensation/nose_compensation.hpp"
-#include "gateway/interpreter/dialects/centurion/cycles/pattern_words.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/roughing.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
 
-PlanePoint in_millimetres(const Run& run, const Point& point) {
+PlanePoint in_millimeters(const Run& run, const Point& point) {
   return {run.length(point.x).mm(), run.length(point.z).mm()};
 }
 
@@ -27,7 +26,7 @@ JumpOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t la
 
 bool begin_reading(Run& run) {
   PatternCycle& cycle = run.state.pattern;
-  run.events();  // the header first
+  run.events();  // delivers the header
   if (!run.flush_path()) return false;
   run.state.before_pattern.clear();
   run.state.before_pattern.push_back(ModalState(run.state));
@@ -51,7 +50,7 @@ bool check_pattern(Run& run) {
   return run.fail(ErrorCode::IllegalStatement, 0, "a probe move in a pattern that is roughed");
 }
 
-/// The pass along the contour brings the pattern's feeds and speeds into force, so they stay.
+/// The pass along the contour uses the pattern's feeds and speeds, so they stay in force.
 void keep_feeds(ModalState& before, const ModalState& now) {
   before.feed = now.feed;
   before.spindle = now.spindle;
@@ -63,8 +62,8 @@ bool has_contour_pass(const PatternCycle& cycle) {
   return cycle.code != 73 && cycle.rough != PlanePoint{};
 }
 
-/// The tool never left the start point, and all modes are what they were; what is not a mode stays.
-void take_back_modes(Run& run) {
+/// The tool has not moved, so all modes are restored; what is not a mode stays.
+void restore_modes(Run& run) {
   ModalState& now = run.state;
   ModalState before = std::move(now.before_pattern.front());
   if (has_contour_pass(now.pattern)) keep_feeds(before, now);
@@ -84,7 +83,7 @@ void take_back_modes(Run& run) {
   run.restart_stages();
 }
 
-/// The moves came out of the stages in machine coordinates; the passes are in the program's.
+/// The moves came out of the stages in machine coordinates; the passes are made in the program's.
 bool undo_transformation(Run& run) {
   const Transformation& how = run.state.transformation;
   if (!how.is_on()) return true;
@@ -105,7 +104,7 @@ bool undo_transformation(Run& run) {
   return true;
 }
 
-/// The pattern's last block has been read: what cuts it?
+/// The pattern's last block has been read: its passes follow.
 bool end_reading(Run& run) {
   PatternCycle& cycle = run.state.pattern;
   if (!run.flush_path() || !check_pattern(run)) return false;
@@ -113,7 +112,7 @@ bool end_reading(Run& run) {
     return refuse(run, cycle.origin, "the units change in the pattern");
   }
   const Origin origin = run.origin;
-  take_back_modes(run);
+  restore_modes(run);
   if (!undo_transformation(run)) return false;
   run.origin = cycle.origin;
   if (cycle.code == 73) {
@@ -130,9 +129,9 @@ bool end_reading(Run& run) {
   return true;
 }
 
-/// Back at the start point, to the last digit.
+/// The tool is at the start point again, exactly.
 void end_passes(Run& run) {
-  run.flush_path();  // a refusal is met again at the end of the pass
+  run.flush_path();  // a refusal is reported at the end of the pass
   run.state.position = run.state.pattern.home;
   run.state.pattern = PatternCycle{};
   run.connect_stages();
@@ -190,7 +189,7 @@ bool plan_pattern_cycle(Run& run) {
   cycle.phase = PatternPhase::Searching;
   cycle.origin = run.origin;
   cycle.home = run.state.position;
-  cycle.start = in_millimetres(run, run.state.position);
+  cycle.start = in_millimeters(run, run.state.position);
   cycle.calls = static_cast<std::uint8_t>(run.state.calls.size());
   run.state.pattern = std::move(cycle);
   run.block.parts.jump = JumpKind::Pattern;
@@ -210,7 +209,7 @@ JumpOutcome enter_pattern(Run& run, TextSearch& search) {
   outcome = search.find_label(state.at, cycle.last_label, last);
   if (outcome != TextSearch::Outcome::Found) return refuse_label(run, outcome, cycle.last_label);
   if (last.offset < first.offset) {
-    refuse(run, cycle.origin, "the pattern's last block stands before its first");
+    refuse(run, cycle.origin, "the pattern's last block is before its first");
     return JumpOutcome::Failed;
   }
   cycle.program = last.program;

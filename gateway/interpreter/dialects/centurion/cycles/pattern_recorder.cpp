@@ -73,7 +73,7 @@ void PatternRecorder::on_spindle(const Spindle& event) {
   move.spindle = event.state;
   move.revolutions = event.revolutions_per_minute;
   if (event.surface_speed) move.surface = event.surface_speed->mm();
-  if (event.max_revolutions) move.max_turns = *event.max_revolutions;
+  if (event.max_revolutions) move.max_revolutions = *event.max_revolutions;
   record(move);
 }
 

@@ -6,7 +6,7 @@
 namespace dripline::interpreter::centurion {
 
 /// The last stage before the sink: while a cycle reads its pattern (G71-G73) the moves become the
-/// pattern's, and what else touches the machine waits for G70; otherwise everything passes.
+/// pattern's, and the other functions of the machine are left to G70; otherwise everything passes.
 class PatternRecorder final : public EventFilter {
  public:
   /// Both must outlive it.

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/cycles/pattern_words.hpp"
+#include "gateway/interpreter/dialects/centurion/cycles/pattern_cycles.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
@@ -37,7 +37,7 @@ bool read_label(Run& run, Address address, int parameter, std::uint32_t& label) 
   return true;
 }
 
-/// A stock or a length that is not there is none: blank fields of the control's screens mean that.
+/// A stock or a length that is missing is 0, as blank fields of the control's screens are.
 double take_length(Run& run, Address address, int parameter) {
   const Words& words = run.block.words;
   run.parameters[parameter] = words.has(address) ? words[address] : 0;
@@ -62,7 +62,7 @@ bool read_passes(Run& run, PatternCycle& cycle) {
   return true;
 }
 
-/// The least increment is the finest step the control can make.
+/// No step can be finer than the least increment.
 bool read_levels(Run& run, PatternCycle& cycle) {
   const bool is_inch = run.state.units == Units::Inch;
   cycle.step = take_length(run, Address::D, kIncrement);

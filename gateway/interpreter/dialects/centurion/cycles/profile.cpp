@@ -47,7 +47,7 @@ void add_arc(Profile& profile, const ProfileArc& arc) {
   const double end = begin + sense * arc.sweep;
   double at = begin;
   ProfilePoint from = arc.from;
-  // A quarter of the circle turns back in neither direction.
+  // Within a quarter of the circle both directions are monotonic.
   constexpr double kSameAngle = 1e-9;
   for (int quarters = 0; quarters < 6; ++quarters) {
     double next =

@@ -20,7 +20,7 @@ struct ProfilePoint {
 
 class ProfileFrame {
  public:
-  /// `out`: +1 where the work lies towards smaller positions. `cut`: the direction of the cuts.
+  /// `out`: +1 where the work is towards smaller positions. `cut`: the direction of the cuts.
   ProfileFrame(bool is_facing, int out, int cut) : is_facing_(is_facing), out_(out), cut_(cut) {}
   ProfilePoint of(const PlanePoint& point) const {
     return is_facing_ ? ProfilePoint{out_ * point.z, cut_ * point.x}
@@ -30,8 +30,8 @@ class ProfileFrame {
     return is_facing_ ? PlanePoint{cut_ * point.along, out_ * point.depth}
                       : PlanePoint{out_ * point.depth, cut_ * point.along};
   }
-  /// Counterclockwise stays so (along to the right, depth up).
-  bool keeps_turns() const { return (out_ * cut_ > 0) != is_facing_; }
+  /// Whether counterclockwise stays counterclockwise (along to the right, depth up).
+  bool keeps_rotation() const { return (out_ * cut_ > 0) != is_facing_; }
 
  private:
   bool is_facing_;
@@ -39,7 +39,7 @@ class ProfileFrame {
   int cut_;
 };
 
-/// A stretch of the contour on which neither depth nor along turns back.
+/// A part of the contour on which depth and along are both monotonic.
 struct ProfilePiece {
   ProfilePoint from;
   ProfilePoint to;
@@ -74,7 +74,7 @@ void shift(Profile& profile, double depth, double along);
 
 /// In order along the cut, which begins at `start`.
 std::vector<OpenInterval> open_at(const Profile& profile, double level, double start);
-/// Where a piece that reaches `level` is there.
+/// Where along the cut a piece reaches `level`.
 double along_at(const ProfilePiece& piece, double level);
 /// The highest contour between two places; nothing where there is none.
 std::optional<double> highest_between(const Profile& profile, double from, double to);

@@ -18,27 +18,27 @@ int sign_of(double value) {
   return value < 0 ? -1 : 1;
 }
 
-/// The first move of the pattern that changes the depth says where the work is (spec 11.3).
+/// The first move of the pattern that changes the depth leads to the work (manual: G71).
 ProfileFrame frame_of(const PatternCycle& cycle) {
   const auto depth = [&](const PlanePoint& p) { return is_facing(cycle) ? p.z : p.x; };
   const auto along = [&](const PlanePoint& p) { return is_facing(cycle) ? p.x : p.z; };
   int out = 1;
   double before = depth(cycle.start);
-  bool is_settled = false;
+  bool is_found = false;
   for (const PatternMove& move : cycle.moves) {
     if (!is_motion(move)) continue;
-    if (!is_settled && std::fabs(depth(move.to) - before) > kSameLength) {
+    if (!is_found && std::fabs(depth(move.to) - before) > kSameLength) {
       out = -sign_of(depth(move.to) - before);
-      is_settled = true;
+      is_found = true;
     }
     before = depth(move.to);
   }
-  // An exit may lead back: the farthest point says which way the cuts go.
+  // An exit may lead back, so the farthest point decides the direction of the cuts.
   double reach = 0;
   for (const PatternMove& move : cycle.moves) {
     if (!is_motion(move)) continue;
-    const double way = along(move.to) - along(cycle.start);
-    if (std::fabs(way) > std::fabs(reach)) reach = way;
+    const double distance = along(move.to) - along(cycle.start);
+    if (std::fabs(distance) > std::fabs(reach)) reach = distance;
   }
   return {is_facing(cycle), out, sign_of(reach)};
 }
@@ -49,7 +49,7 @@ void add_move(Profile& profile, const ProfileFrame& frame, const PlanePoint& fro
     return add_line(profile, frame.of(from), frame.of(move.to));
   }
   add_arc(profile, {frame.of(from), frame.of(move.to), frame.of(move.center),
-                    move.is_clockwise != frame.keeps_turns(), move.sweep});
+                    move.is_clockwise != frame.keeps_rotation(), move.sweep});
 }
 
 /// The contour as it is programmed, from the end of its first move on. `exit` is where its last
@@ -80,25 +80,25 @@ void drop_exit(Profile& profile, std::size_t exit) {
 }
 
 struct Rules {
-  ErrorCode depth_turns, along_turns, exceeds_start;
+  ErrorCode depth_reverses, along_reverses, exceeds_start;
 };
 Rules rules_of(const PatternCycle& cycle) {
   if (is_facing(cycle)) {
-    return {ErrorCode::FacingDepthTurns, ErrorCode::FacingAlongTurns,
+    return {ErrorCode::FacingDepthReverses, ErrorCode::FacingAlongReverses,
             ErrorCode::FacingExceedsStart};
   }
-  return {ErrorCode::TurningDepthTurns, ErrorCode::TurningAlongTurns,
+  return {ErrorCode::TurningDepthReverses, ErrorCode::TurningAlongReverses,
           ErrorCode::TurningExceedsStart};
 }
 
-/// As it is programmed.
+/// In the program's own terms, for messages.
 double shown(const Run& run, const PlanePoint& point) {
   const double mm = run.state.mm_per_unit();
   return is_facing(run.state.pattern) ? point.z / mm - run.state.origin.z
                                       : (point.x / mm - run.state.origin.x) * 2;
 }
 
-/// The height at which a rapid move passes over what stands between two places.
+/// The height at which a rapid move clears the contour between two places.
 double clear_height(const Roughing& roughing, double above, double from, double to) {
   const auto highest =
       highest_between(roughing.profile, from + 2 * kSameLength, to - 2 * kSameLength);
@@ -178,7 +178,7 @@ class LevelCut {
     if (!piece.is_arc) return feed(to);
     const ProfileFrame& frame = roughing_.frame;
     writer_.arc(frame.back(to), frame.back(piece.center),
-                piece.is_counterclockwise != frame.keeps_turns(), roughing_.feed);
+                piece.is_counterclockwise != frame.keeps_rotation(), roughing_.feed);
   }
 
   PassWriter& writer_;
@@ -207,16 +207,16 @@ bool check_roughing(Run& run) {
   }
   drop_exit(profile, exit);
   for (const ProfilePiece& piece : profile) {
-    if (piece.to.along < piece.from.along - kSameLength) return run.fail(rules.along_turns, 0);
+    if (piece.to.along < piece.from.along - kSameLength) return run.fail(rules.along_reverses, 0);
     if (cycle.relief_is_45 && piece.to.depth < piece.from.depth - kSameLength) {
-      return run.fail(rules.depth_turns, 0);
+      return run.fail(rules.depth_reverses, 0);
     }
   }
   if (cycle.has_first_level) {
     const double level = frame.of({cycle.first_level, cycle.first_level}).depth;
     if (level > start.depth + kSameLength) {
       return run.fail(ErrorCode::ParameterOutOfRange, 0,
-                      "the first cut V lies on the far side of the start point");
+                      "the first cut V is beyond the start point");
     }
   }
   return true;

@@ -5,7 +5,7 @@
 #include "gateway/interpreter/dialects/centurion/cycles/pass_writer.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/profile.hpp"
 
-/// Rough turning and facing (G71, G72; spec 11.3, 11.4): parallel cuts down to the pattern with
+/// Rough turning and facing (manual: G71, G72): parallel cuts down to the pattern with
 /// all its stock.
 namespace dripline::interpreter::centurion {
 
@@ -20,7 +20,7 @@ struct Roughing {
   Feed feed;
 };
 
-/// The contour of the cycle's moves. Alarms where the pattern cannot be roughed: 582-587.
+/// Checks the contour of the cycle's moves: 582-587 when the pattern cannot be roughed.
 bool check_roughing(Run& run);
 /// From a cycle that passed the check.
 Roughing roughing_of(const PatternCycle& cycle);

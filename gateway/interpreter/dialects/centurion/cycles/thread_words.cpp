@@ -53,7 +53,7 @@ bool read_lead(Run& run, Lead& lead) {
   const double most = run.state.units == Units::Inch ? 999.9999 : 99999.99;
   if (words.has(Address::F) && words.has(Address::E)) {
     return run.fail(ErrorCode::IllegalStatement, words.column(Address::E),
-                    "a thread has its lead F or its turns per unit E, not both");
+                    "a thread has its lead F or its threads per unit E, not both");
   }
   if (words.has(Address::E)) {
     if (!(words[Address::E] > 0)) return refuse_lead(run, Address::E);
@@ -111,7 +111,7 @@ void cut_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer, co
   rapid_to(run, pass.cut_from, kBothAxes);
   const Point pull_out = chamfer_start(pass, chamfer);
   thread_to_point(run, pull_out, lead, true);
-  // A turning spindle does not wait again: this goes on in step, so it has no angle of its own.
+  // The pull-out follows in step with the spindle, so it has no start angle of its own.
   thread_to_point(run, {pull_out.x + side_of(pass) * chamfer.out, pass.cut_to.z}, lead,
                   pull_out == pass.cut_from);
   run.events().on_override_inhibit(lock_after_tap(override_inhibit(run)));

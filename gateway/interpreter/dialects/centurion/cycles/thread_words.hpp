@@ -4,12 +4,12 @@
 
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
-/// What the words and parameters of a thread say, shared by lines and cycles. Each reader keeps
-/// the value where programs find it (P101-P108, P123-P125) and gives false with an alarm.
+/// The words and parameters of a thread, shared by lines and cycles. Each reader keeps the value
+/// where programs find it (P101-P108, P123-P125) and returns false with an alarm.
 namespace dripline::interpreter::centurion {
 
 struct Lead {
-  double length = 0;            ///< of one turn, program units
+  double length = 0;            ///< per revolution, program units
   std::optional<double> shift;  ///< degrees; absent without Q
 };
 bool read_lead(Run& run, Lead& lead);
@@ -17,7 +17,7 @@ bool read_lead(Run& run, Lead& lead);
 /// A word, or else what an earlier cycle left in parameter `number`.
 double word_or_parameter(Run& run, Address address, int number);
 
-/// The pull-out at the end of a thread: P103 long, P104 degrees from straight out (spec 10.5).
+/// The pull-out at the end of a thread: P103 long, P104 degrees from straight out (manual: G92).
 struct ThreadChamfer {
   double along = 0;  ///< before the end, towards the start
   double out = 0;
@@ -33,7 +33,7 @@ struct ThreadPass {
 bool check_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer);
 void cut_pass(Run& run, const ThreadPass& pass, const ThreadChamfer& chamfer, const Lead& lead);
 
-/// Both end words of a cycle are there.
+/// Reads the end point of a cycle, which needs both of its words.
 bool read_cycle_target(Run& run, Target& target);
 
 }  // namespace dripline::interpreter::centurion

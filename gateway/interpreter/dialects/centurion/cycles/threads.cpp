@@ -21,10 +21,10 @@ constexpr int kDiameter = 124;
 constexpr int kTaper = 125;
 constexpr int kMinimumCut = 130;
 constexpr int kFinishPasses = 131;
-constexpr int kMaxPasses = 400;  // five moves each: one block may cause 2000
+constexpr int kMaxPasses = 400;  // of five moves each: kMaxCycleMoves
 constexpr std::uint8_t kVariableLead = 34;
 
-/// What G76 is to cut; lengths in program units, all as radii.
+/// The thread that G76 cuts; lengths in program units, all as radii.
 struct MultipleThread {
   Point start;
   Point root;  ///< end of the thread at its full depth
@@ -109,8 +109,8 @@ double next_depth(const MultipleThread& thread, int pass, double before) {
 }
 
 /// Where the pass at `depth` runs. On one edge the tool slides down that flank and ends at the
-/// programmed Z; on both it changes flanks with each pass. A taper is that of the whole thread,
-/// wherever along it the pass begins.
+/// programmed Z; on both it changes flanks with each pass. The taper is that of the whole
+/// thread, wherever the pass begins.
 ThreadPass pass_at(const MultipleThread& thread, int pass, double depth) {
   const double out = thread.start.x > thread.root.x ? 1 : -1;
   const double direction = thread.root.z >= thread.start.z ? 1 : -1;

@@ -4,8 +4,8 @@
 
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
 
-/// Threads (spec 10.4-10.6): single lines (G32, G34-G36), cycle 1 (G92), the multiple cycle (G76).
-/// The lead is along the path; F and E of these blocks never change the feed.
+/// Threads (manual: G32, G34 to G36; G92; G76): single lines (G32, G34-G36), cycle 1 (G92), the
+/// multiple cycle (G76). The lead is along the path; F and E of these blocks never change the feed.
 namespace dripline::interpreter::centurion {
 
 /// F and E of the block are the lead of a thread.
@@ -18,7 +18,7 @@ bool thread_to(Run& run, const Target& target, const std::optional<ThreadArc>& a
 
 /// G92.
 bool cut_single_thread(Run& run);
-/// G76; all passes in this one block, at most 400.
+/// G76: all passes are made in this one block, up to 400.
 bool cut_multiple_thread(Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -69,13 +69,13 @@ bool read_passes(Run& run, std::uint32_t& passes) {
   return true;
 }
 
-/// Zeroes set inside count inside only; spec 8.3.
+/// Zeroes that a subprogram sets end with it (manual: G50).
 void restore_zero(Run& run, const Point& floating_zero) {
   run.state.floating_zero = floating_zero;
   run.update_origin();
 }
 
-/// Something that could go on for ever has happened once more.
+/// Counts a jump or repeat: a program must not repeat without end.
 bool count_pass(Run& run) {
   if (run.loops.count_pass()) return true;
   return run.fail(ErrorCode::LoopLimit, 0,
@@ -130,7 +130,7 @@ bool return_to_while(Run& run, std::uint64_t block_offset) {
 void end_program(Run& run, std::uint64_t blocks) {
   close_open_device(run);
   EventSink& events = run.events();
-  // what still waits may be refused: then there is no end
+  // a move that waits may be refused: then there is no end
   if (!run.flush_path()) return;
   events.on_end({run.origin, blocks, true});
   run.state.phase = RunPhase::Ended;
@@ -176,7 +176,7 @@ bool request_jump(Run& run, const TextPosition& head) {
   return true;
 }
 
-/// A GOTO out of a loop ends it (spec 13.3).
+/// A GOTO out of a loop ends it (manual: IF, GOTO, WHILE).
 void leave_loops(ModalState& state, const TextPosition& to) {
   while (state.loops.size() > loop_base(state)) {
     const LoopFrame& loop = state.loops.back();
@@ -223,11 +223,11 @@ JumpOutcome enter_loop(Run& run, const LoopFrame& loop) {
   return JumpOutcome::Taken;
 }
 
-/// Not in the text that was started: the owner's library is asked.
+/// Asks the owner's library for a program that is not in the text that was started.
 JumpOutcome call_library(Run& run) {
   const Jump& jump = run.state.jump;
   const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", jump.number));
-  run.text.forget();
+  run.text.invalidate();
   if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
     run.fail(jump.is_call_word ? ErrorCode::UnresolvedCall : ErrorCode::NoSuchProgram, 0,
@@ -239,12 +239,12 @@ JumpOutcome call_library(Run& run) {
   return enter_call(run, entry);
 }
 
-/// Programs called by codes of the machine: those of the RAM directory come before all others
-/// (spec 13.5). True: it was found there, or cannot be told yet.
+/// Of programs that codes of the machine call, those of the RAM directory come before all others
+/// (manual: custom G and M codes). True: it was found there, or the source does not know yet.
 bool call_ram(Run& run, JumpOutcome& outcome) {
   Jump& jump = run.state.jump;
   const ProgramLookup lookup = run.source.find(fmt::format("RAM-O{:04}", jump.number));
-  run.text.forget();
+  run.text.invalidate();
   if (lookup.state == ProgramLookup::State::NotFound) {
     jump.is_not_in_ram = true;
     return false;
@@ -336,7 +336,7 @@ JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome) {
     case TextSearch::Outcome::More:
       return JumpOutcome::More;
     case TextSearch::Outcome::TooLong:
-      run.fail(ErrorCode::BlockTooLong, 0, "met in a search");
+      run.fail(ErrorCode::BlockTooLong, 0, "in a search");
       break;
     default:
       run.fail(ErrorCode::TextFailed, 0, run.text.failure());
@@ -376,7 +376,7 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
   return count_pass(run) ? result : JumpOutcome::Failed;
 }
 
-bool departure_end(Run& run) {
+bool end_without_code(Run& run) {
   ModalState& state = run.state;
   if (is_reading_pattern(state) && state.calls.size() <= state.pattern.calls) {
     return refuse_end_in_pattern(run);

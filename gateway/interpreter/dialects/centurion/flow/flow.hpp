@@ -3,14 +3,14 @@
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// Where the program goes on: jumps, loops, subroutines, calls, ends (spec 13).
+/// Where the program continues: jumps, loops, subroutines, calls, ends (manual: program flow).
 namespace dripline::interpreter::centurion {
 
 /// M2, M30, M98 and M99 of the block, or the program it calls with arguments, become its ending or
 /// its jump.
 bool plan_flow(Run& run);
 
-/// Moves on after the visible block, or to where its ending says; a jump that needs other text is
+/// Continues after the visible block, or where its ending leads; a jump that needs other text is
 /// left in `state.jump`.
 bool leave_block(Run& run);
 
@@ -18,10 +18,10 @@ enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
 /// Takes the jump of `state.jump`.
 JumpOutcome take_jump(Run& run, TextSearch& search);
 
-/// Why a search has not found its place; not for Found or Missing, which each caller knows best.
+/// Why a search has not found its place. Not for Found and Missing, which each caller handles.
 JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome);
 
 /// The text of the program that is running has ended without an end code.
-bool departure_end(Run& run);
+bool end_without_code(Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -30,7 +30,7 @@ std::uint16_t bound_program(const Run& run, const std::array<int, 10>& codes, un
   return is_running(run, program) ? std::uint16_t{0} : program;
 }
 
-/// The program that P names.
+/// G65: calls the program that P names.
 bool call_by_g65(Run& run) {
   const Words& words = run.block.words;
   const double number = std::round(words[Address::P]);
@@ -43,7 +43,7 @@ bool call_by_g65(Run& run) {
                        words.column(Address::P));
 }
 
-/// G65 without P: the program and compensation go on to the end point, the machine does not move.
+/// G65 without P: the program and compensation advance to the end point, the machine does not move.
 bool suppressed_move(Run& run) {
   suppress_output(run, true);
   const bool is_done = move(run);

@@ -13,7 +13,7 @@ constexpr int kPrintableParameters = 500;
 constexpr int kAsciiFormat = 0;
 constexpr int kTimeFormat = -1;
 constexpr int kDateFormat = -2;
-/// For as many decimals as #n[LT] can ask for.
+/// The powers for the maximum number of decimals of #n[LT].
 constexpr std::array<double, 10> kPowersOfTen{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
 bool append_clock(Run& run, int format) {
@@ -79,11 +79,11 @@ bool append_parameter(Run& run, const char*& at) {
   const auto units = static_cast<std::size_t>(run.state.units);
   append_number(run.scratch, value, run.options.leading_digits[units],
                 run.options.trailing_digits[units]);
-  if (*at == ' ') ++at;  // it only ends the number
+  if (*at == ' ') ++at;  // this blank only ends the number
   return true;
 }
 
-/// The text between the brackets into `scratch`. Everything but #n is taken as it stands.
+/// The text between the brackets into `scratch`. Everything but #n is copied.
 bool read_text(Run& run, const char*& at) {
   if (!skip_gaps(run, at)) return false;
   if (*at != '[') return run.fail(ErrorCode::MissingOpenBracket, run.column(at));
@@ -105,7 +105,7 @@ bool read_text(Run& run, const char*& at) {
 }  // namespace
 
 void append_number(std::string& text, double value, int leading, int decimals) {
-  // Decimal fractions are rarely exact in binary: what is written as a half must round as one.
+  // Decimal fractions are rarely exact in binary: a half as written must round as a half.
   constexpr double kNudge = 1e-9;
   const double scaled = std::floor(
       std::fabs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)] + 0.5 + kNudge);

@@ -4,7 +4,7 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// The text of PRINT and DPRNT (spec 17.3) and the device it goes to.
+/// The text of PRINT and DPRNT (manual: text rules of PRINT and DPRNT) and the device it goes to.
 namespace dripline::interpreter::centurion {
 
 /// The number as #n[LT] prints it: `leading` digits padded with zeros (0 = as many as needed, at

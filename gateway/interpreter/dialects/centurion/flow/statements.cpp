@@ -9,7 +9,6 @@
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "protocol/base/decimal.hpp"
 
@@ -34,7 +33,7 @@ const char* end_of_block(const char* at) {
   return at;
 }
 
-/// One block can jump once.
+/// A block can jump once only.
 bool claim_flow(Run& run, const char* start) {
   const Block::Parts& parts = run.block.parts;
   if (parts.jump == JumpKind::None && parts.ending == Ending::None) return true;
@@ -122,8 +121,8 @@ bool read_input(Run& run, const char* start, const char*& at) {
   return answer_input(run, question, number, column, at);
 }
 
-/// HDW (prompt): the operator moves the axes by the handwheel until told to go on; a simulated
-/// machine is where it was.
+/// HDW (prompt): the operator moves the axes by the handwheel until CYCLE START; a simulated
+/// machine stays where it is.
 bool read_handwheel(Run& run, const char*& at) {
   at = skip_blanks(at);
   std::string_view text;
@@ -153,7 +152,8 @@ bool read_pin_change(Run& run, bool state, bool is_pulse, const char*& at) {
   }
   std::uint32_t number = 0;
   if (!read_whole(run, at, kPinsPerKind, number)) return false;
-  if (number == 0) return run.fail(ErrorCode::ParameterOutOfRange, column, "outputs count from 1");
+  if (number == 0)
+    return run.fail(ErrorCode::ParameterOutOfRange, column, "outputs are numbered from 1");
   pin.number = static_cast<int>(number);
   if (is_pulse) {
     pulse_output(run, pin, state, run.options.pulse_ms);
@@ -263,7 +263,7 @@ bool store_parameter(Run& run, int number, double value, std::uint32_t column) {
 
 bool store_byte(Run& run, int number, double value, std::uint32_t column) {
   const double byte = std::round(value);
-  if (run.options.is_verify) return true;  // spec 15.4
+  if (run.options.is_verify) return true;  // manual: byte parameters
   if (!(byte >= 0 && byte <= 255)) {
     return run.fail(ErrorCode::ParameterOutOfRange, column,
                     fmt::format("{} is not a byte, 0 to 255", value));

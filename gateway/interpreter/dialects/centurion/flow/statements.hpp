@@ -6,7 +6,7 @@
 namespace dripline::interpreter::centurion {
 
 /// The statement that begins with `keyword`; `at` is after the keyword and moves after the
-/// statement, for a false condition to the end of the block. `start` is where the keyword stands.
+/// statement, for a false condition to the end of the block. The keyword begins at `start`.
 bool read_statement(Run& run, Keyword keyword, const char* start, const char*& at);
 
 /// `P n = expression` and `PB n = expression`; `at` is after the =.

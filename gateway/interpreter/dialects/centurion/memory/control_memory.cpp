@@ -30,7 +30,7 @@ Result<void> load_axes(const Position& position, std::string_view what) {
   return {};
 }
 
-/// A place of the machine into P`first` (Z) and the one after it (X).
+/// Stores a place of the machine in P`first` (Z) and the next one (X).
 Result<void> load_place(const Position& place, std::string_view what, int first, const Setup& setup,
                         Parameters& parameters) {
   if (auto checked = load_axes(place, what); !checked) return checked;
@@ -47,7 +47,8 @@ bool is_zero(const OptionValue& option) {
   return number != nullptr && *number == 0;
 }
 
-/// The axis parameters and reference points (spec 23.1, 23.4). A plain 0 leaves all axes at 0.
+/// The axis parameters and reference points (manual: set-up pages COORD and AXIS). A plain 0 leaves
+/// all axes at 0.
 Result<void> load_places(const Setup& setup, Parameters& parameters) {
   constexpr std::size_t kMaxReferences = 4;
   const Options& options = setup.control;
@@ -58,7 +59,7 @@ Result<void> load_places(const Setup& setup, Parameters& parameters) {
     if (!place) return fail(place.error());
     auto loaded = load_place(*place, option.name, option.parameter, setup, parameters);
     if (!loaded) return loaded;
-    // a feed is no position: always of the radius
+    // a feed is not a position: it is always that of the radius
     if (option.parameter == kMaximumFeed) {
       parameters[kMaximumFeed + 1] = in_units(place->linear(Axis::X), units_of(setup));
     }
@@ -148,7 +149,7 @@ Result<void> load_variable(const VariableRecord& variable, Parameters& parameter
   return {};
 }
 
-/// Feed, special flags and the other things of power-on.
+/// The feed, the special flags and the rest of the state at power-on.
 Result<void> load_power_on(const Options& options, ModalState& state, Parameters& parameters) {
   const auto feed = options.number("power_on_feed", 10);
   if (!feed) return fail(feed.error());
@@ -177,9 +178,9 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   state.position = {in_units(setup.start.linear(Axis::X), state.units),
                     in_units(setup.start.linear(Axis::Z), state.units)};
   state.previous = state.position;
-  const Position& stands = setup.stands.value_or(setup.start);
-  if (auto checked = load_axes(stands, "stands"); !checked) return checked;
-  state.searched_from = {stands.linear(Axis::X).mm(), stands.linear(Axis::Z).mm()};
+  const Position& machine = setup.stands.value_or(setup.start);
+  if (auto checked = load_axes(machine, "stands"); !checked) return checked;
+  state.searched_from = {machine.linear(Axis::X).mm(), machine.linear(Axis::Z).mm()};
   if (auto done = load_power_on(setup.control, state, parameters); !done) return done;
   const auto is_diameter = stored_x_is_diameter(setup.control);
   if (!is_diameter) return fail(is_diameter.error());

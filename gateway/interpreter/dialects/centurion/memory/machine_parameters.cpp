@@ -64,7 +64,7 @@ const MachineParameter* find_row(std::string_view name) {
   return row == kRows.end() ? nullptr : row;
 }
 
-/// true and false count as 1 and 0.
+/// true and false are 1 and 0.
 std::optional<double> number_of(const OptionValue& option) {
   if (const auto* flag = std::get_if<bool>(&option.value)) return *flag ? 1 : 0;
   if (const auto* whole = std::get_if<std::int64_t>(&option.value)) {

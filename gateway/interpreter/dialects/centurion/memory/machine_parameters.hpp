@@ -7,10 +7,10 @@
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/parameters.hpp"
 
-/// The rest of the AXIS and POWER pages (spec 23.3, 23.4): what tunes drives and describes the
-/// machine. Data, checked and kept with the setup as `[control.machine]`; of it the interpreter
-/// uses `no_canned_cycles` and `atc_pockets`. The pages' other rows are options of their own
-/// (options.hpp).
+/// The rest of the AXIS and POWER pages (manual: set-up pages POWER and AXIS): what tunes drives
+/// and describes the machine. They are data, checked and kept with the setup as
+/// `[control.machine]`; the interpreter uses only `no_canned_cycles` and `atc_pockets`. The pages'
+/// other rows are options of their own (options.hpp).
 namespace dripline::interpreter::centurion {
 
 struct MachineParameter {
@@ -35,7 +35,7 @@ std::span<const MachineParameter> machine_parameters();
 /// wrong kind), LimitExceeded, naming the parameter, its value and its range.
 Result<void> load_machine_parameters(const Options& options, Parameters& parameters);
 
-/// Where a changer has each tool, 1 to 24; its own number unless the setup says another pocket. 0:
+/// Where a changer has each tool, 1 to 24; its own number unless the setup gives another pocket; 0:
 /// in none. Without pockets all are 0. Errors: LimitExceeded, Syntax (two tools in one pocket).
 using Pockets = std::array<int, kOffsetCount + 1>;
 Result<Pockets> read_pockets(const Setup& setup, int pocket_count);

@@ -9,9 +9,10 @@ constexpr std::size_t kPositions = 16;
 constexpr double kPulsesOfTurn = 400;
 constexpr double kUsualCranking = 0.001;  // minutes
 
-/// One entry for each position of a switch, from 0 to `most`.
+/// One entry for each position of a switch, from 0 to `last_position`.
 Result<std::vector<std::int64_t>> read_table(const Options& options, std::string_view name,
-                                             std::int64_t most, std::vector<std::int64_t> usual) {
+                                             std::int64_t last_position,
+                                             std::vector<std::int64_t> usual) {
   auto values = options.integers(name);
   if (!values) return fail(values.error());
   if (values->empty()) return usual;
@@ -20,8 +21,8 @@ Result<std::vector<std::int64_t>> read_table(const Options& options, std::string
                 values->size(), kPositions);
   }
   for (const std::int64_t value : *values) {
-    if (value >= 0 && value <= most) continue;
-    return fail(Errc::LimitExceeded, "[control] {}: {} is not 0 to {}", name, value, most);
+    if (value >= 0 && value <= last_position) continue;
+    return fail(Errc::LimitExceeded, "[control] {}: {} is not 0 to {}", name, value, last_position);
   }
   return *std::move(values);
 }

@@ -6,10 +6,10 @@
 
 namespace dripline::interpreter::centurion {
 
-/// The override tables (spec 23.6) and what drives a program by handwheel (23.5), from the options
+/// The override tables (manual: overrides) and what drives a program by handwheel, from the options
 /// `feed_overrides`, `spindle_overrides` (per cent), `handwheel_pulses` (of a click, for each
-/// position of the feed switch) and `cranking_minutes` (of the program, for a turn of 400 pulses).
-/// Errors: Syntax, LimitExceeded.
+/// position of the feed switch) and `cranking_minutes` (of the program, for one revolution of 400
+/// pulses). Errors: Syntax, LimitExceeded.
 Result<PanelTables> read_panel_tables(const Setup& setup);
 
 }  // namespace dripline::interpreter::centurion

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/memory/parameter_files.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -13,16 +13,16 @@ struct Request {
   std::uint32_t file = 0;
 };
 
-/// A whole number from 0 to `most`, `fallback` where the block has no such word.
-bool read_word(Run& run, Address address, int fallback, int most, int& value) {
+/// A whole number from 0 to `maximum`, `fallback` where the block has no such word.
+bool read_word(Run& run, Address address, int fallback, int maximum, int& value) {
   const Words& words = run.block.words;
   value = fallback;
   if (!words.has(address)) return true;
   const double number = words[address];
-  if (!(number >= 0 && number <= most) || number != std::trunc(number)) {
-    return run.fail(
-        ErrorCode::ParameterOutOfRange, words.column(address),
-        fmt::format("{}{} is not a whole number from 0 to {}", to_string(address), number, most));
+  if (!(number >= 0 && number <= maximum) || number != std::trunc(number)) {
+    return run.fail(ErrorCode::ParameterOutOfRange, words.column(address),
+                    fmt::format("{}{} is not a whole number from 0 to {}", to_string(address),
+                                number, maximum));
   }
   value = static_cast<int>(number);
   return true;

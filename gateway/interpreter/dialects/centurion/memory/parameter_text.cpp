@@ -97,7 +97,7 @@ bool has_name(int number) {
   return false;
 }
 
-/// `P500`; nothing for anything else.
+/// The number of `P500`, or none.
 std::optional<int> number_of(std::string_view text) {
   int number = 0;
   if (text.size() < 2 || text.front() != 'P') return std::nullopt;
@@ -106,7 +106,7 @@ std::optional<int> number_of(std::string_view text) {
   return is_whole && number >= 0 ? std::optional(number) : std::nullopt;
 }
 
-/// A row of the map; nothing of an empty line and of a row that is not filled in.
+/// A row of the map; none for an empty line and for a row that is not filled in.
 Result<std::optional<ParameterMap::Row>> read_row(std::string_view raw, std::size_t number) {
   const std::string text = without_comment(raw.substr(0, raw.find('#')));
   if (text.empty()) return std::optional<ParameterMap::Row>();
@@ -131,7 +131,7 @@ Result<std::optional<ParameterMap::Row>> read_row(std::string_view raw, std::siz
   return std::optional(ParameterMap::Row{*ours, *control});
 }
 
-/// In the control's numbers: only what has one.
+/// The text in the control's numbers, of the parameters that have one.
 Result<std::string> write_mapped(const Parameters& parameters, Units units,
                                  const ParameterMap& map) {
   std::string text = units == Units::Inch ? "G20\n" : "G21\n";
@@ -154,8 +154,8 @@ Result<std::string> write_mapped(const Parameters& parameters, Units units,
   return text + "G11\nM30\n";
 }
 
-/// The values as the sections of a setup file; those at 0, which is what they are without it, only
-/// where a table would be half empty.
+/// The values as the sections of a setup file. A value of 0, the default, is written only where a
+/// table would be incomplete without it.
 class SetupText {
  public:
   SetupText(const Parameters& parameters, Units units) : parameters_(parameters) {
@@ -274,7 +274,7 @@ Result<std::string> write_parameter_text(const Setup& setup, const ParameterMap*
 }
 
 Result<std::string> setup_of_parameter_text(std::string_view text, const ParameterMap* map) {
-  // A line may put a `%` or blanks in front of it.
+  // A line may begin with `%` or blanks.
   constexpr std::size_t kHead = 200;
   const bool is_ours =
       map == nullptr && text.substr(0, kHead).find(kOwnNumbering) != std::string_view::npos;

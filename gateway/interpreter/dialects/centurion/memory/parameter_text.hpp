@@ -6,10 +6,11 @@
 
 #include "gateway/interpreter/core/setup.hpp"
 
-/// The parameters as text: a program that sets them with G10 (spec 7.6, 20.3). P0 to P199 are the
-/// manual's. It does not have the control's numbers of tables and pages (its appendix A is not
-/// known), so those from P500 on are the ones of parameters.hpp, and such a text is for this
-/// software only. With a table that the machine's builder fills in it is the control's own.
+/// The parameters as text: a program that sets them with G10 (manual: G10 and G11; RS-232 menu). P0
+/// to P199 are the manual's. It does not have the control's numbers of tables and pages (its
+/// appendix A is not known), so those from P500 on are the ones of parameters.hpp, and such a text
+/// is for this software only. With a table that the machine's builder fills in it is the control's
+/// own.
 namespace dripline::interpreter::centurion {
 
 /// The first line of a text in the numbering of parameters.hpp. A text without it, and without a
@@ -26,9 +27,8 @@ struct ParameterMap {
   std::vector<Row> rows;
 };
 /// One row a line, `P500 = P7012`, ours first; a row without the second number is not filled in
-/// yet;
-/// `#` begins a comment. Errors: Syntax, LimitExceeded, naming the line (a number that is none of a
-/// setup's tables and pages, one that is given twice).
+/// yet. `#` begins a comment. Errors: Syntax, LimitExceeded, naming the line (a number that is none
+/// of a setup's tables and pages, one that is given twice).
 Result<ParameterMap> read_parameter_map(std::string_view text);
 
 /// Offsets, tools, axis and power parameters of a setup, all of them, and P0-P199 that are not 0.

@@ -45,7 +45,7 @@ void Parameters::convert_tables(double factor) {
 
 namespace {
 
-/// Parameters that hold one value for each axis, Z first then X (spec 2).
+/// Parameters that hold one value for each axis, Z first then X (manual: axes).
 std::optional<double> axis_status(const ModalState& state, const Parameters& parameters,
                                   int number) {
   const bool is_x = (number & 7) == 1;
@@ -86,7 +86,7 @@ std::optional<double> mode_status(const ModalState& state, int number) {
     case 309:
       return state.modes.compensation;
     case 310:
-      return 0;  // cycles are over when their block is
+      return 0;  // a cycle ends with its block
     case 267:
       return state.units == Units::Inch ? kPulsesPerInch
                                         : kPulsesPerInch / Length::kMillimetresPerInch;

@@ -7,9 +7,9 @@
 
 #include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 
-/// The parameters P0-P999 and the byte parameters PB0-PB639 (spec 15). The tables an operator edits
-/// (work offsets, tools) live in P500 and up, in a numbering of our own because the control's is
-/// not known:
+/// The parameters P0-P999 and the byte parameters PB0-PB639 (manual: parameters). The tables an
+/// operator edits (work offsets, tools) live in P500 and up, in a numbering of our own because the
+/// control's is not known:
 ///   P500-P511  work offsets: Z, X of G54, then G55 ... G59
 ///   P600-P839  offset n (1-24) from 600 + 10 (n - 1): Z length, X length, nose radius, type,
 ///              Z wear, X wear, radius wear
@@ -62,7 +62,7 @@ class Parameters {
   /// 0 for offset 00. Lengths and radius include the wear.
   double tool(int offset, ToolField field) const;
   static int tool_parameter(int offset, ToolField field);
-  /// G20/G21: the tables are lengths, the program's own parameters are not touched.
+  /// G20/G21: the tables are lengths, the program's own parameters are not converted.
   void convert_tables(double factor);
 
  private:
@@ -71,7 +71,7 @@ class Parameters {
 };
 
 /// The value of status parameter `number` (200-370) as `state` implies it, or nullopt where nothing
-/// does and the stored value counts.
+/// does and the stored value applies.
 std::optional<double> status_parameter(const ModalState& state, const Parameters& parameters,
                                        int number);
 

@@ -24,7 +24,7 @@ void emit(Run& run, OutputPin pin, bool state, std::optional<double> pulse_ms) {
 }
 
 bool refuse_missing(Run& run, int pin) {
-  return run.fail(ErrorCode::InputMissing, 0, fmt::format("pin {} does not come to 1", pin));
+  return run.fail(ErrorCode::InputMissing, 0, fmt::format("pin {} does not read 1", pin));
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 
-/// What the control keeps when a program is over, and when it is switched off (spec 15.1, L2959,
-/// L7866): P0 to P99, what only data mode writes (work offsets, tools, axes), and PB0 to PB639. The
-/// data of cycles and transformations between them begin as at power on.
+/// What the control keeps when a program has ended and when it is switched off: P0 to P99, what
+/// only data mode writes (work offsets, tools, axes), and PB0 to PB639 (manual: work offsets; SAVE
+/// and LOAD of parameters). The data of cycles and transformations between them begin as at
+/// power-on.
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -26,7 +27,7 @@ void for_each_cell(const Parameters& parameters, Visit visit) {
   }
 }
 
-/// Converted there and back, a number has lost its last digits.
+/// A number that was converted there and back has lost its last digits.
 double without_noise(double value) {
   constexpr int kDigits = 14;
   if (value == 0 || !std::isfinite(value)) return value;

@@ -5,18 +5,17 @@
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/motion.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
 
 constexpr AddressSet kAbsoluteCenter = set_of(Address::XC, Address::ZC);
 
-/// What is known of an arc before its end point is.
+/// What is known of an arc before its end point is read.
 struct ArcCenter {
   Point center;
   double radius = 0;
-  bool is_known = false;  ///< to Trig Help: the blending stage finds the ends
+  bool is_known = false;  ///< to Trig Help: the blending stage computes the ends
 };
 
 bool check_on_arc(Run& run, const ArcCenter& arc, const Point& point) {
@@ -104,7 +103,8 @@ bool emit_arc(Run& run, const ArcCenter& arc, const Target& target) {
   return true;
 }
 
-/// R alone, of this block or an arc before: the center follows from start and end (spec 5.4).
+/// R alone, of this block or an arc before: the center follows from start and end (manual: arcs,
+/// retained words).
 bool move_on_radius_arc(Run& run) {
   const Words& words = run.block.words;
   if (words.has(Address::AB)) {
@@ -143,7 +143,7 @@ bool read_arc_end(Run& run, const ArcCenter& arc, Target& target) {
   return check_target(run, target.to);
 }
 
-/// A block with neither R nor a center has the last one's, whichever of the two that was.
+/// A block with neither R nor a center uses that of the last arc.
 bool uses_radius_before(const Run& run) {
   return run.state.retained.arc_has_radius &&
          !run.block.words.has_any(set_of(Address::I, Address::K));
@@ -152,7 +152,7 @@ bool uses_radius_before(const Run& run) {
 bool refuse_missing_center(Run& run) {
   return run.fail(
       ErrorCode::RadiusTooSmall, motion_column(run),
-      "the arc has neither R nor a center (I K, XC ZC, AA), and no arc before left one");
+      "the arc has neither R nor a center (I K, XC ZC, AA), and no arc before it had one");
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ bool move_on_arc(Run& run) {
   } else if (words.has(Address::AA)) {
     if (!read_start_angle_center(run, arc)) return false;
   } else if (has_radius || uses_radius_before(run)) {
-    return move_on_radius_arc(run);  // R wins over I and K
+    return move_on_radius_arc(run);  // R has priority over I and K
   } else {
     read_relative_center(run, arc);
     if (arc.radius <= 0) return refuse_missing_center(run);

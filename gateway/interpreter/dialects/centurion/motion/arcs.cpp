@@ -31,7 +31,7 @@ std::optional<Point> center_of(const RadiusArc& arc, double tolerance) {
   const double radius = std::fabs(arc.radius);
   if (half > radius + tolerance) return std::nullopt;
   const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
-  // The center of a short counterclockwise arc lies to the left of the way from start to end.
+  // The center of a short counterclockwise arc is to the left of the path from start to end.
   const double side = (arc.radius > 0) == arc.is_clockwise ? -height : height;
   const double along_x = (arc.end.x - arc.start.x) / chord;
   const double along_z = (arc.end.z - arc.start.z) / chord;

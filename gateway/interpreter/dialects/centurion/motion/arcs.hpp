@@ -4,8 +4,8 @@
 
 #include "gateway/interpreter/dialects/centurion/modal_state.hpp"
 
-/// Circles in the work plane: +Z to the right, +X up, angle 0 along +Z, counterclockwise positive
-/// (spec 2). All lengths are in one unit, X is a radius. Pure.
+/// Circles in the work plane: +Z to the right, +X up, angle 0 along +Z, counterclockwise positive.
+/// All lengths are in one unit, X is a radius. Pure.
 namespace dripline::interpreter::centurion {
 
 double distance(const Point& a, const Point& b);

@@ -38,13 +38,13 @@ bool read_which(Run& run, const char*& at, blending::Back& which) {
   return true;
 }
 
-/// Of a length in any direction, as the transformations leave it.
+/// A length in any direction, after the transformations.
 Length transformed(const Run& run, double value) {
   const Transformation& how = run.state.transformation;
   return run.length(how.is_on() ? value * how.length_factor() : value);
 }
 
-/// Of a slope, in degrees.
+/// A slope in degrees, after the transformations.
 Angle transformed_slope(const Run& run, double degrees) {
   if (!run.state.transformation.is_on()) return Angle::degrees(degrees);
   const Point from = machine_of(run, run.state.position);

@@ -7,16 +7,16 @@
 #include "gateway/interpreter/dialects/centurion/motion/arcs.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transform_stage.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// Spec 3.3, the wider table: 99999.9999 inch, 99999.999 mm. X counts as a diameter.
+/// The wider of the manual's tables of ranges: 99999.9999 inch, 99999.999 mm; X as a diameter.
 constexpr double kMaxInches = 99999.9999;
 constexpr double kMaxMillimetres = 99999.999;
 
-/// R and AB from a pole, which is the current point unless the block names one (spec 5.2).
+/// R and AB from a pole, which is the current point unless the block names one (manual: polar
+/// lines).
 bool read_polar_target(Run& run, Target& target) {
   const Words& words = run.block.words;
   ModalState& state = run.state;
@@ -47,8 +47,8 @@ bool refuse_two_of_one_axis(Run& run, Address incremental) {
                   fmt::format("{} and its axis in one block", to_string(incremental)));
 }
 
-/// G60, and G0 with an overrun: beyond the target and back to it, always from the same side, which
-/// is one of the machine (spec 7.3).
+/// G60, and G0 with an overrun: beyond the target and back to it, always from the same side of
+/// the machine (manual: G60).
 void position_to(Run& run, const Target& target) {
   const bool is_single = run.axis_code() == 60;
   const Point overrun = run.parameters.point(is_single ? kSingleOverrun : kRapidOverrun);
@@ -79,7 +79,7 @@ bool start_probe(Run& run, const Target& target) {
   question.probe.to = marked_position(run, from, to, target.named);
   question.probe.until = *run.block.parts.probe;
   question.probe.feed = run.active_feed();
-  run.events();  // the header comes before anything the question brings about
+  run.events();  // the header comes before anything that follows the question
   return run.ask(question);
 }
 
@@ -119,7 +119,7 @@ bool read_end_words(Run& run, const EndFrame& frame, Target& target) {
 
 bool move(Run& run) {
   const Words& words = run.block.words;
-  // AA means nothing to a line (spec 5.2); alone it moves nothing.
+  // AA means nothing to a line; alone it moves nothing.
   if (!words.has_any(kEndWords | kPolarWords)) return true;
   run.ledger.take_all();
   if (run.block.parts.thread_code != 0) [[unlikely]]
@@ -197,11 +197,11 @@ void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
 }
 
 bool check_target(Run& run, const Point& to) {
-  const double most = run.state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
-  if (std::fabs(to.x) * 2 <= most && std::fabs(to.z) <= most) [[likely]]
+  const double limit = run.state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
+  if (std::fabs(to.x) * 2 <= limit && std::fabs(to.z) <= limit) [[likely]]
     return true;
   return run.fail(ErrorCode::TooManyDigits, motion_column(run),
-                  fmt::format("X{} Z{} is beyond {}", to.x * 2, to.z, most));
+                  fmt::format("X{} Z{} is beyond {}", to.x * 2, to.z, limit));
 }
 
 bool check_feed(Run& run) {

@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// Moves (spec 5): where a block's words lead, and the events.
+/// Moves (manual: G0 to G3): where a block's words lead, and the events.
 namespace dripline::interpreter::centurion {
 
 /// Which axes a move names, whether they change or not.
@@ -11,7 +11,7 @@ struct AxesNamed {
   bool z = false;
 };
 
-/// Moves as the active motion mode says, if the block names a place to go. A probe move asks.
+/// Moves in the active motion mode, if the block names an end point. A probe move asks.
 bool move(Run& run);
 /// The answer to a probe move's question.
 void finish_probe(Run& run, const ProbeResult& result);
@@ -22,7 +22,7 @@ struct Target {
   AxesNamed named;
 };
 bool read_target(Run& run, Target& target);
-/// What X, Z, U and W count from.
+/// What X, Z, U and W are measured from.
 struct EndFrame {
   Point from;
   Point zero;
@@ -33,21 +33,21 @@ bool read_end_words(Run& run, const EndFrame& frame, Target& target);
 /// G0 to `to`; nothing when already there.
 void rapid_to(Run& run, const Point& to, AxesNamed named);
 /// A straight feed to `to`; nothing when already there.
+void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
 /// To a place in machine coordinates: nothing is transformed.
 void machine_rapid_to(Run& run, const Point& machine, AxesNamed named);
 void machine_feed_to(Run& run, const Point& machine, AxesNamed named);
-void feed_to(Run& run, const Point& to, AxesNamed named, Feed feed);
 
 /// G2, G3; in arc_words.cpp.
 bool move_on_arc(Run& run);
 
-// The parts that both files need.
+// Shared by motion.cpp, arc_words.cpp and the cycles.
 inline constexpr AxesNamed kBothAxes{true, true};
 bool check_target(Run& run, const Point& to);
 bool check_feed(Run& run);
-/// `point` as an event shows it; which axes count as moved is brought up to date.
+/// `point` as an event shows it; marks the axes that have moved.
 Position event_position(Run& run, const Point& point, AxesNamed named);
-/// The same with another point to have come from.
+/// The same, with another start point.
 Position marked_position(Run& run, const Point& from, const Point& point, AxesNamed named);
 void arrive(Run& run, const Point& at);
 std::uint32_t motion_column(const Run& run);

@@ -28,15 +28,15 @@ Point TransformStage::point_of(Length z, Length x) const {
   return {x.mm() / mm, z.mm() / mm};
 }
 
-/// A turned axis is two axes of the machine.
+/// A rotated axis moves both axes of the machine.
 Position TransformStage::moved(const Position& to) const {
-  const bool turns = run_.state.transformation.rotates;
+  const bool rotates = run_.state.transformation.rotates;
   const Point at = machine_of(run_, point_of(to.linear(Axis::Z), to.linear(Axis::X)));
   Position moved = to;
   moved.set(Axis::X, run_.length(at.x));
   moved.set(Axis::Z, run_.length(at.z));
-  if (!turns && !to.has(Axis::X)) moved.unmark(Axis::X);
-  if (!turns && !to.has(Axis::Z)) moved.unmark(Axis::Z);
+  if (!rotates && !to.has(Axis::X)) moved.unmark(Axis::X);
+  if (!rotates && !to.has(Axis::Z)) moved.unmark(Axis::Z);
   return moved;
 }
 

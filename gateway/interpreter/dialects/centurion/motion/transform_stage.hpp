@@ -19,7 +19,8 @@ class TransformStage final : public EventFilter {
  public:
   TransformStage(const Run& run, EventSink& next) : EventFilter(next), run_(run) {}
 
-  /// The radius that different factors left an arc is too small for its ends; it was not given on.
+  /// The radius that different factors left an arc is too small for its ends; the arc was not
+  /// passed on.
   const std::optional<Origin>& misfit() const { return misfit_; }
 
   void on_rapid(const Rapid& event) override;

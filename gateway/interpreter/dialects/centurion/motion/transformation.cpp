@@ -7,7 +7,7 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-Point turned(const Point& point, const Point& center, double degrees) {
+Point rotated(const Point& point, const Point& center, double degrees) {
   const double sine = language::sine(degrees).value;
   const double cosine = language::cosine(degrees).value;
   const double z = point.z - center.z;
@@ -34,11 +34,11 @@ Point Transformation::apply(Point point) const {
     point.x = scale_center.x + factor.x * (point.x - scale_center.x);
     point.z = scale_center.z + factor.z * (point.z - scale_center.z);
   }
-  return rotates ? turned(point, rotation_center, degrees) : point;
+  return rotates ? rotated(point, rotation_center, degrees) : point;
 }
 
 Point Transformation::undo(Point point) const {
-  if (rotates) point = turned(point, rotation_center, -degrees);
+  if (rotates) point = rotated(point, rotation_center, -degrees);
   if (scales) {
     point.x = scale_center.x + (point.x - scale_center.x) / factor.x;
     point.z = scale_center.z + (point.z - scale_center.z) / factor.z;

@@ -2,7 +2,8 @@
 
 #include "gateway/interpreter/dialects/centurion/compensation/plane_point.hpp"
 
-/// Mirror, scaling and rotation (spec 19): programmed point, mirrored, then scaled, then turned.
+/// Mirror, scaling and rotation: the programmed point is mirrored, then scaled, then rotated
+/// (manual: G511, G551, G568).
 namespace dripline::interpreter::centurion {
 
 /// Points are relative to the active zero, in program units, X a radius.
@@ -19,9 +20,9 @@ struct Transformation {
 
   bool mirrors() const { return mirrors_x || mirrors_z; }
   bool is_on() const { return mirrors() || scales || rotates; }
-  /// Left and right, clockwise and counterclockwise change places.
+  /// Whether left and right, clockwise and counterclockwise change places.
   bool swaps_sides() const;
-  /// Of radii (spec 19.2).
+  /// The factor of radii (manual: scaling).
   double length_factor() const;
   Point apply(Point point) const;
   Point undo(Point point) const;

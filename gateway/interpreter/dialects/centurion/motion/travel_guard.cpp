@@ -8,19 +8,19 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// A limit may be reached, and the edge of the zone touched.
+/// A move may end on a limit or on the edge of the zone.
 constexpr double kRounding = 1e-6;
 
 double angle_of(double z, double x) {
   return std::atan2(x, z);
 }
 
-/// How far, in radians, the arc has gone when it comes to `angle`; from 0 to a full turn.
-double way_to(const Arc& arc, double start, double angle) {
-  double way = arc.turn == Turn::Counterclockwise ? angle - start : start - angle;
-  while (way < 0) way += 2 * Angle::kPi;
-  while (way >= 2 * Angle::kPi) way -= 2 * Angle::kPi;
-  return way;
+/// The sweep, in radians, from the arc's start to `angle`: from 0 to below a full circle.
+double sweep_to(const Arc& arc, double start, double angle) {
+  double sweep = arc.turn == Turn::Counterclockwise ? angle - start : start - angle;
+  while (sweep < 0) sweep += 2 * Angle::kPi;
+  while (sweep >= 2 * Angle::kPi) sweep -= 2 * Angle::kPi;
+  return sweep;
 }
 
 }  // namespace
@@ -39,44 +39,44 @@ bool TravelGuard::refuse(ErrorCode code, const Origin& origin, std::string detai
 }
 
 bool TravelGuard::is_within_limits(const Origin& origin, const Spot& at) {
-  const auto is_outside = [](double value, double least, double most) {
-    return least < most && !(value >= least - kRounding && value <= most + kRounding);
+  const auto is_outside = [](double value, double low, double high) {
+    return low < high && !(value >= low - kRounding && value <= high + kRounding);
   };
-  if (is_outside(at.x, limits_.least_x, limits_.max_x)) {
+  if (is_outside(at.x, limits_.min_x, limits_.max_x)) {
     return refuse(
         ErrorCode::TravelOfX, origin,
-        fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.least_x, limits_.max_x));
+        fmt::format("X radius {:.4f} mm is not in {} to {}", at.x, limits_.min_x, limits_.max_x));
   }
-  if (is_outside(at.z, limits_.least_z, limits_.max_z)) {
+  if (is_outside(at.z, limits_.min_z, limits_.max_z)) {
     return refuse(
         ErrorCode::TravelOfZ, origin,
-        fmt::format("Z {:.4f} mm is not in {} to {}", at.z, limits_.least_z, limits_.max_z));
+        fmt::format("Z {:.4f} mm is not in {} to {}", at.z, limits_.min_z, limits_.max_z));
   }
   return true;
 }
 
 bool TravelGuard::is_in_zone(const Spot& at) const {
-  return at.x > zone_->least_x + kRounding && at.x < zone_->max_x - kRounding &&
-         at.z > zone_->least_z + kRounding && at.z < zone_->max_z - kRounding;
+  return at.x > zone_->min_x + kRounding && at.x < zone_->max_x - kRounding &&
+         at.z > zone_->min_z + kRounding && at.z < zone_->max_z - kRounding;
 }
 
-/// The part of the straight way that is inside, by cutting off what is beyond each edge.
+/// Clips the straight path at each edge of the zone.
 bool TravelGuard::crosses_zone(const Spot& to) const {
   double enters = 0;
   double leaves = 1;
-  const auto cut = [&](double from, double way, double least, double most) {
-    least += kRounding;
-    most -= kRounding;
-    if (least >= most) return false;  // no zone was ever set
-    if (way == 0) return from > least && from < most;
-    const double a = (least - from) / way;
-    const double b = (most - from) / way;
+  const auto cut = [&](double from, double distance, double low, double high) {
+    low += kRounding;
+    high -= kRounding;
+    if (low >= high) return false;  // no zone was ever set
+    if (distance == 0) return from > low && from < high;
+    const double a = (low - from) / distance;
+    const double b = (high - from) / distance;
     enters = std::max(enters, std::min(a, b));
     leaves = std::min(leaves, std::max(a, b));
     return enters < leaves;
   };
-  return cut(at_.x, to.x - at_.x, zone_->least_x, zone_->max_x) &&
-         cut(at_.z, to.z - at_.z, zone_->least_z, zone_->max_z);
+  return cut(at_.x, to.x - at_.x, zone_->min_x, zone_->max_x) &&
+         cut(at_.z, to.z - at_.z, zone_->min_z, zone_->max_z);
 }
 
 bool TravelGuard::arc_crosses_zone(const Arc& arc) const {
@@ -84,20 +84,20 @@ bool TravelGuard::arc_crosses_zone(const Arc& arc) const {
   const double x = arc.center_second.mm();
   const double radius = std::hypot(at_.x - x, at_.z - z);
   const double start = angle_of(at_.z - z, at_.x - x);
-  // where the circle meets an edge, a little further on or back it is inside
+  // a little before or after the circle crosses an edge it is inside
   const auto is_inside_at = [&](double angle) {
-    if (way_to(arc, start, angle) > arc.sweep.radians()) return false;
+    if (sweep_to(arc, start, angle) > arc.sweep.radians()) return false;
     return is_in_zone({x + radius * std::sin(angle), z + radius * std::cos(angle)});
   };
   constexpr double kStep = 1e-5;
-  for (const double edge : {zone_->least_x, zone_->max_x}) {
+  for (const double edge : {zone_->min_x, zone_->max_x}) {
     const double height = (edge - x) / radius;
     if (std::fabs(height) > 1) continue;
     for (const double angle : {std::asin(height), Angle::kPi - std::asin(height)}) {
       if (is_inside_at(angle + kStep) || is_inside_at(angle - kStep)) return true;
     }
   }
-  for (const double edge : {zone_->least_z, zone_->max_z}) {
+  for (const double edge : {zone_->min_z, zone_->max_z}) {
     const double width = (edge - z) / radius;
     if (std::fabs(width) > 1) continue;
     for (const double angle : {std::acos(width), -std::acos(width)}) {
@@ -111,7 +111,7 @@ bool TravelGuard::allows_line(const Origin& origin, const Position& to) {
   if (fault_) return false;
   const Spot end = spot_of(to);
   if (!is_within_limits(origin, end)) return false;
-  // what stands inside may get out
+  // a tool inside the zone may leave it
   if (zone_ && !is_in_zone(at_) && crosses_zone(end)) {
     return refuse(ErrorCode::SafeZone, origin,
                   fmt::format("X radius {:.4f} Z {:.4f} mm", end.x, end.z));
@@ -128,7 +128,7 @@ bool TravelGuard::allows_arc(const Arc& arc) {
   const double start = angle_of(at_.z - z, at_.x - x);
   for (int quadrant = 0; quadrant < 4; ++quadrant) {
     const double angle = quadrant * Angle::kPi / 2;
-    if (way_to(arc, start, angle) > arc.sweep.radians()) continue;
+    if (sweep_to(arc, start, angle) > arc.sweep.radians()) continue;
     const Spot extreme{x + radius * std::sin(angle), z + radius * std::cos(angle)};
     if (!is_within_limits(arc.origin, extreme)) return false;
   }
@@ -142,9 +142,9 @@ bool TravelGuard::allows_arc(const Arc& arc) {
   return true;
 }
 
-Feed TravelGuard::followed(Feed feed, double most) const {
-  if (most <= 0 || feed.per() != Feed::Per::Minute || feed.length().mm() <= most) return feed;
-  return Feed::per_minute(Length::mm(most));
+Feed TravelGuard::followed(Feed feed, double maximum) const {
+  if (maximum <= 0 || feed.per() != Feed::Per::Minute || feed.length().mm() <= maximum) return feed;
+  return Feed::per_minute(Length::mm(maximum));
 }
 
 /// The path feed at which the first axis is at its maximum; 0 is none.
@@ -152,14 +152,14 @@ double TravelGuard::max_on_line(const Position& to) const {
   const Spot end = spot_of(to);
   const double x = std::fabs(end.x - at_.x);
   const double z = std::fabs(end.z - at_.z);
-  const double way = std::hypot(x, z);
-  double most = 0;
-  if (max_.x > 0 && x > 0) most = max_.x * way / x;
+  const double distance = std::hypot(x, z);
+  double maximum = 0;
+  if (max_.x > 0 && x > 0) maximum = max_.x * distance / x;
   if (max_.z > 0 && z > 0) {
-    const double by_z = max_.z * way / z;
-    most = most > 0 ? std::min(most, by_z) : by_z;
+    const double by_z = max_.z * distance / z;
+    maximum = maximum > 0 ? std::min(maximum, by_z) : by_z;
   }
-  return most;
+  return maximum;
 }
 
 void TravelGuard::on_rapid(const Rapid& event) {

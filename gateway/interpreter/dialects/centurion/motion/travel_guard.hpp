@@ -10,8 +10,8 @@ namespace dripline::interpreter::centurion {
 
 /// A rectangle of the machine, millimetres, X a radius.
 struct TravelArea {
-  double least_x = 0, max_x = 0;
-  double least_z = 0, max_z = 0;
+  double min_x = 0, max_x = 0;
+  double min_z = 0, max_z = 0;
 };
 
 struct TravelFault {
@@ -27,22 +27,22 @@ struct MaximumFeed {
 };
 
 /// The last stage before the sink: stops a move that leaves the software limits (401, 403) or
-/// enters the safe zone (413), before it is made. The whole path counts. Positions are those of
-/// events: tool lengths left out. A feed per minute that an axis cannot follow is lowered.
+/// enters the safe zone (413), before it is made. The whole path is checked. Positions are those of
+/// events, without tool lengths. A feed per minute that an axis cannot follow is reduced.
 class TravelGuard final : public EventFilter {
  public:
   explicit TravelGuard(EventSink& sink) : EventFilter(sink) {}
 
-  /// Without a limit, a zone or a maximum everything passes; `place` is due before that ends.
+  /// Inactive, it passes everything; call `place` before it becomes active again.
   void set_active(bool active) { is_active_ = active; }
-  /// An axis whose least is not below its most is not limited.
+  /// An axis whose minimum is not below its maximum is not limited.
   void set_limits(const TravelArea& limits) { limits_ = limits; }
-  void set_maximum_feed(const MaximumFeed& most) { max_ = most; }
+  void set_maximum_feed(const MaximumFeed& maximum) { max_ = maximum; }
   void set_zone(const std::optional<TravelArea>& zone) { zone_ = zone; }
   bool has_zone() const { return zone_.has_value(); }
-  /// Where the machine stands; from there the next move goes.
+  /// The machine's position, where the next move begins.
   void place(const Position& at);
-  /// Nothing more is given on, alarms excepted.
+  /// After a fault only alarms pass.
   const std::optional<TravelFault>& fault() const { return fault_; }
   void reset() { fault_.reset(); }
 
@@ -63,7 +63,7 @@ class TravelGuard final : public EventFilter {
   bool crosses_zone(const Spot& to) const;
   bool is_in_zone(const Spot& at) const;
   bool arc_crosses_zone(const Arc& arc) const;
-  Feed followed(Feed feed, double most) const;
+  Feed followed(Feed feed, double maximum) const;
   double max_on_line(const Position& to) const;
   bool refuse(ErrorCode code, const Origin& origin, std::string detail);
 

@@ -11,7 +11,7 @@
 
 namespace dripline::interpreter::centurion {
 
-/// How far a block has come; a question suspends it between or within stages.
+/// How far a block has been executed; a question suspends it between or within stages.
 enum class Stage : std::uint8_t {
   Start,
   Items,
@@ -23,7 +23,7 @@ enum class Stage : std::uint8_t {
   Flow
 };
 
-/// What ends the block besides running on to the next one.
+/// What follows the block, other than the next one.
 enum class Ending : std::uint8_t { None, Return, Wend, OperatorEnd, EndOfProgram };
 
 /// What calls a program with arguments; M6 gives none.
@@ -59,14 +59,14 @@ struct Block {
     bool has_axis_words_before_input = false;
     std::uint8_t g_count = 0;
     std::uint8_t m_count = 0;
-    std::uint8_t m_next = 0;  ///< the M code to go on with in the stage at hand
+    std::uint8_t m_next = 0;  ///< the M code to continue with in this stage
     std::uint16_t macro = 0;  ///< the program that is called with the words as arguments
     MacroCaller caller = MacroCaller::G65;
     std::uint8_t axis_row = kNoRow;  ///< the G row that decides what the axis words mean
     bool rests = false;              ///< G9
     std::optional<ProbeUntil> probe;
     std::uint8_t thread_code = 0;  ///< G32, G34, G35 or G36; 0 = none
-    std::uint32_t resume = 0;      ///< offset of the item to go on with
+    std::uint32_t resume = 0;      ///< offset of the item to continue with
     AddressSet taken = 0;          ///< words that the G codes of the block take
     std::optional<int> tool;       ///< of a T word
     int tool_offset = -1;          ///< its offset digits; -1 when it had none

@@ -8,7 +8,6 @@
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/expression_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/number.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 
@@ -19,7 +18,7 @@ Address address_of(char letter) {
   return static_cast<Address>(upper(letter) - 'A');
 }
 
-/// A value with what is needed to judge it.
+/// A value, with what is needed to check it.
 struct WordText {
   const char* start;  ///< of the address
   double value;
@@ -46,7 +45,7 @@ bool add_word(Run& run, Address address, const WordText& word) {
   return true;
 }
 
-/// The time of G4 is the word that directly follows it (spec 7.1).
+/// The time of G4 is the word that directly follows it (manual: G4).
 bool read_dwell(Run& run, const char*& at) {
   constexpr double kLeast = 0.01;
   constexpr double kMax = 9999.99;
@@ -54,7 +53,7 @@ bool read_dwell(Run& run, const char*& at) {
   const char* start = at;
   const char letter = kind_of(*at) == CharKind::Letter ? upper(*at) : '\0';
   if (letter != 'F' && letter != 'P' && letter != 'X') {
-    return run.fail(ErrorCode::IllegalDwell, run.column(start), "G4 needs F, P or X next to it");
+    return run.fail(ErrorCode::IllegalDwell, run.column(start), "G4 must be followed by F, P or X");
   }
   ++at;
   double seconds = 0;
@@ -89,13 +88,13 @@ bool add_g(Run& run, const WordText& word, const char*& at) {
   if (index == kNoRow) [[unlikely]]
     return refuse_g(run, word, "");
   if (run.options.is_dnc_fast && word.value == 90) [[unlikely]]
-    index = g_row_index(93);  // FAST's list of codes has it for "absolute"
+    index = g_row_index(93);  // in FAST G90 is "absolute" (manual: DNC)
   const GRow& row = g_row(index);
   if (row.kind != GKind::Motion) [[unlikely]] {
     if (row.act != nullptr) {
       if (block.parts.axis_row != kNoRow) {
         return run.fail(ErrorCode::IllegalStatement, run.column(word.start),
-                        fmt::format("G{} and G{} both want the axis words", row.code,
+                        fmt::format("G{} and G{} both use the axis words", row.code,
                                     g_row(block.parts.axis_row).code));
       }
       block.parts.axis_row = index;
@@ -131,7 +130,7 @@ bool add_m(Run& run, const WordText& word) {
   return true;
 }
 
-/// T2 names a tool, T0215 a tool and an offset (spec 9.1).
+/// T2 names a tool, T0215 a tool and an offset (manual: T word).
 bool add_tool(Run& run, const WordText& word) {
   Block::Parts& parts = run.block.parts;
   if (parts.tool) return run.fail(ErrorCode::DuplicateAddress, run.column(word.start), "T");
@@ -164,11 +163,12 @@ bool set_sequence(Run& run, const WordText& word) {
   return true;
 }
 
-/// An O word begins a program; where code came before, the one before it is over (spec 20.2).
+/// An O word begins a program and ends the one before it (manual: RS-232, data format).
 bool begin_program(Run& run, const WordText& word) {
   if (run.axis_code() == 65) return add_word(run, Address::O, word);
   if (read_head(run.text.begin()).kind != BlockHead::Kind::Program) {
-    return run.fail(ErrorCode::IllegalStatement, run.column(word.start), "O stands first");
+    return run.fail(ErrorCode::IllegalStatement, run.column(word.start),
+                    "O must be the first word");
   }
   if (!(word.value >= 1 && word.value <= 9999) || word.value != std::trunc(word.value)) {
     return run.fail(ErrorCode::InvalidProgramNumber, run.column(word.start),
@@ -180,7 +180,7 @@ bool begin_program(Run& run, const WordText& word) {
   return true;
 }
 
-/// P in front of = is an assignment, else a word.
+/// P before = is an assignment, else a word.
 bool add_p(Run& run, const WordText& word, const char*& at) {
   const char* next = skip_blanks(at);
   if (*next != '=' || word.digits == 0) return add_word(run, Address::P, word);

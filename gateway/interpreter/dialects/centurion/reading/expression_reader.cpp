@@ -17,7 +17,7 @@ using language::Operator;
 constexpr int kSumRank = 2;
 constexpr int kProductRank = 3;
 constexpr int kPowerRank = 4;
-/// Brackets and signs within one another; keeps a block from using up the stack.
+/// Nested brackets and signs; keeps a block from exhausting the stack.
 constexpr int kMaxDepth = 64;
 
 ErrorCode code_of(MathFault fault) {
@@ -54,12 +54,12 @@ class Terms {
   }
 
   Operator peek() {
-    if (!skip_gaps(run_, at_)) return Operator::None;  // the caller meets the open comment again
+    if (!skip_gaps(run_, at_)) return Operator::None;  // the caller finds the open comment again
     return operator_at(at_, after_);
   }
   void take() { at_ = after_; }
   bool fault(MathFault fault) {
-    // The other texts already say it all.
+    // The texts of the others are complete without it.
     return here(code_of(fault),
                 fault == MathFault::Undefined ? language::to_string(fault) : std::string_view{});
   }

@@ -3,7 +3,7 @@
 #include "gateway/interpreter/dialects/centurion/reading/keywords.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// Expressions of parameters (spec 14): `P2*[P1+3]`, `ATAN[P1/P2]`, `PIN[1000]`.
+/// Expressions of parameters (manual: expressions): `P2*[P1+3]`, `ATAN[P1/P2]`, `PIN[1000]`.
 namespace dripline::interpreter::centurion {
 
 /// Reads and evaluates the sum at `at` (no comparison) and moves `at` after it.

@@ -4,7 +4,7 @@
 #include "gateway/interpreter/dialects/centurion/reading/characters.hpp"
 
 /// Numbers as this control reads them: calculator format, a whole number means whole units, blanks
-/// may stand anywhere, also between digits (spec 3.1, 3.4).
+/// may be anywhere, also between digits (manual: numbers; section 1.4).
 namespace dripline::interpreter::centurion {
 
 using Number = NumberText;

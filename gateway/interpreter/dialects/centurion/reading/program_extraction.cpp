@@ -9,10 +9,10 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-constexpr std::size_t kLongestHead = 256;  ///< an O word stands within this much of its line
+constexpr std::size_t kMaxHead = 256;  ///< an O word is within this many bytes of its line
 
 BlockHead head_of(std::string_view line) {
-  std::string head(line.substr(0, kLongestHead));
+  std::string head(line.substr(0, kMaxHead));
   head += '\n';  // what read_head stops at
   return read_head(head.c_str());
 }

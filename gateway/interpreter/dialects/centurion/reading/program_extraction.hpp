@@ -6,9 +6,9 @@
 
 namespace dripline::interpreter::centurion {
 
-/// Tells, line by line, where the programs of a text that holds several begin (spec 20.2): at each
-/// line whose first word is O and a number. What stands in front of the first one goes with it as
-/// long as it is blank, `%` or comment; with a block among it, it is a text of its own. One thread.
+/// Finds, line by line, where the programs of a text that holds several begin: at each line whose
+/// first word is O and a number (manual: RS-232, data format). Blank lines, `%` and comments before
+/// the first one belong to it; with a block among them they are a text of their own. One thread.
 class ProgramSplitter {
  public:
   /// `line`: without its end; any size. True: it begins the next program, and what came before is a
@@ -29,7 +29,7 @@ struct ExtractedProgram {
   std::string_view text;     ///< of the text given
 };
 
-/// In their order; a number may come twice, as on the control the later one then stays. Pure; any
+/// In their order; a number may come twice, the control then keeps the later one. Pure; any
 /// thread.
 std::vector<ExtractedProgram> extract_programs(std::string_view text);
 

@@ -13,11 +13,11 @@ namespace dripline::interpreter::centurion {
 inline constexpr std::size_t kMaxBlockBytes = 4096;
 
 /// A place between two blocks. `segment` is where the program begins that this text belongs to: a
-/// file may hold several, each beginning with an O line (spec 20.2).
+/// file may hold several, each beginning with an O line (manual: RS-232, data format).
 struct TextPosition {
   ProgramIndex program = kMainProgram;
   bool after_cr = false;   ///< the block before ended with CR: a LF here still belongs to it
-  bool code_seen = false;  ///< a block with code has been passed: an O line now ends the program
+  bool code_seen = false;  ///< a block with code has been passed: an O line ends the program now
   std::uint64_t segment_offset = 0;
   std::uint64_t segment_line = 1;
   std::uint64_t offset = 0;
@@ -43,7 +43,7 @@ inline const char* find_end_of_block(const char* at, const char* end) {
 }
 
 /// Shows one block of text at a time, through windows of the source. Memory is one block. Any other
-/// use of the source makes the window stale: call `forget`.
+/// use of the source makes the window stale: call `invalidate`.
 class TextCursor {
  public:
   using State = language::LineWindow::State;
@@ -75,7 +75,7 @@ class TextCursor {
     return window_.offset() + static_cast<std::uint64_t>(begin_ - window_.begin());
   }
   const std::string& failure() const { return window_.failure(); }
-  void forget() { window_.forget(); }
+  void invalidate() { window_.forget(); }
 
   /// Moves `position` after the block that is visible.
   void advance(TextPosition& position) const {

@@ -209,7 +209,7 @@ TextSearch::Outcome TextSearch::find_program(std::uint32_t number, TextPosition&
   return Outcome::More;
 }
 
-TextSearch::Outcome TextSearch::find_way_back(const TextPosition& from, std::uint64_t& line) {
+TextSearch::Outcome TextSearch::find_jump_back(const TextPosition& from, std::uint64_t& line) {
   if (back_blocks_ == 0 || !same_place(back_from_, from)) {
     back_from_ = back_next_ = from;
     back_blocks_ = 1;

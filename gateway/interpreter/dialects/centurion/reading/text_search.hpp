@@ -11,7 +11,7 @@
 /// Finds the places a program jumps to, in a program of any size, as far as it has arrived.
 namespace dripline::interpreter::centurion {
 
-/// How a block begins, as far as jumps care.
+/// How a block begins, as far as jumps use it.
 struct BlockHead {
   enum class Kind : std::uint8_t { Empty, Program, Label, Other };
   Kind kind = Kind::Empty;
@@ -24,8 +24,8 @@ BlockHead read_head(const char* begin);
 /// `depth` until it is 0. True when it got there.
 bool count_loops(const char* begin, int& depth);
 
-/// What it has learned is kept in bounded tables and is only ever a faster way to the same answer.
-/// An interrupted search goes on where it stopped. Moves the cursor.
+/// Places it has found are kept in bounded tables, which only save searching again. A search that
+/// was interrupted resumes where it stopped. Moves the cursor.
 class TextSearch {
  public:
   enum class Outcome : std::uint8_t {
@@ -33,21 +33,21 @@ class TextSearch {
     Missing,
     NotYet,   ///< the source has to give more text
     More,     ///< a bounded piece of work is done; call again
-    TooLong,  ///< a block on the way is longer than any may be
-    Failed,   ///< the source failed; see the cursor
+    TooLong,  ///< a block is longer than the limit
+    Failed,   ///< the source failed: `TextCursor::failure`
   };
 
   explicit TextSearch(TextCursor& cursor) : cursor_(cursor) {}
 
-  /// The first block labelled N `label` in the program that `from` is in (spec 13.3).
+  /// The first block labelled N `label` in the program that `from` is in (manual: GOTO).
   Outcome find_label(const TextPosition& from, std::uint32_t label, TextPosition& found);
-  /// The program O `number` in the text that was started: a file may hold several (spec 20.2).
+  /// The program O `number` in the text that was started: a file may hold several.
   Outcome find_program(std::uint32_t number, TextPosition& found);
   /// The first block from `from` on that may jump back over it: a GOTO to a label of its program
   /// that is at `from` or before it, or one whose label is computed. Missing: none in the next
   /// kBlocksLookedAt blocks. `line`: of that block.
-  Outcome find_way_back(const TextPosition& from, std::uint64_t& line);
-  static constexpr std::uint64_t kBlocksLookedAt = 1u << 20;  ///< a loop that takes in more is none
+  Outcome find_jump_back(const TextPosition& from, std::uint64_t& line);
+  static constexpr std::uint64_t kBlocksLookedAt = 1u << 20;  ///< longer loops are not found
   /// The end of the loop whose WHILE block is at `head`; `after` is the place after that block.
   Outcome find_wend(const TextPosition& head, const TextPosition& after, LoopFrame& loop);
 
@@ -82,7 +82,7 @@ class TextSearch {
   std::size_t next_known_loop_ = 0;
   TextPosition back_from_, back_next_;  ///< of the search that was interrupted
   std::uint64_t back_blocks_ = 0;
-  std::optional<std::uint32_t> back_label_;  ///< of the GOTO met last, while it is looked for
+  std::optional<std::uint32_t> back_label_;  ///< of the last GOTO, while its label is searched
   TextPosition loop_head_;                   ///< of the search that was interrupted
   TextPosition loop_next_;
   int loop_depth_ = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-/// The addresses of this control and the words of one block (spec 3.3, 3.5).
+/// The addresses of this control and the words of one block (manual: table 1).
 namespace dripline::interpreter::centurion {
 
 /// A to Z keep their place in the alphabet; the two-letter addresses follow.

@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::centurion {
 
-/// The DRY key (spec 24.3): every feed, and every thread, becomes a feed at the Dry Run Feed; the
+/// The DRY key (manual: DRY): every feed, and every thread, becomes a feed at the Dry Run Feed; the
 /// spindle stays off unless the machine is set up otherwise.
 class DryRun final : public EventFilter {
  public:

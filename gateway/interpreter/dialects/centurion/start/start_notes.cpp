@@ -8,7 +8,7 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// Those that outlive a program (retained_memory.cpp).
+/// Whether the cell outlives a program (retained_memory.cpp).
 bool is_kept(int cell) {
   return cell < kUserParameters || cell >= kFirstDataParameter;
 }

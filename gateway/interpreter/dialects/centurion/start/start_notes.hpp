@@ -13,12 +13,12 @@ namespace dripline::interpreter::centurion {
 
 struct Run;
 
-/// What has to be known of the part before a start in the middle (start_search.hpp), besides the
-/// state that it leaves. Of use only while the start is looked for.
+/// What has to be known about the part before a start in the middle (start_search.hpp), besides the
+/// state that it leaves. Used only while the start is searched for.
 ///
-/// The part is gone through with the memory as it is now. That is right for a parameter which it
-/// only reads, or sets before it reads it. One that it reads and sets afterwards (P10=P10+1, G10
-/// with P500=P500+1) has another number now than when that part was executed, and would count
+/// The part is interpreted with the memory as it is now. That is right for a parameter which it
+/// only reads, or sets before it reads it. One that it reads and then sets (P10=P10+1, G10 with
+/// P500=P500+1) has another value now than when that part was executed: the change would be applied
 /// twice.
 struct StartNotes {
   enum class Use : std::uint8_t {
@@ -27,10 +27,10 @@ struct StartNotes {
     Set,   ///< before it was read
     Lost,  ///< read, then set
   };
-  /// Of P0 to P999, then PB0 to PB639; empty while no start is looked for.
+  /// Of P0 to P999, then PB0 to PB639; empty while no start is searched for.
   std::vector<Use> uses;
 
-  /// The block of the start, once the program has come to it; another place with the same number is
+  /// The block of the start, when the program has reached it; another place with the same number is
   /// another block.
   bool has_place = false;
   ProgramIndex program = kMainProgram;
@@ -38,7 +38,7 @@ struct StartNotes {
   std::uint64_t arrivals = 0;
   std::uint64_t arrival = 0;  ///< the last one's block, counted from 1
 
-  /// What the machine was not told: M functions of its own and outputs, each with its last line.
+  /// What the machine did not receive: its M functions and outputs, each with its last line.
   struct Withheld {
     std::uint16_t code = 0;  ///< of M; or kOutput and more
     bool state = true;       ///< of an output
@@ -74,15 +74,15 @@ struct StartNotes {
   void set_cell(int cell);
 };
 
-/// G11 has written a table. Once the program has moved, or set a zero, it has used it as well.
+/// G11 has written a table. A program that has moved, or set a zero, has used it as well.
 void note_table_set(Run& run, int parameter);
 
 /// "P10, PB50"; empty: nothing is lost.
 std::string lost_memory_text(const Run& run);
-/// "M62 (line 4), output 3 of Z on (line 7)"; empty: the machine has missed nothing.
+/// "M62 (line 4), output 3 of Z on (line 7)"; empty: nothing was withheld.
 std::string withheld_text(const StartNotes& notes);
-/// Where the start is as to loops and calls: "the subroutine called before line 12"; empty: at the
-/// level of the program itself.
+/// The loops and calls around the start: "the subroutine called before line 12"; empty: there are
+/// none.
 std::string open_flow_text(const Run& run);
 
 }  // namespace dripline::interpreter::centurion

@@ -39,8 +39,8 @@ Position place(const Point& millimetres) {
   return position;
 }
 
-/// The last feed per minute; without one that of a revolution, where the program has set it and the
-/// spindle turns; else the number of the power-on feed, per minute.
+/// The last feed per minute; without one the feed per revolution, if the program has set it and the
+/// spindle rotates; else the number of the power-on feed, per minute.
 Feed approach_feed(const Run& run) {
   const ModalState& state = run.state;
   if (state.feed[0] > 0) return Feed::per_minute(run.length(state.feed[0]));
@@ -48,8 +48,8 @@ Feed approach_feed(const Run& run) {
   const Length per_revolution = run.length(state.feed[1]);
   const Length power_on = Length::mm(run.options.power_on_feed_mm);
   const bool is_programmed = std::fabs(per_revolution.mm() - power_on.mm()) > kSame;
-  const bool turns = state.spindle.state != SpindleState::Off;
-  if (is_programmed && turns && state.feed[1] > 0) return Feed::per_revolution(per_revolution);
+  const bool is_running = state.spindle.state != SpindleState::Off;
+  if (is_programmed && is_running && state.feed[1] > 0) return Feed::per_revolution(per_revolution);
   return Feed::per_minute(power_on);
 }
 
@@ -102,7 +102,7 @@ bool StartSearch::is_tool(const Run& run, int tool) const {
          is_same_place(run);
 }
 
-bool StartSearch::asks_for_way_back(const Run& run) const {
+bool StartSearch::needs_jump_back(const Run& run) const {
   return start_.kind != StartAt::Kind::Count && !run.options.start_pass;
 }
 
@@ -118,7 +118,7 @@ bool StartSearch::arrive(Run& run) {
   return begin_here(run);
 }
 
-/// Why the state at this block is not the one that is meant, or not known.
+/// Why the state at this block is ambiguous or not known.
 std::string StartSearch::refusal(const Run& run) const {
   std::string text;
   const auto add = [&text](const std::string& reason) {
@@ -127,19 +127,19 @@ std::string StartSearch::refusal(const Run& run) const {
   };
   if (run.state.pattern.phase != PatternPhase::None)
     add("it is in the pattern of a cycle: start at the cycle's block");
-  if (asks_for_way_back(run)) {
+  if (needs_jump_back(run)) {
     std::string flow = open_flow_text(run);
-    if (way_back_) {
+    if (jump_back_) {
       flow +=
-          fmt::format("{}line {}, which comes back over it", flow.empty() ? "" : ", ", *way_back_);
+          fmt::format("{}line {}, which jumps back over it", flow.empty() ? "" : ", ", *jump_back_);
     }
     if (!flow.empty())
-      add(fmt::format("it is in {}: which time is meant (pass, start_pass)?", flow));
+      add(fmt::format("it is in {}: which pass is meant (pass, start_pass)?", flow));
   }
   if (const std::string lost = lost_memory_text(run); !lost.empty() && !run.options.may_count_again)
     add(fmt::format(
         "the part before it reads {} and then sets it: is the memory meant as it was when "
-        "the program began, or as it is now, so that this counts once more (memory, "
+        "the program began, or as it is now, so that this is applied twice (memory, "
         "start_memory)?",
         lost));
   return text;
@@ -150,12 +150,12 @@ bool StartSearch::begin_here(Run& run) {
   if (const std::string why = refusal(run); !why.empty())
     return run.fail(ErrorCode::StartUndefined, 0, fmt::format("{}: {}", start_.text, why));
   run.start.end();
-  run.flush_path();  // what still waits is part of what came before; the block's end looks at
+  run.flush_path();  // moves that wait belong to the part before; the block's end reports
                      // faults
   state.is_searching = false;
   const std::string withheld = withheld_text(run.start);
   if (!withheld.empty()) {
-    run.scratch = fmt::format("{}: not given out before it: {}", start_.text, withheld);
+    run.scratch = fmt::format("{}: withheld before it: {}", start_.text, withheld);
     out().on_message({run.origin, run.scratch});
   }
   show_machine_state(run);
@@ -171,8 +171,8 @@ bool StartSearch::begin_here(Run& run) {
   return true;
 }
 
-/// Below the clearance Z leaves first; above it X goes over first. The last way is a feed, after
-/// the operator has looked.
+/// Below the clearance Z retracts first; above it X moves first. The last move is a feed, after the
+/// operator has agreed.
 void StartSearch::approach(Run& run, const Point& from, const Point& to) {
   const ModalState& state = run.state;
   const double clearance = run.length(state.origin.z + run.parameters[kClearanceZ]).mm();
@@ -197,14 +197,14 @@ void StartSearch::approach(Run& run, const Point& from, const Point& to) {
 bool StartSearch::begin_at_first(Run& run) {
   if (run.start.arrivals > 0) {
     return run.fail(ErrorCode::StartUndefined, 0,
-                    fmt::format("{}: the program comes to it {} times, not {}", start_.text,
+                    fmt::format("{}: the program reaches it {} times, not {}", start_.text,
                                 run.start.arrivals, run.options.start_pass.value_or(1)));
   }
   run.start.end();
   run.state.is_searching = false;
   run.scratch = fmt::format("{} is not in the program: it begins at its first block", start_.text);
   out().on_message({run.origin, run.scratch});
-  out().on_stop({run.origin, StopKind::Operator});  // nobody has asked for that
+  out().on_stop({run.origin, StopKind::Operator});  // the operator asked for another start
   return true;
 }
 

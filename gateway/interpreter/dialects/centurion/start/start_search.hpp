@@ -15,9 +15,9 @@ struct Run;
 
 struct StartNotes;
 
-/// Where a run begins when not at its first block: `N120` the first block with this number, `T3`
-/// the first with this tool, `L40` the line, `B4096` the first block at or after the byte (a run
-/// that was cut off goes on there), `+25` after as many blocks.
+/// Where a run begins, if not at its first block: `N120` the first block with this number, `T3` the
+/// first with this tool, `L40` the line, `B4096` the first block at or after the byte (where an
+/// interrupted run resumes), `+25` after this number of blocks.
 struct StartAt {
   enum class Kind : std::uint8_t { Block, Tool, Line, Byte, Count };
   Kind kind = Kind::Block;
@@ -27,15 +27,15 @@ struct StartAt {
 /// Errors: Syntax.
 Result<StartAt> parse_start_at(std::string_view text);
 
-/// Looks for the start through everything the program does before it: nothing of that reaches the
-/// machine, but all of it counts (modes, zeros, parameters, tool). At the start the tool, spindle
-/// and coolant are shown, M functions and outputs that were not given out are named, and the
-/// machine moves from where it stands to where the program is by way of the clearance plane
-/// (spec 24.3). A program that has no such place begins at its first block, with a message, and
-/// when the operator has agreed. An alarm before anything moves: the block is in a loop, a
-/// subroutine or a called program, or the program may come back over it, and `start_pass` does not
-/// name which time is meant; it is in a pattern; what comes before it changes parameters that it
-/// has read, and `start_memory` does not name which memory is meant (start_notes.hpp).
+/// Searches for the start by interpreting everything before it: nothing of that reaches the
+/// machine, but all of it takes effect (modes, zeroes, parameters, tool). At the start, tool,
+/// spindle and coolant are reported, M functions and outputs that were withheld are named, and the
+/// machine moves to the program's position over the clearance plane (manual: RUN and VERIFY,
+/// search). A program that has no such place begins at its first block, with a message, after the
+/// operator has agreed. It is an alarm, before anything moves, when the block is in a loop, a
+/// subroutine or a called program, or the program may jump back over it, and `start_pass` does not
+/// name the pass; when it is in a pattern; and when the part before it changes parameters that it
+/// has read, and `start_memory` does not name the memory (start_notes.hpp).
 class StartSearch final : public EventGate {
  public:
   StartSearch(EventSink& out, StartAt start) : EventGate(out), start_(std::move(start)) {}
@@ -46,22 +46,22 @@ class StartSearch final : public EventGate {
   }
 
   bool is_searching() const { return state_->is_searching; }
-  /// Asked before a block is read, and with its tool when it has been.
+  /// Asked before a block is read, and again with its tool after that.
   bool is_here(const Run& run, std::optional<std::uint32_t> sequence) const;
   bool is_tool(const Run& run, int tool) const;
-  /// The program has come to the start. False: an alarm.
+  /// The program has reached the start. False: an alarm.
   bool arrive(Run& run);
-  /// Whether `arrive` needs to know of the blocks that come back (`way_back`, the line of one).
-  bool asks_for_way_back(const Run& run) const;
-  void note_way_back(std::optional<std::uint64_t> line) { way_back_ = line; }
-  /// False: an alarm, since the program comes to the start, but not often enough.
+  /// Whether `arrive` needs to know the line of a block that jumps back over the start.
+  bool needs_jump_back(const Run& run) const;
+  void note_jump_back(std::optional<std::uint64_t> line) { jump_back_ = line; }
+  /// False: an alarm, because the program reaches the start, but fewer times than `start_pass`.
   bool begin_at_first(Run& run);
 
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
   void on_thread(const Thread& event) override;
-  // What a program says of itself, and its alarm, are shown all the same.
+  // The header of a program and its alarm pass even now.
   void on_program(const ProgramHeader& event) override { out().on_program(event); }
   void on_units(const UnitsChange& event) override { out().on_units(event); }
   void on_blank(const Blank& event) override { out().on_blank(event); }
@@ -81,7 +81,7 @@ class StartSearch final : public EventGate {
   const StartAt start_;
   ModalState* state_ = nullptr;
   StartNotes* notes_ = nullptr;
-  std::optional<std::uint64_t> way_back_;
+  std::optional<std::uint64_t> jump_back_;
 };
 
 }  // namespace dripline::interpreter::centurion

@@ -83,7 +83,7 @@ TEST(PostCycles, PostsAThreadByRootAndHeight) {  // CEN-239
             kThreadHead + "G76 X2.8 Z-1.5 I.05 Q0 F.1 K.0613 A60 D.02 P2\n");
 }
 
-TEST(PostCycles, WorksOutAThreadGivenByItsCrest) {  // CEN-239
+TEST(PostCycles, ComputesAThreadGivenByItsCrest) {  // CEN-239
   const std::string file =
       event("multiple_thread", kStart + kThread + "entry = \"crest\"\ncrest_x = 2.9226");
   const auto crest = [](const std::string& truncation) {

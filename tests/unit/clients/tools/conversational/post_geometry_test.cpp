@@ -74,18 +74,18 @@ const std::string kCircles =
     "r1 = 2\nxc1 = 1\nzc1 = 0.5\nr2 = 1.25\nxc2 = 6\nzc2 = 7\ndirection = \"ccw\"\n";
 const std::string kCircleParameters = "P90 = .5\nP91 = 1\nP92 = 2\nP93 = 7\nP94 = 6\nP95 = 1.25\n";
 
-TEST(PostGeometry, JoinsArcsByATangentLine) {  // CEN-235
-  const auto join = [](const std::string& sides) {
+TEST(PostGeometry, ConnectsArcsByATangentLine) {  // CEN-235
+  const auto connect = [](const std::string& sides) {
     return posted(event("tangents", kCircles + sides));
   };
   const std::string tail = "G3 XC[P91] ZC[P90] R[P92] X[P81] Z[P80]\nG1 X[P83] Z[P82]\n";
-  EXPECT_EQ(join("exit = \"right\"\nenter = \"right\""), kCircleParameters + "TANL C0\n" + tail);
-  EXPECT_EQ(join("exit = \"left\"\nenter = \"right\""), kCircleParameters + "TANL C1\n" + tail);
-  EXPECT_EQ(join("exit = \"right\"\nenter = \"left\""), kCircleParameters + "TANL C2\n" + tail);
-  EXPECT_EQ(join("exit = \"left\"\nenter = \"left\""), kCircleParameters + "TANL C3\n" + tail);
+  EXPECT_EQ(connect("exit = \"right\"\nenter = \"right\""), kCircleParameters + "TANL C0\n" + tail);
+  EXPECT_EQ(connect("exit = \"left\"\nenter = \"right\""), kCircleParameters + "TANL C1\n" + tail);
+  EXPECT_EQ(connect("exit = \"right\"\nenter = \"left\""), kCircleParameters + "TANL C2\n" + tail);
+  EXPECT_EQ(connect("exit = \"left\"\nenter = \"left\""), kCircleParameters + "TANL C3\n" + tail);
 }
 
-TEST(PostGeometry, JoinsArcsByATangentArc) {  // CEN-235
+TEST(PostGeometry, ConnectsArcsByATangentArc) {  // CEN-235
   const struct {
     std::string exit, enter, center;
     int number;

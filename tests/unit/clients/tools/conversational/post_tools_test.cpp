@@ -12,7 +12,7 @@ std::string whole_program(const std::string& file) {
   return text ? *text : "error: " + text.error().what;
 }
 
-TEST(PostTools, BeginsWithTheSetUpAndEndsAsTold) {  // CEN-232, CEN-243
+TEST(PostTools, BeginsWithTheSetUpAndEndsAsProgrammed) {  // CEN-232, CEN-243
   EXPECT_EQ(whole_program(event("program_setup",
                                 "program = 512\nname = \"SHAFT 7\"\ndimensions = \"INCREMENTAL\"\n"
                                 "units = \"metric\"\nmaterial_length = 80\n"

@@ -47,7 +47,7 @@ TEST(ConversationalReader, NamesEventFieldValueAndLimit) {
   EXPECT_EQ(error("line", "x = true"),
             "error: event 1 (line), line 4: x = true: expected a number");
   EXPECT_EQ(error("line", "x = 1\nxc = 2"),
-            "error: event 1 (line), line 4: xc has no place here (pole = absolute)");
+            "error: event 1 (line), line 4: xc does not apply here (pole = absolute)");
   EXPECT_EQ(error("line", "corner = \"round\"\nx = 1"),
             "error: event 1 (line), line 4: corner_radius is missing");
   EXPECT_EQ(error("line", "feed = 1"),
@@ -95,7 +95,7 @@ TEST(ConversationalCatalogue, ListsEveryEventAndWhatItsFieldsTake) {
     for (const auto& field : one.fields) {
       EXPECT_FALSE(field.help.empty()) << one.type << '.' << field.name;
       EXPECT_EQ(field.kind == FieldKind::Choice, !field.choices.empty()) << one.type;
-      EXPECT_LE(field.english.least, field.english.most) << one.type << '.' << field.name;
+      EXPECT_LE(field.english.min, field.english.max) << one.type << '.' << field.name;
     }
   }
 }

@@ -2,7 +2,7 @@
 
 #include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
-/// Posted geometry that the control works out while it runs.
+/// Posted geometry that the control computes while it runs.
 namespace dripline::conversational {
 namespace {
 
@@ -13,7 +13,7 @@ std::string geometry(const std::string& body) {
 }
 
 TEST(PostedGeometry, RoundsAndBreaksCorners) {  // CEN-234
-  // A square corner at X2 Z-1; .25 of each side goes.
+  // A square corner at X2 Z-1; .25 of each side is cut off.
   const std::string before = event("position", "x = 2\nz = 0");
   const std::string after = event("line", "x = 4");
   EXPECT_EQ(
@@ -25,7 +25,7 @@ TEST(PostedGeometry, RoundsAndBreaksCorners) {  // CEN-234
 }
 
 TEST(PostedGeometry, ExtendsLinesBack) {  // CEN-234
-  // Back from radius 2 at Z-3 under 135 degrees: radius 1 is met one further on, at Z-2.
+  // Back from radius 2 at Z-3 under 135 degrees: radius 1 is reached one further, at Z-2.
   EXPECT_EQ(geometry(event("position", "x = 2\nz = 0") + event("line", "z = -1") +
                      event("line", "x = 4\nz = -3\nextend_back = \"short\"\nextend_angle = 135")),
             "rapid X2 Z0\nline X2 Z-2\nline X4 Z-3\n");
@@ -37,13 +37,13 @@ const std::string kCircles =
 const std::string kSecond = event(
     "arc", "direction = \"cw\"\ncenter = \"absolute\"\nradius = 1\nxc = 0\nzc = 4\nx = 0\nz = 5");
 
-TEST(PostedGeometry, JoinsArcsByATangentLine) {  // CEN-235
+TEST(PostedGeometry, ConnectsArcsByATangentLine) {  // CEN-235
   EXPECT_EQ(geometry(kStart + event("tangents", kCircles) + kSecond),
             "rapid X0 Z-1\narc cw X2 Z0 about X0 Z0 by 90\nline X2 Z4\n"
             "arc cw X0 Z5 about X0 Z4 by 90\n");
 }
 
-TEST(PostedGeometry, JoinsArcsByATangentArc) {  // CEN-235
+TEST(PostedGeometry, ConnectsArcsByATangentArc) {  // CEN-235
   // Center at Z2, radius 1.5 up: 2.5 from both, 1.5 + 1. The points are .8, .6 from the centers.
   EXPECT_EQ(geometry(kStart +
                      event("tangents", kCircles + "connect = \"arc\"\narc_radius = 1.5\n"
@@ -54,7 +54,7 @@ TEST(PostedGeometry, JoinsArcsByATangentArc) {  // CEN-235
 }
 
 TEST(PostedGeometry, RunsThroughThreePoints) {  // CEN-235
-  // 5, 0 and 4, 3 and 3, 4 lie on a circle of 5 about the zero point.
+  // 5, 0 and 4, 3 and 3, 4 are on a circle of 5 about the zero point.
   const std::string points = "x1 = 0\nz1 = 5\nx2 = 6\nz2 = 4\nx3 = 8\nz3 = 3\n";
   const std::string start = event("position", "x = 0\nz = 5");
   EXPECT_EQ(geometry(start + event("cgen", points)),

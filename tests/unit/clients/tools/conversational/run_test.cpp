@@ -2,7 +2,7 @@
 
 #include "tests/unit/clients/tools/conversational/posted_run.hpp"
 
-/// What is posted runs. Expected moves are worked out from the events, not from the text.
+/// Posted programs run. Expected moves are computed from the events, not from the text.
 namespace dripline::conversational {
 namespace {
 
@@ -46,7 +46,7 @@ std::string step_pattern(const std::string& cycle, const std::string& fields) {
 
 TEST(PostedRun, RoughsAndFinishesAPattern) {  // CEN-236, CEN-237
   // .05 are left at first, so the profile is at radius .55. Cuts at 1.05 + .05 - .2 = .9 and .7,
-  // out along the shoulder to the cut before and .02 further; then the pattern, then back to the
+  // out along the shoulder to the previous cut and .02 further; then the pattern, then back to the
   // start.
   EXPECT_EQ(run_of(kTool +
                    step_pattern("rough_turning",
@@ -157,8 +157,8 @@ const std::string kThreadTool =
     event("tool_change", "tool = 2\nspindle = \"rpm\"\nspeed = 500\nrestart = \"cw\"");
 const std::string kChanged = "spindle off\ncoolant off\ntool 2\nstop\ntool 2\nspindle cw\n";
 
-TEST(PostedRun, WorksOutTheRootFromCrestAndNose) {  // CEN-239
-  // A nose of .01 in a 60 degree groove stays .01/sin 30 - .01 = .01 off its point; a sharp thread
+TEST(PostedRun, ComputesTheRootFromCrestAndNose) {  // CEN-239
+  // A nose of .01 in a 60 degree groove stays .01/sin 30 - .01 = .01 from its root; a sharp thread
   // is .1/(2 tan 30) = .0866 high, so the height is .0766. Two cuts: .04 and the rest, the first
   // shifted by .0366 tan 30 = .0211. Outside the root is at 2 - .1532, inside at 1 + .1532.
   const std::string crest = kThread + "entry = \"crest\"\nfirst_cut = 0.04\nnose_angle = 60\n";
@@ -171,7 +171,7 @@ TEST(PostedRun, WorksOutTheRootFromCrestAndNose) {  // CEN-239
 }
 
 TEST(PostedRun, ChangesToolsWithTheirMessage) {  // CEN-242
-  // The spindle and the coolant go off first; T0404 then takes the tool's offsets.
+  // Spindle and coolant are switched off first; T0404 then selects the tool's offsets.
   EXPECT_EQ(run_of(event("tool_change",
                          "tool = 4\ndescription = \"BORE\"\nfeed = 0.01\n"
                          "speed = 300\nrestart = \"ccw\"\ncoolant = \"on\"")),
@@ -179,7 +179,7 @@ TEST(PostedRun, ChangesToolsWithTheirMessage) {  // CEN-242
             "coolant on\n");
 }
 
-TEST(PostedRun, TransformsWhatFollows) {  // CEN-243
+TEST(PostedRun, TransformsTheMovesThatFollow) {  // CEN-243
   const std::string at = event("position", "x = 2\nz = 1");
   EXPECT_EQ(run_of(event("scaling", "i = 0\nk = 0\nx = 0.5\nz = 0.25") + at), "rapid X1 Z.25\n");
   EXPECT_EQ(run_of(event("rotation", "x = 0\nz = 0\naa = 90") + event("position", "x = 0\nz = 1")),

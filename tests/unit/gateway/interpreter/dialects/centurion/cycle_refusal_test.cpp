@@ -2,7 +2,7 @@
 
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// Bad words of the drilling and grooving cycles are told before anything moves (CEN-120, CEN-129,
+/// Bad words of the drilling and grooving cycles are reported before anything moves (CEN-120, CEN-129,
 /// CEN-130, CEN-133).
 namespace dripline::interpreter::centurion {
 namespace {

@@ -17,7 +17,7 @@ class Report final : public EventSink {
 };
 
 /// The golden case's profile passes through the points that the control's manual prints for its
-/// digitizing program; the report must have its 525 moves with just those figures.
+/// digitizing program; the report must have its 525 moves with exactly those figures.
 TEST(DigitizedProgram, HasTheMovesOfTheManual) {
   const GoldenCase golden = read_golden_case("centurion", "digitize");
   const Dialect& dialect = **find_dialect("centurion");

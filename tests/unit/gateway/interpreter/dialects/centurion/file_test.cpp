@@ -32,7 +32,7 @@ TEST(Extraction, KeepsTheBytesOfAProgramWhateverEndsItsLines) {
   }
 }
 
-TEST(Extraction, TellsTextInFrontOfTheFirstNumber) {
+TEST(Extraction, ReportsBlocksBeforeTheFirstNumber) {
   const auto programs = extract_programs("X1\nO3\nX2\n");
   ASSERT_EQ(programs.size(), 2U);
   EXPECT_EQ(programs[0].number, 0U);
@@ -42,7 +42,7 @@ TEST(Extraction, TellsTextInFrontOfTheFirstNumber) {
   EXPECT_EQ(extract_programs("O5").size(), 1U) << "the last line may have no end";
 }
 
-TEST(Extraction, LeavesCommentsInFrontToTheFirstProgram) {
+TEST(Extraction, AddsLeadingCommentsToTheFirstProgram) {
   const auto programs = extract_programs("%\n\n(SHIFT 2)\nO3\nX2\n%\nO4\n");
   ASSERT_EQ(programs.size(), 2U);
   EXPECT_EQ(programs[0].number, 3U);
@@ -50,7 +50,7 @@ TEST(Extraction, LeavesCommentsInFrontToTheFirstProgram) {
   EXPECT_EQ(programs[1].text, "O4\n");
 }
 
-TEST(Extraction, TellsLineByLine) {
+TEST(Extraction, SplitsLineByLine) {
   ProgramSplitter splitter;
   EXPECT_FALSE(splitter.begins_next("%"));
   EXPECT_FALSE(splitter.begins_next("(A)"));

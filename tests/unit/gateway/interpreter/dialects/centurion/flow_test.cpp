@@ -41,13 +41,13 @@ TEST(Labels, BelongToTheirProgramOfTheFile) {
   EXPECT_EQ(run.printed(), (std::vector<std::string>{"SUB", "MAIN"}));
 }
 
-TEST(Labels, InCommentsOrSkippedTextAreNone) {
+TEST(Labels, InCommentsOrSkippedTextAreIgnored) {
   ProgramRun run("GOTO 5\n(N5)\nX1 N5\n");
   EXPECT_EQ(run.step(), StepState::Alarmed);
   EXPECT_TRUE(run.alarm().starts_with("CEN0568")) << run.alarm();
 }
 
-TEST(Labels, AreFoundFarAwayAndAgainAtOnce) {
+TEST(Labels, AreFoundFarAwayAndAgainWithoutASearch) {
   std::string text = "N1 P1=P1+1\nIF P1>200 GOTO 3\nGOTO 2\n";
   for (int i = 0; i < 100'000; ++i) text += fmt::format("N{} X{}.5\n", 10 + i % 9, i % 7);
   text += "N2 GOTO 1\nN3 PRINT[#1[01]]\n";
@@ -58,14 +58,14 @@ TEST(Labels, AreFoundFarAwayAndAgainAtOnce) {
   EXPECT_EQ(run.printed(), std::vector<std::string>{"201.0"});
 }
 
-TEST(Loops, LeftByGotoAreForgotten) {
+TEST(Loops, LeftByGotoEnd) {
   ProgramRun run("N1 P1=P1+1\nWHILE 1=1\nIF P1<200 GOTO 1\nGOTO 9\nWEND\nN9 PRINT[#1[01]]\nWEND\n");
   EXPECT_EQ(run.step(), StepState::Alarmed);
   EXPECT_EQ(run.printed(), std::vector<std::string>{"200.0"});
   EXPECT_TRUE(run.alarm().starts_with("CEN0601")) << run.alarm();
 }
 
-TEST(Loops, WendInTextIsNone) {
+TEST(Loops, WendInTextIsIgnored) {
   ProgramRun run("WHILE P1<1 (WEND)\nP1=1\nPRINT[WEND #1[01] WEND]\nWEND\n");
   EXPECT_EQ(run.step(), StepState::Ended);
   EXPECT_EQ(run.printed(), std::vector<std::string>{"WEND 1.0 WEND"});
@@ -86,7 +86,7 @@ TEST(Calls, ReturnFromASubprogramDropsItsSubroutines) {
   EXPECT_TRUE(run.alarm().starts_with("CEN0503 2:0")) << run.alarm();
 }
 
-TEST(Calls, NoRepeatsIsNoCall) {
+TEST(Calls, ZeroRepeatsIsNoCall) {
   ProgramRun run("CALL 2 L0\nM30\nO0002\nPRINT[NEVER]\n");
   EXPECT_EQ(run.step(), StepState::Ended);
   EXPECT_TRUE(run.printed().empty());
@@ -107,7 +107,7 @@ TEST(Snapshots, DamagedOrForeignOnesAreRefusedAndChangeNothing) {
   EXPECT_EQ(run.interpreter().snapshot().digest(), good.digest());
 }
 
-TEST(Detection, KnowsItsOwnProgramsAndLeavesOthers) {
+TEST(Detection, RecognizesItsOwnProgramsOnly) {
   const auto likelihood = [](std::string_view head) {
     return kCenturionDialect.likelihood(head, "program");
   };

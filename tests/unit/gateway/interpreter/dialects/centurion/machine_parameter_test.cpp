@@ -6,7 +6,7 @@
 #include "gateway/interpreter/dialects/centurion/options.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// The AXIS and POWER pages: CEN-214, CEN-215; and the way they travel: CEN-200.
+/// The AXIS and POWER pages: CEN-214, CEN-215; and their transfer: CEN-200.
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -88,7 +88,7 @@ TEST(Changer, FindsOnlyToolsThatHaveAPocket) {
   EXPECT_TRUE(verdict("T0303M6\n", "[[tool]]\nnumber = 3\npocket = 0\n").starts_with("CEN0452"));
 }
 
-TEST(Changer, RefusesPocketsThatCannotBe) {
+TEST(Changer, RefusesImpossiblePockets) {
   const auto refusal = [](const std::string& tools) {
     const auto read = read_options(setup_of(tools + "[control.machine]\natc_pockets = 8\n"));
     return read ? std::string("accepted") : read.error().what;
@@ -132,7 +132,7 @@ atc_pockets = 12
 )";
 
 /// A setup, its parameters on the line, and a setup again: the control's memory is the same.
-TEST(ParameterText, BringsBackTheSameMemory) {
+TEST(ParameterText, RestoresTheSameMemory) {
   const auto memory = [](const ControlSetup& setup) {
     ModalState state;
     Parameters parameters;
@@ -151,7 +151,7 @@ TEST(ParameterText, BringsBackTheSameMemory) {
     EXPECT_NEAR(first[number], second[number], 1e-9) << "P" << number;
 }
 
-/// The text is a program: a control with nothing of its own has it all after running it.
+/// The text is a program: an empty control has all parameters after executing it.
 TEST(ParameterText, IsAProgramThatSetsThem) {
   auto text = write_parameter_text(setup_of(kSetup));
   ASSERT_TRUE(text);
@@ -176,9 +176,9 @@ TEST(ParameterText, NamesTheLineItCannotRead) {
   EXPECT_EQ(refusal("%\nO77 (NAME)\n( ALL )\n p 500 = -1.5 \r\nM30\n%\n"), "accepted");
 }
 
-/// The control's numbers of tables and pages are not known: a file of a control goes nowhere by
-/// guess, and one of ours says in its first line that it is none.
-TEST(ParameterText, TakesNoNumberingThatIsNotKnown) {
+/// The control's numbers of tables and pages are not known: a file of a control is not
+/// interpreted by guess, and one of ours states in its first line that it is none.
+TEST(ParameterText, RefusesAnUnknownNumbering) {
   const auto refused = setup_of_parameter_text("G20\nP7=1\nG10\nP500=1.5\nG11\n");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().what,

@@ -17,7 +17,7 @@ struct NumberCase {
 
 class ReadNumber : public testing::TestWithParam<NumberCase> {};
 
-TEST_P(ReadNumber, ReadsAsFarAsTheNumberGoes) {
+TEST_P(ReadNumber, ReadsToTheEndOfTheNumber) {
   const std::string text = GetParam().text + "\n";
   const char* at = text.data();
   const Number number = read_number(at);

@@ -5,7 +5,7 @@
 #include "gateway/interpreter/dialects/centurion/options.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// What a program says to the panel, what the panel's tables hold, and data mode.
+/// What a program reports to the panel, the panel's tables, and data mode.
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -18,8 +18,8 @@ ControlSetup with_control(const std::string& options) {
   return *setup;
 }
 
-/// Feed, spindle and single block locked; when a hold acts (0 at once, 1 later, 2 one from before
-/// later too); a tapping cycle.
+/// Feed, spindle and single block inhibited; when a feed hold acts (0 at once, 1 later, 2 an earlier
+/// one later too); a tapping cycle.
 Lines locks_of(const std::string& text, const ControlSetup& setup = {}) {
   ProgramRun run(text, setup);
   EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();
@@ -39,20 +39,20 @@ TEST(OverrideInhibit, BeforeTheFirstEventLeavesTheUnitsOpen) {
   EXPECT_EQ(run.events("lock"), Lines{"111 1 0"});
 }
 
-/// CEN-137: operations 3 to 5, the way out, and no more.
-TEST(OverrideInhibit, OfATapIsTakenBackAfterTheWayOut) {
+/// CEN-137: operations 3 to 5, the retraction, and no more.
+TEST(OverrideInhibit, OfATapEndsAfterTheRetraction) {
   const std::string before = "G97 G99 S500 M3\nG0 Z1\n";
   EXPECT_EQ(locks_of(before + "G84 F.1 R.5 Z-.5 G38\n"), (Lines{"111 1 1", "000 2 0", "000 0 0"}));
   EXPECT_EQ(locks_of(before + "G63\nG84 F.1 R.5 Z-.5 G39\nG64\n"),
             (Lines{"111 1 0", "111 1 1", "111 1 0", "111 1 0", "000 0 0"}));
 }
 
-/// A hold asked for in the thread lets the tool leave it.
-TEST(OverrideInhibit, OfAThreadPassIsTheWayOutOfIt) {
+/// After a feed hold in the thread the tool still leaves it.
+TEST(OverrideInhibit, OfAThreadPassLastsUntilItsRetraction) {
   EXPECT_EQ(locks_of("G97 S500 M3\nG0 X2 Z1\nG92 X1 Z-1 F.1\n"), (Lines{"000 2 0", "000 0 0"}));
 }
 
-TEST(OverrideInhibit, OfTheModeIsShownWhereARunIsTakenUp) {
+TEST(OverrideInhibit, OfTheModeIsReportedAtAStartInTheMiddle) {
   EXPECT_EQ(locks_of("G0 X1\nG63\nN5 X2\n", with_control("start_at = \"N5\"")), Lines{"111 1 0"});
 }
 
@@ -64,7 +64,7 @@ TEST(PanelTables, HaveTheControlsPositionsUnlessTheSetupHasItsOwn) {
   EXPECT_DOUBLE_EQ(usual->feed.back(), 1.5);
   EXPECT_EQ(usual->spindle.size(), 15U);
   EXPECT_DOUBLE_EQ(usual->spindle.back(), 1.75);
-  // 10 of 400 pulses of a turn that passes a thousandth of a minute
+  // 10 of 400 pulses of a revolution that passes a thousandth of a minute
   EXPECT_DOUBLE_EQ(usual->click_seconds.at(10), 0.0015);
   const auto own =
       read_panel_tables(with_control("feed_overrides = [0, 199]\nspindle_overrides = [255]\n"
@@ -88,8 +88,8 @@ TEST(PanelTables, AreRefusedWithTheOptionTheValueAndTheLimit) {
             "[control] cranking_minutes: 0 is not above 0 and up to 1");
 }
 
-/// CEN-060: what is written reads back, what is made of it stays until G11.
-TEST(DataMode, ChangesCountFromG11On) {
+/// CEN-060: a written value reads back; it is in force from G11 on.
+TEST(DataMode, ChangesAreInForceFromG11On) {
   ProgramRun run(
       "T0101 M6\nG10\nP600=.5\nP10=P240\nP11=P600\nP600=P600*3\nG11\nP12=P240\n"
       "PRINT [#10[12] #11[12] #12[12]]\n");

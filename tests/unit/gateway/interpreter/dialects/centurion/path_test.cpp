@@ -4,11 +4,11 @@
 #include "gateway/interpreter/core/setup.hpp"
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// What a path does besides its points: exact stops, limits of what may wait, options.
+/// A path besides its points: exact stops, limits of the moves that wait, options.
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// For each cutting move, whether the axes come to rest at its end: `r`, or go on: `-`.
+/// For each cutting move, whether the axes stop at its end: `r`, or continue: `-`.
 class Rests final : public EventSink {
  public:
   void on_line(const Line& event) override { marks += event.rests ? 'r' : '-'; }
@@ -97,8 +97,8 @@ TEST(CenturionPath, TooManyEventsBetweenCompensatedMovesAreRefused) {
   EXPECT_EQ(rests_of(text + "X3\n", with_nose(0.05)), "--CEN1021");
 }
 
-// CEN-193 to CEN-195: words that do not go together
-TEST(CenturionPath, TransformationsRefuseWhatTheyCannotMean) {
+// CEN-193 to CEN-195: words that exclude each other
+TEST(CenturionPath, TransformationsRefuseContradictingWords) {
   const auto alarm_of = [](const char* block) {
     ProgramRun run(std::string(block) + "\n");
     while (run.step() == StepState::Ran) {
@@ -125,7 +125,7 @@ TEST(CenturionPath, FeedPerMinuteFollowsTheSlowestAxis) {
             "10.000 9.000 8.000 6.000 ");
 }
 
-TEST(CenturionPath, OptionsNameWhatIsWrong) {
+TEST(CenturionPath, OptionErrorsNameTheOption) {
   EXPECT_EQ(refusal("[control]\nreference = [ {X=1.0}, {X=1.0}, {X=1.0}, {X=1.0}, {X=1.0} ]\n"),
             "[control] reference: 5 points, this control has 4");
   EXPECT_EQ(refusal("[control]\nspindle_ranges = [ 500, 1000 ]\n"),

@@ -2,8 +2,7 @@
 
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// A question suspends the block where it stands; the answer takes it up without doing anything
-/// twice.
+/// A question suspends the block; with the answer it resumes without doing anything twice.
 namespace dripline::interpreter::centurion {
 namespace {
 
@@ -59,7 +58,7 @@ TEST(Questions, TheClockIsAskedForAndTheLineIsPrintedOnce) {
   EXPECT_EQ(run.printed(), std::vector<std::string>{"A005:06:07 26/03/04"});
 }
 
-TEST(Questions, AProbeMoveGoesOnFromWhereItStopped) {
+TEST(Questions, TheNextMoveBeginsWhereAProbeMoveStopped) {
   ProgramRun run("G98 F1\nPROBE1 Z-2 M9\nG91 Z1\n");
   ASSERT_EQ(run.step(), StepState::NeedsAnswer);
   const Probe probe = std::get<ProbeQuestion>(run.interpreter().question()).probe;
@@ -73,7 +72,7 @@ TEST(Questions, AProbeMoveGoesOnFromWhereItStopped) {
   EXPECT_EQ(run.events("line"), std::vector<std::string>{"Z12.7 F25.4/0/0"});
 }
 
-TEST(Questions, RandomNumbersAreDrawnOnceWhateverIsAsked) {
+TEST(Questions, RandomNumbersAreDrawnOnceDespiteQuestions) {
   const std::string rest = "P3=RND[1000]\nPRINT[#2 #3]\n";
   ProgramRun plain("P2=RND[1000]+1\n" + rest);
   plain.step();

@@ -102,14 +102,14 @@ TEST(Refusals, ABlockMayHave4096CharactersAndNoMore) {
   EXPECT_TRUE(too_long.alarm().starts_with("CEN1002 2:0")) << too_long.alarm();
 }
 
-TEST(Refusals, WhatWasBeforeTheFaultyBlockIsDoneAndNothingElse) {
+TEST(Refusals, BlocksBeforeTheFaultyOneAreExecutedAndNoOthers) {
   ProgramRun run("X1\nX2 Z[1/0]\nX3\n");
   EXPECT_EQ(run.step(), StepState::Alarmed);
   EXPECT_EQ(run.events("line").size(), 1U);
   EXPECT_EQ(run.interpreter().blocks(), 1U);
 }
 
-TEST(Refusals, DeepNestingOfBracketsIsRefusedNotFollowed) {
+TEST(Refusals, DeepNestingOfBracketsIsRefused) {
   ProgramRun run("P1=" + std::string(2000, '[') + "1\n");
   EXPECT_EQ(run.step(), StepState::Alarmed);
   EXPECT_TRUE(run.alarm().starts_with("CEN0518")) << run.alarm();

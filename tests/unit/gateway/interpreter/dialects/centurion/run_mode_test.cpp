@@ -37,7 +37,7 @@ TEST(StartAt, LineIsTheFirstBlockFromThereOn) {
 }
 
 /// A start inside a called program is found in the order of execution, when the pass is named.
-TEST(StartAt, BlockMayStandInACalledProgram) {
+TEST(StartAt, BlockMayBeInACalledProgram) {
   ProgramRun run("O1\nG0 X1\nM98 P2\nX3\nM30\nO2\nX7\nN70 X2\n",
                  with_control("start_at = \"N70\"\nstart_pass = 1"));
   EXPECT_EQ(run.step(), StepState::Ended);
@@ -50,7 +50,7 @@ TEST(StartAt, AfterAProbeMoveIsAnAlarmBeforeAnythingMoves) {
   EXPECT_TRUE(run.alarm().starts_with("CEN1011 2:0")) << run.alarm();
 }
 
-/// An answer decides the way, so it is still asked for.
+/// An answer decides the program's path, so the question is asked even during a search.
 TEST(StartAt, InputsBeforeItAreAsked) {
   ProgramRun run("INPUT (N) P1\nP1=P1*2\nN9 PRINT[#1[10]]\n", with_control("start_at = \"N9\""));
   ASSERT_EQ(run.step(), StepState::NeedsAnswer);
@@ -70,7 +70,7 @@ struct ModeCase {
 class RunMode : public testing::TestWithParam<ModeCase> {};
 
 /// CEN-203, CEN-207, CEN-223.
-TEST_P(RunMode, RefusesWhatItDoesNotHave) {
+TEST_P(RunMode, RefusesWhatTheModeLacks) {
   ProgramRun run(GetParam().text, with_control(GetParam().control));
   if (GetParam().verdict.empty()) {
     EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();

@@ -19,18 +19,18 @@ bool is_on(Beside side, PlaneVector point, PlaneVector center) {
 }
 
 // CEN-179
-TEST(Tangents, ALineTouchesBothCirclesOnTheSidesAskedFor) {
+TEST(Tangents, ALineIsTangentToBothCirclesOnTheGivenSides) {
   for (const Beside first : kSides) {
     for (const Beside second : kSides) {
       const auto points = tangent_points(TangentLine{kFirst, kSecond, first, second});
       ASSERT_TRUE(points);
-      const PlaneVector way = points->on_second - points->on_first;
+      const PlaneVector line = points->on_second - points->on_first;
       const PlaneVector out = points->on_first - kFirst.center;
       const PlaneVector other = points->on_second - kSecond.center;
       EXPECT_NEAR(length(out), kFirst.radius, 1e-12);
       EXPECT_NEAR(length(other), kSecond.radius, 1e-12);
-      EXPECT_NEAR(dot(way, out), 0, 1e-12);
-      EXPECT_NEAR(dot(way, other), 0, 1e-12);
+      EXPECT_NEAR(dot(line, out), 0, 1e-12);
+      EXPECT_NEAR(dot(line, other), 0, 1e-12);
       EXPECT_TRUE(is_on(first, points->on_first, kFirst.center));
       EXPECT_TRUE(is_on(second, points->on_second, kSecond.center));
     }
@@ -38,7 +38,7 @@ TEST(Tangents, ALineTouchesBothCirclesOnTheSidesAskedFor) {
 }
 
 // CEN-180
-TEST(Tangents, AnArcTouchesBothCirclesOnTheSidesAskedFor) {
+TEST(Tangents, AnArcIsTangentToBothCirclesOnTheGivenSides) {
   constexpr double kRadius = 9;
   for (const Beside first : kSides) {
     for (const Beside second : kSides) {
@@ -58,7 +58,7 @@ TEST(Tangents, AnArcTouchesBothCirclesOnTheSidesAskedFor) {
   }
 }
 
-TEST(Tangents, WhatDoesNotExistIsNotInvented) {
+TEST(Tangents, ImpossibleTangentsHaveNoResult) {
   const PlaneCircle inside{{0, 0}, 1};
   const PlaneCircle around{{0.5, 0}, 5};
   EXPECT_FALSE(tangent_points(TangentLine{inside, around, Beside::Left, Beside::Left}));
