@@ -46,7 +46,7 @@ class Reader {
     }
   }
   void flag(const char* key, bool& field) { later(key, field); }
-  /// A member that servers before this client do not have.
+  /// A member that older servers do not send.
   template <class T>
   void later(const char* key, T& field) {
     if (object_.contains(key)) (*this)(key, field);
@@ -161,7 +161,7 @@ Result<T> from_json(const Json& json) {
   return read_object<T>(json);
 }
 
-/// The history is a Program whose "revisions" is the list instead of its length.
+/// In a history, "revisions" is the list instead of its length.
 template <>
 Result<ProgramHistory> from_json(const Json& json) {
   if (!json.is_object()) return fail(Errc::Syntax, "not a JSON object");

@@ -7,9 +7,9 @@
 #include "clients/lib/api_types.hpp"
 #include "protocol/base/result.hpp"
 
-/// The server's JSON as values and back. Reading is strict about types and about members that must
-/// be there, and ignores members it does not know, so that an older client works with a newer
-/// server. Writing gives members in the documented order, absent values as null.
+/// The server's JSON as values and back. Reading is strict about types and required members, and
+/// ignores unknown members, so that an older client works with a newer server. Writing gives
+/// members in the documented order, absent values as null.
 namespace dripline::client {
 
 /// Errors: Syntax, naming the member. Instances exist for every type of api_types.hpp.

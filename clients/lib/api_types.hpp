@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-/// What the server's answers hold (server/api/README.md), as plain values. Times are ISO 8601 UTC
-/// text as they came, lengths millimetres. An absent text is empty; other absent values are
-/// nullopt.
+/// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
+/// the server sent, so that an older client shows the words of a newer server; times are ISO 8601
+/// UTC, lengths millimetres. An absent text is empty; other absent values are nullopt. Each type's
+/// members are listed in impl/api_members.hpp; a test compares the lists with openapi.json.
 namespace dripline::client {
 
 struct ServerInfo {
@@ -20,7 +21,7 @@ struct ServerInfo {
     struct Reason {
       std::string subject, status, message, detail;
     };
-    std::string status;  ///< ok, degraded, failed; empty: an older server does not tell
+    std::string status;  ///< ok, degraded, failed; empty: from an older server
     std::vector<Reason> reasons;
   } health;
   struct Dds {
@@ -28,12 +29,12 @@ struct ServerInfo {
   } dds;
 };
 
-/// A program's latest revision, as listings give it. Held: nothing of it is in force yet.
+/// A program's latest revision, as listings give it. Held: no revision of it is approved yet.
 struct Program {
   std::string name;
   std::uint64_t revision = 0, revisions = 0, size = 0;
   std::string sha256;
-  std::string title;  ///< what it calls itself in its first block
+  std::string title;  ///< the name in its first block
   std::string control, comment, author, created;
   bool held = false;
   std::string accepted;
@@ -44,10 +45,10 @@ struct Revision {
   std::string program;
   std::uint64_t revision = 0, size = 0;
   std::string sha256;
-  std::string title;  ///< what it calls itself in its first block
+  std::string title;  ///< the name in its first block
   std::string control, comment, author, created;
-  bool held = false;       ///< came from a machine and waits for acceptance
-  std::string accepted;    ///< when, of one that was held
+  bool held = false;       ///< came from a machine and is pending approval
+  std::string accepted;    ///< when it was approved
   bool unchanged = false;  ///< answer to a commit: the latest revision already had this content
 };
 
@@ -62,7 +63,7 @@ struct Upload {
   std::uint64_t max_piece = 0;
 };
 
-/// What a control's status window shows besides place, position and speeds; millimetres.
+/// The modal state that a control's status window shows; millimetres.
 struct ActiveModes {
   std::string motion, compensation, units;
   bool incremental = false;
@@ -78,7 +79,7 @@ struct ActiveModes {
   std::optional<double> spindle_load;
   bool flood = false, mist = false;
   std::string tool_axis;  ///< its letter; empty: programs do not choose it
-  std::string spindle;    ///< "off", "clockwise", ...; empty: not told
+  std::string spindle;    ///< "off", "clockwise", ...; empty: unknown
 };
 
 /// How program coordinates lie on the machine; by axis letter, millimetres and degrees.
@@ -91,12 +92,14 @@ struct ProgramFrame {
   std::optional<std::map<std::string, double>> pole;
 };
 
-/// What a control's position display can show; along the machine's axes.
+/// The values of a control's position display, along the machine's axes.
 struct Coordinates {
-  std::map<std::string, double> target;  ///< where the move being made ends
+  std::map<std::string, double> target;  ///< the end of the current move
   std::map<std::string, double> distance_to_go;
-  std::optional<std::map<std::string, double>> lag = {};  ///< absent: nobody measures it
-  std::optional<ProgramFrame> program = {};  ///< absent: no run, or its control tells none
+  /// The following error; absent: not measured.
+  std::optional<std::map<std::string, double>> lag = {};
+  /// Absent without a run, or when its control reports none.
+  std::optional<ProgramFrame> program = {};
 };
 
 struct MachineStatus {
@@ -120,8 +123,10 @@ struct MachineStatus {
 struct Machine {
   std::string name, control, description, gateway_version;
   bool connected = false;
-  std::optional<double> clock_ahead_seconds;  ///< of the gateway's; negative: after the server's
-  std::vector<std::string> notices;           ///< what is wrong between server and gateway
+  /// How far the gateway's clock is ahead of the server's; negative: it is late.
+  std::optional<double> clock_ahead_seconds;
+  /// What is wrong between server and gateway.
+  std::vector<std::string> notices;
   std::string first_seen, last_seen;
   std::optional<MachineStatus> status;
 };
@@ -142,24 +147,24 @@ struct Run {
   std::optional<std::uint64_t> setup;  ///< the machine's setup it was started with
 };
 
-/// What a machine's control knows before a program starts.
+/// The tools, offsets and parameters that a machine's control has before a program starts.
 struct Setup {
   std::string machine;
   std::uint64_t revision = 0, size = 0;
   std::string sha256, comment, author, created;
-  std::string text;        ///< TOML; only of one that was asked for
-  bool unchanged = false;  ///< the newest had this text already
+  std::string text;        ///< TOML; empty in listings
+  bool unchanged = false;  ///< answer to saving: the newest setup already had this text
 };
 
-/// One thing that a control keeps when a program is over.
+/// One value that a control retains after the end of a program.
 struct MemoryCell {
   std::string name;
-  std::optional<double> value;  ///< none: vacant
-  std::optional<double> setup;  ///< what the setup gave it
+  std::optional<double> value;  ///< nullopt: vacant
+  std::optional<double> setup;  ///< its value in the setup
 };
 struct Memory {
   std::string machine, run;
-  std::string program;  ///< empty: the run was begun at the machine
+  std::string program;  ///< empty: the run was started at the machine
   std::string time;
   std::vector<MemoryCell> cells;
 };
@@ -181,14 +186,14 @@ struct Report {
   std::string started, ended;
 };
 
-/// What a machine printed outside any run.
+/// The lines that a machine printed outside any run.
 struct MachineReport {
   std::string machine;
   std::uint64_t lines = 0;
   std::string first, last;
 };
 
-/// Key and value, both as people write them.
+/// Key and value as text.
 using Settings = std::map<std::string, std::string>;
 
 /// Programs sent without a run.
@@ -202,7 +207,7 @@ struct Transfer {
 
 struct Port {
   std::string name, machine, address, line_template;
-  Settings settings;  ///< its own, over those of its template
+  Settings settings;  ///< its own; they override those of its template
   std::string rules;
   bool enabled = true;
   Settings effective;
@@ -215,17 +220,17 @@ struct Port {
     bool without_limit = false;
   } line;
   std::string run;
-  std::optional<Transfer> transfer;  ///< the last one
+  std::optional<Transfer> transfer;  ///< the latest
   std::uint64_t sent = 0, received = 0;
   std::string waiting_since;
-  /// What the control asked for while no run waited.
+  /// The control's latest request that came while no run waited.
   struct Request {
     std::string since, program, answer;
   };
   std::optional<Request> request;
 };
 
-/// One thing that passed over a line: sent and received have bytes, the others words.
+/// One event of a line: `sent` and `received` have bytes, the other kinds have text.
 struct Traffic {
   std::string port, time, what;
   std::string bytes;  ///< hexadecimal
@@ -251,7 +256,7 @@ struct PortSetting {
 };
 struct PortTemplates {
   std::vector<PortTemplate> templates;
-  std::vector<PortSetting> settings;  ///< every setting there is
+  std::vector<PortSetting> settings;  ///< all settings of a port
 };
 
 }  // namespace dripline::client

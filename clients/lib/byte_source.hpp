@@ -17,8 +17,8 @@ class ByteSource {
   virtual Result<void> read(std::uint64_t offset, std::span<char> into) = 0;
 };
 
-/// A regular file. What is pushed is what the file held when opened: a file that shrinks meanwhile
-/// is an error, one that grows is cut at its old size.
+/// A regular file. A push sends the size that the file had when it was opened: a file that shrinks
+/// meanwhile is an error, one that grows is cut at its old size.
 class FileSource final : public ByteSource {
  public:
   /// Errors: Io; Unsupported (not a regular file).

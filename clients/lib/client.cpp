@@ -47,7 +47,7 @@ std::string with_page(std::string path, Page page) {
   return with_query(std::move(path), "offset", std::to_string(page.offset));
 }
 
-/// What the server said went wrong.
+/// The error that the server reports.
 Failure refusal(const HttpResponse& response, const std::string& url) {
   std::string code, message;
   if (auto json = parse_json(response.body); json && json->is_object()) {
@@ -214,7 +214,7 @@ Reply<Content> Client::content(const ContentRange& range) {
                                        std::to_string(range.revision)));
   const std::uint64_t last = range.offset + range.length - 1;
   request.headers.emplace_back("Range", fmt::format("bytes={}-{}", range.offset, last));
-  constexpr std::uint64_t kMaxErrorText = 4096;  // which comes in the place of a few bytes
+  constexpr std::uint64_t kMaxErrorText = 4096;  // an error may replace a content of a few bytes
   request.max_body = std::max(range.length, kMaxErrorText);
   auto response = exchange(request);
   if (!response) return failed(response.error());

@@ -21,12 +21,14 @@ struct Page {
 
 struct UploadRequest {
   std::string program;
-  std::string control, comment;       ///< empty: not said
-  bool overrides_protection = false;  ///< replaces also a program that is protected
+  /// Empty: the server detects the control; no comment.
+  std::string control, comment;
+  /// Also replaces a program that is protected.
+  bool overrides_protection = false;
 };
 
 struct CommitRequest {
-  std::string sha256;  ///< empty: not said
+  std::string sha256;  ///< empty: the server does not compare it
   bool overrides_protection = false;
 };
 
@@ -43,7 +45,7 @@ struct ContentRange {
   std::uint64_t length = 0;  ///< > 0
 };
 
-/// A part of a stored revision and what the server says of the whole.
+/// A part of a stored revision, with size and SHA-256 of the whole.
 struct Content {
   std::string bytes;
   std::string sha256;
@@ -52,15 +54,19 @@ struct Content {
 
 struct RunRequest {
   std::string machine, program;
-  std::optional<std::uint64_t> revision;  ///< nullopt: the latest
-  std::string from =
-      {};  ///< N120, L7 (line), B4096 (byte), T3 (tool), +25 (blocks); empty: the beginning
-  std::string head = {};                   ///< on a serial line, with from: send, set; empty: ask
-  std::string memory = {};                 ///< at a gateway, with from: begin, now; empty: ask
-  std::optional<std::uint64_t> pass = {};  ///< at a gateway, with from: which time it comes there
+  /// nullopt: the latest.
+  std::optional<std::uint64_t> revision;
+  /// N120, L7 (line), B4096 (byte), T3 (tool), +25 (blocks); empty: the beginning.
+  std::string from = {};
+  /// On a serial line, with `from`: send or set; empty: the server refuses and names the words.
+  std::string head = {};
+  /// At a gateway, with `from`: begin or now; empty: the gateway refuses and names what differs.
+  std::string memory = {};
+  /// At a gateway, with `from`: the pass, from 1, of a block that is executed more than once.
+  std::optional<std::uint64_t> pass = {};
 };
 
-/// Texts empty: all.
+/// An empty text matches every run.
 struct RunQuery {
   std::string machine, program, state;
   Page page;
@@ -77,16 +83,19 @@ struct CommandRequest {
   std::optional<double> value;
 };
 
-/// What a port is set to; saving replaces all of it.
 struct SetupRequest {
   std::string machine, text, comment;
-  std::string control;                     ///< of a machine that was never seen; else empty
-  std::optional<std::uint64_t> base = {};  ///< refused unless this one is still the newest
+  /// Of a machine that the server does not know yet; else empty.
+  std::string control;
+  /// The server refuses the text unless this setup is still the newest.
+  std::optional<std::uint64_t> base = {};
 };
 
+/// The configuration of a port; saving replaces all of it.
 struct PortRequest {
   std::string name, machine, address;
-  std::string line_template, rules;  ///< may be empty
+  /// May be empty.
+  std::string line_template, rules;
   Settings settings;
   bool enabled = true;
 };
@@ -106,7 +115,7 @@ class Client {
 
   Reply<std::vector<Program>> programs(Page page);
   Reply<ProgramHistory> program(std::string_view name);
-  /// `overrides_protection`: also one that is protected against erasing.
+  /// `overrides_protection`: also removes a program that is protected against erasing.
   Reply<void> remove_program(std::string_view name, bool overrides_protection = false);
   /// The latest revision unless one is named.
   Reply<Revision> copy_program(std::string_view from, const std::string& to,
@@ -114,7 +123,7 @@ class Client {
   Reply<ProgramHistory> rename_program(std::string_view from, const std::string& to);
   Reply<Revision> accept_revision(std::string_view name, std::uint64_t revision);
   Reply<void> reject_revision(std::string_view name, std::uint64_t revision);
-  /// Fewer bytes than asked only at the end of the content.
+  /// Returns fewer bytes than requested only at the end of the content.
   Reply<Content> content(const ContentRange& range);
 
   Reply<Upload> open_upload(const UploadRequest& request);
@@ -131,15 +140,15 @@ class Client {
   /// The newest unless a revision is named.
   Reply<Setup> setup(std::string_view machine, std::optional<std::uint64_t> revision);
   Reply<Setup> save_setup(const SetupRequest& request);
-  /// What the machine's control kept after its runs, newest first; after `run` alone, or all
-  /// (empty).
+  /// What the machine's control retained after its runs, newest first; after `run` alone unless
+  /// that is empty.
   Reply<std::vector<Memory>> memories(std::string_view machine, std::string_view run, Page page);
 
   Reply<Run> start_run(const RunRequest& request);
   Reply<std::vector<Run>> runs(const RunQuery& query);
   Reply<Run> run(std::string_view id);
   Reply<void> command(std::string_view run, const CommandRequest& request);
-  /// At its panel, with a run or without: switches and overrides.
+  /// Switches and overrides of the machine's panel; they need no run.
   Reply<void> command_machine(std::string_view machine, const CommandRequest& request);
   Reply<std::vector<Record>> records(std::string_view run, std::string_view kind, Page page);
 
@@ -147,22 +156,23 @@ class Client {
   Reply<Port> port(std::string_view name);
   Reply<Port> save_port(const PortRequest& request);
   Reply<void> remove_port(std::string_view name);
-  /// Names, or NAME@REVISION, in their order.
+  /// `programs`: NAME or NAME@REVISION, sent in this order.
   Reply<Transfer> send_programs(std::string_view port, const std::vector<std::string>& programs);
   Reply<void> receive_program(std::string_view port);
   Reply<void> stop_transfer(std::string_view port);
   Reply<PortTest> test_port(std::string_view name);
   Reply<RuleVerdict> test_rules(std::string_view name, std::string_view text);
-  /// JSON lines of Traffic; they go to `sink` as they come, false from it ends the call.
+  /// Passes JSON lines of Traffic to `sink` as they arrive; false from it ends the call.
   Reply<void> recording(std::string_view name, const std::function<bool(std::string_view)>& sink);
   Reply<PortTemplates> port_templates();
 
   Reply<std::vector<Report>> reports(const ReportQuery& query);
-  /// `format`: text, csv or json. The bytes go to `sink` as they come; false from it ends the call.
+  /// `format`: text, csv or json. Passes the bytes to `sink` as they arrive; false from it ends
+  /// the call.
   Reply<void> export_report(std::string_view run, std::string_view format,
                             const std::function<bool(std::string_view)>& sink);
   Reply<std::vector<MachineReport>> machine_reports();
-  /// As `export_report`, of what a machine printed outside any run.
+  /// Like `export_report`, for what a machine printed outside any run.
   Reply<void> export_machine_report(std::string_view machine, std::string_view format,
                                     const std::function<bool(std::string_view)>& sink);
 

@@ -14,13 +14,14 @@ struct ServerEvent {
   std::string data;  ///< `data:` lines joined by line ends
 };
 
-/// Reads a text/event-stream (WHATWG HTML, section 9.2) in whatever pieces it arrives. Comments,
+/// Reads a text/event-stream (WHATWG HTML, section 9.2) in pieces of any size. Comments,
 /// ids and retry times are skipped. Pure; bounded: an event of more than 1 MiB is an error.
 class EventParser {
  public:
   static constexpr std::size_t kMaxEvent = 1024 * 1024;
 
-  /// The events that `bytes` completes. Errors: LimitExceeded; the parser is then of no more use.
+  /// The events that `bytes` completes. Errors: LimitExceeded; the parser must not be used after
+  /// that.
   Result<std::vector<ServerEvent>> feed(std::string_view bytes);
 
  private:

@@ -35,7 +35,7 @@ std::string events_path(const std::string& machine) {
   return impl::with_query(impl::path_of("events"), "machine", machine);
 }
 
-/// nullopt for events of a kind, or of a shape, that this version does not know.
+/// nullopt for an event whose kind or form this version does not know.
 std::optional<StreamItem> decode(const ServerEvent& event) {
   auto json = parse_json(event.data);
   if (!json) return std::nullopt;
@@ -74,7 +74,7 @@ class EventStream::Impl {
       is_stopped_ = true;
     }
     changed_.notify_all();
-    // The request may just be beginning, when a stop has no effect yet: repeat until it is over.
+    // A stop has no effect on a request that is about to begin: repeat until it has ended.
     while (!wait_until_over(50ms)) http_->stop();
     thread_.join();
   }
@@ -160,7 +160,7 @@ class EventStream::Impl {
   std::condition_variable changed_;
   std::deque<StreamItem> waiting_;
   bool is_stopped_ = false, is_over_ = false;
-  bool had_data_ = false;  ///< of the thread alone
+  bool had_data_ = false;  ///< used by the thread only
   std::thread thread_;
 };
 

@@ -12,13 +12,13 @@
 
 namespace dripline::client {
 
-/// The stream is open: what happened before is not in it, so ask for the present state now.
+/// The stream is open. It does not hold earlier events: ask for the present state now.
 struct StreamOpened {};
-/// The connection is gone; the stream tries again by itself, unless the server denied it.
+/// The connection is lost; the stream reconnects by itself unless the server denied it.
 struct StreamLost {
   Failure failure;
 };
-/// So many things passed over the port's line that the server could not keep for us.
+/// The number of line events that the server dropped because this client was too slow.
 struct TrafficLost {
   std::uint64_t count = 0;
 };
@@ -26,14 +26,14 @@ using StreamItem =
     std::variant<StreamOpened, StreamLost, Machine, Run, Record, Port, Traffic, TrafficLost>;
 
 /// The server's events (GET /api/v1/events, or a port's traffic), read by a thread of its own that
-/// reconnects with back-off. `next` is for one thread. At most 1024 items wait; when the reader
-/// falls after, the connection is not read on, and what the server then drops is made good by the
-/// next StreamOpened.
+/// reconnects with back-off. `next` is for one thread. At most 1024 items wait; while the queue is
+/// full, the connection is not read, and the state that follows the next StreamOpened makes up for
+/// what the server then drops.
 class EventStream {
  public:
   /// `machine` empty: of all machines.
   EventStream(const ServerAddress& address, const std::string& machine);
-  /// What passes over a port's line: Port once, then Traffic and TrafficLost.
+  /// The events of a port's line: Port once, then Traffic and TrafficLost.
   static EventStream of_port(const ServerAddress& address, const std::string& port);
   ~EventStream();
   EventStream(const EventStream&) = delete;

@@ -103,7 +103,7 @@ class HttplibHttp final : public Http {
     httplib::Request raw;
     raw.method = request.method;
     raw.path = request.path;
-    raw.set_header("Accept-Encoding", "identity");  // a range of bytes means those bytes
+    raw.set_header("Accept-Encoding", "identity");  // a range is one of the unencoded bytes
     if (!address_.token.empty()) raw.set_header("Authorization", "Bearer " + address_.token);
     for (const auto& [name, value] : request.headers) raw.set_header(name, value);
     if (request.method == "PUT" || request.method == "POST") add_body(request, raw);
@@ -115,10 +115,11 @@ class HttplibHttp final : public Http {
     return raw;
   }
 
-  /// The body is sent from where it lies, in pieces, so that nothing is copied and progress shows.
+  /// Sends the body from its place, in pieces, so that nothing is copied and progress is visible.
   static void add_body(const HttpRequest& request, httplib::Request& raw) {
     raw.set_header("Content-Type", request.content_type);
-    if (request.body.empty()) return;  // the library says Content-Length: 0; twice is an error
+    if (request.body.empty())
+      return;  // the library writes Content-Length: 0; a second one is an error
     raw.content_length_ = request.body.size();
     raw.content_provider_ = [&request](std::size_t offset, std::size_t length,
                                        httplib::DataSink& sink) {

@@ -15,7 +15,7 @@
 
 namespace dripline::client {
 
-/// One HTTP exchange as this library needs it; http.cpp is the only user of the HTTP library.
+/// One HTTP exchange; http.cpp is the only user of the HTTP library.
 struct HttpRequest {
   std::string method = "GET";
   std::string path;  ///< from the root, already percent-encoded, with its query

@@ -18,7 +18,7 @@ class OutputFile {
   ~OutputFile();
 
   Result<void> write(std::string_view bytes);
-  /// On disk under its name once this returned success. Errors: Io.
+  /// After success the file is on disk under its name. Errors: Io.
   Result<void> commit();
 
  private:

@@ -1,4 +1,4 @@
-// The calls of Client that concern serial ports.
+// The calls of Client for serial ports.
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/client.hpp"
 #include "clients/lib/impl/request.hpp"

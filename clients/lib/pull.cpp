@@ -9,8 +9,9 @@ namespace dripline::client {
 namespace {
 
 constexpr std::uint64_t kPiece = 8ull * 1024 * 1024;
-/// After a failure: the server checks the first chunk of an answer before it begins, so a damaged
-/// one is then named instead of breaking an answer off.
+/// After a failure the client asks for one chunk: the server checks the first chunk of an answer
+/// before it sends a byte, so that a damaged one becomes an error with its name instead of an
+/// answer that is cut off.
 constexpr std::uint64_t kCarefulPiece = 64 * 1024;
 
 Reply<Revision> find_revision(Client& client, const PullOptions& options) {
@@ -25,7 +26,7 @@ Reply<Revision> find_revision(Client& client, const PullOptions& options) {
                 history->program.revision);
 }
 
-/// After a failure `range` may have become shorter.
+/// After a failure, `range` may be shorter.
 Reply<Content> fetch_piece(Client& client, ContentRange& range, BackOff& back_off) {
   while (true) {
     auto content = client.content(range);
@@ -64,7 +65,7 @@ Reply<Revision> pull_program(Client& client, const PullOptions& options,
   BackOff back_off(options.retry);
   Sha256 digest;
   std::uint64_t done = 0;
-  std::uint64_t careful_until = 0;  ///< where the piece that failed would have ended
+  std::uint64_t careful_until = 0;  ///< the end of the piece that failed
   while (done < revision->size) {
     const std::uint64_t piece = done < careful_until ? kCarefulPiece : kPiece;
     ContentRange range{options.program, revision->revision, done,

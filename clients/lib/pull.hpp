@@ -18,15 +18,15 @@ struct PullOptions {
   std::function<bool(std::uint64_t done, std::uint64_t total)> on_progress;
 };
 
-/// Writes the revision to `path`: first to a file beside it, which takes the name only once the
-/// SHA-256 is right, so that `path` is never half a program. Memory: one piece. Failures: those of
-/// the calls; Local (the file cannot be written); BadReply with Errc::Corrupt (wrong digest). On
+/// Writes the revision to `path`: first to a file beside it, which gets the name only when the
+/// SHA-256 is right, so that `path` never holds half a program. Memory: one piece. Failures: those
+/// of the calls; Local (the file cannot be written); BadReply with Errc::Corrupt (wrong digest). On
 /// any failure `path` is as it was and nothing else is left.
 Reply<Revision> pull_program_to_file(Client& client, const PullOptions& options,
                                      const std::string& path);
 
-/// Hands the bytes to `sink` as they come. The digest is known only at the end: on Errc::Corrupt
-/// the bytes handed out must not be used.
+/// Passes the bytes to `sink` as they arrive. The digest is known only at the end: after
+/// Errc::Corrupt the bytes that were passed on must not be used.
 Reply<Revision> pull_program(Client& client, const PullOptions& options,
                              const std::function<Result<void>(std::string_view)>& sink);
 

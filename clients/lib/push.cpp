@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kPiece = 4ull * 1024 * 1024;
 
-/// One push: the upload's id, where it stands, the digest so far.
+/// One push: the upload's id, its offset, the digest so far.
 class Push {
  public:
   Push(Client& client, ByteSource& source, const PushOptions& options)
@@ -19,7 +19,7 @@ class Push {
   Reply<Revision> run() {
     if (auto opened = open(); !opened) return failed(opened.error());
     if (auto sent = send_all(); !sent) {
-      // A refused upload is of no use to anybody; one that was cut off may still be looked at.
+      // A refused upload is useless; one that was cut off stays, so that it can be examined.
       if (sent.error().kind == Failure::Kind::Refused) {
         [[maybe_unused]] const auto dropped = client_.drop_upload(id_);
       }
@@ -68,7 +68,7 @@ class Push {
     return {};
   }
 
-  /// After a failed piece: waits, asks how far the server came, goes on from there.
+  /// After a failed piece: waits, asks what the server has received, continues from there.
   Reply<void> resume(const Failure& failure) {
     if (failure.kind == Failure::Kind::Local || is_ended_) return failed(failure);
     const bool may_be_offset = failure.kind == Failure::Kind::Refused;
@@ -84,7 +84,7 @@ class Push {
         return move_to(upload->received);
       }
       if (can_help_to_retry(upload.error())) continue;
-      // A server that refuses the content drops the upload: the first refusal says why.
+      // A server that refuses the content drops the upload: the first refusal has the reason.
       return failed(may_be_offset ? failure : upload.error());
     }
   }
@@ -100,7 +100,7 @@ class Push {
     return failed(Failure::Kind::Local, Errc::Timeout, "the push was ended from this side");
   }
 
-  /// Only bytes not seen before: a piece sent again must not be counted twice.
+  /// Hashes only new bytes: a piece that is sent again must not be hashed twice.
   void hash(std::string_view piece) {
     const std::uint64_t end = offset_ + piece.size();
     if (end <= hashed_) return;
@@ -113,7 +113,7 @@ class Push {
     return !is_ended_;
   }
 
-  /// A commit whose answer was lost may have happened: then the upload is gone and the latest
+  /// A commit whose answer was lost may have succeeded: then the upload is gone and the latest
   /// revision has our content.
   Reply<Revision> commit() {
     const std::string sha256 = digest_.digest().hex();

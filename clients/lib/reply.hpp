@@ -9,15 +9,14 @@
 
 namespace dripline::client {
 
-/// Why a call did not give what was asked. The kinds are what a person acts on differently, and
-/// what `dnc` turns into its exit status.
+/// Why a call failed. People act differently on each kind, and `dnc` has an exit status for each.
 struct Failure {
   enum class Kind {
     Unreachable,  ///< no answer: wrong address, server down, connection cut, time over
     Denied,       ///< the server does not accept the token
-    Refused,      ///< the server answered no, and says why
-    BadReply,     ///< something answered, but not as a Dripline server does
-    Local,        ///< a file or setting on this side
+    Refused,      ///< the server refuses, and its answer has the reason
+    BadReply,     ///< the answer is not a Dripline server's
+    Local,        ///< a file or setting of the client
   };
   Kind kind = Kind::Refused;
   Errc code = Errc::Io;
@@ -40,7 +39,7 @@ tl::unexpected<Failure> failed(Failure::Kind kind, Errc code, fmt::format_string
   return failed(Failure{kind, code, fmt::format(format, std::forward<Args>(args)...)});
 }
 
-/// A failure of this side: a file, a setting.
+/// A failure of a file or setting of the client.
 inline tl::unexpected<Failure> failed_locally(Error error) {
   return failed(Failure{Failure::Kind::Local, error.code, std::move(error.what)});
 }

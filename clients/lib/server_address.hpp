@@ -5,10 +5,10 @@
 
 namespace dripline::client {
 
-/// Where a server is and how to be let in.
+/// The address of a server and the access to it.
 struct ServerAddress {
   std::string url;    ///< http://HOST:PORT or https://HOST:PORT, no path, no slash at the end
-  std::string token;  ///< empty: none known, and the server will say so
+  std::string token;  ///< empty: none; the server refuses the calls then
   std::optional<std::string> ca_file;  ///< https: PEM file of the authority to trust
 };
 

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxSmallFile = 64 * 1024;
 
-/// What a running server says about itself in STATE/dncd.json.
+/// What a running server writes to STATE/dncd.json.
 struct LocalServer {
   std::string url;
   std::optional<std::string> token_file, ca_file;

@@ -9,7 +9,7 @@
 
 namespace dripline::client {
 
-/// What the user said about where the server is; everything is optional.
+/// What the user gave to find the server; everything is optional.
 struct LocationOptions {
   std::optional<std::string> server;      ///< --server URL
   std::optional<std::string> token_file;  ///< --token-file FILE

@@ -1,4 +1,4 @@
-// The calls of Client that concern what controls know: tools, offsets, parameters.
+// The calls of Client for the setups of controls: tools, offsets, parameters.
 #include "clients/lib/api_json.hpp"
 #include "clients/lib/client.hpp"
 #include "clients/lib/impl/request.hpp"

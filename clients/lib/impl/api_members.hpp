@@ -6,8 +6,8 @@
 #include "clients/lib/api_types.hpp"
 
 /// The members of every type of api_types.hpp, listed once, in the documented order. A visitor `v`
-/// is called for each: `v(key, member)`; `v.flag` for one that is only there when true, `v.later`
-/// for one that older servers do not have.
+/// is called for each: `v(key, member)`; `v.flag` for one that is only present when true, `v.later`
+/// for one that older servers do not send.
 namespace dripline::client {
 
 /// The type itself, to be read or to be written.

@@ -6,7 +6,7 @@
 
 #include "clients/lib/http.hpp"
 
-/// How the calls of Client put their requests together. Pure.
+/// Parts of the requests that the calls of Client send. Pure.
 namespace dripline::client::impl {
 
 HttpRequest get(std::string path);
