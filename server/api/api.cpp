@@ -9,7 +9,7 @@
 namespace dripline::api {
 namespace {
 
-/// Their handlers wait for nothing.
+/// Requests that need no token; their handlers do not wait.
 bool is_open_to_all(const Request& request) {
   const auto& path = request.target.segments;
   return path.size() == 3 && path[0] == "api" && path[1] == "v1" &&
@@ -51,7 +51,7 @@ Response Api::handle(Request request) const {
 Response Api::route(Request request) const {
   try {
     return router_.handle(std::move(request));
-  } catch (const std::exception& e) {  // memory, or a mistake of ours: never the end of the server
+  } catch (const std::exception& e) {  // no memory, or a defect of ours; the server must not end
     spdlog::error("request failed: {}", e.what());
     return error_response({Errc::Io, "the server could not answer this request"});
   }

@@ -17,14 +17,14 @@
 
 namespace dripline::api {
 
-/// What `GET /api/v1/server` tells.
+/// The constant part of the answer to `GET /api/v1/server`.
 struct ServerFacts {
   std::string name, version, data_dir;
   UtcTime started;
   std::uint32_t dds_domain = 0;
 };
 
-/// What the handlers work with; all must outlive the Api.
+/// The services that the handlers use; all must outlive the Api.
 struct Services {
   library::Programs& programs;
   library::Setups& setups;
@@ -36,7 +36,7 @@ struct Services {
   ServerFacts facts;
   std::function<std::uint64_t()> dds_rejected;
   ports::PortControl* ports = nullptr;  ///< null: a server without serial ports
-  library::Health* health = nullptr;    ///< null: always well
+  library::Health* health = nullptr;    ///< null: always ok
 };
 
 /// The REST API without its sockets: a request in, a response out. Any thread, several at once;
@@ -46,13 +46,13 @@ class Api {
   Api(Services services, Token token);
   Api(const Api&) = delete;  // the handlers refer to our services
   Api& operator=(const Api&) = delete;
-  /// What can be answered from a request's head, before its body is read and without waiting: who
-  /// has no token is refused, and how the server is and what its API is are told to everybody.
-  /// Otherwise nullopt, and `head.who` is whose token it was.
+  /// The answer that needs only the request's head, before its body is read and without waiting: a
+  /// request without the token is refused, health and OpenAPI description need no token. Otherwise
+  /// nullopt, and `head.who` is the owner of the token.
   std::optional<Response> judge(Request& head) const;
-  /// Judges the request, finds the handler and runs it. Never throws.
+  /// Calls `judge`, finds the handler and runs it. Never throws.
   Response handle(Request request) const;
-  /// Does the request's handler wait for a machine?
+  /// Whether the request's handler waits for a machine.
   bool waits_for_machine(const Request& head) const { return router_.waits_for_machine(head); }
   const Router& router() const { return router_; }
 
@@ -68,10 +68,10 @@ class Api {
   Router router_;
 };
 
-/// The listener that turns what the feeds tell into events.
+/// The listener that publishes the machines' changes as events.
 machines::MachineListener publish_to(EventHub& hub);
 
-/// The listener that turns what passes over lines into events; for PortControl::on_traffic.
+/// The listener that publishes the traffic of lines as events; for PortControl::on_traffic.
 std::function<void(const ports::PortTraffic&)> publish_traffic_to(EventHub& hub);
 
 /// The OpenAPI description, as JSON text.

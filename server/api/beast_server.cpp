@@ -21,11 +21,11 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr auto kOutOfDescriptors = 100ms;  ///< before it is tried again
+constexpr auto kOutOfDescriptors = 100ms;  ///< pause before the next attempt
 constexpr auto kLogInterval = 60s;
 constexpr std::uint64_t kLogBurst = 5;  ///< lines about refused connections in each interval
 
-/// Connections may not take the descriptors that storage and DDS need.
+/// Connections must not use the descriptors that storage and DDS need.
 ConnectionTable::Limits seats(const HttpLimits& wanted) {
   constexpr std::size_t kOthers = 96;
   constexpr std::size_t kFewest = 16;
@@ -50,7 +50,7 @@ ConnectionTable::Limits seats(const HttpLimits& wanted) {
   return limits;
 }
 
-/// One who holds an IPv6 network has all its addresses.
+/// The owner of an IPv6 network has all its addresses.
 std::string address_key(const asio::ip::address& address) {
   if (address.is_v4()) return address.to_string();
   const auto v6 = address.to_v6();
@@ -83,7 +83,8 @@ class BeastServer final : public HttpServer {
     thread_ = std::thread([this] { serve(); });
   }
 
-  /// First nobody new and no network, then the handlers that run, then what waited for them.
+  /// First closes the listener and the connections, then waits for running handlers, then ends what
+  /// waited for them.
   ~BeastServer() override {
     asio::post(shared_.io, [this] {
       shared_.is_stopping = true;
@@ -110,7 +111,7 @@ class BeastServer final : public HttpServer {
     }
   }
 
-  /// One connection's failure (want of memory, a mistake of ours) must not end all others.
+  /// The failure of one connection (no memory, a defect of ours) must not end the others.
   void serve() {
     for (;;) {
       try {
@@ -142,7 +143,7 @@ class BeastServer final : public HttpServer {
     }
   }
 
-  /// Never throws for what a client does: gone before we looked, over its bound.
+  /// Never throws for what a client does: it is gone already, or over its bound.
   void admit(tcp::socket socket) {
     try {
       error_code error;

@@ -10,10 +10,10 @@
 namespace dripline::api {
 namespace {
 
-constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are looked at
+constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are checked
 constexpr std::size_t kMaxStartPoint = 24;
 constexpr std::uint64_t kMaxPass = 1'000'000;
-constexpr std::size_t kMaxArgument = 255;  ///< the order's member in the IDL
+constexpr std::size_t kMaxArgument = 255;  ///< of the command's member in the IDL
 
 struct ActionRow {
   std::string_view name;

@@ -7,7 +7,7 @@
 #include "server/library/programs.hpp"
 #include "server/machines/machine_control.hpp"
 
-/// The JSON bodies the API takes, decoded and checked. Pure. Errors: Syntax, LimitExceeded,
+/// The JSON bodies of requests, decoded and checked. Pure. Errors: Syntax, LimitExceeded,
 /// Unsupported (an unknown action); each names the member.
 namespace dripline::api {
 
@@ -15,9 +15,9 @@ Result<library::UploadRequest> decode_upload(std::string_view body);
 
 struct CommitBody {
   std::optional<Digest> sha256;
-  bool force = false;  ///< also in the place of a protected program
+  bool force = false;  ///< also replaces a protected program
 };
-/// An empty body is an empty object: everything in it is optional.
+/// An empty body is an empty object: all members are optional.
 Result<CommitBody> decode_commit(std::string_view body);
 
 struct CopyBody {
@@ -33,9 +33,9 @@ Result<machines::StartRequest> decode_start(std::string_view body);
 
 /// The run is left empty. An override is 0 to kMaxOverride, 1 is 100 %.
 Result<machines::CommandRequest> decode_command(std::string_view body);
-/// The same for a machine's panel: switches and overrides. Unsupported: what is for a run.
+/// The same for a machine's panel: switches and overrides. Unsupported: an action of a run.
 Result<machines::CommandRequest> decode_machine_command(std::string_view body);
 inline constexpr double kMaxOverride = 10;
-inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one order
+inline constexpr double kMaxClicks = 1000;  ///< of a handwheel, in one command
 
 }  // namespace dripline::api

@@ -14,7 +14,7 @@ struct ByteRange {
 };
 
 /// One range of `size` bytes from a Range header: `bytes=a-b`, `bytes=a-`, `bytes=-n`. nullopt when
-/// there is no header. Errors: LimitExceeded (nothing of it exists), Syntax, Unsupported (several
+/// there is no header. Errors: LimitExceeded (it is after the end), Syntax, Unsupported (several
 /// ranges).
 Result<std::optional<ByteRange>> parse_byte_range(std::string_view header, std::uint64_t size);
 

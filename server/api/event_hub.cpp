@@ -32,7 +32,7 @@ void EventSubscription::push(const Event& event) {
     const std::lock_guard lock(mutex_);
     if (is_closed_ || replaces_older(event)) return;
     const bool is_counted = !event.port.empty();
-    if (is_counted && (lost_ > 0 || is_full(event))) {  // the gap stays one gap
+    if (is_counted && (lost_ > 0 || is_full(event))) {  // adjacent gaps are one gap
       ++lost_;
       return;
     }

@@ -13,21 +13,21 @@ namespace dripline::api {
 
 struct Event {
   std::string kind;          ///< machine, run, record; of a port: port, traffic
-  std::string machine = {};  ///< whom it concerns
+  std::string machine = {};  ///< the machine of the event
   std::string data;          ///< JSON in one line
-  std::string port = {};     ///< on whose line it was; empty: of no port
+  std::string port = {};     ///< the port of the event; empty: none
 };
 
-/// Which events a listener wants: those of machines, or those of one port.
+/// The events that a listener receives: those of machines, or those of one port.
 struct Interest {
   std::optional<std::string> machine;  ///< absent: every machine
-  std::string port;                    ///< not empty: this port's, and nothing else
+  std::string port;                    ///< not empty: the events of this port only
 };
 
-/// One listener's queue, bounded. Who is too slow for the events of machines is cut off instead of
-/// holding up anybody; of the `machine` events only the latest of each machine waits. A line does
-/// not wait for who watches it: what a port's listener has no room for is counted and told as
-/// `lost` {"lost": n}. Any thread.
+/// One listener's bounded queue. A listener that is too slow for the events of machines is cut off,
+/// so that it delays no other; of the `machine` events only the latest of each machine waits. A
+/// line does not wait for its listeners: events for which a port's listener has no room are counted
+/// and reported as `lost` {"lost": n}. Any thread.
 class EventSubscription {
  public:
   static constexpr std::size_t kMaxEvents = 2048;
@@ -36,7 +36,7 @@ class EventSubscription {
   explicit EventSubscription(Interest interest) : interest_(std::move(interest)) {}
   void push(const Event& event);
   void close();
-  /// Everything that waits, as text of the event stream format; empty when nothing does.
+  /// All events that wait, as text of the event stream format; empty when none waits.
   std::string take();
   bool is_closed() const;
   /// Called after a push into an empty queue and after close, on their thread.
@@ -54,16 +54,16 @@ class EventSubscription {
   mutable std::mutex mutex_;
   std::deque<Event> waiting_;
   std::size_t bytes_ = 0;
-  std::uint64_t lost_ = 0;  ///< after those that wait
+  std::uint64_t lost_ = 0;  ///< dropped after the events that wait
   bool is_closed_ = false;
   std::function<void()> wake_;
 };
 
-/// Passes events to everybody who listens. Any thread.
+/// Passes events to all listeners. Any thread.
 class EventHub {
  public:
   static constexpr std::size_t kMaxSubscriptions = 256;
-  /// nullptr when there are too many. Ends when the last pointer to it is dropped.
+  /// nullptr when there are too many. It ends when the last pointer to it is dropped.
   std::shared_ptr<EventSubscription> subscribe(std::optional<std::string> machine);
   std::shared_ptr<EventSubscription> subscribe_port(const std::string& port);
   void publish(const Event& event);

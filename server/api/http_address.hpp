@@ -20,7 +20,8 @@ struct HttpAddress {
 /// Errors: Syntax.
 Result<HttpAddress> parse_http_address(std::string_view text);
 
-/// Beyond this machine only with TLS: the token would cross the network in clear. Errors: Denied.
+/// Errors: Denied (another machine can reach the address and there is no TLS: the token would cross
+/// the network unencrypted).
 Result<void> check_exposure(const HttpAddress& address, bool has_tls);
 
 }  // namespace dripline::api

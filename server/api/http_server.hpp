@@ -19,18 +19,18 @@ struct TlsFiles {
   std::string certificate, key;
 };
 
-/// How much strangers, and clients that hang, can take. Whoever is connected without a request of
-/// its own under way makes room for a newcomer, the longest silent first; when nobody can, the
-/// newcomer gets one of the `reserve` seats, where only `/health` is served.
+/// Bounds of what hostile and hung clients can consume. A connection without a request in progress
+/// makes room for a new one, the longest silent first; when there is none, the new one gets one of
+/// the `reserve` seats, where only `/health` is served.
 struct HttpLimits {
   std::size_t connections = 512;
-  std::size_t per_address = 256;  ///< one IPv4 address, one IPv6 /64; this machine's own too
+  std::size_t per_address = 256;  ///< one IPv4 address or one IPv6 /64, loopback included
   std::size_t reserve = 32;
-  std::size_t event_streams = 256;                  ///< of one address: half of per_address
+  std::size_t event_streams = 256;                  ///< one address: half of per_address
   std::uint64_t body_memory = 64ull * 1024 * 1024;  ///< request bodies of all connections
-  std::size_t waiting_commands = 256;               ///< to machines that have not answered yet
+  std::size_t waiting_commands = 256;  ///< commands that machines have not answered yet
   std::chrono::milliseconds handshake{8000};
-  std::chrono::milliseconds head{10000};   ///< from its first byte, or from the connection on
+  std::chrono::milliseconds head{10000};   ///< since its first byte, or since the connection
   std::chrono::milliseconds idle{75000};   ///< between two requests of one connection
   std::chrono::milliseconds body{20000};   ///< of silence within a body
   std::chrono::milliseconds write{30000};  ///< for 256 KiB to a client that does not read
@@ -39,33 +39,33 @@ struct HttpLimits {
 struct HttpOptions {
   HttpAddress address;
   std::optional<TlsFiles> tls;
-  unsigned handler_threads = 16;  ///< so many requests may wait for storage at once
+  unsigned handler_threads = 16;  ///< number of requests that may wait for storage at once
   HttpLimits limits;
   std::uint64_t max_body = 0;                  ///< a larger one is refused
   std::chrono::milliseconds heartbeat{15000};  ///< of event streams
 };
 
-/// What answers the requests.
+/// The functions that answer requests.
 struct HttpHandlers {
   /// On a worker; may wait.
   std::function<Response(Request)> handle;
-  /// Sees the head alone, before a body is read, on the thread that serves the sockets: must not
-  /// wait. An answer here ends the matter; else it may set Request::who.
+  /// Receives the head alone, before a body is read, on the thread that serves the sockets: must
+  /// not wait. An answer is sent at once; otherwise it may set Request::who.
   std::function<std::optional<Response>(Request&)> judge = {};
-  /// May `handle` wait for a machine? Such requests get a thread each, so that a gateway that hangs
-  /// keeps nobody else from being served. On the socket thread.
+  /// Whether `handle` may wait for a machine. Each such request gets a thread, so that a gateway
+  /// that hangs delays no other request. On the socket thread.
   std::function<bool(const Request&)> waits_for_machine = {};
 };
 
-/// The sockets in front of the handlers. One thread moves bytes; handlers and the body sources run
-/// on threads of their own. Long bodies are pulled as fast as the client takes them.
+/// The sockets in front of the handlers. One thread moves bytes; handlers and body sources run on
+/// other threads. Long bodies are pulled as fast as the client reads them.
 class HttpServer {
  public:
-  /// Listens when it returns. Errors: Denied (exposed without TLS, a key that others can read), Io
-  /// (address in use, certificate unreadable).
+  /// The server listens when this returns. Errors: Denied (exposed without TLS, a key that others
+  /// can read), Io (address in use, certificate unreadable).
   static Result<std::unique_ptr<HttpServer>> start(const HttpOptions& options,
                                                    HttpHandlers handlers);
-  /// Accepts nothing more, closes what is open, waits for running handlers.
+  /// Stops accepting, closes the connections, waits for running handlers.
   virtual ~HttpServer() = default;
   virtual std::uint16_t port() const = 0;
 };

@@ -7,7 +7,7 @@
 namespace dripline::api {
 namespace {
 
-/// Brackets outside of strings; a text that is no JSON at all is left to the parser.
+/// Counts brackets outside strings; the parser reports a text that is not JSON.
 bool is_too_deep(std::string_view text) {
   int depth = 0;
   bool is_in_string = false;
@@ -37,7 +37,7 @@ Result<JsonObject> JsonObject::parse(std::string_view text) {
     return fail(Errc::Syntax, "the body is JSON nested deeper than {} levels", kMaxDepth);
   }
   using Json = nlohmann::json;
-  std::map<int, std::set<std::string>> names;  // of the objects being read, by depth
+  std::map<int, std::set<std::string>> names;  // of the open objects, by depth
   std::string doubled;
   const auto look_for_doubled = [&](int depth, Json::parse_event_t event, Json& value) {
     if (event == Json::parse_event_t::object_start) names[depth + 1].clear();

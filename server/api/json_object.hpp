@@ -11,13 +11,13 @@
 
 namespace dripline::api {
 
-/// Reads one JSON object strictly: members of the right type and within their bounds, none twice,
-/// none unknown. The first error found is kept and comes out of finish(), so decoding reads as a
-/// list of members. Nesting is counted before anything is parsed.
+/// Reads one JSON object strictly: members have the right type, are within their bounds, known and
+/// unique. finish() returns the first error, so that decoding is a plain list of members. Nesting
+/// is checked before parsing.
 class JsonObject {
  public:
   static constexpr int kMaxDepth = 32;
-  /// A parsed text takes many times its size; no body of ours comes near this.
+  /// A parsed text takes many times its size; no valid body is close to this limit.
   static constexpr std::size_t kMaxBytes = 64 * 1024;
 
   /// Errors: Syntax (not JSON, not an object, nested too deep, a member twice), LimitExceeded.

@@ -25,7 +25,7 @@ json memory_json(const library::KeptMemory& memory) {
           {"cells", std::move(cells)}};
 }
 
-/// From the records that the server has, so that a gateway that is away is no hindrance.
+/// Reads the stored records, so that the gateway need not be connected.
 Response list_memories(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);

@@ -9,7 +9,7 @@
 namespace dripline::api {
 namespace {
 
-constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are looked at
+constexpr std::size_t kMaxName = 256;  ///< longer ones are refused before they are checked
 
 Result<void> check_size(const storage::Port& port) {
   if (port.settings.size() > storage::kMaxPortSettings) {

@@ -7,19 +7,19 @@
 #include "protocol/base/result.hpp"
 #include "server/ports/port_control.hpp"
 
-/// The JSON bodies of serial ports, decoded and checked as those of bodies.hpp. Pure. What a
-/// setting's value means is judged by PortControl.
+/// The JSON bodies of serial ports, decoded and checked like those of bodies.hpp. Pure. PortControl
+/// checks the values of settings.
 namespace dripline::api {
 
 /// `{machine, address, template?, settings?: {key: text, number or boolean}, rules?, enabled?}`.
-/// `line` comes first of the settings, so that `baud` and its like change what it says. Errors:
+/// `line` is the first of the settings, so that `baud` and the like override it. Errors:
 /// Syntax, LimitExceeded; each names the member.
 Result<storage::Port> decode_port(const std::string& name, std::string_view body);
 
 /// `{programs: [NAME or NAME@REVISION]}`.
 Result<std::vector<ports::ProgramChoice>> decode_transfer(std::string_view body);
 
-/// `{text}`: what a control sent, as it would be kept.
+/// `{text}`: a control's text as it would be stored.
 Result<std::string> decode_rules_text(std::string_view body);
 
 inline constexpr std::size_t kMaxAddress = 255;

@@ -11,7 +11,7 @@ namespace {
 
 using PortHandler = Response (*)(Services&, ports::PortControl&, const Request&);
 
-/// Every handler of a port takes no query, and needs a server that has ports.
+/// No handler of a port takes a query, and each needs a server that has ports.
 Handler with_ports(Services& services, PortHandler handler) {
   return [&services, handler](const Request& request) {
     QueryReader query(request);
@@ -99,7 +99,7 @@ Response test_rules(Services&, ports::PortControl& ports, const Request& request
   return verdict ? json_response(200, verdict_json(*verdict)) : error_response(verdict.error());
 }
 
-/// The recording as JSON lines, made some entries at a time.
+/// The recording as JSON lines, converted some entries at a time.
 BodySource recording_source(std::vector<ports::PortTraffic> recording) {
   constexpr std::size_t kPiece = 256;
   auto entries = std::make_shared<std::vector<ports::PortTraffic>>(std::move(recording));

@@ -4,7 +4,7 @@
 
 #include "server/ports/port_control.hpp"
 
-/// The JSON of serial ports and what passes over them. Pure; absent values are null.
+/// The JSON of serial ports and their traffic. Pure; absent values are null.
 namespace dripline::api {
 
 nlohmann::json transfer_json(const ports::PortTransfer& transfer);
@@ -13,7 +13,7 @@ nlohmann::json port_json(const ports::PortView& view);
 nlohmann::json traffic_json(const ports::PortTraffic& traffic);
 nlohmann::json port_test_json(const ports::PortTest& test);
 nlohmann::json verdict_json(const ports::RuleVerdict& verdict);
-/// Every template with all its settings, and what each setting means.
+/// Every template with all its settings, and the text of each setting.
 nlohmann::json port_templates_json();
 
 }  // namespace dripline::api

@@ -114,7 +114,7 @@ BodySource content_source(Services& services, const Digest& content, ByteRange r
   };
 }
 
-/// The first piece is read before anything is said, so that damage there still is a clear error.
+/// Reads the first piece before the head is sent, so that damage there is a clear error.
 Result<BodySource> opened(BodySource source) {
   auto first = source();
   if (!first) return fail(first.error());

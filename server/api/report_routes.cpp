@@ -58,7 +58,7 @@ Response send(const std::shared_ptr<library::ReportReader>& reader, library::Rep
   return response;
 }
 
-/// What it printed while no run was its.
+/// The lines that the machine printed outside any run.
 Response send_machine_report(Services& services, const Request& request) {
   QueryReader query(request);
   const auto format = library::parse_report_format(query.text("format").value_or("text"));

@@ -10,8 +10,8 @@
 
 namespace dripline::api {
 
-/// The path and the query of a request line, percent-decoded after they were cut apart, so that a
-/// decoded slash stays inside its segment.
+/// The path and the query of a request line, split before percent-decoding, so that a decoded slash
+/// stays inside its segment.
 struct Target {
   std::vector<std::string> segments;
   std::map<std::string, std::string> query;
@@ -27,20 +27,20 @@ struct Request {
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
   std::map<std::string, std::string> parameters;  ///< `{name}` of the route; set by the router
-  std::string who;                                ///< whose token it was; set by the API
+  std::string who;                                ///< the owner of the token; set by the API
 
   std::string header(const std::string& lower_case_name) const;
   const std::string& parameter(const std::string& name) const { return parameters.at(name); }
 };
 
-/// Reads the query parameters a handler knows; what it did not ask for is an error in finish().
+/// Reads the query parameters that a handler knows; any other is an error of finish().
 class QueryReader {
  public:
   explicit QueryReader(const Request& request) : left_(request.target.query) {}
   std::optional<std::string> text(const std::string& name);
   /// Without a sign, at most `highest`.
   std::optional<std::uint64_t> number(const std::string& name, std::uint64_t highest);
-  /// Errors: Syntax (not a number, unknown parameter), LimitExceeded; the first one found.
+  /// Errors: Syntax (not a number, unknown parameter), LimitExceeded; the first error.
   Result<void> finish();
 
  private:

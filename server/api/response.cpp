@@ -5,7 +5,7 @@
 namespace dripline::api {
 
 std::string to_text(const nlohmann::json& value) {
-  // Stored text is UTF-8; should a byte be damaged, the rest can still be shown.
+  // Stored text is UTF-8; if a byte is damaged, the rest can still be shown.
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -13,17 +13,17 @@
 
 namespace dripline::api {
 
-/// Gives a long body piece by piece; nullopt ends it. Called on one worker at a time.
+/// Returns a long body piece by piece; nullopt after the last one. Called on one worker at a time.
 using BodySource = std::function<Result<std::optional<std::string>>()>;
 
-/// What a handler answers. The body is `body`, or comes from `source`, or is the stream `events`.
+/// The answer of a handler. The body is `body`, or comes from `source`, or is the stream `events`.
 struct Response {
   int status = 200;
   std::string content_type;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
   BodySource source;
-  std::optional<std::uint64_t> source_length;  ///< when known beforehand
+  std::optional<std::uint64_t> source_length;  ///< if known
   std::shared_ptr<EventSubscription> events;
 };
 

@@ -12,7 +12,7 @@ namespace dripline::api {
 
 using Handler = std::function<Response(const Request&)>;
 
-/// What a handler may wait for: machines can take seconds, and each such request gets a thread.
+/// What a handler may wait for. Machines can take seconds, so each such request gets a thread.
 enum class Waits { ForStorage, ForMachine };
 
 /// Finds the handler of a method and a path. Patterns are written as in README.md:
@@ -21,7 +21,7 @@ class Router {
  public:
   void add(std::string method, std::string_view pattern, Handler handler,
            Waits waits = Waits::ForStorage);
-  /// Runs the handler. No route: 404, or 405 with Allow when only the method is wrong.
+  /// Runs the handler. Without a route: 404, or 405 with Allow when only the method is wrong.
   Response handle(Request request) const;
   bool waits_for_machine(const Request& request) const;
 

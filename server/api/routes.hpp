@@ -2,7 +2,7 @@
 
 #include "server/api/api.hpp"
 
-/// The handlers, a file for each kind of thing. `services` must outlive the router.
+/// The handlers, a file for each kind of resource. `services` must outlive the router.
 namespace dripline::api {
 
 void add_server_routes(Router& router, Services& services);
@@ -18,7 +18,7 @@ void add_port_routes(Router& router, Services& services);
 inline constexpr std::uint64_t kMaxLimit = 1000;  ///< entries in one answer
 /// `limit` (default 100) and `offset`.
 storage::Page read_page(QueryReader& query);
-/// When the hub takes no further one.
+/// The answer when the hub has kMaxSubscriptions listeners.
 Response too_many_listeners();
 
 }  // namespace dripline::api

@@ -56,7 +56,7 @@ Response command_run(Services& services, const Request& request) {
   if (!command) return error_response(command.error());
   command->run = request.parameter("id");
   const auto done = services.feeds.command(*command);
-  // Without an answer it may have been carried out all the same.
+  // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = !done && done.error().code == Errc::Timeout;
   if (done || is_unknown) {
     services.audit.write({.who = request.who,

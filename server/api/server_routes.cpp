@@ -79,7 +79,7 @@ Response list_audit(Services& services, const Request& request) {
   return json_response(200, {{"entries", std::move(list)}});
 }
 
-/// A listener first hears how every machine stands, then what changes.
+/// A listener first receives the state of every machine, then the changes.
 Response open_events(Services& services, const Request& request) {
   QueryReader query(request);
   const auto machine = query.text("machine");

@@ -29,7 +29,7 @@ Response show_setup(Services& services, const Request& request) {
   return json_response(200, view);
 }
 
-/// The control that reads the text: the machine's, unless it has never been seen.
+/// The control that reads the text: the machine's, unless the server does not know the machine.
 Result<std::string> control_of(Services& services, const std::string& machine,
                                const std::optional<std::string>& given) {
   const auto view = services.feeds.machine(machine);
@@ -55,9 +55,9 @@ Response save_setup(Services& services, const Request& request) {
   if (auto good = query.finish(); !good) return error_response(good.error());
   text.machine = request.parameter("name");
   if (auto named = check_machine_name(text.machine); !named) return error_response(named.error());
-  const auto settled = control_of(services, text.machine, control);
-  if (!settled) return error_response(settled.error());
-  text.control = *settled;
+  const auto resolved = control_of(services, text.machine, control);
+  if (!resolved) return error_response(resolved.error());
+  text.control = *resolved;
   text.text = request.body;
   const auto saved = services.setups.save(text, request.who);
   if (!saved) return error_response(saved.error());

@@ -4,13 +4,13 @@
 
 namespace dripline::api {
 
-/// A bearer token and the name its changes are audited under.
+/// A bearer token and the name under which its changes are audited.
 struct Token {
   std::string name;
   std::string secret;
 };
 
-/// Does `authorization` ("Bearer ...") carry this token? Takes the same time wherever they differ.
+/// Whether `authorization` ("Bearer ...") has this token. Takes the same time wherever they differ.
 bool is_authorized(const Token& token, const std::string& authorization);
 
 }  // namespace dripline::api

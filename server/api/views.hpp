@@ -5,11 +5,11 @@
 #include "server/machines/machine_control.hpp"
 #include "storage/store.hpp"
 
-/// The JSON of everything the API shows. Pure; absent values are null, times ISO 8601 UTC.
+/// The JSON of the API's answers. Pure; absent values are null, times ISO 8601 UTC.
 namespace dripline::api {
 
 nlohmann::json upload_json(const storage::Upload& upload, std::uint64_t max_piece);
-/// `title`: what the program calls itself (library::program_title).
+/// `title`: the name in the program's first block (library::program_title).
 nlohmann::json revision_json(const storage::Revision& revision, const std::string& title);
 nlohmann::json program_json(const storage::ProgramSummary& program, const std::string& title);
 nlohmann::json machine_json(const machines::MachineView& view);

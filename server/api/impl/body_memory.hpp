@@ -6,12 +6,12 @@
 
 namespace dripline::api {
 
-/// What the request bodies of all connections may take together. On one thread.
+/// The memory that the request bodies of all connections may use together. On one thread.
 class BodyMemory {
  public:
   explicit BodyMemory(std::uint64_t limit) : left_(limit) {}
 
-  /// A share that is given back when it is dropped.
+  /// A share that is returned when it is destroyed.
   class Share {
    public:
     Share() = default;
@@ -38,7 +38,7 @@ class BodyMemory {
     return {*this, size};
   }
 
-  /// `wake` is called when some came back, until it is removed.
+  /// `wake` is called whenever memory is returned, until it is removed.
   using Waiter = std::list<std::function<void()>>::iterator;
   Waiter wait(std::function<void()> wake) {
     return waiters_.insert(waiters_.end(), std::move(wake));

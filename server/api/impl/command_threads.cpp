@@ -15,12 +15,12 @@ bool CommandThreads::run(std::function<void()> command) {
   const auto end = [this] {
     const std::lock_guard lock(mutex_);
     --running_;
-    ended_.notify_all();  // under the lock: who waits may destroy us
+    ended_.notify_all();  // under the lock: a waiting thread may destroy this object
   };
   try {
     std::thread([end, command = std::move(command)]() mutable {
       command();
-      command = nullptr;  // what it holds goes before anybody who waits goes on
+      command = nullptr;  // releases its captures before a waiting thread continues
       end();
     }).detach();
     return true;

@@ -6,9 +6,9 @@
 
 namespace dripline::api {
 
-/// A thread for each command that waits for a machine: they wait for seconds when a gateway hangs,
-/// and a fixed number of threads would then keep the commands to all other machines, a stop among
-/// them, from being sent. Commands are rare, and a thread that waits costs next to nothing.
+/// A thread for each command that waits for a machine. Commands wait for seconds when a gateway
+/// hangs, and a fixed number of threads would then delay the commands for all other machines, a
+/// stop among them. Commands are rare, and a waiting thread costs almost nothing.
 class CommandThreads {
  public:
   explicit CommandThreads(std::size_t limit) : limit_(limit) {}
@@ -16,9 +16,9 @@ class CommandThreads {
   CommandThreads(const CommandThreads&) = delete;
   CommandThreads& operator=(const CommandThreads&) = delete;
 
-  /// False when `limit` are under way, or no thread can be made.
+  /// False when `limit` commands are running, or no thread can be created.
   bool run(std::function<void()> command);
-  /// Until none is under way.
+  /// Waits until no command is running.
   void wait();
 
  private:

@@ -44,7 +44,7 @@ std::optional<ConnectionTable::Id> ConnectionTable::evict(Condition may_go) {
   }
   if (chosen == entries_.end()) return std::nullopt;
   const Id id = chosen->first;
-  forget(chosen);
+  erase(chosen);
   return id;
 }
 
@@ -71,10 +71,10 @@ bool ConnectionTable::begin_stream(Id id) {
 }
 
 void ConnectionTable::leave(Id id) {
-  if (const auto entry = entries_.find(id); entry != entries_.end()) forget(entry);
+  if (const auto entry = entries_.find(id); entry != entries_.end()) erase(entry);
 }
 
-void ConnectionTable::forget(Entries::iterator entry) {
+void ConnectionTable::erase(Entries::iterator entry) {
   if (entry->second.is_reserve) {
     --reserved_;
   } else {

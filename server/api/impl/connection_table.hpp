@@ -8,11 +8,11 @@
 
 namespace dripline::api {
 
-/// Who is connected, and who goes when it gets full. A connection without a request under way
-/// (Opening, Idle) makes room for a newcomer: of the newcomer's address when that address has all
-/// it may have, of any when the server is full; Opening before Idle, the longest silent first. So
-/// those that only hold a connection never keep out those that use one. When nobody can make room,
-/// the newcomer gets a reserve seat. Pure; one thread.
+/// The connections, and which of them is closed when the table is full. A connection without a
+/// request in progress (Opening, Idle) makes room for a new one: one of the new one's address when
+/// that address has its maximum, any when the server is full; Opening before Idle, the longest
+/// silent first. So clients that only hold a connection never keep out clients that use one. When
+/// none can make room, the new one gets a reserve seat. Pure; one thread.
 class ConnectionTable {
  public:
   struct Limits {
@@ -23,23 +23,23 @@ class ConnectionTable {
   enum class State {
     Opening,    ///< has sent no whole head yet
     Idle,       ///< between two requests
-    Busy,       ///< a request is under way
-    Streaming,  ///< takes events
+    Busy,       ///< a request is in progress
+    Streaming,  ///< receives events
   };
   struct Admission {
     Id id = 0;
-    bool is_reserve = false;    ///< only for who asks how the server is
-    std::optional<Id> evicted;  ///< to be closed; counts no more
+    bool is_reserve = false;    ///< only for requests of the health
+    std::optional<Id> evicted;  ///< to be closed; no longer counted
   };
 
   explicit ConnectionTable(Limits limits) : limits_(limits) {}
 
   Admission admit(const std::string& address);
-  /// Nothing for one that was evicted.
+  /// Has no effect on an evicted one.
   void set(Id id, State state);
   /// Makes it Streaming; false when there are too many already.
   bool begin_stream(Id id);
-  /// Somebody silent, to be closed, when the process is out of descriptors.
+  /// A silent connection to close when the process is out of descriptors.
   std::optional<Id> evict_any();
   void leave(Id id);
 
@@ -51,7 +51,7 @@ class ConnectionTable {
     std::string address;
     State state = State::Opening;
     bool is_reserve = false;
-    std::uint64_t since = 0;  ///< when it came into its state; a counter
+    std::uint64_t since = 0;  ///< when it entered its state; a counter
   };
   struct Counts {
     std::size_t seats = 0, streams = 0;
@@ -61,7 +61,7 @@ class ConnectionTable {
   template <class Condition>
   std::optional<Id> evict(Condition may_go);
   Counts& counts_of(const Entry& entry) { return addresses_[entry.address]; }
-  void forget(Entries::iterator entry);
+  void erase(Entries::iterator entry);
 
   Limits limits_;
   Entries entries_;
@@ -71,7 +71,7 @@ class ConnectionTable {
   Id last_id_ = 0;
 };
 
-/// A place in the table for as long as it lives. On the table's thread.
+/// Holds a place in the table for its lifetime. On the table's thread.
 class Seat {
  public:
   Seat(ConnectionTable& table, ConnectionTable::Id id) : table_(&table), id_(id) {}

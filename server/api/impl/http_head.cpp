@@ -24,7 +24,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Two of these could mean one thing to a proxy and another to us.
+/// A proxy and this server could read two of these differently.
 bool comes_once(http::field name) {
   return name == http::field::authorization || name == http::field::host ||
          name == http::field::content_length || name == http::field::content_type ||
@@ -78,7 +78,7 @@ const char* reason_of(int status) {
   return found == kReasons.end() ? "Unknown" : found->second;
 }
 
-/// A name or a value with a control character would begin a field, or a response, of its own.
+/// A control character in a name or value could begin another field or response.
 bool is_safe(std::string_view text) {
   return std::ranges::none_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
@@ -109,7 +109,7 @@ Result<Request> to_request(const RequestHead& head) {
   if (head.version() >= kHttp11 && !request.headers.contains("host")) {
     return fail(Errc::Syntax, "an HTTP/1.1 request names the server in a header field Host");
   }
-  // A body of another coding could end elsewhere for a proxy than for us.
+  // A proxy could see the end of a body with another coding at another place.
   if (const auto coding = request.headers.find("transfer-encoding");
       coding != request.headers.end() &&
       (lower(coding->second) != "chunked" || request.headers.contains("content-length"))) {

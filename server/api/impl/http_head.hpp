@@ -10,7 +10,7 @@
 #include "server/api/request.hpp"
 #include "server/api/response.hpp"
 
-/// The heads of requests and responses, between Beast and ours. Pure.
+/// Converts the heads of requests and responses between Beast's types and ours. Pure.
 namespace dripline::api {
 
 using RequestHead = boost::beast::http::request_header<boost::beast::http::fields>;
@@ -20,7 +20,7 @@ using RequestHead = boost::beast::http::request_header<boost::beast::http::field
 /// otherwise is joined by a comma.
 Result<Request> to_request(const RequestHead& head);
 
-/// How a response's end is told.
+/// How the end of a response is marked.
 struct Framing {
   std::optional<std::uint64_t> length;  ///< absent: chunked, or until the connection ends
   bool is_chunked = false;
@@ -32,7 +32,7 @@ std::string head_text(const Response& response, const Framing& framing);
 /// A chunk of a chunked body; nothing for an empty one.
 std::string chunk_text(const std::string& piece);
 
-/// What is said to a request that the parser refuses; nullopt: nothing, the client went away.
+/// The answer to a request that the parser refuses; nullopt: none, the client is gone.
 std::optional<Response> refusal_of(const boost::system::error_code& error);
 Response refusal(int status, Errc code, std::string what);
 

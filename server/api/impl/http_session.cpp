@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 using State = ConnectionTable::State;
 
 constexpr std::uint32_t kMaxHead = 16 * 1024;
-constexpr std::size_t kMaxBuffer = 128 * 1024;  ///< bounds what is read of pipelined requests
+constexpr std::size_t kMaxBuffer = 128 * 1024;  ///< bound of pipelined requests in memory
 constexpr std::size_t kReadHead = 4096;
 constexpr std::size_t kReadBody = 64 * 1024;
 constexpr std::size_t kSmallBody = 16 * 1024;  ///< written together with its head
@@ -39,9 +39,9 @@ constexpr auto kBodyGrace = 30s;
 constexpr auto kFarewell = 2s;      ///< for TLS to be shut down
 constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
-constexpr int kStreamBuffer = 64 * 1024;  ///< the kernel holds so much for a listener
+constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
 
-/// Wakes a coroutine from other handlers of the same thread. One waiter.
+/// Wakes a coroutine from other handlers of the same thread. It has one waiter.
 class Signal {
  public:
   explicit Signal(asio::io_context& io) : timer_(io) {}
@@ -49,7 +49,7 @@ class Signal {
     is_set_ = true;
     timer_.cancel();
   }
-  /// True: set; false: it is `until`. A signal is taken by the wait that sees it.
+  /// True: the signal was set, and this wait resets it; false: `until` has passed.
   awaitable<bool> wait(Clock::time_point until = Clock::time_point::max()) {
     if (!is_set_) {
       timer_.expires_at(until);
@@ -99,11 +99,11 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
 
   bool may_go_on() const { return !is_closed_ && !shared_.is_stopping; }
 
-  /// True: another one may follow.
+  /// True: another request may follow.
   awaitable<bool> serve_request(bool is_first, Seat& seat) {
     Parser parser;
     parser.header_limit(kMaxHead);
-    parser.body_limit(boost::none);  // judged after the token
+    parser.body_limit(boost::none);  // checked after the token
     const error_code unread = co_await read_head(parser, is_first);
     if (unread) {
       const auto refused = refusal_of(unread);
@@ -155,7 +155,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   }
 
   /// Parses and reads until the head, or all, of the message is there. `until` is asked before each
-  /// read. Errors of the parser; end_of_stream: nobody is there any more.
+  /// read. Errors of the parser; end_of_stream: the client is gone.
   template <class Until>
   awaitable<error_code> advance(Parser& parser, bool to_end, Until until) {
     const auto is_done = [&] { return to_end ? parser.is_done() : parser.is_header_done(); };
@@ -184,7 +184,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return co_await advance(parser, false, [end] { return end; });
   }
 
-  /// Nothing when it was read; else what to say, a status of 0 when nobody listens any more.
+  /// nullopt when the body was read; else the answer, with a status of 0 when the client is gone.
   awaitable<std::optional<Response>> read_body(Parser& parser, BodyMemory::Share& share) {
     const std::uint64_t most = shared_.options.max_body;
     const auto length = parser.content_length();
@@ -198,7 +198,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_return refusal(503, Errc::Busy, "too many bodies are being received at once");
     }
     if (parser.get()[http::field::expect] == "100-continue") {
-      if (!co_await write("HTTP/1.1 100 Continue\r\n\r\n")) co_return nobody();
+      if (!co_await write("HTTP/1.1 100 Continue\r\n\r\n")) co_return client_gone();
     }
     const auto end = Clock::now() + kBodyGrace + std::chrono::seconds(size / kSlowestBody);
     parser.eager(true);
@@ -206,11 +206,11 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
         co_await advance(parser, true, [&] { return std::min(end, Clock::now() + limits_.body); });
     if (!error) co_return std::nullopt;
     auto refused = refusal_of(error);
-    if (!refused) refused = nobody();
+    if (!refused) refused = client_gone();
     co_return refused;
   }
 
-  static std::optional<Response> nobody() {
+  static std::optional<Response> client_gone() {
     Response response;
     response.status = 0;
     return response;
@@ -228,7 +228,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return true;
   }
 
-  /// Runs `work` on a worker, or a thread of its own; nullopt when there is no answer any more.
+  /// Runs `work` on a worker or on a thread of its own; nullopt when an answer is no longer needed.
   template <class T>
   awaitable<std::optional<T>> on_worker(std::function<T()> work, bool waits_for_machine) {
     const auto result = std::make_shared<std::optional<T>>();
@@ -237,7 +237,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       std::optional<T> made;
       try {
         made = work();
-      } catch (const std::exception& e) {  // memory, or a mistake of ours
+      } catch (const std::exception& e) {  // no memory, or a defect of ours
         spdlog::error("request failed: {}", e.what());
       }
       work = nullptr;
@@ -285,8 +285,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     co_return is_sent&& keeps_alive_;
   }
 
-  /// Answers a request whose body nobody wants, and reads some of that away: closing at once would
-  /// let the client's kernel throw our answer away.
+  /// Answers a request without using its body, and discards some of the body: closing at once would
+  /// let the client's kernel drop the answer.
   awaitable<void> refuse(const Response& response) {
     keeps_alive_ = false;
     co_await send(response);
@@ -318,7 +318,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       auto piece = co_await on_worker<Piece>(pull, false);
       if (!piece) co_return false;
       if (!*piece) {
-        // Without the end of the body the client notices that this is not all.
+        // The client notices the missing end of the body.
         spdlog::error("answer broken off: {}", piece->error().what);
         co_return false;
       }
@@ -376,13 +376,13 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     if (framing.is_chunked && may_go_on() && !is_left_) co_await write("0\r\n\r\n");
   }
 
-  /// A listener that is gone or stuck may not keep megabytes waiting in the kernel.
+  /// A listener that is gone or hung must not keep megabytes in the kernel.
   void bound_stream() {
     error_code ignored;
     transport_->socket().set_option(asio::socket_base::send_buffer_size(kStreamBuffer), ignored);
   }
 
-  /// A listener says nothing more, so whatever comes is its end. Looks without taking: reading
+  /// A listener sends nothing more, so any input means its end. Peeks at the socket: reading
   /// through the stream would share the deadline of the writes.
   void watch_for_end() {
     transport_->socket().async_wait(asio::ip::tcp::socket::wait_read,
@@ -411,7 +411,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
 awaitable<void> run(HttpShared& shared, std::shared_ptr<Session> session, Seat seat) {
   try {
     co_await session->serve(seat);
-  } catch (const std::exception& e) {  // one connection's failure must not end the others
+  } catch (const std::exception& e) {  // the failure of one connection must not end the others
     spdlog::error("connection failed: {}", e.what());
   }
   session->close();
@@ -425,7 +425,7 @@ void start_session(HttpShared& shared, asio::ip::tcp::socket socket, asio::ssl::
   Seat seat(shared.table, admission.id);
   error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
-  // A peer whose kernel no longer answers is given up.
+  // A peer whose kernel no longer answers is dropped.
   const auto patience = static_cast<unsigned>(shared.options.limits.write.count());
   ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &patience, sizeof patience);
   auto session = std::make_shared<Session>(shared, make_transport(std::move(socket), tls),

@@ -17,8 +17,8 @@ namespace dripline::api {
 
 class HttpSession;
 
-/// What all connections share. Everything but the handlers, the pool and the threads belongs to the
-/// socket thread.
+/// The state that all connections share. All members except the handlers, the pool and the threads
+/// belong to the socket thread.
 struct HttpShared {
   HttpShared(const HttpOptions& http_options, HttpHandlers http_handlers,
              ConnectionTable::Limits seats)
@@ -35,7 +35,7 @@ struct HttpShared {
   BodyMemory body_memory;
   std::map<ConnectionTable::Id, std::weak_ptr<HttpSession>> sessions;
   bool is_stopping = false;
-  boost::asio::io_context io{1};  ///< after what its coroutines give back to
+  boost::asio::io_context io{1};  ///< after the members that its coroutines use
   machines::WorkerPool pool;
   CommandThreads commands;
 };
@@ -44,13 +44,13 @@ struct HttpShared {
 class HttpSession {
  public:
   virtual ~HttpSession() = default;
-  /// Ends whatever it waits for on the network.
+  /// Ends its waits on the network.
   virtual void close() = 0;
-  /// No worker will answer it any more.
+  /// No worker will answer it.
   virtual void abandon() = 0;
 };
 
-/// Serves `socket` until it is closed; keeps itself alive. `tls` null: in clear.
+/// Serves `socket` until it is closed; keeps itself alive. `tls` null: unencrypted.
 void start_session(HttpShared& shared, boost::asio::ip::tcp::socket socket,
                    boost::asio::ssl::context* tls, const ConnectionTable::Admission& admission);
 

@@ -8,10 +8,10 @@ namespace {
 
 namespace ssl = boost::asio::ssl;
 
-/// A key that a group may read is usual (Debian's ssl-cert); nobody else's eyes, no other hands.
+/// A group may read the key, as Debian's ssl-cert does; others must neither read nor write it.
 Result<void> check_key_mode(const std::string& file) {
   struct stat facts {};
-  if (::stat(file.c_str(), &facts) != 0) return {};  // said better when it is read
+  if (::stat(file.c_str(), &facts) != 0) return {};  // reading it gives the better error
   if ((facts.st_mode & (S_IRWXO | S_IWGRP)) == 0) return {};
   return fail(Errc::Denied, "TLS key {} can be read or changed by others: chmod 600 it", file);
 }
