@@ -12,7 +12,7 @@ UtcTime SystemClock::now() const {
 std::string to_iso8601(UtcTime time) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
   const auto micros = (time - seconds).count();
-  // Not by way of the system clock's nanoseconds: times from outside can lie beyond their range.
+  // Does not use the system clock's nanoseconds: times from outside can exceed their range.
   const auto whole = static_cast<std::time_t>(seconds.time_since_epoch().count());
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(whole), micros);
 }

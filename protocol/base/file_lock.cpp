@@ -26,7 +26,7 @@ void write_owner(int lock) {
   const std::string pid = std::to_string(::getpid()) + "\n";
   const bool is_written = ::ftruncate(lock, 0) == 0 && ::pwrite(lock, pid.data(), pid.size(), 0) ==
                                                            static_cast<ssize_t>(pid.size());
-  // A full disk must not keep anybody from starting: the number is only for people.
+  // A full disk must not prevent a start: the number is only for people.
   (void)is_written;
 }
 

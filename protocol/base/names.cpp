@@ -22,7 +22,7 @@ bool is_machine_name_character(char c) {
   return is_digit(c) || is_lower(c) || c == '-' || c == '_';
 }
 
-/// The name of a thing that stands on the shop floor.
+/// The name of a machine or port on the shop floor.
 Result<void> check_handle(std::string_view thing, std::string_view name) {
   if (name.empty()) return fail(Errc::Syntax, "a {} name cannot be empty", thing);
   if (name.size() > kMaxMachineName) {

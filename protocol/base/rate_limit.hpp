@@ -6,15 +6,15 @@
 
 namespace dripline {
 
-/// Lets `burst` things pass in each interval and counts the rest, so that a log says how much it
-/// leaves out instead of growing with what a stranger sends. Not for several threads at once.
+/// Lets `burst` events pass in each interval and counts the rest, so that a log states the number
+/// of omitted entries instead of growing with what a stranger sends. Not thread-safe.
 class RateLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
   RateLimit(std::uint64_t burst, std::chrono::milliseconds interval)
       : burst_(burst), interval_(interval) {}
 
-  /// The number left out since the last one that passed; nullopt: leave this one out too.
+  /// The number of omitted events since the last one that passed; nullopt: omit this one too.
   std::optional<std::uint64_t> pass(Time now) {
     if (!begun_ || now - *begun_ >= interval_) {
       begun_ = now;

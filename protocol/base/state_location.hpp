@@ -9,15 +9,14 @@
 
 namespace dripline {
 
-/// The environment comes in through this, so that tests own it; nullopt for an unset or empty
+/// The interface to the environment, so that tests control it; nullopt for an unset or empty
 /// variable.
 using Environment = std::function<std::optional<std::string>(std::string_view name)>;
 std::optional<std::string> process_environment(std::string_view name);
 
-/// Where the programs of this user keep their state unless told otherwise; all three must agree, or
-/// `dnc` does not find the server beside it. DRIPLINE_STATE, then /var/lib/dripline for root, then
-/// XDG_STATE_HOME/dripline, then ~/.local/state/dripline.
-/// Errors: NotFound (none of them says anything).
+/// The default state folder of this user's programs; all three must agree, or `dnc` does not find
+/// the local server. DRIPLINE_STATE, then /var/lib/dripline for root, then XDG_STATE_HOME/dripline,
+/// then ~/.local/state/dripline. Errors: NotFound (none of them is set).
 Result<std::string> default_state_folder(const Environment& environment, bool is_root);
 
 }  // namespace dripline

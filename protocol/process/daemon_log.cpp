@@ -16,7 +16,7 @@
 namespace dripline::process {
 namespace {
 
-/// The message, on one line whatever is in it.
+/// The message on one line, whatever it contains.
 class OneLineMessage final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& entry, const std::tm&,
@@ -45,7 +45,7 @@ std::shared_ptr<spdlog::sinks::sink> open_file(const LogOptions& options) {
   return file;
 }
 
-/// The log is spdlog's default logger, one for the process; so is the way to its file.
+/// The log is spdlog's default logger, one for the process; so is its file.
 struct OpenLog {
   std::mutex mutex;
   LogOptions options;
@@ -92,9 +92,9 @@ bool reopen_log() {
   if (!log.file) return false;
   try {
     log.file->set_sinks({open_file(log.options)});
-    spdlog::info("log file opened anew");
+    spdlog::info("log file reopened");
   } catch (const spdlog::spdlog_ex& e) {
-    spdlog::error("log file not opened anew, the old one goes on: {}", e.what());
+    spdlog::error("log file not reopened, the old one stays in use: {}", e.what());
   }
   return true;
 }

@@ -15,16 +15,16 @@ struct LogOptions {
   std::uint32_t kept = 5;      ///< such older files
 };
 
-/// Makes spdlog's default logger: UTC offset, level and the message on one line, whatever is in it.
-/// Call after umask: the file is as private as that says. Errors: Denied (another level), Io (the
-/// file cannot be written).
+/// Makes spdlog's default logger: UTC offset, level and the message on one line, whatever it
+/// contains. Call after umask, which decides the permissions of the file. Errors: Denied (another
+/// level), Io (the file cannot be written).
 Result<void> start_log(const std::string& program, const LogOptions& options);
 
-/// Opens the log file anew, after something else moved it away. False: there is none. Any thread.
+/// Reopens the log file after another program has moved it. False: there is none. Any thread.
 bool reopen_log();
 
-/// Passes what a library says on to the log, ten lines in ten seconds, and counts the rest: what
-/// strangers send must not fill the disk. Any thread.
+/// Passes messages of a library to the log, ten lines in ten seconds, and counts the rest: data of
+/// strangers must not fill the disk. Any thread.
 void log_foreign(bool is_error, std::string_view text);
 
 }  // namespace dripline::process

@@ -6,12 +6,12 @@
 
 namespace dripline::process {
 
-/// What the two daemons need at least, connections of clients not counted: below, DDS cannot be
-/// opened, and dies of it instead of saying so.
+/// The minimum for both daemons, without connections of clients: with fewer, opening DDS aborts the
+/// process instead of returning an error.
 inline constexpr std::uint64_t kServerFiles = 192, kGatewayFiles = 96;
 
-/// Raises this process's limit of open files to `least` where that is allowed. Call before anything
-/// is opened. Errors: LimitExceeded.
+/// Raises this process's limit of open files to `least` where that is permitted. Call before
+/// anything is opened. Errors: LimitExceeded.
 Result<void> require_open_files(std::uint64_t least);
 
 }  // namespace dripline::process

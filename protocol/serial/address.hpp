@@ -14,7 +14,7 @@ struct TtyAddress {
   friend bool operator==(const TtyAddress&, const TtyAddress&) = default;
 };
 struct TcpAddress {
-  std::string host;  ///< name or number, an IPv6 one without its brackets
+  std::string host;  ///< name or number; an IPv6 address without brackets
   std::uint16_t port = 0;
   bool speaks_rfc2217 = false;
   friend bool operator==(const TcpAddress&, const TcpAddress&) = default;
@@ -22,7 +22,7 @@ struct TcpAddress {
 using Address = std::variant<TtyAddress, TcpAddress>;
 
 /// "/dev/ttyUSB0", "tcp://moxa-3:4001", "rfc2217://[fd00::3]:4001". Pure.
-/// Errors: Syntax (naming what was expected), LimitExceeded (port not 1 to 65535).
+/// Errors: Syntax (naming the expected form), LimitExceeded (port not 1 to 65535).
 Result<Address> parse_address(std::string_view text);
 
 }  // namespace dripline::serial

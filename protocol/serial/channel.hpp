@@ -12,42 +12,41 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/discipline.hpp"
 
-/// The ends of lines that characters really go through: local ttys, TCP streams, RFC 2217 device
-/// servers.
+/// The ends of real lines: local ttys, TCP streams, RFC 2217 device servers.
 namespace dripline::serial {
 
-/// What came in: characters, or what the UART says of one.
+/// The result of reading: characters, or the fault of one.
 struct Received {
-  std::size_t bytes = 0;  ///< put into the caller's span
-  /// After that many of these bytes; a character with a fault is not among them.
+  std::size_t bytes = 0;  ///< number of bytes in the caller's span
+  /// The fault comes after these bytes; its character is not among them.
   std::optional<wire::LineFault> fault;
 };
 
-/// An open line. Nothing here waits; the owner polls `descriptor()`. Owned by one thread.
+/// An open line. No function waits; the owner polls `descriptor()`. Owned by one thread.
 /// Closing restores a tty's settings and releases its lock.
 class Channel {
  public:
   virtual ~Channel() = default;
-  /// To be repeated until it gives neither bytes nor a fault: what was read from the device before
-  /// does not show in polling. Errors: Io (the cable, the adapter or the server is gone: the
-  /// channel must be opened anew).
+  /// Must be repeated until it returns neither bytes nor a fault: polling does not show bytes that
+  /// were already read from the device. Errors: Io (the cable, the adapter or the server is gone:
+  /// the channel must be reopened).
   virtual Result<Received> read(std::span<std::byte> room) = 0;
-  /// How many were taken; 0: the driver is full. Errors: Io.
+  /// Returns the number of accepted bytes; 0: the driver is full. Errors: Io.
   virtual Result<std::size_t> write(std::span<const std::byte> bytes) = 0;
-  /// Characters handed over that have not left, where the driver can tell.
+  /// Characters in the driver that have not left, if it reports them.
   virtual std::optional<std::size_t> unsent() const = 0;
   /// Errors: Io. nullopt: this channel has no modem lines.
   virtual Result<std::optional<wire::InputLines>> input_lines() = 0;
   virtual Result<void> set_output_lines(wire::OutputLines lines) = 0;
   /// Errors: Unsupported (a TCP stream), Io.
   virtual Result<void> apply(const wire::LineSettings& settings) = 0;
-  /// To poll for reading.
+  /// The descriptor to poll for reading.
   virtual int descriptor() const = 0;
   virtual std::string name() const = 0;  ///< the address as configured
 };
 
-/// `address`: a path ("/dev/ttyUSB0"), "tcp://host:port", or "rfc2217://host:port". Waits for a
-/// connection at most `limit`. Errors: Syntax, NotFound (no such device), Busy (in use; names the
+/// `address`: a path ("/dev/ttyUSB0"), "tcp://host:port", or "rfc2217://host:port". Waits at most
+/// `limit` for a connection. Errors: Syntax, NotFound (no such device), Busy (in use; names the
 /// owner), Timeout, Io, Denied.
 Result<std::unique_ptr<Channel>> open_channel(const std::string& address,
                                               const wire::LineSettings& settings,

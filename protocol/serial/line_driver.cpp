@@ -19,10 +19,10 @@ namespace {
 using namespace std::chrono_literals;
 using wire::LineTime;
 
-constexpr int kMaxReads = 32;  ///< of one look at the channel; then others have their turn
+constexpr int kMaxReads = 32;  ///< reads of the channel before other work
 constexpr LineTime kLinesInterval = 100ms, kHeldLinesInterval = 2ms;
 constexpr LineTime kLongestWait = 1s;
-constexpr std::size_t kRoomStep = 256;  ///< of more room that is worth a call
+constexpr std::size_t kRoomStep = 256;  ///< additional room that is worth a call
 
 std::string_view words_of(wire::LineFault fault) {
   constexpr std::array<std::string_view, 4> kWords{"parity error", "framing error", "overrun",
@@ -83,13 +83,14 @@ class Line final : public LineDriver {
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 
   std::array<std::byte, 512> input_{};
-  std::array<std::byte, Pacer::kWindow> held_{};  ///< taken from the discipline, not by the channel
+  std::array<std::byte, Pacer::kWindow>
+      held_{};  ///< from the discipline, not yet accepted by the channel
   std::size_t held_count_ = 0;
   bool has_input_ = false, may_have_more_ = true, has_lines_ = true;
   LineTime open_at_{}, look_at_{}, ticked_{-1};
   std::optional<wire::InputLines> input_lines_;
   std::optional<wire::OutputLines> output_lines_;
-  std::string fault_;  ///< told last
+  std::string fault_;  ///< reported last
   std::size_t told_room_ = 0;
 
   mutable std::mutex mutex_;
@@ -169,7 +170,8 @@ void Line::lose(const Error& error) {
   tell(LineTraffic::What::Note, {}, error.what);
   const bool is_checked = parts_.settings.flow == wire::Flow::Xmodem ||
                           parts_.settings.flow == wire::Flow::HeidenhainBcc;
-  // A block or an ACK that went with the channel would be waited for without an end.
+  // Otherwise the discipline would wait forever for a block or an ACK that was lost with the
+  // channel.
   if (!is_checked || discipline_->state().may_wait_without_limit) fail_transfer(error);
   if (parts_.listener.on_channel) parts_.listener.on_channel(&error);
 }
@@ -178,18 +180,18 @@ void Line::fail_transfer(const Error& error) {
   const bool is_idle = discipline_->state().phase == wire::Phase::Idle;
   if (is_idle && !discipline_->state().is_asked) return;
   publish();
-  discipline_->abort(now());  // who asked may not be there any more either
-  // What it would say to end the transfer must not reach whoever is there after reopening.
-  std::array<std::byte, 64> nobody;
-  for (int i = 0; i < 64 && discipline_->transmit(nobody, now()) > 0;) ++i;
-  bool is_told = false;
+  discipline_->abort(now());  // the requesting end may be gone too
+  // The characters that end the transfer must not reach the peer after reopening.
+  std::array<std::byte, 64> discarded;
+  for (int i = 0; i < 64 && discipline_->transmit(discarded, now()) > 0;) ++i;
+  bool is_reported = false;
   for (wire::Event& event : discipline_->take_events()) {
-    if (std::holds_alternative<wire::TransferFailed>(event)) is_told = true;
+    if (std::holds_alternative<wire::TransferFailed>(event)) is_reported = true;
     if (parts_.listener.on_event) parts_.listener.on_event(event);
   }
   if (is_idle) return;
   wire::Event failed = wire::TransferFailed{error};
-  if (!is_told && parts_.listener.on_event) parts_.listener.on_event(failed);
+  if (!is_reported && parts_.listener.on_event) parts_.listener.on_event(failed);
 }
 
 Result<void> Line::read() {
@@ -219,7 +221,7 @@ Result<void> Line::look_at_lines() {
   if (!has_lines_) return {};
   const auto lines = channel_->input_lines();
   if (!lines) return fail(lines.error());
-  // A device server tells them a little after the connection was made.
+  // A device server reports them a little after the connection.
   if (!*lines || *lines == input_lines_) return {};
   input_lines_ = *lines;
   const auto word = [](bool is_on) { return is_on ? "on" : "off"; };
@@ -251,7 +253,7 @@ Result<void> Line::transmit() {
   return hand_over(std::span<const std::byte>(characters).first(count));
 }
 
-/// What the channel does not take stays held here; it counts as with the driver.
+/// Characters that the channel does not accept stay here; they count as in the driver.
 Result<void> Line::hand_over(std::span<const std::byte> characters) {
   const auto taken = channel_->write(characters);
   if (!taken) return fail(taken.error());
@@ -279,7 +281,7 @@ void Line::publish() {
   state_ = now_is;
 }
 
-/// Tells of room when there is a good piece of it, not for every character that left.
+/// Reports room when there is enough of it, not for every character that left.
 void Line::watch_room() {
   if (discipline_->state().phase != wire::Phase::Sending) {
     told_room_ = 0;
@@ -300,7 +302,7 @@ LineTime Line::next_turn() const {
   const LineTime at = now();
   LineTime next = at + kLongestWait;
   if (const auto deadline = discipline_->deadline()) {
-    // One that a tick did not move must not make us spin.
+    // A deadline that a tick did not move must not cause a busy loop.
     next = std::min(next, *deadline == ticked_ ? at + 1ms : *deadline);
   }
   if (!channel_) return std::min(next, open_at_);

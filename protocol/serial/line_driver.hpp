@@ -8,33 +8,34 @@
 
 namespace dripline::serial {
 
-/// What passed over the line, for monitors and the flight recorder.
+/// The traffic of a line, for monitors and the flight recorder.
 struct LineTraffic {
   enum class What : std::uint8_t { Sent, Received, Fault, Lines, Note };
   What what = What::Note;
   wire::LineTime time{};             ///< since the line was opened
   std::span<const std::byte> bytes;  ///< Sent, Received; valid during the call
-  std::string_view text;             ///< Fault, Lines, Note: in words
+  std::string_view text;             ///< Fault, Lines, Note: the text
 };
 
 /// Called on the line's thread; must return soon.
 struct LineListener {
   std::function<void(wire::Event&)> on_event;
   std::function<void(const LineTraffic&)> on_traffic;
-  /// The channel was lost or cannot be opened (why; once for each reason), or is open (nullptr).
+  /// The channel was lost or cannot be opened (with the reason; once for each), or is open
+  /// (nullptr).
   std::function<void(const Error* lost)> on_channel;
-  /// There is room for text to offer.
+  /// There is room for more text.
   std::function<void()> on_room;
 };
 
-/// Runs one discipline over one channel on a thread of its own: paces what leaves so that at most
-/// two character times are ever with the driver, opens the channel anew when it was lost, and calls
-/// the listener. Commands from any thread are carried out on the line's thread by `post`.
+/// Runs one discipline over one channel on a thread of its own: paces the output so that at most
+/// two character times are ever in the driver, reopens a lost channel, and calls the listener.
+/// `post` runs work of any thread on the line's thread.
 ///
-/// A lost channel takes what was with the driver along. Checked protocols (XMODEM, HEIDENHAIN with
-/// BCC) notice and repeat it when the channel is back, or give up by their own limits; where they
-/// wait without a limit (a TNC's ACK), and of all other protocols, a transfer in progress has
-/// failed then (TransferFailed, code Io), and its owner decides.
+/// The characters in the driver are lost with the channel. Checked protocols (XMODEM, HEIDENHAIN
+/// with BCC) detect that and repeat them when the channel is back, or give up by their own limits;
+/// where they wait without a limit (a TNC's ACK), and in all other protocols, a transfer in
+/// progress fails (TransferFailed, code Io), and its owner decides.
 class LineDriver {
  public:
   struct Parts {
@@ -43,18 +44,18 @@ class LineDriver {
     wire::Role role = wire::Role::Host;
     LineListener listener = {};
     std::chrono::milliseconds reopen_after{1000};
-    /// Of one attempt to connect; posted work waits meanwhile.
+    /// Limit of one attempt to connect; posted work waits meanwhile.
     std::chrono::milliseconds open_limit{2000};
     /// For tests, instead of wire::make_discipline and open_channel.
     std::function<std::unique_ptr<wire::Discipline>()> make_discipline = {};
     std::function<Result<std::unique_ptr<Channel>>()> open = {};
   };
-  /// Starts the thread; the channel may come later. Errors: those of make_discipline.
+  /// Starts the thread; the channel may be opened later. Errors: those of make_discipline.
   static Result<std::unique_ptr<LineDriver>> start(Parts parts);
   virtual ~LineDriver() = default;  ///< stops and joins
 
   /// Runs `work` on the line's thread, soon, in the order of posting; also while there is no
-  /// channel. What is still waiting when the driver ends is dropped.
+  /// channel. Work that still waits when the driver ends is dropped.
   virtual void post(std::function<void(wire::Discipline&, wire::LineTime)> work) = 0;
   virtual wire::LineState state() const = 0;  ///< any thread
   virtual bool is_open() const = 0;           ///< any thread

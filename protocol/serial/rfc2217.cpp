@@ -27,7 +27,7 @@ void append(std::vector<std::byte>& to, std::uint8_t value) {
   if (value == kIac) to.push_back(std::byte{value});
 }
 
-/// One fault a notice; the gravest when there are several.
+/// One fault for each notice; the most severe when there are several.
 LineStateSeen line_state(std::uint32_t bits) {
   constexpr std::uint32_t kOverrun = 2, kParity = 4, kFraming = 8, kBreak = 16;
   if ((bits & kBreak) != 0) return {wire::LineFault::Break};
@@ -86,13 +86,13 @@ std::optional<TelnetEvent> Rfc2217Client::feed(std::byte byte) {
         return std::nullopt;
       }
       if (value == kSubEnd) return on_sub_end();
-      sub_.clear();  // broken off by another command
+      sub_.clear();  // interrupted by another command
       return on_command(value);
   }
   return std::nullopt;
 }
 
-/// Without the binary option a CR travels as CR NUL (RFC 854).
+/// Without the binary option a CR is sent as CR NUL (RFC 854).
 std::optional<TelnetEvent> Rfc2217Client::on_data(std::uint8_t byte) {
   const bool is_padding = state_ == State::AfterCr && byte == 0;
   state_ = State::Data;
@@ -146,7 +146,7 @@ std::optional<TelnetEvent> Rfc2217Client::on_sub_end() {
   if (code < kServerOffset || code > kServerOffset + static_cast<std::uint8_t>(ComPort::PurgeData))
     return std::nullopt;
   const auto command = static_cast<ComPort>(code - kServerOffset);
-  if (command == ComPort::Signature) return std::nullopt;  // a name, of no use to us
+  if (command == ComPort::Signature) return std::nullopt;  // a name, which is not used
   if (command == ComPort::FlowSuspend) return FlowSeen{true};
   if (command == ComPort::FlowResume) return FlowSeen{false};
   if (sub.size() != 2 + width_of(command)) return std::nullopt;

@@ -19,7 +19,7 @@ namespace dripline::serial {
 /// Commands of the com port option, as the client sends them; the server's answers are 100 higher.
 enum class ComPort : std::uint8_t {
   Signature = 0,
-  SetBaudRate = 1,  ///< 4 bytes, high one first
+  SetBaudRate = 1,  ///< 4 bytes, most significant first
   SetDataSize = 2,
   SetParity = 3,    ///< 1 none, 2 odd, 3 even, 4 mark, 5 space
   SetStopSize = 4,  ///< 1, 2, and 3 for 1.5
@@ -33,14 +33,14 @@ enum class ComPort : std::uint8_t {
   PurgeData = 12,
 };
 
-/// A command with its value, which is at most 4 bytes.
+/// A command with its value of at most 4 bytes.
 struct ComPortCommand {
   ComPort command = ComPort::Signature;
   std::uint32_t value = 0;
   friend bool operator==(const ComPortCommand&, const ComPortCommand&) = default;
 };
 
-/// What one byte from the server completed.
+/// The event that one byte from the server completed.
 struct LineStateSeen {
   std::optional<wire::LineFault> fault;
   friend bool operator==(const LineStateSeen&, const LineStateSeen&) = default;
@@ -49,7 +49,7 @@ struct FlowSeen {
   bool is_suspended = false;  ///< the server's buffer is full
   friend bool operator==(const FlowSeen&, const FlowSeen&) = default;
 };
-/// The server says what is set now: the value of a command of ours, or what it made of it.
+/// The setting that the server reports: the value of our command, or its own.
 struct AnswerSeen {
   ComPortCommand answer;
   friend bool operator==(const AnswerSeen&, const AnswerSeen&) = default;
@@ -61,18 +61,18 @@ struct ComPortAgreed {
 using TelnetEvent =
     std::variant<std::byte, LineStateSeen, wire::InputLines, FlowSeen, AnswerSeen, ComPortAgreed>;
 
-/// The client's end of one connection. Feed it every byte that comes; send what `take_replies`
-/// gives, in order with what `encode` and `command` give. Answers to a byte are at most 3 bytes
-/// long, a subnegotiation longer than kMaxSub is dropped. Not thread-safe.
+/// The client's end of one connection. The owner feeds every received byte and sends the bytes of
+/// `take_replies`, in order with those of `encode` and `command`. Answers to a byte are at most 3
+/// bytes long, a subnegotiation longer than kMaxSub is dropped. Not thread-safe.
 class Rfc2217Client {
  public:
-  Rfc2217Client();  ///< the opening of the negotiation is the first reply
+  Rfc2217Client();  ///< the first reply opens the negotiation
 
-  /// At most one event a byte, so any chunking gives the same ones.
+  /// At most one event for each byte, so any chunking gives the same events.
   std::optional<TelnetEvent> feed(std::byte byte);
   std::vector<std::byte> take_replies() { return std::exchange(replies_, {}); }
 
-  /// Characters as they travel (IAC doubled), appended to `to`.
+  /// Appends the characters as they are on the network (IAC doubled) to `to`.
   void encode(std::span<const std::byte> characters, std::vector<std::byte>& to) const;
   static void encode(const ComPortCommand& command, std::vector<std::byte>& to);
 
@@ -80,7 +80,7 @@ class Rfc2217Client {
 
  private:
   enum class State : std::uint8_t { Data, AfterCr, Command, Option, Sub, SubCommand };
-  /// One option on one side. Only changes are answered, so no two ends can talk forever.
+  /// One option on one side. Only changes are answered, so that the negotiation ends.
   enum class Switch : std::uint8_t { Off, Asked, On };
 
   std::optional<TelnetEvent> on_data(std::uint8_t byte);
@@ -97,8 +97,8 @@ class Rfc2217Client {
   std::vector<std::byte> replies_;
 };
 
-/// The commands that set a line up, in order: rate, format, flow control, which notices we want.
-/// Flow control at the device server only for RTS/CTS: XON/XOFF characters are the discipline's and
+/// The commands that set up a line, in order: rate, format, flow control, requested notices. Only
+/// RTS/CTS is flow control of the device server: XON/XOFF characters belong to the discipline and
 /// must pass through.
 std::vector<ComPortCommand> setup_commands(const wire::LineSettings& settings);
 std::vector<ComPortCommand> output_line_commands(wire::OutputLines lines);

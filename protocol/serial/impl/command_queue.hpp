@@ -10,7 +10,7 @@
 namespace dripline::serial {
 
 /// Work that other threads leave for a line's thread. Bounded: a line's owner has a handful of
-/// things under way, so more than kMax is a fault of ours and ends the process.
+/// works in progress, so more than kMax are a defect and end the process.
 class CommandQueue {
  public:
   using Work = std::function<void(wire::Discipline&, wire::LineTime)>;
@@ -20,9 +20,9 @@ class CommandQueue {
   /// Any thread.
   void push(Work work);
   void wake();
-  /// The line's thread: everything so far; `descriptor` is quiet again.
+  /// The line's thread: returns all works and resets `descriptor`.
   std::vector<Work> take();
-  int descriptor() const { return event_.get(); }  ///< readable: there is something
+  int descriptor() const { return event_.get(); }  ///< readable: there is work
 
  private:
   Descriptor event_;

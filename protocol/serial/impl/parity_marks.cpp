@@ -11,7 +11,7 @@ std::optional<ParityMarks::Item> ParityMarks::feed(std::uint8_t byte) {
       return std::nullopt;
     case State::Marked:
       state_ = byte == 0 ? State::Faulty : State::Plain;
-      // Anything but 0x00 stands for itself; the kernel sends 0xFF only here.
+      // Any byte but 0x00 is itself; the kernel sends only 0xFF here.
       return byte == 0 ? std::nullopt : std::optional<Item>(byte);
     case State::Faulty:
       state_ = State::Plain;

@@ -6,8 +6,8 @@
 
 namespace dripline::serial {
 
-/// Undoes what a tty with PARMRK does to its input: 0xFF 0x00 X stands for a character X with a
-/// fault, 0xFF 0x00 0x00 for a break, 0xFF 0xFF for a plain 0xFF. A byte state machine.
+/// Decodes the input of a tty with PARMRK: 0xFF 0x00 X is a character X with a fault, 0xFF 0x00
+/// 0x00 for a break, 0xFF 0xFF for a plain 0xFF. A byte state machine.
 class ParityMarks {
  public:
   struct Faulty {
@@ -15,7 +15,7 @@ class ParityMarks {
     bool is_break = false;
   };
   using Item = std::variant<std::uint8_t, Faulty>;
-  /// Nothing: more bytes are needed.
+  /// nullopt: more bytes are needed.
   std::optional<Item> feed(std::uint8_t byte);
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As minicom, uucp and ser2net name it: without /dev/, further slashes as '_'.
+/// The name that minicom, uucp and ser2net use: without /dev/, further slashes as '_'.
 fs::path lock_file(const fs::path& device, const fs::path& folder) {
   std::string name = device.string();
   if (name.starts_with("/dev/")) name.erase(0, 5);
@@ -41,7 +41,7 @@ std::string name_of(pid_t pid) {
   return name.empty() ? "a process" : name;
 }
 
-/// The process a lock file names; nullopt: no file, or none that lives.
+/// The process in a lock file; nullopt: no file, or the process has ended.
 std::optional<pid_t> owner_in_file(const fs::path& path) {
   std::ifstream file(path);
   pid_t pid = 0;
@@ -49,7 +49,7 @@ std::optional<pid_t> owner_in_file(const fs::path& path) {
   return pid;
 }
 
-/// The process that holds an flock on the device, by the kernel's own list.
+/// The process that holds an flock on the device, from the kernel's list.
 std::optional<pid_t> owner_of_flock(const fs::path& device) {
   struct stat status {};
   if (::stat(device.c_str(), &status) != 0) return std::nullopt;
@@ -79,9 +79,9 @@ bool write_lock_file(const fs::path& path, bool& is_written) {
       if (!is_written) ::unlink(path.c_str());
       return true;
     }
-    if (errno != EEXIST) return true;  // no such folder, or not ours to write in
+    if (errno != EEXIST) return true;  // no such folder, or no permission to write
     const auto owner = owner_in_file(path);
-    // Our own: a former channel of this process; the flock says that it is closed.
+    // A former channel of this process: the flock shows that it is closed.
     if (owner && *owner != ::getpid()) return false;
     if (::unlink(path.c_str()) != 0) return true;
   }

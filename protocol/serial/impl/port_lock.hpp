@@ -8,14 +8,14 @@
 namespace dripline::serial {
 
 /// One process per tty: an flock on the open device, which ends with the process, TIOCEXCL, and the
-/// lock file that other serial programs know (LCK..NAME, with pid and name in it). Where the folder
-/// of lock files cannot be written, it does without.
+/// lock file of other serial programs (LCK..NAME, with pid and name in it). Where the folder of
+/// lock files cannot be written, there is no such file.
 class PortLock {
  public:
   static constexpr const char* kFolder = "/run/lock";
 
-  /// `device`: the true path of what `descriptor` has open; that must stay open as long as the lock
-  /// lives. Errors: Busy (naming the owner), Io.
+  /// `device`: the real path of the open `descriptor`, which must stay open as long as the lock
+  /// exists. Errors: Busy (naming the owner), Io.
   static Result<PortLock> take(int descriptor, const std::filesystem::path& device,
                                const std::filesystem::path& folder = kFolder);
   PortLock(PortLock&& other) noexcept;
@@ -26,10 +26,10 @@ class PortLock {
   PortLock(int descriptor, std::filesystem::path file)
       : descriptor_(descriptor), file_(std::move(file)) {}
   int descriptor_;
-  std::filesystem::path file_;  ///< empty: none of ours
+  std::filesystem::path file_;  ///< empty: none
 };
 
-/// Who has this device, for people: "minicom (pid 312)", or "another process".
+/// The owner of this device, for people: "minicom (pid 312)", or "another process".
 std::string owner_of(const std::filesystem::path& device,
                      const std::filesystem::path& folder = PortLock::kFolder);
 

@@ -40,7 +40,7 @@ class Rfc2217Channel final : public Channel {
 
  private:
   Result<void> fill_raw();
-  /// One raw byte; a character it completed.
+  /// Processes one raw byte; returns the character that it completed.
   std::optional<std::byte> digest(std::byte raw);
   void take(const AnswerSeen& seen);
   Result<void> send_commands(const std::vector<ComPortCommand>& commands);
@@ -48,7 +48,7 @@ class Rfc2217Channel final : public Channel {
   Result<void> wait_while(const std::function<bool()>& waits, const char* what, Deadline end);
   tl::unexpected<Error> lost(const char* why) const { return fail(Errc::Io, "{}: {}", name_, why); }
 
-  /// Of commands under way; a server that reads nothing for so long is not there.
+  /// Limit of commands in progress; a server that answers none of so many is gone.
   static constexpr std::size_t kMaxOutput = 16 * 1024;
   static constexpr std::size_t kMaxEarly = 4096;
 
@@ -57,10 +57,10 @@ class Rfc2217Channel final : public Channel {
   Rfc2217Client client_;
   std::array<std::byte, 512> raw_{};
   std::size_t raw_begin_ = 0, raw_end_ = 0;
-  std::vector<std::byte> output_;  ///< encoded, not yet taken by the socket
+  std::vector<std::byte> output_;  ///< encoded, not yet accepted by the socket
   std::deque<std::byte> early_;    ///< characters that came while opening
   std::vector<ComPortCommand> unanswered_;
-  std::string refused_;  ///< what the server set otherwise
+  std::string refused_;  ///< the settings that the server changed
   std::optional<wire::LineFault> fault_;
   std::optional<wire::InputLines> lines_;
   std::optional<bool> is_supported_;
@@ -94,8 +94,8 @@ std::optional<std::byte> Rfc2217Channel::digest(std::byte raw) {
   return std::nullopt;
 }
 
-/// Servers answer each command once, in order. Only rate and format must be as asked for: what a
-/// server makes of flow control and masks is its own affair.
+/// Servers answer each command once, in order. Only rate and format must be as requested: a server
+/// may change flow control and masks.
 void Rfc2217Channel::take(const AnswerSeen& seen) {
   const auto asked = std::find_if(
       unanswered_.begin(), unanswered_.end(),

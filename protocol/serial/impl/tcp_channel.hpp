@@ -10,7 +10,7 @@
 namespace dripline::serial {
 
 /// The characters of a line as a TCP stream, as device servers offer it in raw mode; rate and
-/// parity are set on the far side by hand. Errors: those of open_channel.
+/// parity are set at the device server by hand. Errors: those of open_channel.
 Result<std::unique_ptr<Channel>> open_tcp(const std::string& name, const TcpAddress& address,
                                           std::chrono::milliseconds limit);
 

@@ -15,7 +15,7 @@ namespace {
 using Deadline = std::chrono::steady_clock::time_point;
 
 void set_option(int socket, int level, int option, int value) {
-  ::setsockopt(socket, level, option, &value, sizeof value);  // each is a help, none a must
+  ::setsockopt(socket, level, option, &value, sizeof value);  // optional: a failure is ignored
 }
 
 void watch_peer(int socket) {

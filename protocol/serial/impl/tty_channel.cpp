@@ -18,7 +18,7 @@
 namespace dripline::serial {
 namespace {
 
-/// A pty has neither rate nor parity: it keeps 8 bits whatever is asked for.
+/// A pty has neither rate nor parity: it always has 8 bits.
 bool is_pty(int descriptor) {
   constexpr unsigned kFirst = 136, kLast = 143;  // major numbers of pty ends
   struct stat status {};
@@ -101,7 +101,7 @@ Result<Received> TtyChannel::read(std::span<std::byte> room) {
   return received;
 }
 
-/// The mark does not tell parity from framing; the driver's counters do, where it keeps them.
+/// The mark does not distinguish parity from framing; the driver's counters do, where they exist.
 wire::LineFault TtyChannel::kind_of_fault() {
   const auto otherwise = has_parity_ ? wire::LineFault::Parity : wire::LineFault::Framing;
   if (!has_counters_) return otherwise;
@@ -114,7 +114,7 @@ wire::LineFault TtyChannel::kind_of_fault() {
   return is_framing ? wire::LineFault::Framing : wire::LineFault::Parity;
 }
 
-/// Lost characters leave no mark, only a count.
+/// Lost characters have no mark, only a count.
 std::optional<wire::LineFault> TtyChannel::overrun() {
   if (!has_counters_) return std::nullopt;
   serial_icounter_struct now{};
@@ -164,7 +164,7 @@ Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
   termios wanted = former_;
   if (const auto done = fill_modes(settings, wanted); !done)
     return fail(done.error().code, "{}: {}", path_, done.error().what);
-  // EINVAL: not all of it was done; what is missing is looked at below.
+  // EINVAL: not all settings were applied; the difference is checked below.
   if (::tcsetattr(descriptor_.get(), TCSANOW, &wanted) != 0 && errno != EINVAL)
     return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
   termios got{};
@@ -178,7 +178,7 @@ Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
   return {};
 }
 
-/// USB adapters hold input back for up to 16 ms otherwise, and with it an XOFF.
+/// Otherwise USB adapters delay input, an XOFF included, by up to 16 ms.
 void TtyChannel::ask_for_low_latency() {
   if (has_serial_flags_ || ::ioctl(descriptor_.get(), TIOCGSERIAL, &serial_) != 0) return;
   serial_struct wanted = serial_;

@@ -8,7 +8,7 @@
 namespace dripline::serial {
 
 /// Makes `modes` raw, with the settings' rate and character format and faults marked (PARMRK). Flow
-/// control is left to the discipline: the kernel's would act too late and hide what it does.
+/// control belongs to the discipline: the kernel's would act too late and unseen.
 /// Errors: Unsupported (a baud rate or format that ttys do not have, named); `modes` is then
 /// unchanged.
 Result<void> fill_modes(const wire::LineSettings& settings, termios& modes);

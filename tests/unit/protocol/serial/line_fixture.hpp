@@ -55,8 +55,8 @@ struct LineLog {
                       received += text->text;
                     if (auto* failed = std::get_if<wire::TransferFailed>(&event))
                       failures.push_back(failed->error);
-                    if (auto* trouble = std::get_if<wire::LineError>(&event))
-                      faults.push_back(trouble->error);
+                    if (auto* fault = std::get_if<wire::LineError>(&event))
+                      faults.push_back(fault->error);
                     if (std::holds_alternative<wire::TransferEnded>(event)) ++ended;
                   });
                 },
