@@ -9,7 +9,7 @@
 namespace dripline::dds {
 namespace {
 
-constexpr std::uint32_t kMaxDomain = 230;  // above, the ports leave the 16-bit range
+constexpr std::uint32_t kMaxDomain = 230;  // above this, the ports exceed 16 bits
 
 std::string escape_xml(std::string_view text) {
   std::string result;
@@ -83,7 +83,7 @@ std::string size_elements(const std::string& interface) {
          "<FragmentSize>65000B</FragmentSize>";
 }
 
-/// A port given with the server is that of its first cell.
+/// A port in the server's address is that of its first cell.
 Result<std::string> server_place(const NetworkOptions& options, std::uint32_t cell) {
   const auto colon = options.server.find(':');
   if (colon == std::string::npos) {
@@ -112,11 +112,12 @@ Result<std::string> place_elements(const NetworkOptions& options, Role role, std
 Result<void> check_exposure(const NetworkOptions& options) {
   if (is_loopback(options.interface) || options.security || options.is_open_network_allowed)
     return {};
-  return fail(Errc::Denied,
-              "DDS on interface '{}' has no authentication: whoever reaches it can read programs "
-              "and command the machines. Stay on lo, or take a network that only server and "
-              "gateways are on and confirm it with dds-open-network = yes",
-              options.interface);
+  return fail(
+      Errc::Denied,
+      "DDS on interface '{}' has no authentication: any host on that network can read programs "
+      "and command the machines. Stay on lo, or take a network that only server and "
+      "gateways are on and confirm it with dds-open-network = yes",
+      options.interface);
 }
 
 std::uint32_t cell_of(const std::string& machine) {
@@ -128,7 +129,7 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
   if (auto checked = check_options(options); !checked) return fail(checked.error());
   const auto place = place_elements(options, role, cell);
   if (!place) return fail(place.error());
-  // ExternalDomainId: the number on the network; the one in this process may be another, so that
+  // ExternalDomainId is the number on the network; the one in this process may differ, so that
   // several ends fit into one process. The watermarks only have to be above what the writers'
   // history can hold (qos.cpp), since a writer must never wait for an acknowledgement. A closing
   // endpoint waits for acknowledgements only as long as a live peer needs (Cyclone: 1 s).

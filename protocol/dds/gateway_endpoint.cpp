@@ -15,8 +15,9 @@
 namespace dripline::dds {
 namespace {
 
-/// Threads: DDS threads deliver orders, acks and blocks; `watcher_` looks who is matched whenever
-/// that changes (DDS tables must not be looked at in a listener) and repeats the Announce.
+/// Threads: DDS threads deliver commands, acks and blocks; `watcher_` checks the matched
+/// participants whenever they change (a listener must not access DDS tables) and repeats the
+/// Announce.
 class Gateway final : public GatewayEndpoint {
  public:
   Gateway(Domain domain, std::string machine, GatewayHandlers handlers)
@@ -66,7 +67,7 @@ class Gateway final : public GatewayEndpoint {
   std::set<std::string> complete_servers() const;
   Result<void> write_announce();
 
-  // Order matters: the listeners of readers and writers use what is above them.
+  // Order matters: the listeners of readers and writers use the members above them.
   Domain domain_;
   std::string machine_;
   GatewayHandlers handlers_;
@@ -90,7 +91,7 @@ class Gateway final : public GatewayEndpoint {
   std::unique_ptr<Writer<Record>> record_;
   std::unique_ptr<Writer<CommandResult>> result_;
   std::unique_ptr<Writer<BlockRequest>> request_;
-  std::unique_ptr<PeerReader<Command>> order_;
+  std::unique_ptr<PeerReader<Command>> command_;
   std::unique_ptr<PeerReader<RecordAck>> ack_;
   std::unique_ptr<PeerReader<BlockData>> block_;
   std::jthread watcher_;
@@ -138,7 +139,7 @@ Result<void> Gateway::start() {
   if (!subscriber) return fail(subscriber.error());
   subscriber_ = std::move(*subscriber);
 
-  if (auto r = open_reader(subscriber_, order_, handlers_.on_command); !r) return r;
+  if (auto r = open_reader(subscriber_, command_, handlers_.on_command); !r) return r;
   if (auto r = open_reader(subscriber_, ack_, handlers_.on_ack); !r) return r;
   if (auto r = open_reader(subscriber_, block_, handlers_.on_block); !r) return r;
   if (auto r = open_writer(publisher_, announcer_); !r) return r;
@@ -166,21 +167,21 @@ void Gateway::watch(const std::stop_token& stop) {
       matches_changed_ = false;
     }
     look_at_servers();
-    order_->settle();
-    ack_->settle();
-    block_->settle();
+    command_->resolve();
+    ack_->resolve();
+    block_->resolve();
   }
 }
 
-/// Orders, acknowledgements and text of anybody else are refused.
+/// Commands, acknowledgements and text of any other participant are rejected.
 void Gateway::believe(const std::string& server) {
-  order_->set_peer(server);
+  command_->set_peer(server);
   ack_->set_peer(server);
   block_->set_peer(server);
 }
 
-/// A server counts when all of its writers and readers for this machine are matched here: only
-/// then nothing of what either side writes is lost.
+/// A server is complete when all of its writers and readers for this machine are matched here: only
+/// then no message of either side is lost.
 std::set<std::string> Gateway::complete_servers() const {
   std::set<std::string> result = matched_with_writer(announcer_->get());
   const auto keep = [&result](const std::set<std::string>& others) {
@@ -190,15 +191,15 @@ std::set<std::string> Gateway::complete_servers() const {
   keep(matched_with_writer(record_->get()));
   keep(matched_with_writer(result_->get()));
   keep(matched_with_writer(request_->get()));
-  keep(matched_with_reader(order_->get()));
+  keep(matched_with_reader(command_->get()));
   keep(matched_with_reader(ack_->get()));
   keep(matched_with_reader(block_->get()));
   return result;
 }
 
 /// A server is kept until it is lost: another one never takes over by being newer. A killed one
-/// stays matched until its lease ends, and its successor waits so long. Of several that wait the
-/// newest is taken: the others may be killed ones too.
+/// stays matched until its lease ends, and its successor waits until then. Of several that wait,
+/// the newest is chosen: the others may have been killed too.
 void Gateway::look_at_servers() {
   const std::set<std::string> now = complete_servers();
   std::erase_if(complete_, [&](const std::string& key) { return !now.contains(key); });
@@ -216,7 +217,8 @@ void Gateway::look_at_servers() {
     heard_ = heard;
     announce_due_ = announce_ && !write_announce();
   }
-  if (announce_due_) wake_watcher();  // not taken: again, each try waits a little by itself
+  if (announce_due_)
+    wake_watcher();  // not accepted: try again; each attempt waits a little by itself
   if (!is_news) return;
   is_connected_ = !heard.empty();
   if (handlers_.on_server) handlers_.on_server(is_connected_);

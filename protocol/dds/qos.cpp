@@ -5,18 +5,18 @@
 // Why no writer here is KEEP_ALL: a KEEP_ALL writer stops taking samples while any matched reader
 // has not acknowledged the old ones, and a killed peer stays a matched reader until its lease ends.
 // A restarted gateway would wait seconds for the ghost of its predecessor. With KEEP_LAST the
-// oldest unacknowledged sample gives way instead, so a write never waits; what was pushed out is
-// asked for or sent again by the layer above, which has to be able to do that anyway (the pull, the
-// outbox, orders with ids). Depths are larger than what that layer keeps in flight, so with a live
-// peer nothing is ever pushed out.
+// newest sample replaces the oldest unacknowledged one instead, so a write never waits; the layer
+// above requests or sends lost samples again, which it must be able to do anyway (the pull, the
+// outbox, commands with ids). The depths exceed what that layer keeps in flight, so with a live
+// peer no sample is ever lost.
 namespace dripline::dds {
 namespace {
 
-// A write that cannot be taken at once (it should not happen, see above) fails instead of holding
-// up the caller's thread.
+// A write that is not accepted at once (it should not happen, see above) fails instead of blocking
+// the caller's thread.
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(5);
 
-// Readers are emptied in the callback that fills them; this bounds them should a handler stall.
+// Readers are emptied in the callback that fills them; this bounds them if a handler stalls.
 constexpr int kReaderFactor = 4;
 
 Qos reliable() {
@@ -36,7 +36,7 @@ Qos keep_last(std::size_t depth) {
   return qos;
 }
 
-/// The latest value of each machine is there for whoever comes later, as long as the writer lives.
+/// A reader that comes later gets the latest value of each machine, as long as the writer lives.
 /// Presence is the participant's lease (configuration.hpp): a deadline would make an idle machine
 /// look dead, because these are written on change.
 Qos latest_value() {
@@ -64,7 +64,7 @@ Qos partition_qos(const std::string& partition) {
   return qos;
 }
 
-// A restarted server must learn who is there without asking.
+// A restarted server must learn of the gateways without a request.
 template <>
 Qos topic_qos<Announce>() {
   return latest_value();
@@ -76,7 +76,7 @@ Qos topic_qos<Status>() {
   return latest_value();
 }
 
-// The outbox sends again what was not acknowledged on disk; the depth is its window.
+// The outbox sends records again until they are acknowledged; the depth is its window.
 template <>
 Qos topic_qos<Record>() {
   return keep_last(kRecordWindow);
@@ -88,8 +88,8 @@ Qos topic_qos<RecordAck>() {
   return keep_last(1);
 }
 
-// Volatile on purpose: a restarted gateway must not be handed the orders of its past. A person's
-// orders come singly; more than this many unacknowledged means the gateway hangs.
+// Volatile on purpose: a restarted gateway must not receive old commands. A person's commands come
+// singly; more unacknowledged commands than this mean that the gateway hangs.
 template <>
 Qos topic_qos<Command>() {
   return keep_last(64);
@@ -106,8 +106,8 @@ Qos topic_qos<BlockRequest>() {
   return keep_last(64);
 }
 
-// The pull is the flow control: a gateway that has at most kBlockWindow pieces asked for loses
-// none. 2 MiB per machine at most, and only while they are unacknowledged.
+// The pull is the flow control: a gateway that requests at most kBlockWindow pieces loses none. At
+// most 2 MiB for each machine, and only while they are unacknowledged.
 template <>
 Qos topic_qos<BlockData>() {
   return keep_last(kBlockWindow);

@@ -3,10 +3,10 @@
 #include "protocol/dds/impl/entity.hpp"
 #include "protocol/dds/message.hpp"
 
-/// The quality of service of every topic, the reason beside each. Nothing else sets QoS.
+/// The quality of service of every topic, with the reason for each. No other file sets QoS.
 namespace dripline::dds {
 
-/// The partition of one machine, and the server's view of all.
+/// The partition of one machine, and the one that matches all.
 std::string partition_of(const std::string& machine);
 std::string partition_of_all();
 

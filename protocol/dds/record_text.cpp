@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kMaxDepth = 8;  // ours nest two deep; the rest is room for later members
+constexpr int kMaxDepth = 8;  // the texts nest two deep; the rest is for later members
 constexpr std::array<std::string_view, 4> kOutcomes{"completed", "aborted", "alarmed",
                                                     "interrupted"};
 constexpr std::string_view kAxes = "XYZABCUVW";
 
-/// Brackets outside strings. The text is refused before the parser sees it, so hostile nesting can
-/// not use up stack or memory.
+/// Counts brackets outside strings. The text is refused before parsing, so that hostile nesting
+/// cannot exhaust stack or memory.
 bool nests_deeper_than(std::string_view text, int limit) {
   int depth = 0;
   bool in_string = false;
@@ -51,7 +51,7 @@ Result<Json> parse_object(std::string_view text) {
   return json;
 }
 
-/// Reads members of one object and remembers the first that is missing or of another type.
+/// Reads the members of one object; the first that is missing or of another type is the error.
 class Members {
  public:
   explicit Members(const Json& object) : object_(object) {}

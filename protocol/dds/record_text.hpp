@@ -8,8 +8,8 @@
 #include "protocol/base/result.hpp"
 
 /// The texts of structured records (message.hpp, RecordKind) as JSON. Both ends use these.
-/// Decoding is strict: every member must be there with its type; members a newer version added are
-/// ignored. Pure; any thread. Errors of decoding: Syntax, LimitExceeded (too long or nested).
+/// Decoding is strict: every member must be there with its type; members that a newer version added
+/// are ignored. Pure; any thread. Errors of decoding: Syntax, LimitExceeded (too long or nested).
 namespace dripline::dds {
 
 /// RecordKind::RunStarted
@@ -26,14 +26,14 @@ std::string_view to_string(RunOutcome value);  ///< completed, aborted, alarmed,
 /// RecordKind::RunEnded
 struct RunEndText {
   RunOutcome outcome = RunOutcome::Interrupted;
-  std::uint64_t sent = 0;      ///< bytes of the program the gateway received
+  std::uint64_t sent = 0;      ///< bytes of the program that the gateway received
   std::uint64_t accepted = 0;  ///< blocks interpreted
   std::uint64_t executed = 0;  ///< blocks finished by the machine
-  std::uint64_t line = 0;      ///< of the last executed block, 1-based; 0: none was
+  std::uint64_t line = 0;      ///< of the last executed block, 1-based; 0: none
   std::int64_t sequence = -1;  ///< its N number, -1 none
   std::string reason;          ///< empty when completed
-  /// SHA-256 of the first `content_length` bytes of the program as the gateway received them; empty
-  /// when it does not know.
+  /// SHA-256 of the first `content_length` bytes of the program as the gateway received them;
+  /// empty: unknown.
   std::string content_sha256;
   std::uint64_t content_length = 0;
   friend bool operator==(const RunEndText&, const RunEndText&) = default;

@@ -6,7 +6,7 @@
 namespace dripline::dds {
 namespace {
 
-/// Sends each message to the cell of its machine; the cells do the rest.
+/// Passes each message to the cell of its machine.
 class Server final : public ServerEndpoint {
  public:
   explicit Server(ServerHandlers handlers) { shared_.handlers = std::move(handlers); }

@@ -4,11 +4,11 @@
 
 #include "protocol/dds/message.hpp"
 
-/// Which orders stop or slow a machine down: one rule for both ends. Such orders never expire, and
-/// no session, clock or protocol version keeps them back.
+/// The commands that stop or slow down a machine: one rule for both ends. They never expire, and no
+/// session, clock or protocol version withholds them.
 namespace dripline::dds {
 
-/// Hold, abort, or an emergency stop that is pressed in.
+/// Hold, abort, or a pressed emergency stop.
 inline bool is_stop(CommandAction action, std::string_view argument, double value) {
   if (action == CommandAction::Switch) return argument == "emergency_stop" && value == 1;
   return action == CommandAction::Hold || action == CommandAction::Abort;
@@ -19,8 +19,8 @@ inline bool is_override(CommandAction action) {
          action == CommandAction::SpindleOverride;
 }
 
-/// The member of `now` (a `Status`, a machine's panel) that an override order sets. `action` is one
-/// of an override.
+/// The member of `now` (a `Status`, a machine's panel) that an override command sets. `action` is
+/// that of an override.
 template <class Overrides>
 auto& override_of(CommandAction action, Overrides& now) {
   return action == CommandAction::FeedOverride    ? now.feed_override
@@ -28,7 +28,7 @@ auto& override_of(CommandAction action, Overrides& now) {
                                                   : now.spindle_override;
 }
 
-/// `value` is less than the override in force; never so of a NaN.
+/// Whether `value` is less than the override in force; false for a NaN.
 template <class Overrides>
 bool lowers_override(CommandAction action, double value, const Overrides& now) {
   return is_override(action) && value < override_of(action, now);

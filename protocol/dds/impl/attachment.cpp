@@ -5,7 +5,7 @@
 namespace dripline::dds {
 namespace {
 
-/// One reader whose messages go straight to a handler of the server.
+/// A reader whose messages go directly to a handler of the server.
 template <class Message>
 Result<void> open_reader(std::unique_ptr<PeerReader<Message>>& reader, const Entity& subscriber,
                          const Entity& topic, const std::string& machine,
@@ -91,7 +91,7 @@ Result<std::unique_ptr<Attachment>> Attachment::create(const Domain& domain,
   return a;
 }
 
-void Attachment::believe(const std::string& participant) {
+void Attachment::set_gateway(const std::string& participant) {
   gateway = participant;
   status->set_peer(participant);
   record->set_peer(participant);
@@ -99,11 +99,11 @@ void Attachment::believe(const std::string& participant) {
   request->set_peer(participant);
 }
 
-void Attachment::settle() {
-  status->settle();
-  record->settle();
-  command_result->settle();
-  request->settle();
+void Attachment::resolve() {
+  status->resolve();
+  record->resolve();
+  command_result->resolve();
+  request->resolve();
 }
 
 bool Attachment::is_matched_with(const std::string& participant) const {

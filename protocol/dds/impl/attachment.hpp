@@ -12,8 +12,8 @@ namespace dripline::dds {
 struct Arrived {
   Announce announce;
   std::string heard;                 ///< the server its gateway is matched with
-  dds_instance_handle_t writer = 0;  ///< where it came from
-  std::string participant;           ///< likewise, once the watcher has asked
+  dds_instance_handle_t writer = 0;  ///< its origin
+  std::string participant;           ///< likewise, when the watcher has looked it up
 };
 
 /// The topics of the server, created once for all machines.
@@ -36,13 +36,13 @@ struct Attachment {
   std::unique_ptr<PeerReader<BlockRequest>> request;
 
   bool is_ready = false;           ///< on_announce was called, on_lost not since
-  std::optional<Arrived> waiting;  ///< heard us, but we are not yet matched with all of it
-  /// The participant that speaks for the machine, and its Announce's writer. It stays until it is
-  /// lost, whoever else announces the machine; empty: none.
+  std::optional<Arrived> waiting;  ///< it names us, but not all of its endpoints are matched yet
+  /// The participant of the machine's gateway, and its Announce's writer. It stays until it is
+  /// lost, even if others announce the machine; empty: none.
   std::string gateway;
   dds_instance_handle_t announcer = 0;
-  std::optional<Arrived> rival;       ///< the last other one that announced the machine
-  std::optional<Announce> delivered;  ///< what on_announce was told last
+  std::optional<Arrived> rival;       ///< the latest other participant that announced the machine
+  std::optional<Announce> delivered;  ///< the latest argument of on_announce
 
   /// `handlers` and `rejections` must outlive the attachment.
   static Result<std::unique_ptr<Attachment>> create(const Domain& domain,
@@ -51,12 +51,12 @@ struct Attachment {
                                                     const ServerHandlers& handlers,
                                                     Rejections& rejections,
                                                     const std::function<void()>& on_matched);
-  /// All ways between us and this participant are open on our side.
+  /// Whether all our readers and writers are matched with this participant.
   bool is_matched_with(const std::string& participant) const;
-  /// What others say for this machine is refused. Empty: what all say.
-  void believe(const std::string& participant);
-  /// Judges writers that nothing is known of yet.
-  void settle();
+  /// Rejects messages of other participants for this machine; empty: those of all.
+  void set_gateway(const std::string& participant);
+  /// Looks up the participants of new writers.
+  void resolve();
 };
 
 }  // namespace dripline::dds

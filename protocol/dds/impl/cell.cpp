@@ -43,14 +43,14 @@ Result<void> Cell::start() {
   return {};
 }
 
-/// Null: there is no room for another machine. `news_mutex_` is held.
+/// Null: no room for another machine. `news_mutex_` is held.
 Cell::MachineNews* Cell::news_of(const std::string& machine) {
   if (news_.size() >= kMaxMachines && !news_.contains(machine)) return nullptr;
   return &news_[machine];
 }
 
 void Cell::post_announced(Arrived arrived) {
-  constexpr std::size_t kMaxWriters = 8;  // of one machine, between two looks of the watcher
+  constexpr std::size_t kMaxWriters = 8;  // for one machine, between two looks of the watcher
   bool is_taken = false;
   {
     std::lock_guard lock(news_mutex_);
@@ -99,18 +99,18 @@ void Cell::watch(const std::stop_token& stop) {
     for (const auto& [name, machine] : machines_) {  // the watcher reads its own writes
       look_at_rival(name, *machine);
       if (machine->waiting) try_ready(*machine);
-      machine->settle();
+      machine->resolve();
     }
   }
 }
 
-/// Nobody announces it any more. One that was never ready may be anybody's invention: what was made
-/// for it is given back.
+/// The machine is no longer announced. One that was never ready may be any stranger's invention:
+/// its entities are released.
 void Cell::handle_lost(const std::string& machine) {
   const auto attached = find(machine);
   if (attached == nullptr) return;
   set_rival(machine, *attached, std::nullopt);
-  attached->believe({});
+  attached->set_gateway({});
   const bool was_ever_ready = attached->delivered.has_value();
   lose(*attached, machine);
   if (!was_ever_ready) drop(machine);
@@ -123,7 +123,7 @@ void Cell::lose(Attachment& attached, const std::string& machine) {
 }
 
 void Cell::drop(const std::string& machine) {
-  std::shared_ptr<Attachment> dropped;  // goes without the lock
+  std::shared_ptr<Attachment> dropped;  // destroyed without the lock
   std::unique_lock lock(machines_mutex_);
   const auto found = machines_.find(machine);
   if (found == machines_.end()) return;
@@ -133,11 +133,11 @@ void Cell::drop(const std::string& machine) {
   lock.unlock();
 }
 
-/// The first Announce of a machine makes us attach it; when the gateway hears what was made, it
-/// announces itself again, naming us. Only then nothing we write is lost on the way.
+/// The first Announce of a machine attaches it; when the gateway is matched with the new entities,
+/// it announces itself again and names this server. Only from then on are no messages lost.
 void Cell::handle_announced(const std::string& machine, Arrived arrived) {
   const auto source = publication(announces_->get(), arrived.writer);
-  if (!source) return;  // gone already; its successor announces itself
+  if (!source) return;  // already lost; its successor announces itself
   if (source->partitions != std::vector{partition_of(machine)}) {
     return shared_.rejections.add(Topic<Announce>::kName,
                                   "announced in another machine's partition");
@@ -149,7 +149,7 @@ void Cell::handle_announced(const std::string& machine, Arrived arrived) {
   const auto attached = attach(machine);
   if (attached == nullptr) return;
   look_at_rival(machine, *attached);
-  if (attached->gateway.empty()) attached->believe(arrived.participant);
+  if (attached->gateway.empty()) attached->set_gateway(arrived.participant);
   if (attached->gateway != arrived.participant) {
     return set_rival(machine, *attached, std::move(arrived));
   }
@@ -160,13 +160,13 @@ void Cell::handle_news_of_gateway(Attachment& attached, Arrived arrived) {
   attached.announcer = arrived.writer;
   if (arrived.heard == domain_.key) {
     attached.waiting = std::move(arrived);
-  } else {  // it does not hear us, or not any more
+  } else {  // it is not, or no longer, matched with us
     lose(attached, arrived.announce.machine);
   }
 }
 
-/// The gateway that speaks for a machine stays the one until it is lost. Then the one that waited
-/// takes over, without the machine being lost in between.
+/// A machine keeps its gateway until that is lost. Then the waiting one takes over, without the
+/// machine being lost in between.
 void Cell::look_at_rival(const std::string& machine, Attachment& attached) {
   if (!attached.rival) return;
   const bool is_there = publication(announces_->get(), attached.rival->writer).has_value();
@@ -174,7 +174,7 @@ void Cell::look_at_rival(const std::string& machine, Attachment& attached) {
   if (publication(announces_->get(), attached.announcer)) return;
   Arrived successor = std::move(*attached.rival);
   set_rival(machine, attached, std::nullopt);
-  attached.believe(successor.participant);
+  attached.set_gateway(successor.participant);
   handle_news_of_gateway(attached, std::move(successor));
 }
 
@@ -187,15 +187,15 @@ void Cell::set_rival(const std::string& machine, Attachment& attached,
     shared_.handlers.on_rival(machine, is_there);
 }
 
-/// A gateway is a participant of its own. So whoever announces thousands of machines needs as many
-/// participants.
+/// Each gateway is one participant, so that a stranger who announces thousands of machines needs as
+/// many participants.
 bool Cell::speaks_for_another(const std::string& participant, const std::string& machine) const {
   return std::any_of(machines_.begin(), machines_.end(), [&](const auto& entry) {
     return entry.first != machine && entry.second->gateway == participant;
   });
 }
 
-/// A machine that is lost gives way to one that is there.
+/// Drops a lost machine to make room for a connected one.
 bool Cell::has_room() {
   if (shared_.machines < kMaxMachines) return true;
   const auto lost = std::find_if(machines_.begin(), machines_.end(),
@@ -227,7 +227,7 @@ std::shared_ptr<Attachment> Cell::attach(const std::string& machine) {
 }
 
 void Cell::try_ready(Attachment& machine) {
-  if (!machine.is_matched_with(machine.waiting->participant)) return;  // the rest is to come
+  if (!machine.is_matched_with(machine.waiting->participant)) return;  // further matches will come
   Announce announce = std::move(machine.waiting->announce);
   machine.waiting.reset();
   const bool was_ready = std::exchange(machine.is_ready, true);

@@ -12,7 +12,7 @@
 
 namespace dripline::dds {
 
-/// What all cells of a server have in common.
+/// The state that all cells of a server share.
 struct ServerShared {
   ServerHandlers handlers;
   Rejections rejections;
@@ -22,8 +22,8 @@ struct ServerShared {
 /// One of the kCells parts of a server: a domain of its own, with the machines that belong to it.
 ///
 /// Threads: DDS threads deliver status, records, results and requests. `watcher_` does what must
-/// not be done in a listener: it attaches machines, looks who is matched, and calls on_announce and
-/// on_lost. Nothing holds a mutex while it calls into DDS or a handler.
+/// not be done in a listener: it attaches machines, checks matched participants, and calls
+/// on_announce and on_lost. No mutex is held while calling DDS or a handler.
 class Cell {
  public:
   /// `shared` must outlive the cell.
@@ -39,7 +39,7 @@ class Cell {
   Result<void> write(const BlockData& message) { return write_to(message, &Attachment::block); }
 
  private:
-  /// What happened to one machine since the watcher looked: nobody announced it any more, then
+  /// What happened to one machine since the watcher's last look: its announcement is gone, then
   /// these did, the latest of each writer.
   struct MachineNews {
     bool is_gone = false;
@@ -51,13 +51,14 @@ class Cell {
       : domain_(std::move(domain)), topics_(std::move(topics)), number_(number), shared_(shared) {}
 
   template <class Message>
-  Result<void> write_to(const Message& message, std::unique_ptr<Writer<Message>> Attachment::*way) {
-    // Not only after on_announce: a record that overtook it may be acknowledged.
+  Result<void> write_to(const Message& message,
+                        std::unique_ptr<Writer<Message>> Attachment::*writer) {
+    // Also before on_announce: a record that overtook it may be acknowledged.
     const auto machine = find(message.machine);
-    if (machine == nullptr || !((*machine).*way)->has_readers()) {
+    if (machine == nullptr || !((*machine).*writer)->has_readers()) {
       return fail(Errc::NotFound, "machine {} is not connected", message.machine);
     }
-    return ((*machine).*way)->write(message);
+    return ((*machine).*writer)->write(message);
   }
   std::shared_ptr<Attachment> find(const std::string& machine) const {
     std::shared_lock lock(machines_mutex_);
@@ -83,7 +84,7 @@ class Cell {
   std::shared_ptr<Attachment> attach(const std::string& machine);
   void try_ready(Attachment& machine);
 
-  // Order matters: the listeners of readers and writers use what is above them.
+  // Order matters: the listeners of readers and writers use the members above them.
   Domain domain_;
   ServerTopics topics_;
   std::uint32_t number_;
@@ -96,7 +97,7 @@ class Cell {
 
   Entity subscriber_;
   mutable std::shared_mutex machines_mutex_;
-  std::map<std::string, std::shared_ptr<Attachment>> machines_;  // only the watcher changes
+  std::map<std::string, std::shared_ptr<Attachment>> machines_;  // changed by the watcher only
   std::unique_ptr<Reader<Announce>> announces_;
   std::jthread watcher_;
 };

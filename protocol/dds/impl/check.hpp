@@ -3,8 +3,8 @@
 #include "protocol/base/result.hpp"
 #include "protocol/dds/message.hpp"
 
-/// What must hold for a message besides its types, in one place for both directions: names well
-/// formed, numbers finite, lengths within bounds. Free text is not looked at (utf8.hpp).
+/// Checks the members of a message by their rules (members.hpp), and the rules between members, for
+/// both directions. Free text is not checked (utf8.hpp).
 namespace dripline::dds {
 
 Result<void> check(const Announce& message);

@@ -3,9 +3,9 @@
 #include "protocol/base/result.hpp"
 #include "protocol/dds/impl/topic.hpp"
 
-/// Generated C structs, as they came from the network, to checked messages. Pure; any thread.
-/// Texts must end within their arrays (the CDR reader sees to it), sequences must be valid.
-/// Errors: Syntax (an enumerator, name, number or text that must not be), Corrupt (wrong CRC).
+/// Converts generated C structs from the network to checked messages. Pure; any thread. Texts must
+/// end within their arrays (the CDR reader ensures it), sequences must be valid.
+/// Errors: Syntax (an invalid enumerator, name, number or text), Corrupt (wrong CRC).
 namespace dripline::dds {
 
 Result<Announce> decode(const dripline_idl_Announce& sample);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr dds_domainid_t kMaxEndpointsPerProcess = 4096;
 
-/// Cyclone itself is the register of numbers in use in this process.
+/// Cyclone knows the numbers in use in this process.
 Result<Entity> create_domain(const std::string& configuration) {
   for (dds_domainid_t id = 0; id < kMaxEndpointsPerProcess; ++id) {
     const dds_entity_t created = dds_create_domain(id, configuration.c_str());
@@ -21,7 +21,7 @@ Result<Entity> create_domain(const std::string& configuration) {
   return fail(Errc::LimitExceeded, "DDS: {} endpoints in one process", kMaxEndpointsPerProcess);
 }
 
-/// Cyclone only says "error"; people want to know that another server runs.
+/// Cyclone only reports "error"; people must learn that another server runs.
 bool is_taken(std::uint16_t port) {
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;

@@ -7,13 +7,13 @@
 namespace dripline::dds {
 
 /// A gateway's or cell's own domain (sockets and threads) and its participant. Each has its own, so
-/// several in one process talk over the network as separate processes do.
+/// that several in one process use the network like separate processes.
 struct Domain {
-  Entity domain, participant;  // in this order: the participant goes first
+  Entity domain, participant;  // in this order: the participant is deleted first
   std::string key;             ///< GUID of the participant, 32 hexadecimal digits
 };
 
-/// Errors: Busy (server: another holds its port), Io, and those of the configuration.
+/// Errors: Busy (another server has the port), Io, and those of the configuration.
 Result<Domain> open_domain(const NetworkOptions& options, Role role, std::uint32_t cell);
 
 template <class Message>

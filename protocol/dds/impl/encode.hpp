@@ -3,11 +3,11 @@
 #include "protocol/base/result.hpp"
 #include "protocol/dds/impl/topic.hpp"
 
-/// Messages to generated C structs. The struct borrows the message's arrays: it is valid as long as
-/// the message is and must never be freed with dds_sample_free.
-/// Free text (record text, messages, reasons, descriptions) is made sendable visibly (utf8.hpp); a
-/// record text over kMaxRecordText is refused, since a record is never shortened silently.
-/// Errors: Syntax (check.hpp), LimitExceeded (a member does not fit its bound in the IDL).
+/// Converts messages to generated C structs. The struct borrows the message's arrays: it is valid
+/// as long as the message and must never be freed with dds_sample_free. Free text (record text,
+/// messages, reasons, descriptions) is made sendable visibly (utf8.hpp); a record text over
+/// kMaxRecordText is refused, since a record is never shortened silently. Errors: Syntax
+/// (check.hpp), LimitExceeded (a member does not fit its bound in the IDL).
 namespace dripline::dds {
 
 Result<void> encode(const Announce& message, dripline_idl_Announce& sample);

@@ -29,7 +29,7 @@ class Entity {
   dds_entity_t handle_ = 0;
 };
 
-/// What a dds_create_... call returned, as a Result.
+/// The return value of a dds_create_... call as a Result.
 inline Result<Entity> own(dds_entity_t created, std::string_view what) {
   if (created > 0) return Entity(created);
   return fail(Errc::Io, "DDS: {}: {}", what, dds_strretcode(created));
@@ -45,7 +45,7 @@ struct ListenerDeleter {
 };
 using Listener = std::unique_ptr<dds_listener_t, ListenerDeleter>;
 
-/// Samples on loan from a reader; given back at the end of the scope.
+/// Samples on loan from a reader, returned at the end of the scope.
 class Loan {
  public:
   static constexpr std::size_t kCapacity = 32;
@@ -63,7 +63,7 @@ class Loan {
 
  private:
   dds_entity_t reader_;
-  void* samples_[kCapacity] = {};  // a null first element asks for a loan
+  void* samples_[kCapacity] = {};  // a null first element requests a loan
   dds_sample_info_t infos_[kCapacity] = {};
   dds_return_t size_;
 };

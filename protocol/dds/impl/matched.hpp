@@ -9,13 +9,13 @@
 
 #include "protocol/base/result.hpp"
 
-/// Who is at the other end of our readers and writers. Participants are named by their GUID in
-/// hexadecimal. Not to be called in listeners: these look into tables that listeners run under.
+/// The participants at the other end of our readers and writers, named by their GUID in
+/// hexadecimal. Not to be called in listeners: these functions access tables that are locked there.
 namespace dripline::dds {
 
 Result<std::string> participant_key(dds_entity_t participant);
 
-/// The participants whose readers `writer` serves, or whose writers `reader` hears.
+/// The participants whose readers match `writer`, or whose writers match `reader`.
 std::set<std::string> matched_with_writer(dds_entity_t writer);
 std::set<std::string> matched_with_reader(dds_entity_t reader);
 
@@ -24,7 +24,7 @@ struct Publication {
   std::vector<std::string> partitions;
 };
 
-/// The writer a sample came from; none when it is gone by now.
+/// The writer of a sample; empty when it is gone.
 std::optional<Publication> publication(dds_entity_t reader, dds_instance_handle_t writer);
 
 }  // namespace dripline::dds

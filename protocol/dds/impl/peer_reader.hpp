@@ -6,13 +6,13 @@
 
 namespace dripline::dds {
 
-/// Passes on what one participant says; what others say is rejected and counted. Its owner has a
-/// watcher thread, which calls `settle` whenever `wake` was called.
+/// Delivers the messages of one participant; those of others are rejected and counted. Its owner
+/// has a watcher thread, which calls `resolve` after each call of `wake`.
 template <class Message>
 class PeerReader {
  public:
   struct Options {
-    std::string machine;  ///< samples keyed otherwise are rejected
+    std::string machine;  ///< samples with another key are rejected
     std::function<void(Message)> on_message;
     std::function<void()> wake;
   };
@@ -41,8 +41,8 @@ class PeerReader {
 
   dds_entity_t get() const { return reader_->get(); }
   void set_peer(const std::string& participant) { sources_.set_peer(participant); }
-  void settle() {
-    sources_.settle([this](dds_instance_handle_t writer) {
+  void resolve() {
+    sources_.resolve([this](dds_instance_handle_t writer) {
       const auto source = publication(reader_->get(), writer);
       return source ? source->participant : std::string();
     });
@@ -53,7 +53,7 @@ class PeerReader {
       : sources_(std::move(handlers)) {}
 
   Sources<Message> sources_;
-  std::unique_ptr<Reader<Message>> reader_;  // goes first: it calls into the sources
+  std::unique_ptr<Reader<Message>> reader_;  // destroyed first: it calls into the sources
 };
 
 }  // namespace dripline::dds

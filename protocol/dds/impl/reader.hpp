@@ -10,22 +10,22 @@
 
 namespace dripline::dds {
 
-/// Where samples of one topic go. Called on DDS threads, one at a time per reader.
+/// Receives the samples of one topic. Called on DDS threads, one at a time for each reader.
 template <class Message>
 struct ReaderHandlers {
-  /// `sample` is for members that only it has, `writer` is where it came from.
+  /// `sample` has members that the message lacks, `writer` is its origin.
   std::function<void(Message, const SampleOf<Message>& sample, dds_instance_handle_t writer)>
       on_message;
   std::function<void(std::string machine)> on_gone;  ///< no writer of this machine is left
-  std::function<void()> on_matched;                  ///< writers came or went
+  std::function<void()> on_matched;                  ///< the matched writers changed
 };
 
-/// Takes every sample in the callback that announces it, checks it and hands it over. When the
-/// destructor returns no handler runs any more.
+/// Takes every sample in the callback that announces it, checks it and delivers it. After the
+/// destructor no handler runs.
 template <class Message>
 class Reader {
  public:
-  /// `machine`: samples keyed otherwise are rejected; empty: any.
+  /// `machine`: samples with another key are rejected; empty: any key.
   static Result<std::unique_ptr<Reader>> create(const Entity& subscriber, const Entity& topic,
                                                 std::string machine, Rejections& rejections,
                                                 ReaderHandlers<Message> handlers) {
@@ -56,7 +56,7 @@ class Reader {
   Reader(std::string machine, Rejections& rejections, ReaderHandlers<Message> handlers)
       : machine_(std::move(machine)), rejections_(rejections), handlers_(std::move(handlers)) {}
 
-  // The entity comes as an argument: the first callback can be there before create() has stored it.
+  // The entity is an argument: the first callback can come before create() has stored it.
   void take_all(dds_entity_t entity) {
     for (;;) {
       const Loan loan(entity);
@@ -69,7 +69,7 @@ class Reader {
 
   void handle(const SampleOf<Message>& sample, const dds_sample_info_t& info) {
     if (info.instance_state != DDS_IST_ALIVE && handlers_.on_gone) {
-      handlers_.on_gone(sample.machine);  // only the key is filled in
+      handlers_.on_gone(sample.machine);  // only the key is valid
     }
     if (!info.valid_data) return;
     auto message = decode(sample);

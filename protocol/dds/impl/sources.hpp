@@ -11,24 +11,25 @@
 
 namespace dripline::dds {
 
-/// Passes on what comes from one participant, the peer, and refuses all else. Whose writer a sample
-/// came from must not be asked in a listener, so the first samples of a writer wait until the
-/// owner's watcher has asked. The samples of one writer keep their order. Thread-safe; handlers are
+/// Delivers the samples of one participant, the peer, and rejects all others. A listener must not
+/// look up the participant of a writer, so the first samples of a writer wait until the owner's
+/// watcher has done it. The samples of one writer keep their order. Thread-safe; handlers are
 /// called without a lock.
 template <class Message>
 class Sources {
  public:
-  static constexpr std::size_t kMaxWaiting = 512;  ///< more are refused
-  static constexpr std::size_t kMaxWriters = 64;   ///< remembered; then they are asked for again
+  static constexpr std::size_t kMaxWaiting = 512;  ///< more are rejected
+  static constexpr std::size_t kMaxWriters =
+      64;  ///< known writers; further ones are looked up again
 
   struct Handlers {
     std::function<void(Message)> deliver;
     std::function<void()> refuse;
-    std::function<void()> on_waiting;  ///< somebody must call settle
+    std::function<void()> on_waiting;  ///< the owner must call resolve
   };
   explicit Sources(Handlers handlers) : handlers_(std::move(handlers)) {}
 
-  /// Empty: nobody is believed.
+  /// Empty: all samples are rejected.
   void set_peer(const std::string& participant) {
     const std::lock_guard lock(mutex_);
     peer_ = participant;
@@ -46,15 +47,16 @@ class Sources {
     }
   }
 
-  /// On the watcher's thread. `participant_of` tells whose a writer is; empty: it is gone.
-  void settle(const std::function<std::string(dds_instance_handle_t)>& participant_of) {
+  /// On the watcher's thread. `participant_of` returns the participant of a writer; empty: it is
+  /// gone.
+  void resolve(const std::function<std::string(dds_instance_handle_t)>& participant_of) {
     std::map<dds_instance_handle_t, std::string> asked;
     for (;;) {
       std::deque<Sample> samples;
       std::string peer;
       {
         const std::lock_guard lock(mutex_);
-        if (waiting_.empty()) {  // only now: what came meanwhile must not overtake
+        if (waiting_.empty()) {  // only now: samples that came meanwhile must not overtake
           if (writers_.size() + asked.size() > kMaxWriters) writers_.clear();
           writers_.merge(asked);
           return;

@@ -5,7 +5,7 @@
 
 #include "protocol/dds/message.hpp"
 
-/// Which generated type and topic name belong to which message.
+/// The generated type and the topic name of each message.
 namespace dripline::dds {
 
 template <class Message>

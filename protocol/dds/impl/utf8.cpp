@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kEllipsis = "…";
 
-/// Bytes of the character that begins `text`, 0 when it cannot be sent.
+/// Length of the first character of `text` in bytes; 0 when it cannot be sent.
 std::size_t sendable_length(std::string_view text) {
   return text[0] == '\0' ? 0 : utf8_length(text);
 }

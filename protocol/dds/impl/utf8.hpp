@@ -10,7 +10,7 @@ namespace dripline::dds {
 bool is_sendable_text(std::string_view text);
 
 /// The text with every byte that cannot be sent written as \xNN, cut at a character and ended with
-/// "…" when longer than `limit` bytes (at least 8). Text that is fine comes back unchanged.
+/// "…" when longer than `limit` bytes (at least 8). Valid text that fits is unchanged.
 std::string make_sendable(std::string_view text, std::size_t limit);
 
 }  // namespace dripline::dds

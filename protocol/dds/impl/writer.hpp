@@ -13,7 +13,7 @@ namespace dripline::dds {
 template <class Message>
 class Writer {
  public:
-  /// `on_matched` (readers came or went) runs on a DDS thread, never after the destructor.
+  /// `on_matched` (the matched readers changed) runs on a DDS thread, never after the destructor.
   static Result<std::unique_ptr<Writer>> create(const Entity& publisher, const Entity& topic,
                                                 std::function<void()> on_matched) {
     std::unique_ptr<Writer> writer(new Writer(std::move(on_matched)));
@@ -33,7 +33,7 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// `adjust` may fill in members that only the sample has.
+  /// `adjust` may set members that only the sample has.
   template <class Adjust>
   Result<void> write(const Message& message, Adjust adjust) {
     SampleOf<Message> sample;
@@ -47,7 +47,7 @@ class Writer {
   Result<void> write(const Message& message) {
     return write(message, [](auto&) {});
   }
-  /// Without one, what is written goes nowhere.
+  /// Without a reader, messages are lost.
   bool has_readers() const { return dds_get_matched_subscriptions(entity_.get(), nullptr, 0) > 0; }
   dds_entity_t get() const { return entity_.get(); }
 
