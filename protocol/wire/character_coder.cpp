@@ -11,7 +11,7 @@ void append(std::string_view rows, std::vector<std::byte>& line) {
   for (const char row : rows) line.push_back(static_cast<std::byte>(row));
 }
 
-/// "'x'", or the number of what cannot be shown.
+/// "'x'", or the number of a character that cannot be shown.
 std::string shown(char c) {
   const auto byte = static_cast<unsigned char>(c);
   if (byte >= 0x20 && byte < 0x7F) return fmt::format("'{}'", c);
@@ -77,7 +77,7 @@ DecodedCharacter CharacterDecoder::decode(std::byte character) {
 
 DecodedCharacter CharacterDecoder::decode_fault(std::string_view what) {
   DecodedCharacter decoded = add('?');
-  decoded.trouble =
+  decoded.error =
       Error{Errc::Corrupt, fmt::format("line {}, column {}: {}", blocks_ + 1, column_, what)};
   return decoded;
 }

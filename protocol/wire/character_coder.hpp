@@ -10,19 +10,19 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// Program text as it is kept (ASCII, LF after each block) to characters on the line and back, a
-/// piece at a time, however it is cut. Not thread-safe.
+/// Converts program text as it is stored (ASCII, LF after each block) to characters on the line and
+/// back, in pieces of any size. Not thread-safe.
 namespace dripline::wire {
 
 class CharacterEncoder {
  public:
-  /// `has_parentheses`: EIA has '(' and ')' as some builders punch them.
+  /// `has_parentheses`: the EIA code has '(' and ')' as some builders punch them.
   CharacterEncoder(CharacterCode code, EndOfBlock end_of_block, bool has_parentheses = false)
       : code_(code), end_of_block_(end_of_block), has_parentheses_(has_parentheses) {}
 
   /// Appends the characters of `text`, at most three for each; CR before LF belongs to the LF.
   /// Errors: Syntax (a character that the code does not have, named with its line and column;
-  /// `line` is then as it was, and the encoder is of no more use).
+  /// `line` is then unchanged, and the encoder must not be used again).
   Result<void> encode(std::string_view text, std::vector<std::byte>& line);
 
   std::uint64_t blocks() const { return blocks_; }  ///< ends of block so far
@@ -36,10 +36,10 @@ class CharacterEncoder {
   bool has_carriage_return_ = false;
 };
 
-/// What one character of the line adds to the text.
+/// The text that one character of the line adds.
 struct DecodedCharacter {
-  std::optional<char> text;      ///< '?' in the place of one that cannot be read
-  std::optional<Error> trouble;  ///< Corrupt: wrong parity or no such character, with line, column
+  std::optional<char> text;    ///< '?' for a character that cannot be read
+  std::optional<Error> error;  ///< Corrupt: wrong parity or no such character, with line, column
 };
 
 class CharacterDecoder {
@@ -47,11 +47,12 @@ class CharacterDecoder {
   explicit CharacterDecoder(CharacterCode code) : code_(code) {}
 
   /// Blanks, deletes and control characters add nothing; CR, LF, CR LF, LF CR and LF CR CR each end
-  /// one block, whatever the line is set to. The caller takes out what its protocol means first.
+  /// one block, whatever the settings of the line. The caller removes its protocol's characters
+  /// first.
   DecodedCharacter decode(std::byte character);
-  /// A character that the UART found wrong: '?' in its place.
+  /// Replaces a character with a line fault by '?'.
   DecodedCharacter decode_fault(std::string_view what);
-  /// The next character is that of line 1, column 1.
+  /// The next character is line 1, column 1.
   void count_from_here() { blocks_ = column_ = 0; }
 
   std::uint64_t blocks() const { return blocks_; }  ///< ends of block so far

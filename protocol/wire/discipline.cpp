@@ -11,7 +11,7 @@
 namespace dripline::wire {
 namespace {
 
-/// A TNC's control characters are 1 to 47, all different, and not DC1 and DC3, which stay.
+/// A TNC's control characters are 1 to 47, all different, and not DC1 and DC3, which are fixed.
 Result<void> check_tnc(const LineSettings& settings) {
   if (settings.code != CharacterCode::Ascii) {
     return fail(Errc::Unsupported, "a TNC's interface carries the code ascii only");
@@ -36,7 +36,7 @@ Result<void> check_tnc(const LineSettings& settings) {
   return {};
 }
 
-/// The characters around a program: the code must have them, and they must not steer the line.
+/// The characters around a program: the code must have them, and they must not control the line.
 Result<void> check_mark(std::string_view key, std::optional<char> mark,
                         const LineSettings& settings) {
   if (!mark) return {};
@@ -70,7 +70,7 @@ Result<void> check(const LineSettings& settings) {
     return fail(Errc::Unsupported, "xmodem carries the code ascii only");
   }
   const bool is_softly_held = settings.flow == Flow::XonXoff || settings.flow == Flow::DcCodes;
-  // 0x13 is the digit 3 in EIA, 0x11 no character at all: a control could not be told to stop.
+  // 0x13 is the digit 3 in EIA, and 0x11 is no character: no character could stop a control.
   if (is_softly_held && settings.code == CharacterCode::Eia) {
     return fail(Errc::Unsupported, "eia has no DC1 and DC3 (0x13 is its digit 3): use rtscts");
   }

@@ -35,10 +35,10 @@ struct OutputLines {
   bool rts = true, dtr = true;
   friend bool operator==(const OutputLines&, const OutputLines&) = default;
 };
-/// What the UART says of a character instead of, or with, the character.
+/// The fault that the UART reports for a character.
 enum class LineFault : std::uint8_t { Parity, Framing, Overrun, Break };
 
-/// What one end wants of the other, for protocols that can say so.
+/// The request of one end, in protocols that have requests.
 struct TransferRequest {
   enum class Kind : std::uint8_t {
     SendProgram,  ///< the other end wants a program: answer with begin_send or refuse
@@ -46,36 +46,36 @@ struct TransferRequest {
     Directory,    ///< the other end wants the list: begin_send with the list, or refuse
   };
   Kind kind = Kind::SendProgram;
-  std::string name;  ///< as the protocol says it ("15"); empty: whichever is next
+  std::string name;  ///< as the protocol names it ("15"); empty: the next program
 };
 
 struct TextReceived {
-  std::string text;  ///< program text as it is kept: ASCII, LF after each block
+  std::string text;  ///< program text as it is stored: ASCII, LF after each block
 };
 struct TransferBegan {
   bool is_receiving = false;
-  std::string name;  ///< when the protocol tells
+  std::string name;  ///< if the protocol sends it
 };
 /// The last text of a transfer has been delivered, in a checked protocol: accepted by the other
 /// end.
 struct TransferEnded {
   bool is_receiving = false;
 };
-/// The other end holds us, or lets us go on.
+/// The other end holds us or releases us.
 struct FlowChanged {
   bool is_stopped = false;
 };
-/// In a checked protocol: so much of the text offered for this transfer is accepted by the other
-/// end. Cumulative.
+/// In a checked protocol: the amount of the offered text that the other end has accepted.
+/// Cumulative.
 struct TextAccepted {
   std::uint64_t bytes = 0;
 };
-/// The transfer in progress is over and did not work. The object is idle again.
+/// The transfer in progress has failed. The object is idle again.
 struct TransferFailed {
   Error error;
 };
-/// Something was wrong and told; the transfer goes on (a repeated block, a parity error in an
-/// unchecked text, whose character was replaced by '?').
+/// An error after which the transfer continues (a repeated block, a parity error in an unchecked
+/// text, whose character was replaced by '?').
 struct LineError {
   Error error;
 };
@@ -84,40 +84,40 @@ using Event = std::variant<TextReceived, TransferBegan, TransferEnded, FlowChang
 
 enum class Phase : std::uint8_t { Idle, Sending, Receiving, Requesting };
 
-/// What a port's listing shows of it.
+/// The state that a port's listing shows.
 struct LineState {
   Phase phase = Phase::Idle;
   bool is_stopped = false;              ///< by the other end
   bool is_stopping = false;             ///< we hold the other end
-  std::string_view waiting_for;         ///< "DC1", "ACK", "CTS", ...; empty: for nothing
-  bool may_wait_without_limit = false;  ///< the protocol demands it of this wait
+  std::string_view waiting_for;         ///< "DC1", "ACK", "CTS", ...; empty: nothing
+  bool may_wait_without_limit = false;  ///< the protocol requires it
   /// The other end's TransferRequest still waits for an answer: begin_send or refuse gives it.
   bool is_asked = false;
-  /// What is being sent waits for the other end to begin it: nothing of it has left.
+  /// The transfer being sent waits for the other end to begin it: none of it has left.
   bool awaits_start = false;
-  /// What is being received is no transfer of this protocol, and begin_send would end it.
+  /// The text being received is no transfer of this protocol, and begin_send would end it.
   bool is_stray = false;
   /// Of the text offered for the transfer being sent, or sent last: bytes whose characters have all
-  /// been given to transmit's caller. Cumulative; 0 again with the next begin_send. What a run
-  /// counts as sent where no TextAccepted says more.
+  /// been given to transmit's caller. Cumulative; 0 again with the next begin_send. A run counts
+  /// them as sent where the protocol has no TextAccepted.
   std::uint64_t text_sent = 0;
 };
 
 /// One end of a line.
 ///
-/// The owner (protocol/serial, or a test) calls, whenever something happened:
-/// `receive`, `fault`, `lines`, `tick`; then `transmit` as often as the line can take characters;
-/// then `take_events`. `now` never goes backwards. Cutting the received bytes into other pieces
-/// gives the same events, apart from how TextReceived is cut.
+/// The owner (protocol/serial, or a test) calls `receive`, `fault`, `lines` and `tick` when
+/// something happened; then `transmit` as often as the line accepts characters; then `take_events`.
+/// `now` never decreases. Received bytes in other pieces give the same events, except for the
+/// pieces of TextReceived.
 ///
 /// Plain lines carry both directions at once: a reception may begin and end while the phase is
-/// Sending, begin_send and begin_receive only look at their own direction, and a failure ends both.
+/// Sending, begin_send and begin_receive check only their own direction, and a failure ends both.
 ///
-/// A TransferRequest need not be answered. It stays in force until begin_send or refuse, or until
-/// the other end takes it back: DC3 where DC1 asked, EOT, silence over XMODEM, DSR off, or `abort`.
+/// A TransferRequest need not be answered. It is in force until begin_send or refuse, or until the
+/// other end withdraws it: DC3 where DC1 asked, EOT, silence over XMODEM, DSR off, or `abort`.
 ///
-/// Bounds: what `room()` says is all the text it keeps (at most 64 KiB); events are taken after
-/// each call; TextReceived that its owner cannot keep is held off by `set_ready(false)`. Not
+/// Bounds: it keeps no more text than `room()` accepts (at most 64 KiB); events are taken after
+/// each call; an owner that cannot store more received text calls `set_ready(false)`. Not
 /// thread-safe.
 class Discipline {
  public:
@@ -131,19 +131,19 @@ class Discipline {
   virtual void tick(LineTime now) = 0;
 
   // To the line
-  /// Puts the characters that may leave now into `room`, returns how many. The owner hands them to
-  /// the driver at once and never has more than two character times with the driver, so nothing
-  /// can be called back and nothing needs to be. Control characters of our own (DC3, ACK) go first
-  /// and also leave while the other end holds us.
+  /// Puts the characters that may leave now into `room` and returns their number. The owner passes
+  /// them to the driver at once and never has more than two character times in the driver, so
+  /// nothing ever needs to be recalled. Control characters of this end (DC3, ACK) go first and also
+  /// leave while the other end holds us.
   virtual std::size_t transmit(std::span<std::byte> room, LineTime now) = 0;
   virtual OutputLines output_lines() const = 0;
-  /// When `tick` is wanted, or `transmit` again after a pause of ours.
+  /// When the owner must call `tick`, or `transmit` again after a pause of this end.
   virtual std::optional<LineTime> deadline() const = 0;
 
-  // The owner's wishes
+  // Calls of the owner
   /// Errors: Busy (a transfer is in progress), Unsupported (this protocol cannot begin here).
   virtual Result<void> begin_send(std::string_view name, LineTime now) = 0;
-  /// Text that `offer` takes now.
+  /// The amount of text that `offer` accepts now.
   virtual std::size_t room() const = 0;
   /// More text of the transfer being sent: ASCII, LF after each block; at most `room()` bytes.
   /// `is_last` with the last piece, which may be empty. Errors: Syntax (a character that the line's
@@ -152,21 +152,21 @@ class Discipline {
   virtual Result<void> offer(std::string_view text, bool is_last, LineTime now) = 0;
   /// Expects a transfer, or answers a TakeProgram. Errors: as begin_send.
   virtual Result<void> begin_receive(std::string_view name, LineTime now) = 0;
-  /// Asks the other end (a control asks its host). Errors: Busy, Unsupported.
+  /// Requests a transfer of the other end (a control asks its host). Errors: Busy, Unsupported.
   virtual Result<void> request(const TransferRequest& request, LineTime now) = 0;
-  /// Answers a request with no; shown to the operator where the protocol can.
+  /// Refuses a request; the control shows the reason where the protocol can carry it.
   virtual Result<void> refuse(std::string_view reason, LineTime now) = 0;
-  /// Room for received text, or not: XOFF, RTS off, a withheld ACK.
+  /// Whether there is room for received text; without: XOFF, RTS off, a withheld ACK.
   virtual void set_ready(bool is_ready, LineTime now) = 0;
-  /// Ends the transfer in progress, telling the other end where the protocol can, and drops a
-  /// request of the other end that waits. Idle afterwards.
+  /// Ends the transfer in progress, notifies the other end where the protocol can, and drops a
+  /// waiting request of the other end. Idle afterwards.
   virtual void abort(LineTime now) = 0;
-  /// A program was broken off before this object was made: what the other end says next may let go
-  /// that one, and asks for no other.
+  /// A program was broken off before this object was created: the next DC1 of the other end may
+  /// release that program, and is then no request for another one.
   virtual void expect_release() {}
 
   virtual LineState state() const = 0;
-  /// Everything since the last call, in order.
+  /// The events since the last call, in order.
   virtual std::vector<Event> take_events() = 0;
 };
 

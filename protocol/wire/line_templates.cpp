@@ -3,8 +3,8 @@
 
 #include "protocol/wire/line_settings.hpp"
 
-/// The usual lines of the controls we know: figures from their manuals; what those leave open is
-/// chosen so that a careful setup works first.
+/// The usual lines of known controls: figures from their manuals; what those leave open is chosen
+/// so that a cautious setup works first.
 namespace dripline::wire {
 namespace {
 
@@ -19,8 +19,8 @@ LineSettings line(unsigned baud, unsigned data_bits, Parity parity, StopBits sto
   return settings;
 }
 
-/// Nothing holds the sender: the control joins RTS to CTS at its own connector. It converts each
-/// block while the next one comes, hence the pause.
+/// Nothing holds the sender: the control connects RTS to CTS at its own connector. It converts each
+/// block while the next one arrives, hence the pause.
 LineSettings prototrak() {
   LineSettings settings = line(4800, 7, Parity::Even, StopBits::One);
   settings.flow = Flow::None;
@@ -39,7 +39,7 @@ LineSettings centurion() {
   return settings;
 }
 
-/// The secondary port's tape key: the control starts and stops what stands for the reader.
+/// The secondary port's tape key: the control starts and stops the host like a reader.
 LineSettings centurion_tape() {
   LineSettings settings = centurion();
   settings.wait_for_xon = true;
@@ -56,7 +56,7 @@ LineSettings fanuc() {
   settings.end_character = '%';
   settings.extracts_programs = true;
   settings.control.kind = ControlKind::Fanuc;
-  settings.control.buffer_size = 10;  // more than that after its DC3 is alarm 087
+  settings.control.buffer_size = 10;  // more after its DC3 are alarm 087
   return settings;
 }
 
@@ -64,19 +64,19 @@ LineSettings tnc155(Flow flow) {
   LineSettings settings = line(2400, 7, Parity::Even, StopBits::One);
   settings.flow = flow;
   settings.retries = 3;
-  settings.offer = Offer::All;  // read-in of a selected program, of all, of the ones offered
+  settings.offer = Offer::All;  // read-in of a selected program, of all, of the offered ones
   if (flow == Flow::Heidenhain) settings.leader = 50;
   return settings;
 }
 
-/// MP222 = 164: what has no room drops its RTS.
+/// MP222 = 164: a receiver without room drops its RTS.
 LineSettings tnc155_rts() {
   LineSettings settings = tnc155(Flow::Heidenhain);
   settings.heidenhain.stop = TncStop::Rts;
   return settings;
 }
 
-/// The line only has to be faster than the reader it stands for.
+/// The line only has to be faster than the reader that it replaces.
 LineSettings tektronix1704(CharacterCode code) {
   LineSettings settings = line(9600, 8, Parity::None, StopBits::One);
   settings.flow = Flow::TapeReader;

@@ -8,7 +8,7 @@
 namespace dripline::wire {
 namespace {
 
-/// A key as a template argument, so that a row's functions know their own name.
+/// A key as a template argument, so that a row's functions know its name.
 template <std::size_t kSize>
 struct Key {
   char text[kSize]{};
@@ -117,7 +117,7 @@ constexpr SettingRow optional_character(std::string_view text) {
           }};
 }
 
-/// `kWords`: the words in the order of the enumerators, and how people read them.
+/// `kWords`: the words in the order of the enumerators, and the type that people see.
 template <std::size_t kCount>
 struct Words {
   std::string_view type;
@@ -180,31 +180,34 @@ constexpr std::array kRows{
     number<"data_bits", 7, 8, &S::data_bits>("bits of a character, without parity"),
     choice<"parity", kParities, &S::parity>("parity bit that the UART makes and checks"),
     choice<"stop_bits", kStopBits, &S::stop_bits>("stop bits"),
-    choice<"flow", kFlows, &S::flow>("how the receiver holds the sender, or the whole protocol"),
-    choice<"code", kCodes, &S::code>("how characters stand on the line"),
-    choice<"eob", kEndsOfBlock, &S::end_of_block>("what ends a block that is sent"),
+    choice<"flow", kFlows, &S::flow>("flow control, or the whole protocol"),
+    choice<"code", kCodes, &S::code>("code of the characters on the line"),
+    choice<"eob", kEndsOfBlock, &S::end_of_block>("end of block that is sent"),
     number<"leader", 0, kMaximumBlank, &S::leader>("blank characters (NUL) before a program"),
     number<"trailer", 0, kMaximumBlank, &S::trailer>("blank characters (NUL) after a program"),
-    optional_character<"start_char", &S::start_character>("sent before a program, dropped from it"),
-    optional_character<"end_char", &S::end_character>("sent after a program, ends what comes in"),
-    flag<"wait_for_xon", &S::wait_for_xon>("a program is sent when the control sends DC1"),
+    optional_character<"start_char", &S::start_character>(
+        "sent before a program, removed from a received one"),
+    optional_character<"end_char", &S::end_character>("sent after a program, ends a received one"),
+    flag<"wait_for_xon", &S::wait_for_xon>("wait for the control's DC1 before sending a program"),
     duration<"line_delay_ms", &S::line_delay>("pause after each end of block"),
     duration<"char_delay_us", &S::character_delay>("pause after each character"),
-    duration<"idle_end_ms", &S::idle_end>("silence that ends what comes in without an end_char"),
+    duration<"idle_end_ms", &S::idle_end>(
+        "silence that ends a received program without an end_char"),
     limit<"start_limit_ms", &S::start_limit>("longest wait for the control to begin a program"),
     limit<"answer_limit_ms", &S::answer_limit>("longest wait for the other end's answer"),
     limit<"hold_limit_ms", &S::hold_limit>("longest wait for XON or CTS while held"),
     duration<"pause_limit_ms", &S::pause_limit, 100>(
-        "longest pause in what comes in before it is given up"),
+        "longest pause of a received program before it is dropped"),
     choice<"offer", kOffers, &S::offer>(
-        "what a control gets that asks while no run waits: nothing, the program it names, or all"),
+        "send to a control that asks while no run waits: nothing, the named program, or all"),
     number<"retries", 0, kMaximumRetries, &S::retries>("repeats of one block, checked protocols"),
     flag<"xmodem_crc", &S::xmodem_crc>("XMODEM: ask for CRC before the checksum"),
     flag<"extract_programs", &S::extracts_programs>(
-        "what comes in is split at its O lines, a program each"),
+        "split received text at its O lines, a program each"),
     number<"program_memory", 0, 1'000'000'000, &S::program_memory>(
-        "bytes the control's memory takes of sent programs; 0: not known"),
-    character<"tnc_heading", &S::heidenhain, &H::heading>("TNC blockwise: type of our headings"),
+        "bytes of sent programs that the control's memory holds; 0: not known"),
+    character<"tnc_heading", &S::heidenhain, &H::heading>(
+        "TNC blockwise: type of the headings that are sent"),
     character<"tnc_soh", &S::heidenhain, &H::soh>("TNC blockwise: start of a heading"),
     character<"tnc_stx", &S::heidenhain, &H::stx>("TNC blockwise: start of a block"),
     character<"tnc_etx", &S::heidenhain, &H::etx>("TNC: end of a program"),
@@ -213,34 +216,34 @@ constexpr std::array kRows{
     character<"tnc_nak", &S::heidenhain, &H::nak>("TNC blockwise: block refused"),
     character<"tnc_etb", &S::heidenhain, &H::etb>("TNC blockwise: end of a block"),
     choice<"tnc_stop", kTncStops, &S::heidenhain, &H::stop>(
-        "TNC standard interface: what stops the sender (MP222, bits 2 and 3)"),
+        "TNC standard interface: signal that stops the sender (MP222, bits 2 and 3)"),
     flag<"tnc_line_end", &S::heidenhain, &H::line_end_in_block>(
         "TNC blockwise: CR LF inside each block"),
     flag<"tnc_printable_bcc", &S::heidenhain, &H::bcc_is_printable>(
         "TNC blockwise: a blank keeps the check character printable"),
     flag<"tnc_dc1", &S::heidenhain, &H::sends_dc1_after_block>("TNC blockwise: DC1 after a block"),
     flag<"tnc_repeat", &S::heidenhain, &H::repeats_unanswered>(
-        "TNC blockwise: repeat a block without an answer, instead of waiting"),
+        "TNC blockwise: repeat an unanswered block instead of waiting"),
     SettingRow{"reader_cps", "number", "tape reader: characters per second", set_reader_rate,
                [](const LineSettings& settings) {
                  return fmt::format("{}", settings.reader.characters_per_second);
                }},
     flag<"reader_block_stop", &S::reader, &ReaderSettings::stops_at_end_of_block>(
-        "tape reader: stops at each end of block"),
+        "tape reader: stop at each end of block"),
     choice<"reader_fault", kReaderFaults, &S::reader, &ReaderSettings::fault>(
-        "tape reader: what is wrong with one row, for trials"),
+        "tape reader: fault of one row, for tests"),
     number<"reader_fault_row", 0, 1'000'000'000, &S::reader, &ReaderSettings::fault_row>(
-        "tape reader: which row that is, from 1"),
-    choice<"control", kControls, &S::control, &C::kind>("whose rules our end follows as a control"),
+        "tape reader: number of that row, from 1"),
+    choice<"control", kControls, &S::control, &C::kind>("rules that our end follows as a control"),
     number<"buffer_size", 1, kMaximumBufferSize, &S::control, &C::buffer_size>(
-        "characters a control still takes after it said stop"),
+        "characters that a control accepts after it sent stop"),
     optional_character<"tape_start", &S::control, &C::tape_start>(
-        "Centurion: said when it begins to read a tape"),
+        "Centurion: sent when it begins to read a tape"),
     optional_character<"tape_stop", &S::control, &C::tape_stop>(
-        "Centurion: said when it has read a tape"),
+        "Centurion: sent when it has read a tape"),
     flag<"split_programs", &S::control, &C::splits_programs>(
-        "Centurion: each O line begins a program"),
-    choice<"dnc_mode", kDncModes, &S::control, &C::dnc>("Centurion: run what comes in"),
+        "Centurion: begin a program at each O line"),
+    choice<"dnc_mode", kDncModes, &S::control, &C::dnc>("Centurion: run the received program"),
     number<"dnc_skip", 0, 1'000'000'000, &S::control, &C::dnc_skip>(
         "Centurion: blocks dropped before a DNC run"),
 };

@@ -15,8 +15,8 @@ struct EiaRow {
   char character;
 };
 
-/// Digits 1-9 stand in tracks 1-4, 0 is track 6 alone; letters add tracks 6 and 7, 7 alone or 6
-/// alone; track 5 makes the number of holes odd.
+/// Digits 1-9 use tracks 1-4, 0 is track 6 alone; letters add tracks 6 and 7, 7 alone or 6 alone;
+/// track 5 makes the number of holes odd.
 constexpr std::array kEiaRows{
     EiaRow{0x00, Blank, 0},       EiaRow{0x20, Text, '0'},       EiaRow{0x01, Text, '1'},
     EiaRow{0x02, Text, '2'},      EiaRow{0x13, Text, '3'},       EiaRow{0x04, Text, '4'},
@@ -80,13 +80,13 @@ TapeRow decode_seven_bits(std::uint8_t row) {
   }
 }
 
-/// Rows after a place, counted while walking towards the tape's beginning.
+/// Rows after a position, counted while walking towards the tape's beginning.
 struct RowsAfter {
   std::size_t odd = 0, even = 0, blanks = 0;
   std::optional<std::uint8_t> next;  ///< the first that is not blank
 
   void put_before(std::uint8_t row) {
-    constexpr std::size_t kEndOfText = 50;  // so many blanks are a trailer
+    constexpr std::size_t kEndOfText = 50;  // this many blanks are a trailer
     if (row == 0) {
       if (++blanks >= kEndOfText) *this = RowsAfter{0, 0, blanks, std::nullopt};
       return;
@@ -141,16 +141,16 @@ Census count(std::span<const std::byte> rows) {
   return census;
 }
 
-/// Text that somebody stripped of its parity, or that never had one: rows without an eighth hole
-/// have all one parity on a tape, both in text, whatever umlauts its comments hold.
+/// Whether this is text without parity: on a tape, rows without an eighth hole all have the same
+/// parity; in text they have both, whatever umlauts its comments hold.
 bool is_plain_ascii(const Census& census) {
   const std::size_t low = census.low_odd + census.low_even;
   const bool is_mixed = census.low_odd * 5 >= low && census.low_even * 5 >= low;
   return is_mixed && census.line_ends > census.eia_ends && census.high * 4 <= low;
 }
 
-/// Rows with an eighth hole make whole UTF-8 characters, which those of a tape do not. One may be
-/// cut off at the end.
+/// Whether rows with an eighth hole form whole UTF-8 characters, which those of a tape do not. One
+/// may be cut off at the end.
 bool is_utf8(std::span<const std::byte> rows) {
   std::size_t left = 0;  // of a character
   for (const std::byte each : rows) {

@@ -21,21 +21,21 @@ enum class RowKind : std::uint8_t {
   CarriageReturn,  ///< ISO and ASCII: CR, which belongs to an LF beside it
   RewindStop,      ///< EIA: EOR; ISO and ASCII: '%'
   Blank,           ///< no hole: leader, tape feed
-  Delete,          ///< all holes punched over a wrong character: as if it was not there
+  Delete,          ///< all holes, punched over a wrong character: no character
   Ignored,         ///< has a meaning, but none for a program (BS, BEL, case shifts, DC1)
   Unassigned,      ///< right parity, but the code has no such character
   WrongParity,
 };
 
-/// What one row of tape (one character on the line) says.
+/// The meaning of one row of tape (one character on the line).
 struct TapeRow {
   RowKind kind = RowKind::Blank;
   char character = 0;  ///< of Text; '%' for RewindStop, LF for BlockEnd
   friend bool operator==(const TapeRow&, const TapeRow&) = default;
 };
 
-/// `Ascii` drops the eighth bit and knows no wrong parity; EIA letters read as capitals.
-/// Parentheses (1A and 4A) are not of RS-244-A: some builders' tapes have them, so they are read.
+/// `Ascii` drops the eighth bit and has no parity; EIA letters are read as capitals.
+/// RS-244-A has no parentheses (1A and 4A): some builders' tapes have them, so they are read.
 TapeRow decode_row(CharacterCode code, std::uint8_t row);
 
 /// LF gives the end of block, '%' the rewind stop. nullopt: the code does not have this character.
@@ -48,24 +48,24 @@ std::optional<std::uint8_t> encode_row(CharacterCode code, char character,
 bool has_right_parity(CharacterCode code, std::uint8_t row);
 
 std::uint8_t delete_row(CharacterCode code);
-/// What ends a block on the line; EIA has one such character whatever `end_of_block` says.
+/// The end of a block on the line; EIA has one such character whatever `end_of_block` is.
 std::string_view end_of_block_rows(CharacterCode code, EndOfBlock end_of_block);
 std::string_view code_name(CharacterCode code);
 
-/// Which code a tape of unknown origin has.
+/// The code of a tape of unknown origin.
 struct CodeVerdict {
   CharacterCode code = CharacterCode::Ascii;
   double confidence = 0;        ///< 0..1: the share of rows that fit, less what few rows can say
   std::size_t first_block = 0;  ///< offset of the end of block before the first block
 };
 
-/// Enough of a tape to judge it.
+/// Enough rows of a tape to detect its code.
 inline constexpr std::size_t kDetectionWindow = 1 << 20;
 
-/// Judges the first `kDetectionWindow` rows: an end of block of one code, with rows after it of
-/// which 98 in 100 have that code's parity and which begin as a block begins. A leader may hold any
-/// punching. Text of mixed parity is ASCII, with UTF-8 or a few Latin-1 characters in its comments.
-/// Errors: Corrupt (code not recognised; with the counts of both parities).
+/// Detects the code from the first `kDetectionWindow` rows: an end of block of one code, followed
+/// by rows of which 98 in 100 have that code's parity and which begin like a block. A leader may
+/// have any punching. Text of mixed parity is ASCII, with UTF-8 or a few Latin-1 characters in its
+/// comments. Errors: Corrupt (code not recognized; with the counts of both parities).
 Result<CodeVerdict> detect_code(std::span<const std::byte> rows);
 
 }  // namespace dripline::wire

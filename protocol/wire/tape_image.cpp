@@ -87,7 +87,7 @@ void TapeReader::hunt(std::uint8_t row, TapeRow meaning, std::string& text) {
     is_stop_last_ = meaning.kind == RowKind::RewindStop;
     return;
   }
-  (void)decoder_.decode(static_cast<std::byte>(row));  // so that it knows the companions
+  (void)decoder_.decode(static_cast<std::byte>(row));  // so that it knows the companion characters
   is_hunting_ = false;
   if (has_seen_block_end_) return;
   has_seen_block_end_ = true;
@@ -102,7 +102,7 @@ void TapeReader::hunt(std::uint8_t row, TapeRow meaning, std::string& text) {
   }
 }
 
-/// The words of a block and nothing else make it likely that the first block is being lost.
+/// Skipped rows that hold only words of a block are likely to be a lost first block.
 void TapeReader::note_head(TapeRow meaning) {
   ++summary_.skipped;
   if (meaning.kind == RowKind::WrongParity || meaning.kind == RowKind::Unassigned) {
@@ -125,8 +125,8 @@ Result<void> TapeReader::read_data(std::uint8_t row, TapeRow meaning, std::strin
   const DecodedCharacter decoded = is_wrong_blank
                                        ? decoder_.decode_fault("blank tape inside a block")
                                        : decoder_.decode(static_cast<std::byte>(row));
-  if (decoded.trouble) {
-    Error error{Errc::Corrupt, fmt::format("row {}, {}", summary_.rows, decoded.trouble->what)};
+  if (decoded.error) {
+    Error error{Errc::Corrupt, fmt::format("row {}, {}", summary_.rows, decoded.error->what)};
     if (!reading_.replaces_wrong_rows) return fail(std::move(error));
     if (summary_.wrong++ == 0) summary_.first_wrong = std::move(error);
   }

@@ -13,8 +13,8 @@
 #include "protocol/wire/tape_code.hpp"
 
 /// Whole tapes as files of rows: leader, title, rewind stop, end of block, blocks, trailer. Between
-/// them and program text as it is kept (ASCII, LF after each block, '%' for the rewind stop), a
-/// piece at a time: a tape of any length costs no memory. Not thread-safe.
+/// them and program text as it is stored (ASCII, LF after each block, '%' for the rewind stop), in
+/// pieces: a tape of any length needs constant memory. Not thread-safe.
 namespace dripline::wire {
 
 /// Rows to an inch; 10 to 20 inches of leader and trailer are usual.
@@ -26,8 +26,8 @@ struct TapeForm {
   CharacterCode code = CharacterCode::Iso;
   EndOfBlock end_of_block = EndOfBlock::CrLf;  ///< of ISO and ASCII
   unsigned leader = 100, trailer = 100;        ///< blank rows
-  std::string title;                           ///< for the eye, after the leader
-  bool has_rewind_stop = true;   ///< put one before the first block where the text has none
+  std::string title;                           ///< readable punching after the leader
+  bool has_rewind_stop = true;   ///< punch one before the first block where the text has none
   bool has_parentheses = false;  ///< EIA: punch '(' and ')' as some builders do
 };
 
@@ -37,8 +37,8 @@ class TapePunch {
   /// Errors (of `begin`): LimitExceeded, Syntax (leader, trailer, title).
   explicit TapePunch(TapeForm form);
   Result<void> begin(std::vector<std::byte>& rows);
-  /// Errors: Syntax (a character without a code, named with line and column; the tape is then of no
-  /// use).
+  /// Errors: Syntax (a character without a code, named with line and column; the tape must then be
+  /// discarded).
   Result<void> punch(std::string_view text, std::vector<std::byte>& rows);
   void finish(std::vector<std::byte>& rows);
   std::uint64_t blocks() const { return encoder_.blocks(); }
@@ -51,20 +51,20 @@ class TapePunch {
 
 struct TapeReading {
   CharacterCode code = CharacterCode::Iso;
-  /// Nothing counts before the first end of block, as a control reads; or everything is text.
+  /// The text begins after the first end of block, as a control reads; or all rows are text.
   bool skips_head = true;
-  bool replaces_wrong_rows = false;      ///< '?' for what cannot be read, instead of an error
-  bool blank_is_wrong_in_block = false;  ///< EIA: zero holes are no odd number
+  bool replaces_wrong_rows = false;      ///< '?' for a row that cannot be read, instead of an error
+  bool blank_is_wrong_in_block = false;  ///< EIA: zero holes are not an odd number
 };
 
-/// What a tape was made of.
+/// The parts of a tape.
 struct TapeSummary {
   std::uint64_t rows = 0, blocks = 0, deletes = 0, wrong = 0;
   std::uint64_t leader = 0;   ///< blank rows before the first punching
   std::uint64_t skipped = 0;  ///< rows before the first end of block that are not blank
   std::uint64_t trailer = 0;  ///< blank rows at the end
   bool has_rewind_stop = false;
-  /// What was skipped reads as a block: the tape has no end of block before its first one.
+  /// The skipped rows read like a block: the tape has no end of block before its first block.
   std::string lost_block;
   std::optional<Error> first_wrong;
 };
@@ -76,7 +76,7 @@ class TapeReader {
   /// Appends to `text` at most one character for each row, and one. Errors: Corrupt (wrong parity
   /// or no such character, with row, line and column).
   Result<void> read(std::span<const std::byte> rows, std::string& text);
-  /// Ends a last block that has no end. Errors: Corrupt (no end of block on the tape).
+  /// Ends a last block without an end. Errors: Corrupt (no end of block on the tape).
   Result<void> finish(std::string& text);
   const TapeSummary& summary() const { return summary_; }
 

@@ -46,7 +46,7 @@ void TncFrameReader::begin(char c) {
 std::optional<TncFrame> TncFrameReader::read(std::uint8_t character) {
   const char c = static_cast<char>(character & 0x7F);
   if (stage_ == Stage::Check) return finish(c);
-  // A beginning inside a block: the end of that block was lost.
+  // A start inside a block: the end of that block was lost.
   if (c == tnc_.soh || c == tnc_.stx) {
     begin(c);
     return std::nullopt;
@@ -65,7 +65,7 @@ std::optional<TncFrame> TncFrameReader::read(std::uint8_t character) {
 
 std::optional<TncFrame> TncFrameReader::read_between(char c) {
   using enum TncFrame::Kind;
-  if (c == tnc_.etb) {  // its beginning was lost
+  if (c == tnc_.etb) {  // its start was lost
     begin(tnc_.stx);
     broken_ = "without a beginning";
     stage_ = Stage::Check;
@@ -96,7 +96,7 @@ std::optional<TncFrame> TncFrameReader::finish(char check) {
 std::optional<TncFrame> TncFrameReader::fault() {
   if (stage_ == Stage::Between) return TncFrame{TncFrame::Kind::Noise, {}};
   if (broken_.empty()) broken_ = "with a character that the line spoiled";
-  // The spoiled one may have been ETB: silence or the next beginning ends the frame then.
+  // The damaged one may have been ETB: silence or the next start ends the frame then.
   return stage_ == Stage::Check ? finish(0) : std::nullopt;
 }
 

@@ -15,27 +15,27 @@
 namespace dripline::wire {
 
 inline constexpr std::size_t kMaxTncLine = 255;      ///< characters of a program line
-inline constexpr std::size_t kMaxTncErrorText = 32;  ///< that a control shows
+inline constexpr std::size_t kMaxTncErrorText = 32;  ///< characters that a control shows
 
-/// One block as it goes on the line.
+/// One block as it is on the line.
 std::string make_tnc_block(char begin, std::string_view text, const HeidenhainSettings& tnc);
 
 struct TncFrame {
   enum class Kind : std::uint8_t { Heading, Block, Broken, Ack, Nak, Etx, Eot, Noise };
   Kind kind = Kind::Noise;
-  std::string text;  ///< of Heading and Block, without line end; of Broken: what is wrong
+  std::string text;  ///< of Heading and Block, without line end; of Broken: the error
 };
 
-/// Characters to frames, one at a time. A character that belongs to nothing is Noise; DC1, DC3 and
-/// NUL between frames are nothing.
+/// Converts characters to frames, one at a time. A character outside a frame is Noise; DC1, DC3 and
+/// NUL between frames are ignored.
 class TncFrameReader {
  public:
   explicit TncFrameReader(const HeidenhainSettings& tnc) : tnc_(tnc) {}
 
   std::optional<TncFrame> read(std::uint8_t character);
-  /// The UART found a character wrong: breaks the frame it stands in.
+  /// The UART reports a fault: breaks the frame that the character is in.
   std::optional<TncFrame> fault();
-  /// Nothing came for longer than a sender pauses inside a frame.
+  /// The line was silent for longer than a sender pauses inside a frame.
   std::optional<TncFrame> silence();
   bool is_inside() const { return stage_ != Stage::Between; }
 
@@ -47,7 +47,7 @@ class TncFrameReader {
   HeidenhainSettings tnc_;
   Stage stage_ = Stage::Between;
   bool is_heading_ = false;
-  std::string_view broken_;  ///< why, empty: it is not
+  std::string_view broken_;  ///< the reason; empty: not broken
   std::string text_;
   char check_ = 0;
 };

@@ -10,12 +10,12 @@
 namespace dripline::wire {
 namespace {
 
-/// MP 222, the data format of a character (spec 23.3).
+/// MP 222, the data format of a character.
 constexpr unsigned kEightBits = 1, kPrintableBcc = 2, kStopByRts = 4, kStopByDc3 = 8, kOdd = 16,
                    kHasParity = 32, kStopBits = 192, kTwoStopBits = 64, kOneStopBit = 128;
 constexpr unsigned kMaxFormat = 255, kMaxWord = 65'535;
 
-/// Two characters in a word, or a number; what a control has unless it was changed (spec 23.8).
+/// A parameter holds two characters or a number; the values are those of a new control.
 struct ParameterRow {
   int number;
   unsigned usual, most;
@@ -67,7 +67,7 @@ class Words {
   std::set<int> given_;
 };
 
-/// Of the standard interface; blockwise the ACK holds the sender.
+/// For the standard interface; blockwise, the ACK holds the sender.
 TncStop stop_of(unsigned format) {
   if ((format & kStopByRts) == 0) return TncStop::Dc3;
   return (format & kStopByDc3) != 0 ? TncStop::Both : TncStop::Rts;
@@ -86,7 +86,7 @@ void read_format(unsigned format, LineSettings& line) {
   line.heidenhain.bcc_is_printable = (format & kPrintableBcc) != 0;
 }
 
-/// The standard interface has the ends of programs and transmissions only.
+/// The standard interface uses only the ends of programs and transmissions.
 void read_characters(const Words& words, bool is_blockwise, HeidenhainSettings& tnc) {
   tnc.etx = low(words[kEnds]);
   if (words[kEndOfTransmission] != 0) tnc.eot = low(words[kEndOfTransmission]);
@@ -110,8 +110,8 @@ Result<void> read_heading(const Words& words, std::optional<char> heading,
   }
   if (low(input) != low(output)) {
     return fail(Errc::Unsupported,
-                "MP218 = {} and MP219 = {}: a line has one letter for headings of both ways", input,
-                output);
+                "MP218 = {} and MP219 = {}: a line has one letter for headings of both directions",
+                input, output);
   }
   if (heading) {
     tnc.heading = *heading;
@@ -147,7 +147,7 @@ Result<LineSettings> line_of_tnc(const TncInterface& interface) {
     auto read = read_heading(*words, interface.heading, line.heidenhain);
     if (!read) return fail(read.error());
   }
-  // What a line cannot be is said by the protocol itself: characters twice, or outside 1 to 47.
+  // The protocol itself reports an impossible line: equal characters, or one outside 1 to 47.
   if (auto made = make_discipline(line, Role::Host); !made) {
     return fail(made.error().code, "MP71, MP220, MP221 and MP224: {}", made.error().what);
   }

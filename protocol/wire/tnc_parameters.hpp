@@ -7,23 +7,23 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// The interface of a HEIDENHAIN TNC 151/155 as its machine parameters and its MOD functions have
-/// it, and the line that fits: MP 71 and 218 to 224, the baud rate (spec 23.1, 23.3 and 23.8).
+/// The interface of a HEIDENHAIN TNC 151/155 by its machine parameters and MOD functions, and the
+/// line that fits: MP 71 and 218 to 224, the baud rate (HEIDENHAIN, manual of the data interface).
 namespace dripline::wire {
 
-/// What the MOD function BAUD RATE offers.
+/// The rates of the MOD function BAUD RATE.
 inline constexpr std::array kTncBaudRates{110u, 150u, 300u, 600u, 1200u, 2400u, 4800u, 9600u};
 /// Errors: LimitExceeded, naming them all.
 Result<void> check_tnc_baud(unsigned baud);
 
-/// Machine parameters by their numbers; what is not there has its usual value.
+/// Machine parameters by their numbers; an absent one has its usual value.
 using TncParameters = std::map<int, double>;
 
 struct TncInterface {
   TncParameters parameters;
   unsigned baud = 2400;
-  /// The letter in headings of the blockwise transfer where it is known otherwise than by MP 218
-  /// (spec 23.8, U108: the parameter of later versions has H, this control may send %).
+  /// The letter in headings of the blockwise transfer where it is known from another source than
+  /// MP 218: later versions have H in the parameter, this control may send %.
   std::optional<char> heading;
 };
 

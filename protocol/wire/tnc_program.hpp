@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// What a line of a TNC program says about the program it stands in. Plain language:
+/// The meaning of a line for its TNC program. Plain language:
 /// "0 BEGIN PGM 7 MM" ... "12 END PGM 7 MM"; ISO: "%7 G71" ... "N9999 %7 G71". Pure; any thread.
 namespace dripline::wire {
 
@@ -20,7 +20,7 @@ struct TncLine {
 /// `line` without its line end.
 TncLine read_tnc_line(std::string_view line);
 
-/// A line with a number of its own (plain language, or N): no two of them follow each other alike.
+/// Whether the line has a number (plain language, or N): no two equal ones follow each other.
 bool is_numbered(std::string_view line);
 
 }  // namespace dripline::wire

@@ -3,7 +3,7 @@
 #include "protocol/wire/impl/control_rules.hpp"
 
 /// Centurion: a reception may hold several programs, each begun by an O line, or be run while it
-/// comes (DNC). Errors have the control's numbers.
+/// arrives (DNC). Errors have the control's numbers.
 namespace dripline::wire {
 namespace {
 
@@ -13,7 +13,7 @@ bool is_digit(char character) {
   return character >= '0' && character <= '9';
 }
 
-/// Finds words of a block that DNC FAST does not take, comments left out.
+/// Finds words of a block that DNC FAST refuses; comments are skipped.
 class FastCheck {
  public:
   void begin() { *this = {}; }
@@ -74,7 +74,7 @@ class CenturionRules final : public ControlRules {
   }
   Result<void> check_begin() const override {
     if (settings_.dnc != DncMode::Continue) return {};
-    return fail(Errc::Unsupported, "DNC CONT goes on in a stored file, not over RS-232");
+    return fail(Errc::Unsupported, "DNC CONT continues a stored file, not over RS-232");
   }
 
  private:
@@ -115,7 +115,7 @@ bool CenturionRules::may_be_special(char character) const {
   return held_.front() == 'O' && is_digit(character) && held_.size() <= kDigitsOfName;
 }
 
-/// `character` is not part of what is held.
+/// `character` is not part of the held text.
 void CenturionRules::end_special(char character, TextSink& sink) {
   const bool is_program = held_.front() == 'O' && held_.size() > 1 && !is_digit(character);
   if (is_program && has_text_) sink.next_program(held_.substr(1));
@@ -137,7 +137,7 @@ Result<void> CenturionRules::take(char character, TextSink& sink) {
     return {};
   }
   is_line_start_ = character == '\n';
-  if (held_ == "%" && character == '\n') {  // a line that holds only '%' says nothing here
+  if (held_ == "%" && character == '\n') {  // a line that holds only '%' has no meaning here
     held_.clear();
     return {};
   }

@@ -7,18 +7,18 @@
 
 namespace dripline::wire {
 
-/// Where received text goes.
+/// The destination of received text.
 class TextSink {
  public:
   virtual ~TextSink() = default;
   virtual void text(std::string_view text) = 0;
-  virtual void trouble(Error error) = 0;
-  /// What was delivered is a program of its own; what follows is the next one.
+  virtual void report(Error error) = 0;
+  /// The delivered text is a program; the following text is the next one.
   virtual void next_program(std::string name) = 0;
 };
 
-/// What one control does with the characters of a program: it drops, refuses and splits as the real
-/// one does, and says what is wrong in its words. The base is an end without ways of its own.
+/// The rules of one control for the characters of a program: it drops, refuses and splits as the
+/// real one does, and reports errors in its words. The base is an end without rules.
 class ControlRules {
  public:
   virtual ~ControlRules() = default;
@@ -32,21 +32,21 @@ class ControlRules {
   virtual void finish(TextSink& /*sink*/) {}
   /// A control character that ends the program besides the line's end character.
   virtual bool ends_at(char /*character*/) const { return false; }
-  /// Fatal for this control, in its words; nullopt: '?' stands in the place of the character.
+  /// The control's error for it, which ends the reception; nullopt: '?' replaces the character.
   virtual std::optional<Error> fault(LineFault /*fault*/) const { return std::nullopt; }
-  /// More than `limit` characters came after it asked the host to stop. nullopt: it takes them all.
+  /// More than `limit` characters came after it stopped the host. nullopt: it accepts them all.
   virtual std::optional<Error> overrun(unsigned /*limit*/) const { return std::nullopt; }
   /// The other end's DTR went off.
   virtual std::optional<Error> not_ready() const { return std::nullopt; }
-  /// Its own sending did not work.
+  /// Its own sending failed.
   virtual Error sending_failed(Error error) const { return error; }
-  /// A reception is asked for while one is in progress.
+  /// A reception is requested while one is in progress.
   virtual Error busy() const { return {Errc::Busy, "the line is receiving"}; }
-  /// Whether a reception can begin like this. Errors: Unsupported.
+  /// Whether a reception can begin with these settings. Errors: Unsupported.
   virtual Result<void> check_begin() const { return {}; }
 };
 
-/// A host has none of the controls' rules.
+/// A host has no rules of a control.
 std::unique_ptr<ControlRules> make_rules(const LineSettings& settings, Role role);
 std::unique_ptr<ControlRules> make_prototrak_rules();
 std::unique_ptr<ControlRules> make_centurion_rules(const ControlSettings& settings);

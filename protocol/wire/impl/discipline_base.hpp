@@ -7,9 +7,9 @@
 
 namespace dripline::wire {
 
-/// What every end of a line does alike: it keeps the text offered, the control characters to send
-/// before anything else, and the events not yet taken. Events have no bound of their own: a call
-/// makes at most a few for each character it is given.
+/// The common part of all ends: the offered text, the control characters that are sent first, and
+/// the events not yet taken. Events have no bound of their own: a call creates at most a few for
+/// each character.
 class DisciplineBase : public Discipline {
  public:
   std::vector<Event> take_events() final;
@@ -21,46 +21,46 @@ class DisciplineBase : public Discipline {
  protected:
   DisciplineBase(const LineSettings& settings, Role role) : settings_(settings), role_(role) {}
 
-  /// Everything about `text` that only this protocol knows: characters its code does not have.
+  /// Checks `text` by the rules of this protocol: characters that its code does not have.
   /// `first_line` is the number of its first line in the program, from 1.
   virtual Result<void> check_text(std::string_view text, std::size_t first_line) = 0;
-  /// More text is in the queue, or its end became known.
+  /// More text is in the queue, or its end is known.
   virtual void text_offered(LineTime now) = 0;
-  /// Forgets everything about the transfer; the base has forgotten its text.
+  /// Resets the state of the transfer; the base has dropped its text.
   virtual void transfer_over(LineTime now) = 0;
 
   // Transfers
   Result<void> check_idle() const;  ///< Busy unless idle
   void begin_transfer(Phase phase, std::string name);
-  void end_transfer(LineTime now);   ///< with TransferEnded, and idle again
-  void drop_transfer(LineTime now);  ///< without a word, and idle again
+  void end_transfer(LineTime now);   ///< with TransferEnded; idle again
+  void drop_transfer(LineTime now);  ///< without an event; idle again
   void fail_transfer(Error error, LineTime now);
   bool is_sending() const { return phase_ == Phase::Sending; }
   bool is_receiving() const { return phase_ == Phase::Receiving; }
 
   // Events
   void emit(Event event);
-  void emit_text(std::string_view text);  ///< joined to the text before it
+  void emit_text(std::string_view text);  ///< appended to the text before it
   void emit_fault(Error error) { emit(LineError{std::move(error)}); }
 
-  /// Whether DSR goes off that was seen on (a cable without DSR never shows it on): the other end
-  /// was switched off, or its cable was pulled. Asked before input_ is replaced.
+  /// Whether DSR was on and goes off (a cable without DSR never has it on): the other end was
+  /// switched off, or its cable was pulled. Must be called before input_ is replaced.
   bool has_lost_dsr(InputLines lines);
   static Error cut_off() {
     return {Errc::Timeout, "DSR went off: the control was switched off, or its cable was pulled"};
   }
 
-  // Control characters of ours that go before everything else
+  // Control characters of this end, which go first
   void queue_control(char character);
   bool has_controls() const { return !controls_.empty(); }
-  /// Puts what fits into `room`; how many.
+  /// Puts the characters that fit into `room`; returns their number.
   std::size_t take_controls(std::span<std::byte> room);
 
-  // Text of the transfer, in order: taken to be put on the line, then counted as sent
+  // Text of the transfer, in order: taken for the line, then counted as sent
   bool has_text() const { return taken_ < text_.size(); }
   std::string_view queued_text() const { return std::string_view(text_).substr(taken_); }
   void take_text(std::size_t characters);  ///< at most queued_text()
-  /// So much more has all been given to transmit's caller.
+  /// `characters` more have been given to transmit's caller.
   void count_sent(std::size_t characters) { text_sent_ += characters; }
   std::uint64_t text_sent() const { return text_sent_; }
   bool is_last_offered() const { return is_last_offered_; }
@@ -76,7 +76,7 @@ class DisciplineBase : public Discipline {
   std::vector<Event> events_;
   std::string controls_;
   std::string text_;
-  std::size_t taken_ = 0;  ///< of text_, which is cut now and then
+  std::size_t taken_ = 0;  ///< of text_, whose taken part is removed at times
   std::size_t lines_offered_ = 0;
   std::uint64_t text_sent_ = 0;  ///< of this transfer or the last one sent
   bool is_last_offered_ = false;

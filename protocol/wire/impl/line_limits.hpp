@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// What settings may say at most, and what one end of a line keeps at most.
+/// Limits of settings, and of the memory of one end of a line.
 namespace dripline::wire {
 
 inline constexpr unsigned kMinimumBaud = 50;
@@ -12,12 +12,12 @@ inline constexpr unsigned kMaximumWait = 86'400'000;  ///< a day, in millisecond
 inline constexpr unsigned kMaximumRetries = 100;
 inline constexpr unsigned kMaximumBufferSize = 65'536;
 
-/// A received block that is longer is said to be wrong.
+/// A longer received block is an error.
 inline constexpr std::size_t kLongestBlock = 1024;
-/// Text offered that has not left yet.
+/// Offered text that has not left yet.
 inline constexpr std::size_t kTextQueueSize = std::size_t{64} * 1024;
-/// Control characters of our own that have not left yet; more are only asked for by a line that
-/// talks nonsense.
+/// Control characters of this end that have not left yet; only a line that carries nonsense would
+/// need more.
 inline constexpr std::size_t kControlQueueSize = 256;
 
 }  // namespace dripline::wire

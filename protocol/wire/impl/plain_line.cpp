@@ -3,7 +3,8 @@
 #include "protocol/wire/impl/line_character.hpp"
 #include "protocol/wire/impl/protocols.hpp"
 
-/// What both directions of a plain line share; see plain_sending.cpp and plain_receiving.cpp.
+/// The common part of both directions of a plain line; see plain_sending.cpp and
+/// plain_receiving.cpp.
 namespace dripline::wire {
 
 std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role) {
@@ -30,7 +31,7 @@ void PlainLine::receive(std::span<const std::byte> bytes, LineTime now) {
   }
 }
 
-/// Whether `dc` steers the line.
+/// Whether `dc` controls the line.
 bool PlainLine::take_dc(char dc, LineTime now) {
   if (waits_for_dc1() && dc == settings_.control.tape_start) dc = kDc1;
   if (!understands_dc1() || dc < kDc1 || dc > kDc4) return false;
@@ -70,7 +71,7 @@ void PlainLine::lines(InputLines lines, LineTime now) {
   if (is_cut) is_release_due_ = false;  // it was switched off, or another one is connected next
   if (is_gone && !is_sending()) drop_request();
   if (is_cut && role_ == Role::Host && is_sending() && has_started_) {
-    fail_transfer(cut_off(), now);  // nobody can tell how much of the text was lost
+    fail_transfer(cut_off(), now);  // the amount of lost text is unknown
     return;
   }
   if (settings_.flow == Flow::RtsCts && had_cts != lines.cts) {
@@ -113,11 +114,11 @@ Result<void> PlainLine::refuse(std::string_view /*reason*/, LineTime /*now*/) {
   if (!std::exchange(is_asked_, false)) {
     return fail(Errc::Conflict, "the other end asked for nothing");
   }
-  is_stopped_ = waits_for_dc1();  // the DC1 that asked is used up
+  is_stopped_ = waits_for_dc1();  // the requesting DC1 is used
   return {};
 }
 
-/// A control that asks after this asks again with a DC1 of its own.
+/// A control that needs a program after this sends another DC1.
 void PlainLine::drop_request() {
   if (std::exchange(is_asked_, false)) is_stopped_ = waits_for_dc1();
 }
@@ -132,8 +133,8 @@ void PlainLine::abort(LineTime now) {
   is_stopped_ = waits_for_dc1();
 }
 
-/// Whatever direction failed or was dropped: the object is idle. A control that held us in the
-/// middle says DC1 when it has room for the rest. That is no request for another program.
+/// The object is idle, whichever direction failed or was dropped. A control that held us in the
+/// middle sends DC1 when it has room for the rest. That is no request for another program.
 void PlainLine::transfer_over(LineTime /*now*/) {
   if (waits_for_dc1() && has_started_ && is_stopped_) is_release_due_ = true;
   text_under_way_ = 0;

@@ -6,9 +6,9 @@
 
 namespace dripline::wire {
 
-/// A line without checks: text as it is, held by XON/XOFF, RTS/CTS, DC1 to DC4, or not at all. Both
-/// directions are independent: a control may answer (DPRNT) while it is fed, on DC1 to DC4 between
-/// its DC3 and DC1. A transfer that fails ends both.
+/// A line without checks: plain text with XON/XOFF, RTS/CTS, DC1 to DC4, or no flow control. Both
+/// directions are independent: a control may answer (DPRNT) while it is fed, with DC1 to DC4
+/// between its DC3 and DC1. A failed transfer ends both.
 class PlainLine final : public DisciplineBase, private TextSink {
  public:
   PlainLine(const LineSettings& settings, Role role);
@@ -29,11 +29,11 @@ class PlainLine final : public DisciplineBase, private TextSink {
   LineState state() const override;
 
  private:
-  // What the line can do
+  // Properties of the line
   bool is_dc_codes() const { return settings_.flow == Flow::DcCodes; }
   bool is_softly_held() const { return settings_.flow == Flow::XonXoff || is_dc_codes(); }
   bool understands_dc1() const { return is_softly_held() || settings_.wait_for_xon; }
-  /// A host whose control says when it wants a program.
+  /// Whether this is a host whose control requests programs.
   bool waits_for_dc1() const {
     return role_ == Role::Host && (is_dc_codes() || settings_.wait_for_xon);
   }
@@ -72,7 +72,7 @@ class PlainLine final : public DisciplineBase, private TextSink {
 
   // TextSink
   void text(std::string_view text) override { emit_text(text); }
-  void trouble(Error error) override { emit_fault(std::move(error)); }
+  void report(Error error) override { emit_fault(std::move(error)); }
   void next_program(std::string name) override;
 
   // DisciplineBase
@@ -84,23 +84,25 @@ class PlainLine final : public DisciplineBase, private TextSink {
   ProgramReader reader_;
   LineTime character_time_;
 
-  bool is_stopped_;                 ///< by DC3, or since no DC1 came yet
-  bool has_started_ = false;        ///< something of this transfer has left
-  bool is_release_due_ = false;     ///< held when a program was broken off: its DC1 is to come
-  std::size_t text_under_way_ = 0;  ///< characters of text that the writer has not given yet
+  bool is_stopped_;           ///< by DC3, or because no DC1 came yet
+  bool has_started_ = false;  ///< a part of this transfer has left
+  bool is_release_due_ =
+      false;  ///< the control held us when a program was broken off: its DC1 will come
+  std::size_t text_under_way_ = 0;  ///< characters of text in the writer
   std::optional<LineTime> held_since_, pause_until_;
 
-  struct Reception {
+  struct Inbound {
     bool is_open = false;
     bool is_punch = false;          ///< DC2 began it, DC4 ends it
-    std::optional<LineTime> heard;  ///< the last character that meant something
+    std::optional<LineTime> heard;  ///< the last significant character
   };
-  Reception reception_;
+  Inbound inbound_;
   bool is_ready_ = true;
-  bool is_stop_said_ = false;  ///< our DC3 has left, or RTS is off: what comes now is counted
-  bool owes_dc1_ = false;      ///< a host that said DC3 lets go, whether or not more is coming
+  bool is_stop_said_ =
+      false;               ///< our DC3 has left, or RTS is off: characters are counted from here
+  bool owes_dc1_ = false;  ///< a host that sent DC3 releases, even when no more text comes
   std::size_t after_stop_ = 0;
-  std::optional<LineTime> release_again_;  ///< our DC1 may have been lost: said once more then
+  std::optional<LineTime> release_again_;  ///< our DC1 may have been lost: it is repeated then
   bool is_asked_ = false;                  ///< the other end's request waits for an answer
 };
 

@@ -5,16 +5,16 @@ namespace dripline::wire {
 
 namespace {
 
-/// A sender that goes on after our DC3 has not heard it: it is said again every so many
+/// A sender that continues after our DC3 did not receive it: it is repeated after this many
 /// characters.
 constexpr std::size_t kStopAgain = 16;
-/// A sender that stays silent after our DC1 may not have heard it.
+/// A sender that stays silent after our DC1 may not have received it.
 constexpr LineTime kReleaseAgain = std::chrono::seconds(1);
 
 }  // namespace
 
 Result<void> PlainLine::begin_receive(std::string_view name, LineTime now) {
-  if (reception_.is_open) return fail(reader_.rules().busy());
+  if (inbound_.is_open) return fail(reader_.rules().busy());
   if (is_dc_codes()) {
     if (const auto idle = check_idle(); !idle) return idle;
   }
@@ -24,7 +24,7 @@ Result<void> PlainLine::begin_receive(std::string_view name, LineTime now) {
   return {};
 }
 
-/// A control tells the reader, or whoever stands for it.
+/// A control starts and stops the reader, or the host in its place.
 void PlainLine::start_reading() {
   if (role_ != Role::Control) return;
   if (settings_.control.tape_start) return say(*settings_.control.tape_start);
@@ -38,19 +38,19 @@ void PlainLine::stop_reading() {
 }
 
 void PlainLine::open_reception(std::string name, LineTime now) {
-  reception_ = {};
-  reception_.is_open = true;
-  // A control waits for its host; what a host hears has begun.
-  if (role_ == Role::Host) reception_.heard = now;
+  inbound_ = {};
+  inbound_.is_open = true;
+  // A control waits for its host; a text that a host receives has begun.
+  if (role_ == Role::Host) inbound_.heard = now;
   reader_.begin();
   after_stop_ = 0;
-  // Between two texts nothing was held.
+  // Between two texts the sender was not held.
   if (role_ == Role::Host && is_dc_codes() && !is_ready_) hold_off();
   emit(TransferBegan{true, std::move(name)});
 }
 
 void PlainLine::close_reception() {
-  reception_ = {};
+  inbound_ = {};
 }
 
 void PlainLine::end_reception(LineTime /*now*/) {
@@ -59,7 +59,7 @@ void PlainLine::end_reception(LineTime /*now*/) {
   stop_reading();
 }
 
-/// What a host hears while it feeds is no program: the feed goes on.
+/// A text that a host receives while it feeds is no program: the feed continues.
 void PlainLine::fail_reception(Error error, LineTime now) {
   if (role_ == Role::Host && is_sending()) {
     emit_fault(std::move(error));
@@ -71,8 +71,8 @@ void PlainLine::fail_reception(Error error, LineTime now) {
 }
 
 void PlainLine::take_data(std::byte character, LineTime now) {
-  if (!reception_.is_open) {
-    // A control only listens when its operator has said so. Leaders and line ends begin nothing.
+  if (!inbound_.is_open) {
+    // A control receives only on its operator's command. Leaders and line ends begin no text.
     if (role_ != Role::Host || !reader_.begins(character)) return;
     if (is_dc_codes()) emit_fault({Errc::Corrupt, "text came without DC2 before it"});
     open_reception("", now);
@@ -85,11 +85,11 @@ void PlainLine::take_data(std::byte character, LineTime now) {
   } else if (*read) {
     end_reception(now);
   } else if (reader_.has_begun()) {
-    reception_.heard = now;
+    inbound_.heard = now;
   }
 }
 
-/// A character came although we have said stop; whether that ends the reception.
+/// A character came although this end sent stop; returns whether that ends the reception.
 bool PlainLine::is_overrun(LineTime now) {
   ++after_stop_;
   if (after_stop_ > settings_.control.buffer_size) {
@@ -102,35 +102,35 @@ bool PlainLine::is_overrun(LineTime now) {
   return false;
 }
 
-/// What a host hears is of no transfer that it knows: text that came before DC2 or before the start
-/// character, or DC2 and nothing after it. It must not keep a program from the line.
+/// Whether a host receives text that is no transfer: text before DC2 or before the start character,
+/// or a DC2 with nothing after it. It must not keep a program from the line.
 bool PlainLine::is_stray() const {
-  if (!reception_.is_open || role_ != Role::Host) return false;
-  if (is_dc_codes()) return !reception_.is_punch || !reader_.has_begun();
+  if (!inbound_.is_open || role_ != Role::Host) return false;
+  if (is_dc_codes()) return !inbound_.is_punch || !reader_.has_begun();
   return settings_.start_character && !reader_.has_mark();
 }
 
-/// What came of it is kept.
+/// The text that was received is kept.
 void PlainLine::drop_stray(LineTime now) {
   reader_.finish();
   end_reception(now);
 }
 
 void PlainLine::punch_on(LineTime now) {
-  const bool follows_stray = reception_.is_open && !reception_.is_punch && reader_.has_begun();
+  const bool follows_stray = inbound_.is_open && !inbound_.is_punch && reader_.has_begun();
   if (follows_stray) end_reception(now);
-  if (!reception_.is_open) open_reception("", now);
-  if (!reception_.is_punch) {  // begun just now, or a host that was told to receive waited for it
+  if (!inbound_.is_open) open_reception("", now);
+  if (!inbound_.is_punch) {  // it begins now, or a host waited for it
     reader_.expect_print();
-    reception_.is_punch = true;
+    inbound_.is_punch = true;
     return;
   }
   if (reader_.has_begun()) emit_fault({Errc::Corrupt, "DC2 came again inside a program"});
 }
 
-/// A program has its end character before DC4; what a control prints has neither mark.
+/// A program has its end character before DC4; printed text has neither mark.
 void PlainLine::punch_off(LineTime now) {
-  if (!reception_.is_open) return;  // its end character was the end
+  if (!inbound_.is_open) return;  // its end character has ended it
   if (reader_.is_framed() && reader_.has_mark()) {
     return fail_reception({Errc::Corrupt, "DC4 came before the end character"}, now);
   }
@@ -138,16 +138,16 @@ void PlainLine::punch_off(LineTime now) {
   end_reception(now);
 }
 
-/// Silence ends an unframed reception and breaks one that should end with a character.
+/// Silence ends an unframed reception and breaks off one that should end with a character.
 std::optional<LineTime> PlainLine::silence_deadline() const {
-  if (!reception_.is_open || !reception_.heard || !is_ready_) return std::nullopt;
+  if (!inbound_.is_open || !inbound_.heard || !is_ready_) return std::nullopt;
   const bool is_framed = reader_.is_framed() || (is_dc_codes() && role_ == Role::Host);
-  if (!is_framed) return *reception_.heard + settings_.idle_end;
+  if (!is_framed) return *inbound_.heard + settings_.idle_end;
   const auto limit = pause_limit();
-  return limit ? std::optional(*reception_.heard + *limit) : std::nullopt;
+  return limit ? std::optional(*inbound_.heard + *limit) : std::nullopt;
 }
 
-/// A control may be held by its host for as long as that likes; a host gives up.
+/// A host may hold its control without limit; a host gives up.
 std::optional<std::chrono::milliseconds> PlainLine::pause_limit() const {
   return role_ == Role::Host ? settings_.pause_limit : settings_.answer_limit;
 }
@@ -173,15 +173,15 @@ void PlainLine::set_ready(bool is_ready, LineTime now) {
   if (std::exchange(is_ready_, is_ready) == is_ready) return;
   is_stop_said_ = false;
   after_stop_ = 0;
-  if (is_ready && reception_.heard) reception_.heard = now;      // the silence was our doing
-  const bool is_reading = !is_dc_codes() || reception_.is_open;  // DC1 starts an idle reader
+  if (is_ready && inbound_.heard) inbound_.heard = now;        // this end caused the silence
+  const bool is_reading = !is_dc_codes() || inbound_.is_open;  // DC1 starts an idle reader
   if (is_softly_held() && !is_ready && is_reading) hold_off();
   const bool owes_dc1 = is_ready && std::exchange(owes_dc1_, false);
   if (is_softly_held() && is_ready && (is_reading || owes_dc1)) say(kDc1);
   // Elsewhere DC1 asks for a program.
   const bool may_repeat = settings_.flow == Flow::XonXoff && !settings_.wait_for_xon;
   release_again_.reset();
-  if (is_ready && may_repeat && reception_.is_open) release_again_ = now + kReleaseAgain;
+  if (is_ready && may_repeat && inbound_.is_open) release_again_ = now + kReleaseAgain;
   if (settings_.flow == Flow::RtsCts) output_.rts = is_ready;
 }
 

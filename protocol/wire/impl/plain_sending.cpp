@@ -6,8 +6,8 @@ namespace dripline::wire {
 Result<void> PlainLine::begin_send(std::string_view name, LineTime now) {
   if (const auto idle = check_idle(); !idle) return idle;
   if (is_dc_codes() && is_stray()) drop_stray(now);
-  // One that only waits goes on waiting.
-  if (is_dc_codes() && reception_.is_open && reader_.has_begun()) {
+  // A transfer that only waits continues to wait.
+  if (is_dc_codes() && inbound_.is_open && reader_.has_begun()) {
     return fail(Errc::Busy, "the line is receiving");
   }
   is_asked_ = false;
@@ -35,14 +35,14 @@ std::size_t PlainLine::transmit(std::span<std::byte> room, LineTime now) {
     pause_after(count, writer_.ends_block(), now);
   }
   if (is_sending() && !may_send()) skip_said();
-  // What the control does not want to hear any more (it stopped us at the end character) is not
-  // worth waiting for.
+  // The control stopped us at the end character: it does not need the rest, so this end does not
+  // wait.
   const bool is_over = writer_.is_done() || (writer_.is_all_said() && !may_send());
   if (is_sending() && is_text_taken() && is_over) finish_sending(now);
   return count;
 }
 
-/// Text after its end character has nothing more to say: what is left of it needs no line.
+/// Text after its end character is not significant: the rest is not sent.
 void PlainLine::skip_said() {
   while (writer_.is_end_said() && writer_.wants_text()) {
     count_sent(std::exchange(text_under_way_, 0));
@@ -58,7 +58,7 @@ void PlainLine::skip_said() {
   }
 }
 
-/// nullopt: nothing to send until more text is offered.
+/// nullopt: there is nothing to send until more text is offered.
 std::optional<std::byte> PlainLine::next_character() {
   while (writer_.wants_text()) {
     count_sent(std::exchange(text_under_way_, 0));
@@ -90,10 +90,10 @@ void PlainLine::pause_after(std::size_t characters, bool ends_block, LineTime no
 void PlainLine::finish_sending(LineTime now) {
   if (is_dc_codes() && role_ == Role::Control) say(kDc4);
   has_started_ = false;  // it is not broken off
-  // The other direction goes on.
-  const Reception reception = reception_;
+  // The other direction continues.
+  const Inbound inbound = inbound_;
   end_transfer(now);
-  reception_ = reception;
+  inbound_ = inbound;
 }
 
 void PlainLine::set_stopped(bool is_stopped, LineTime now) {
@@ -102,7 +102,7 @@ void PlainLine::set_stopped(bool is_stopped, LineTime now) {
   note_hold(now);
 }
 
-/// Since when we wait to be let go on.
+/// The start of the wait for the other end's release.
 void PlainLine::note_hold(LineTime now) {
   if (!is_sending() || may_send()) {
     held_since_.reset();

@@ -28,24 +28,24 @@ bool ProgramReader::begins(std::byte character) const {
   const auto plain = from_line(settings_.code, character);
   if (plain && !is_printable(*plain)) return is_mark(*plain) && *plain == settings_.start_character;
   const DecodedCharacter decoded = CharacterDecoder(settings_.code).decode(character);
-  return decoded.text && *decoded.text != '\n' && *decoded.text != ' ' && !decoded.trouble;
+  return decoded.text && *decoded.text != '\n' && *decoded.text != ' ' && !decoded.error;
 }
 
 Result<bool> ProgramReader::read(std::byte character) {
   const auto plain = from_line(settings_.code, character);
   if (plain && !is_printable(*plain)) {
     if (rules_->ends_at(*plain)) {
-      sink_.trouble(Error{Errc::Syntax, fmt::format("the program ends with 0x{:02x}",
-                                                    static_cast<unsigned>(*plain))});
+      sink_.report(Error{Errc::Syntax, fmt::format("the program ends with 0x{:02x}",
+                                                   static_cast<unsigned>(*plain))});
       finish();
       return true;
     }
     if (is_mark(*plain)) return read_mark(*plain);
   }
   const DecodedCharacter decoded = decoder_.decode(character);
-  if (decoded.trouble) {
+  if (decoded.error) {
     if (const auto fatal = rules_->fault(LineFault::Parity)) return fail(*fatal);
-    sink_.trouble(*decoded.trouble);
+    sink_.report(*decoded.error);
   }
   if (!decoded.text) return false;
   if (is_mark(*decoded.text)) return read_mark(*decoded.text);
@@ -55,7 +55,7 @@ Result<bool> ProgramReader::read(std::byte character) {
 Result<void> ProgramReader::read_fault(LineFault fault) {
   if (const auto fatal = rules_->fault(fault)) return fail(*fatal);
   const DecodedCharacter decoded = decoder_.decode_fault(fault_text(fault));
-  sink_.trouble(*decoded.trouble);
+  sink_.report(*decoded.error);
   const auto read = read_text('?');
   if (!read) return fail(read.error());
   return {};
@@ -64,7 +64,7 @@ Result<void> ProgramReader::read_fault(LineFault fault) {
 /// The start or the end character.
 Result<bool> ProgramReader::read_mark(char character) {
   if (place_ == Place::AfterMark && character == mark_ && is_printable(character)) {
-    sink_.trouble(Error{Errc::Corrupt, fmt::format("'{}' came twice", character)});
+    sink_.report(Error{Errc::Corrupt, fmt::format("'{}' came twice", character)});
     return false;
   }
   const bool is_at_start = place_ == Place::Before && !has_mark_;
@@ -76,12 +76,12 @@ Result<bool> ProgramReader::read_mark(char character) {
   }
   if (character != end_character_) {
     if (!is_printable(character)) {
-      sink_.trouble(Error{Errc::Corrupt, "the start character came again inside a program"});
+      sink_.report(Error{Errc::Corrupt, "the start character came again inside a program"});
       return false;
     }
     return take(character);  // an ordinary character by now
   }
-  if (may_print_) tell_missing_start();  // its end character shows that it is a program
+  if (may_print_) report_missing_start();  // its end character shows that it is a program
   finish();
   return true;
 }
@@ -103,20 +103,20 @@ Result<bool> ProgramReader::read_text(char character) {
 
 void ProgramReader::begin_text() {
   place_ = Place::Text;
-  if (!may_print_) tell_missing_start();
+  if (!may_print_) report_missing_start();
 }
 
-void ProgramReader::tell_missing_start() {
+void ProgramReader::report_missing_start() {
   if (!settings_.start_character || has_mark_) return;
-  sink_.trouble(Error{Errc::Corrupt, "the start character before the program is missing"});
+  sink_.report(Error{Errc::Corrupt, "the start character before the program is missing"});
 }
 
 Result<bool> ProgramReader::take(char character) {
   block_length_ = character == '\n' ? 0 : block_length_ + 1;
   if (block_length_ == kLongestBlock + 1) {
-    sink_.trouble({Errc::Corrupt, fmt::format("line {} is longer than {} characters: ends of block "
-                                              "are missing",
-                                              decoder_.blocks() + 1, kLongestBlock)});
+    sink_.report({Errc::Corrupt, fmt::format("line {} is longer than {} characters: ends of block "
+                                             "are missing",
+                                             decoder_.blocks() + 1, kLongestBlock)});
   }
   if (const auto taken = rules_->take(character, sink_); !taken) return fail(taken.error());
   return false;

@@ -6,15 +6,15 @@
 namespace dripline::wire {
 
 /// The characters of a plain transfer as program text. Leading blank characters and empty blocks
-/// are dropped; so is a start character (or an end character before any text), with its block when
-/// nothing else stands in that.
+/// are dropped; so is a start character (or an end character before any text), with its block if
+/// that holds nothing else.
 class ProgramReader {
  public:
   /// `settings` and `sink` must outlive it.
   ProgramReader(const LineSettings& settings, Role role, TextSink& sink);
 
   void begin();
-  /// After `begin`: what comes may be printed lines, which have no start character.
+  /// After `begin`: the text may be printed lines, which have no start character.
   void expect_print() { may_print_ = true; }
   /// true: the end character, the program is complete. Errors: the reception fails.
   Result<bool> read(std::byte character);
@@ -28,7 +28,7 @@ class ProgramReader {
   bool is_framed() const { return end_character_.has_value(); }
   ControlRules& rules() { return *rules_; }
   const ControlRules& rules() const { return *rules_; }
-  /// Whether this character alone, on an idle line, is the beginning of something.
+  /// Whether this character, on an idle line, begins a text.
   bool begins(std::byte character) const;
 
  private:

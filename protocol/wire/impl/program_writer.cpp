@@ -27,8 +27,8 @@ void ProgramWriter::begin() {
   pending_ends_block_ = ends_block_ = false;
 }
 
-/// Whether `character` is the text's own end character: it ends the program wherever it stands but
-/// at the very beginning, where it is a mark of the beginning.
+/// Whether `character` is the text's own end character: it ends the program everywhere except at
+/// the very beginning, where it marks the beginning.
 bool ProgramWriter::Place::ends(char character, const LineSettings& settings) {
   const bool was_first = std::exchange(is_first, false);
   if (character == '\n') ++line;
@@ -80,7 +80,7 @@ void ProgramWriter::put_text(char character) {
   if (ends) {
     put_mark(character);
   } else {
-    (void)encoder_.encode({&character, 1}, pending_);  // it was checked
+    (void)encoder_.encode({&character, 1}, pending_);  // check() has checked it
   }
   pending_ends_block_ = character == '\n';
   last_ = character;

@@ -8,14 +8,14 @@ namespace dripline::wire {
 
 /// A program as the characters of a plain transfer:
 ///   leader, start character, text, end character, trailer.
-/// A printable start character stands in a block of its own; text that begins with it is sent as it
-/// is. Text may bring its end character too: only blank text may follow, and is dropped.
+/// A printable start character is a block of its own; text that begins with it is sent unchanged.
+/// Text may contain its end character: only blank text may follow, and is dropped.
 class ProgramWriter {
  public:
   explicit ProgramWriter(const LineSettings& settings);
 
   void begin();
-  /// Looks through the next piece of text before it is taken in. Errors: Syntax, with the line.
+  /// Checks the next piece of text before it is queued. Errors: Syntax, with the line.
   Result<void> check(std::string_view text);
 
   /// The next character of the checked text; only while wants_text().
@@ -25,10 +25,10 @@ class ProgramWriter {
 
   bool has_next() const { return blanks_ > 0 || next_ < pending_.size(); }
   std::byte next();
-  bool ends_block() const { return ends_block_; }  ///< the character that next() gave last
-  /// The text's own end character was given: the rest of the text is dropped.
+  bool ends_block() const { return ends_block_; }  ///< of the character that next() returned last
+  /// The text's own end character was returned: the rest of the text is dropped.
   bool is_end_said() const { return place_.is_ended && next_ == pending_.size(); }
-  /// Nothing that means anything to the other end is left.
+  /// No character that is significant for the other end is left.
   bool is_all_said() const { return stage_ == Stage::End && next_ == pending_.size(); }
   bool is_done() const { return stage_ == Stage::End && !has_next(); }
 
@@ -39,7 +39,7 @@ class ProgramWriter {
 
   const LineSettings& settings_;
   CharacterEncoder checked_, encoder_;
-  struct Place {  ///< in the text: of check(), and of put_text()
+  struct Place {  ///< position in the text: of check(), and of put_text()
     bool is_first = true, is_ended = false;
     std::size_t line = 1;
     bool ends(char character, const LineSettings& settings);

@@ -4,7 +4,7 @@
 
 #include "protocol/wire/discipline.hpp"
 
-/// One maker a protocol; make_discipline() has checked the settings before it calls one.
+/// One factory for each protocol; make_discipline() has checked the settings before it calls one.
 namespace dripline::wire {
 
 std::unique_ptr<Discipline> make_plain(const LineSettings& settings, Role role);

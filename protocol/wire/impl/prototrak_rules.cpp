@@ -1,7 +1,7 @@
 #include "protocol/wire/impl/control_rules.hpp"
 
-/// ProtoTRAK Plus: blocks end with ';', line ends are layout, a program ends with '%'. Any error
-/// and nothing is kept.
+/// ProtoTRAK Plus: blocks end with ';', line ends are layout, a program ends with '%'. After any
+/// error nothing is stored.
 namespace dripline::wire {
 namespace {
 
@@ -34,7 +34,7 @@ class ProtoTrakRules final : public ControlRules {
   std::size_t block_ = 0;   ///< characters of the block so far
   std::size_t blocks_ = 1;  ///< number of the block being read
   bool is_comment_ = false;
-  bool is_line_open_ = false;  ///< something stands on the line being delivered
+  bool is_line_open_ = false;  ///< the line being delivered has text
 };
 
 Result<void> ProtoTrakRules::check(char character) const {

@@ -5,7 +5,7 @@
 namespace dripline::wire {
 namespace {
 
-/// Calls `take(number)` for each word with this address, until it says true.
+/// Calls `take(number)` for each word with this address until it returns true.
 template <class Take>
 void for_each_word(std::string_view block, char address, Take take) {
   bool is_comment = false;

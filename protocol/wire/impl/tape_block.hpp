@@ -4,14 +4,14 @@
 #include <optional>
 #include <string_view>
 
-/// What a tape control must know of a block to drive its reader. Pure; any thread.
+/// The words of a block with which a tape control drives its reader. Pure; any thread.
 namespace dripline::wire {
 
-/// The number after `address`, comments left out: "N012G1" has N 12. nullopt: no such word.
+/// The number after `address`, outside comments: "N012G1" has N 12. nullopt: no such word.
 std::optional<std::uint64_t> word_value(std::string_view block, char address);
 
 enum class TapeEnd { None, Stop, Rewind };
-/// M02 stops the reader after this block, M30 winds the tape back.
+/// M02 stops the reader after this block, M30 rewinds the tape.
 TapeEnd tape_end(std::string_view block);
 
 }  // namespace dripline::wire

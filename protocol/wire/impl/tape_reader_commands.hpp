@@ -1,7 +1,7 @@
 #pragma once
 
-/// How a control drives the reader that we are, or that it believes to have. It says so by modem
-/// lines, or by characters where a line has none: its direction of the line carries nothing else.
+/// The commands with which a control drives its reader, or the host in its place: modem lines, or
+/// characters where a line has none; its direction of the line carries nothing else.
 ///
 ///     run        RTS on (our CTS), or DC1
 ///     stop       RTS off, or DC3

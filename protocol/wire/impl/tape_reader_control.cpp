@@ -20,8 +20,8 @@ constexpr std::size_t kShownHead = 40;
 ///     rewind  backwards to the rewind stop, then hunt
 ///     error   READ ERROR: the block being read is dropped, the reader stops, the operator resets
 ///
-/// M02, M30 and the rewind stop end the program; M30 winds back. A program is named by what the
-/// operator asks of the reader: nothing, "%" to wind back first, "N40" to search for that block.
+/// M02, M30 and the rewind stop end the program; M30 rewinds. The name of a program is the
+/// operator's command to the reader: none, "%" to rewind first, "N40" to search for that block.
 class TapeReaderControl final : public DisciplineBase {
  public:
   explicit TapeReaderControl(const LineSettings& settings)
@@ -73,7 +73,7 @@ class TapeReaderControl final : public DisciplineBase {
                   name);
     }
     begin_transfer(Phase::Receiving, std::string(name));
-    // After M02 and M30 too, and after an error the next block boundary counts.
+    // Also after M02 and M30; after an error the next block boundary applies.
     is_hunting_ = true;
     if (name == "%") wind_back();
     if (is_ready_) run();
@@ -146,7 +146,8 @@ class TapeReaderControl final : public DisciplineBase {
     using enum RowKind;
     if (meaning.kind == Blank || meaning.kind == Delete) return;
     if (meaning.kind != BlockEnd && meaning.kind != CarriageReturn) return note_head(meaning);
-    (void)decoder_.decode(static_cast<std::byte>(row));  // so that it knows the companions
+    (void)decoder_.decode(
+        static_cast<std::byte>(row));  // so that it knows the companion characters
     is_hunting_ = false;
     const bool has_stop = std::exchange(is_stop_last_, false);
     if (has_stop && !search_) emit_text("%\n");
@@ -154,7 +155,7 @@ class TapeReaderControl final : public DisciplineBase {
     run_on(now);
   }
 
-  /// The head of a tape is a rewind stop and an end of block, nothing between them.
+  /// The head of a tape is a rewind stop directly followed by an end of block.
   void say_head() {
     if (is_head_text_ && !head_.empty()) {
       emit_fault(
@@ -164,7 +165,7 @@ class TapeReaderControl final : public DisciplineBase {
     }
   }
 
-  /// What is skipped: a title, or a first block that has no end of block before it.
+  /// The skipped rows: a title, or a first block without an end of block before it.
   void note_head(TapeRow meaning) {
     is_stop_last_ = meaning.kind == RowKind::RewindStop;
     if (is_stop_last_) head_.clear();
@@ -178,13 +179,13 @@ class TapeReaderControl final : public DisciplineBase {
       return read_error(fmt::format("wrong parity, 0x{:02X}", static_cast<unsigned>(row)), now);
     }
     if (meaning.kind == RowKind::RewindStop) return end_of_tape(now);
-    // Skipped as the control does, and said: one hole lost makes a blank of EIA's minus, 0, 1, 2,
-    // 4, 8 and end of block.
+    // Skipped like the control does, but reported: one lost hole makes a blank of EIA's minus, 0,
+    // 1, 2, 4, 8 and end of block.
     if (meaning.kind == RowKind::Blank && settings_.code == CharacterCode::Eia && !block_.empty()) {
       emit_fault({Errc::Corrupt, fmt::format("row {}: blank tape after '{}'", row_, block_)});
     }
     auto decoded = decoder_.decode(static_cast<std::byte>(row));
-    if (decoded.trouble) emit_fault(std::move(*decoded.trouble));
+    if (decoded.error) emit_fault(std::move(*decoded.error));
     if (!decoded.text) return;
     if (*decoded.text == '\n') return end_block(now);
     if (block_.size() >= kMaxTapeBlock) {
@@ -208,7 +209,7 @@ class TapeReaderControl final : public DisciplineBase {
 
   void end_block(LineTime now) {
     const std::string block = std::exchange(block_, {});
-    if (block.empty() && !has_block_) return run_on(now);  // still the head
+    if (block.empty() && !has_block_) return run_on(now);  // this is still the head
     has_block_ = true;
     if (search_ && word_value(block, 'N') == search_) search_.reset();
     if (!search_) emit_text(block + "\n");
@@ -238,7 +239,7 @@ class TapeReaderControl final : public DisciplineBase {
     output_.rts = true;
     queue_control(kReaderRun);
   }
-  /// A reader that stops at each end of block is told to go on.
+  /// Starts a reader again that stops at each end of block.
   void run_on(LineTime) {
     if (settings_.reader.stops_at_end_of_block && is_ready_) queue_control(kReaderRun);
   }
@@ -260,7 +261,7 @@ class TapeReaderControl final : public DisciplineBase {
   std::string block_;
   std::uint64_t row_ = 0;
   bool is_hunting_ = true, is_stop_last_ = false, is_ready_ = true, has_block_ = false;
-  std::string head_;  ///< the first of what was skipped
+  std::string head_;  ///< the first skipped characters
   bool is_head_text_ = true;
 };
 

@@ -10,11 +10,11 @@
 namespace dripline::wire {
 namespace {
 
-/// From the command to the first row.
+/// Time from the command to the first row.
 constexpr LineTime kStartUp = std::chrono::milliseconds(10);
 
-/// We are the reader: each text is a tape with leader, rewind stop and trailer that the control
-/// runs, stops and winds back. Rewinding asks the owner for the same program again.
+/// The host as the reader: each text is a tape with leader, rewind stop and trailer that the
+/// control runs, stops and rewinds. Rewinding asks the owner for the same program again.
 class TapeReaderHost final : public DisciplineBase {
  public:
   explicit TapeReaderHost(const LineSettings& settings)
@@ -31,7 +31,7 @@ class TapeReaderHost final : public DisciplineBase {
       if (c == kReaderBack) wind_back(now);
     }
   }
-  void fault(LineFault, LineTime) override {}  // commands are repeated by who gave them
+  void fault(LineFault, LineTime) override {}  // the control repeats its commands
 
   void lines(InputLines lines, LineTime now) override {
     const InputLines before = input_;
@@ -130,7 +130,7 @@ class TapeReaderHost final : public DisciplineBase {
     return stage_ == Stage::Text ? has_said : blanks_ > 0 || has_said;
   }
 
-  /// The next rows: of one character, or one blank. False: there are none now.
+  /// The next rows: those of one character, or one blank. False: there are none now.
   bool refill(LineTime now) {
     rows_.clear();
     row_at_ = 0;
@@ -143,7 +143,7 @@ class TapeReaderHost final : public DisciplineBase {
     if (stage_ == Stage::Text && has_text()) {
       const char c = queued_text().front();
       take_text(1);
-      (void)encoder_.encode({&c, 1}, rows_);  // check_text has seen it
+      (void)encoder_.encode({&c, 1}, rows_);  // check_text has checked it
       if (!rows_.empty()) return true;
       count_sent(1);  // CR belongs to its LF
       return refill(now);
@@ -152,7 +152,7 @@ class TapeReaderHost final : public DisciplineBase {
     return is_sending() && stage_ == Stage::Trailer && refill(now);
   }
 
-  /// After the last row of the text comes the trailer, and after that nothing.
+  /// The trailer follows the last row of the text.
   void end_tape(LineTime now) {
     if (stage_ == Stage::Text && is_text_taken()) {
       stage_ = Stage::Trailer;
@@ -161,7 +161,7 @@ class TapeReaderHost final : public DisciplineBase {
     if (stage_ == Stage::Trailer && blanks_ == 0) end_transfer(now);
   }
 
-  /// A control reads nothing before an end of block, and winds back to the rewind stop.
+  /// A control reads nothing before an end of block, and rewinds to the rewind stop.
   bool begin_text(LineTime now) {
     stage_ = Stage::Text;
     if (has_text() && queued_text().front() == '%') return refill(now);
@@ -173,7 +173,7 @@ class TapeReaderHost final : public DisciplineBase {
     return true;
   }
 
-  /// Counts the row; what is left of it when it is the one to be spoiled.
+  /// Counts the row; returns it damaged if it is the one with the fault.
   std::optional<std::byte> pass(std::byte row, LineTime) {
     if (++row_ != settings_.reader.fault_row) return row;
     const auto bits = static_cast<unsigned>(row);
@@ -194,7 +194,7 @@ class TapeReaderHost final : public DisciplineBase {
   }
 
   void end_of_row(std::byte row, LineTime now) {
-    // Rows keep their rate although the caller comes a little late each time.
+    // Rows keep their rate although the caller is a little late each time.
     next_row_ = std::max(next_row_ + row_time_, now - 2 * row_time_);
     const auto kind = decode_row(settings_.code, static_cast<std::uint8_t>(row)).kind;
     const bool is_last_row = row_at_ == rows_.size();

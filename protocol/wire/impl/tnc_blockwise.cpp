@@ -6,9 +6,9 @@ namespace dripline::wire {
 namespace {
 
 constexpr char kDc1 = 0x11;
-/// Longer than any sender pauses inside a block.
+/// Longer than any sender's pause inside a block.
 constexpr LineTime kBlockSilence = std::chrono::seconds(1);
-/// An answer later than that is being withheld.
+/// After this time an answer is being withheld.
 constexpr LineTime kHoldSeen = std::chrono::seconds(2);
 
 std::string_view text_of(std::string_view line) {
@@ -57,8 +57,8 @@ void TncBlockwise::handle(const TncFrame& frame, LineTime now) {
   }
 }
 
-/// An answer counts when the whole block is out; one that comes earlier belongs to the block before
-/// it and came twice.
+/// An answer applies when the whole block is out; an earlier one is a repeated answer to the block
+/// before.
 void TncBlockwise::on_block_answer(bool is_good, LineTime now) {
   if (!is_out_heard(now)) return;
   set_stopped(false);
@@ -185,7 +185,7 @@ void TncBlockwise::put_out(std::string characters, std::size_t tail) {
   out_tail_ = tail;
 }
 
-/// The other end answers when it has the BCC, while the DC1 after it is still on its way.
+/// The other end answers when it has the BCC, while the following DC1 is still on the line.
 bool TncBlockwise::is_out_heard(LineTime now) {
   if (is_out_empty()) return true;
   if (out_.size() - out_at_ > out_tail_) return false;
@@ -248,7 +248,7 @@ Result<void> TncBlockwise::check_text(std::string_view text, std::size_t line) {
   return {};
 }
 
-// The owner's wishes, and what both roles share
+// Calls of the owner, and the common part of both roles
 
 void TncBlockwise::wait_for(Wait wait, std::optional<LineTime> limit) {
   wait_ = wait;
@@ -309,7 +309,7 @@ std::optional<LineTime> TncBlockwise::after_answer_limit(LineTime now, unsigned 
   return now + *settings_.answer_limit * times;
 }
 
-/// The control repeats a block that got no answer, and is given the chance to.
+/// Waits so that the control can repeat a block that got no answer.
 std::optional<LineTime> TncBlockwise::after_pause_limit(LineTime now, unsigned times) const {
   return now + settings_.pause_limit * times;
 }

@@ -6,12 +6,12 @@
 
 namespace dripline::wire {
 
-/// What both ends of a TNC's blockwise transfer do: one block at a time, acknowledged, repeated
-/// when refused. Who may begin, and how a transfer ends, is the business of the two roles.
+/// The common part of both ends of a TNC's blockwise transfer: one block at a time, acknowledged,
+/// repeated when refused. The two roles decide who may begin and how a transfer ends.
 ///
-/// A control that runs the program while it comes withholds its ACK while its memory is full, so
-/// the host waits for an ACK without a limit unless `hold_limit` sets one; it never repeats a block
-/// on its own unless `repeats_unanswered`, as a control that is only slow would take it twice.
+/// A control that runs the program while it arrives withholds its ACK while its memory is full, so
+/// the host waits for an ACK without a limit unless `hold_limit` sets one; it never repeats an
+/// unanswered block unless `repeats_unanswered`, as a slow control would accept it twice.
 class TncBlockwise : public DisciplineBase {
  public:
   void receive(std::span<const std::byte> bytes, LineTime now) final;
@@ -26,7 +26,7 @@ class TncBlockwise : public DisciplineBase {
  protected:
   enum class Wait : std::uint8_t {
     Nothing,
-    Heading,        ///< host: for the control to ask for what is ready
+    Heading,        ///< host: the control asks for the program that is ready
     HeadingAnswer,  ///< control: ACK of its heading
     BlockAnswer,    ///< sender: ACK of its block
     Block,          ///< receiver: the next block
@@ -37,18 +37,19 @@ class TncBlockwise : public DisciplineBase {
   TncBlockwise(const LineSettings& settings, Role role);
 
   virtual void on_heading(const std::string& text, LineTime now) = 0;
-  virtual void on_ack(LineTime now) = 0;  ///< while no block awaits it
+  virtual void on_ack(LineTime now) = 0;  ///< no block waits for it
   virtual void on_nak(LineTime now) = 0;
   virtual void on_etx(LineTime now) = 0;
   virtual void on_eot(LineTime now) = 0;
-  /// A block, good or broken, while nothing is being received.
+  /// A good or broken block came while nothing is being received.
   virtual void on_stray_block(LineTime now) = 0;
-  virtual void on_limit(LineTime now) = 0;         ///< of Wait other than BlockAnswer
+  virtual void on_limit(
+      LineTime now) = 0;  ///< the limit of a wait other than BlockAnswer has passed
   virtual void send_end(LineTime now) = 0;         ///< all text is accepted
-  virtual void on_out_sent(LineTime) {}            ///< the last of `out` was given to the line
+  virtual void on_out_sent(LineTime) {}            ///< all of `out` was given to the line
   virtual bool is_asked() const { return false; }  ///< a heading waits for its answer
   virtual void drop_request() {}
-  /// Tells the other end that the transfer is over before its end.
+  /// Notifies the other end that the transfer ends early.
   virtual void tell_abort(std::string_view reason) = 0;
 
   Result<void> check_text(std::string_view text, std::size_t first_line) final;
@@ -58,10 +59,10 @@ class TncBlockwise : public DisciplineBase {
   void send_next(LineTime now);
   void resend_block(LineTime now);
   bool has_block_out() const { return !block_.empty(); }
-  /// The last `tail` characters stand after what is answered (DC1).
+  /// The last `tail` characters (DC1) follow the part that is answered.
   void put_out(std::string characters, std::size_t tail = 0);
-  /// Whether the other end can have heard what it answers; then the tail counts as sent, and goes
-  /// before whatever comes next.
+  /// Whether the other end can have received what it answers; the tail then counts as sent and goes
+  /// before the next characters.
   bool is_out_heard(LineTime now);
   /// Whether everything given to `put_out` has left.
   bool is_out_empty() const { return out_at_ == out_.size(); }
@@ -70,13 +71,13 @@ class TncBlockwise : public DisciplineBase {
   void take_block(const std::string& text, LineTime now);
   bool has_received() const { return has_received_; }
   bool has_accepted() const { return accepted_ > 0; }
-  /// Errors: Corrupt, when what came begins as a program and does not end as one.
+  /// Errors: Corrupt, when the received text begins like a program and does not end like one.
   Result<void> check_complete() const;
   void give_up(Error error, LineTime now);
   std::optional<LineTime> after_answer_limit(LineTime now, unsigned times = 1) const;
   std::optional<LineTime> after_pause_limit(LineTime now, unsigned times = 1) const;
   std::optional<LineTime> after_hold_limit(LineTime now) const;
-  /// One more try of what was refused or not answered; false: there were enough.
+  /// Another attempt after a refusal or a missing answer; false: there are none left.
   bool may_try_again();
   void begin_tries() { tries_ = 0; }
 
@@ -95,7 +96,7 @@ class TncBlockwise : public DisciplineBase {
   bool repeats_unanswered() const {
     return role_ == Role::Control || settings_.heidenhain.repeats_unanswered;
   }
-  bool has_no_limit() const;  ///< of the wait that is going on
+  bool has_no_limit() const;  ///< of the current wait
 
   TncFrameReader reader_;
   std::optional<LineTime> limit_, silence_, hold_seen_;
@@ -107,7 +108,7 @@ class TncBlockwise : public DisciplineBase {
   std::size_t column_ = 0;  ///< of the text offered
   unsigned tries_ = 0;
   bool is_counted_ = false;  ///< block_ as sent
-  bool is_garbled_ = false;  ///< something came where an answer was due
+  bool is_garbled_ = false;  ///< characters came in place of an answer
   bool is_stopped_ = false;
   // Receiving
   bool is_ready_ = true, owes_ack_ = false, has_received_ = false;

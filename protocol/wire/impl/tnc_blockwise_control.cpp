@@ -8,7 +8,8 @@ constexpr char kDc1 = 0x11;
 constexpr std::size_t kMaxNumber = 8;
 constexpr std::string_view kNoneLeft = "the device has no program left";
 
-/// The control: asks its device with headings. Withholds the ACK of a block while it has no room.
+/// The control: sends headings to its device, and withholds the ACK of a block while it has no
+/// room.
 class TncBlockwiseControl final : public TncBlockwise {
  public:
   explicit TncBlockwiseControl(const LineSettings& settings)
@@ -17,8 +18,8 @@ class TncBlockwiseControl final : public TncBlockwise {
   Result<void> begin_send(std::string_view name, LineTime) override { return ask(name, 'A'); }
   Result<void> begin_receive(std::string_view name, LineTime) override { return ask(name, 'E'); }
 
-  /// Directory, and a program without a name, ask for whichever program is next: the protocol has
-  /// one heading for both.
+  /// Directory, and a program without a name, ask for the next program: the protocol has one
+  /// heading for both.
   Result<void> request(const TransferRequest& request, LineTime) override {
     using enum TransferRequest::Kind;
     if (request.kind == TakeProgram) return ask(request.name, 'A');
@@ -63,7 +64,7 @@ class TncBlockwiseControl final : public TncBlockwise {
     give_up({Errc::Corrupt, "the device refused the heading again and again"}, now);
   }
 
-  /// A device sends no headings: this is its error text, which ends everything.
+  /// A device sends no headings: this is its error text, which ends the transfer.
   void on_heading(const std::string& text, LineTime now) override {
     if (phase_ != Phase::Idle) {
       fail_transfer({Errc::NotFound, fmt::format("the device says: {}", text)}, now);
@@ -82,9 +83,8 @@ class TncBlockwiseControl final : public TncBlockwise {
     queue_control(settings_.heidenhain.eot);
   }
 
-  /// A heading without a number asks for the next of all programs. Where none is left the device
-  /// says EOT in place of the ACK, or ETX a second time, before a block and with or without the ACK
-  /// (spec 23.6, U116).
+  /// A heading without a number asks for the next of all programs. When none is left, the device
+  /// sends EOT in place of the ACK, or a second ETX before a block, with or without the ACK.
   bool is_end_of_list(LineTime now) {
     if (!name_.empty() || is_output_ || has_received()) return false;
     return wait_ == Wait::HeadingAnswer ? is_out_heard(now)
@@ -106,7 +106,7 @@ class TncBlockwiseControl final : public TncBlockwise {
   void on_stray_block(LineTime now) override {
     if (phase_ == Phase::Idle) return queue_control(settings_.heidenhain.eot);
     if (wait_ != Wait::HeadingAnswer || is_output_ || !is_out_heard(now)) return;
-    // The ACK before it was lost. Refused, the block comes again.
+    // The ACK before it was lost. The block comes again after a refusal.
     begin_receiving(name_, now);
     queue_control(settings_.heidenhain.nak);
   }

@@ -54,7 +54,7 @@ class TncBlockwiseHost final : public TncBlockwise {
     return fail(Errc::Unsupported, "a TNC asks its host; the host cannot ask it");
   }
 
-  /// Without a reason: there is no program left, which ends a list of programs.
+  /// Without a reason: no program is left, which ends a list of programs.
   Result<void> refuse(std::string_view reason, LineTime) override {
     if (!pending_) return fail(Errc::Conflict, "the control has asked for nothing");
     pending_.reset();
@@ -72,7 +72,7 @@ class TncBlockwiseHost final : public TncBlockwise {
     if (!heading) return refuse_broken("a heading came that says nothing: " + text);
     if (phase_ != Phase::Idle && wait_ != Wait::Heading) {
       if (text == heading_ && !has_accepted() && !has_received()) return answer_again(now);
-      fail_transfer({Errc::Corrupt, "the control gave the transfer up and began anew"}, now);
+      fail_transfer({Errc::Corrupt, "the control gave up the transfer and began again"}, now);
     }
     broken_ = 0;
     heading_ = text;
@@ -95,7 +95,7 @@ class TncBlockwiseHost final : public TncBlockwise {
     return TransferRequest{is_input ? SendProgram : TakeProgram, std::string(number)};
   }
 
-  /// The owner has said before what is ready.
+  /// The owner has already named the program that is ready.
   void begin_armed(const TransferRequest& heading, LineTime now) {
     const bool is_wanted = (heading.kind == TransferRequest::Kind::SendProgram) == is_sending();
     if (is_wanted && is_same_program(armed_, heading.name)) return accept(now);
@@ -158,7 +158,7 @@ class TncBlockwiseHost final : public TncBlockwise {
   }
 
   void on_stray_block(LineTime) override {
-    // Between headings only a broken one can be meant; a control repeats it after a NAK.
+    // Between headings this can only be a broken heading; a control repeats it after a NAK.
     if (phase_ == Phase::Idle) refuse_broken("a block came that is no heading");
   }
 
@@ -189,9 +189,9 @@ class TncBlockwiseHost final : public TncBlockwise {
   void drop_request() override { pending_.reset(); }
   char etx() const { return settings_.heidenhain.etx; }
 
-  std::optional<TransferRequest> pending_;  ///< asked by the control, not yet answered
+  std::optional<TransferRequest> pending_;  ///< of the control, not yet answered
   std::string armed_, heading_;
-  std::string refusal_;  ///< the error block sent last, until it is taken
+  std::string refusal_;  ///< the error block sent last, until it is acknowledged
   unsigned refusals_ = 0, broken_ = 0;
 };
 

@@ -18,7 +18,7 @@ std::optional<LineTime> after(std::optional<std::chrono::milliseconds> limit, Li
 
 }  // namespace
 
-// The owner's wishes
+// Calls of the owner
 
 Result<void> TncStandard::begin_send(std::string_view name, LineTime now) {
   if (auto idle = check_idle(); !idle) return idle;
@@ -70,7 +70,7 @@ void TncStandard::set_ready(bool is_ready, LineTime now) {
   }
 }
 
-/// Where RTS holds the other end it says so by itself, and follows `set_ready`.
+/// Where RTS holds the other end, it follows `set_ready` without a character.
 void TncStandard::hold(bool is_holding) {
   is_holding_ = is_holding;
   if (!is_held_by_cts_) queue_control(is_holding ? kDc3 : kDc1);
@@ -112,7 +112,7 @@ void TncStandard::transfer_over(LineTime) {
   line_.clear();
   number_.reset();
   has_sent_end_ = has_received_ = is_open_ = has_end_ = is_skipping_ = false;
-  if (std::exchange(is_hold_told_, false)) emit(FlowChanged{false});
+  if (std::exchange(is_hold_reported_, false)) emit(FlowChanged{false});
   is_stopped_ = false;
   if (is_holding_) hold(false);
 }
@@ -125,10 +125,10 @@ void TncStandard::lines(InputLines lines, LineTime now) {
   note_hold(now);
 }
 
-/// Tells that the other end holds us, or lets us go, and begins or ends the limit of that.
+/// Reports that the other end holds or releases us, and starts or ends the limit of that wait.
 void TncStandard::note_hold(LineTime now) {
-  if (!is_sending() || is_hold_told_ == is_held()) return;
-  is_hold_told_ = is_held();
+  if (!is_sending() || is_hold_reported_ == is_held()) return;
+  is_hold_reported_ = is_held();
   const bool has_own_limit = stage_ == Stage::Start || stage_ == Stage::Answer;
   if (!has_own_limit) limit_ = is_held() ? after(settings_.hold_limit, now) : std::nullopt;
   emit(FlowChanged{is_held()});
@@ -199,7 +199,7 @@ void TncStandard::encode_next() {
   if (c == '\n') {
     out_ = end_of_block_rows(CharacterCode::Ascii, settings_.end_of_block);
   } else {
-    out_ = c == '\r' ? '\0' : c;  // CR belongs to its LF; a blank in its place is nothing
+    out_ = c == '\r' ? '\0' : c;  // CR belongs to its LF; a NUL in its place is ignored
   }
 }
 
@@ -234,7 +234,7 @@ Result<void> TncStandard::check_text(std::string_view text, std::size_t line) {
 }
 
 void TncStandard::on_dc1(LineTime now) {
-  if (is_sending() && stage_ == Stage::Answer) end_transfer(now);  // it asks for the next one
+  if (is_sending() && stage_ == Stage::Answer) end_transfer(now);  // it asks for the next program
   if (is_sending()) {
     if (stage_ == Stage::Start) stage_ = Stage::Leader;
     limit_ = is_cts_off() ? after(settings_.hold_limit, now) : std::nullopt;
@@ -290,7 +290,7 @@ void TncStandard::on_character(char c, LineTime now) {
   const bool is_line_end = c == '\r' || c == '\n';
   if ((c < ' ' && !is_line_end) || c == 0x7F) return;
   if (phase_ == Phase::Idle && is_host() && !is_line_end) {
-    is_asked_ = false;  // it sends now
+    is_asked_ = false;  // the control sends now
     begin_transfer(Phase::Receiving, "");
     if (spoiled_ && now - *spoiled_ < settings_.idle_end) {
       emit_fault({Errc::Corrupt, "a character before the first one was spoiled"});
@@ -367,7 +367,7 @@ void TncStandard::check_number(const TncLine& read) {
 
 void TncStandard::end_program(LineTime now) {
   if (is_open_ || (!wanted_.empty() && !has_end_)) {
-    if (!wanted_.empty() && !is_open_) return;  // other programs: the wanted one may still come
+    if (!wanted_.empty() && !is_open_) return;  // another program: the wanted one may follow
     return give_up({Errc::Corrupt, "program incomplete: its END line did not come"}, now);
   }
   end_transfer(now);

@@ -5,13 +5,13 @@
 
 namespace dripline::wire {
 
-/// The TNC's standard interface, both ends: lines of text, held by DC3 and DC1 or by RTS,
-/// unchecked.
+/// The TNC's standard interface, both ends: unchecked lines of text, with DC3 and DC1 or RTS as
+/// flow control.
 ///
 ///     into the control: DC1 from it; blanks, lines, ETX from the host; EOT from it
 ///     out of it:        blanks, lines, ETX EOT; the host may hold it
 ///
-/// What can be seen to be wrong is said: parity, a program without its END line, a gap in the block
+/// Detectable errors are reported: parity, a program without its END line, a gap in the block
 /// numbers of plain language.
 class TncStandard final : public DisciplineBase {
  public:
@@ -64,23 +64,23 @@ class TncStandard final : public DisciplineBase {
 
   const bool is_held_by_cts_;
   std::optional<LineTime> limit_;
-  std::optional<LineTime> spoiled_;  ///< when the UART found a character wrong while idle
+  std::optional<LineTime> spoiled_;  ///< time of a line fault while idle
   Stage stage_ = Stage::Start;
   unsigned blanks_left_ = 0;
   std::string out_;
   std::size_t out_at_ = 0;
-  std::string sent_line_;      ///< the beginning of the line being sent
-  bool has_sent_end_ = false;  ///< an END line
-  bool is_asked_ = false;      ///< host: DC1 came while idle
-  bool is_stopped_ = false;    ///< by the other end's DC3
-  bool is_hold_told_ = false;  ///< by an event
+  std::string sent_line_;          ///< the beginning of the line being sent
+  bool has_sent_end_ = false;      ///< an END line was sent
+  bool is_asked_ = false;          ///< host: DC1 came while idle
+  bool is_stopped_ = false;        ///< by the other end's DC3
+  bool is_hold_reported_ = false;  ///< by an event
 
-  std::string wanted_;  ///< control: the program it reads; empty: any
+  std::string wanted_;  ///< control: the program that it reads; empty: any
   std::string line_;
   std::optional<unsigned> number_;  ///< of the last block
   bool has_received_ = false, is_open_ = false, has_end_ = false, is_skipping_ = false;
   bool is_ready_ = true;
-  bool is_holding_ = false;  ///< the other end, in a reception
+  bool is_holding_ = false;  ///< this end holds the other one in a reception
 };
 
 }  // namespace dripline::wire

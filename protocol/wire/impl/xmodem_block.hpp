@@ -28,14 +28,14 @@ std::uint8_t checksum(std::span<const std::byte> data);
 std::vector<std::byte> make_block(std::uint8_t number, std::span<const std::byte> data,
                                   Check check);
 
-/// A block as it comes in, character by character.
+/// A block that is received character by character.
 class BlockReader {
  public:
   /// `head` is SOH or STX.
   void begin(char head, Check check);
   /// true: the block has all its characters.
   bool take(std::byte character);
-  void damage() { is_damaged_ = true; }  ///< a character with a line fault belongs to it
+  void damage() { is_damaged_ = true; }  ///< one of its characters had a line fault
   /// Of a complete block.
   bool is_good() const;
   std::uint8_t number() const { return static_cast<std::uint8_t>(received_[0]); }

@@ -2,7 +2,7 @@
 
 #include "protocol/wire/impl/protocols.hpp"
 
-/// What both directions of XMODEM share; see xmodem_sending.cpp and xmodem_receiving.cpp.
+/// The common part of both directions of XMODEM; see xmodem_sending.cpp and xmodem_receiving.cpp.
 namespace dripline::wire {
 
 using namespace xmodem;
@@ -10,7 +10,8 @@ using namespace xmodem;
 namespace {
 
 constexpr int kCancels = 5;  // any two in a row are enough
-/// A receiver asks every three seconds (C) or ten (NAK): one that was silent for longer gave up.
+/// A receiver asks every three seconds (C) or ten (NAK): one that is silent for longer has given
+/// up.
 constexpr LineTime kRequestLife = std::chrono::seconds(15);
 
 }  // namespace

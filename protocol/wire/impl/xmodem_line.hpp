@@ -7,9 +7,9 @@
 namespace dripline::wire {
 
 /// XMODEM, sender and receiver, the same at both ends. The receiver asks for everything: the first
-/// block (C or NAK), a repeat (NAK), the end (it has EOT said twice). The sender never repeats a
-/// block of its own accord, because answers have no numbers and a second one would be taken for the
-/// next block's. No room for text: the ACK is withheld.
+/// block (C or NAK), a repeat (NAK), the end (it has EOT sent twice). The sender never repeats a
+/// block without a request, because answers have no numbers and a second one would count as the
+/// next block's. Without room for text the ACK is withheld.
 class XmodemLine final : public DisciplineBase {
  public:
   XmodemLine(const LineSettings& settings, Role role);
@@ -31,19 +31,19 @@ class XmodemLine final : public DisciplineBase {
   enum class Step : std::uint8_t {
     Idle,
     // Sender
-    AwaitStart,   ///< NAK or C of the receiver
-    NeedText,     ///< for a whole block
+    AwaitStart,   ///< waits for NAK or C of the receiver
+    NeedText,     ///< needs text for a whole block
     SendBlock,    ///< characters of it are left
     AwaitAnswer,  ///< ACK or NAK
-    AwaitEnd,     ///< EOT was said
+    AwaitEnd,     ///< EOT was sent
     // Receiver
-    Ask,         ///< for the first block
-    AwaitBlock,  ///< the next one, EOT or CAN
+    Ask,         ///< asks for the first block
+    AwaitBlock,  ///< waits for the next block, EOT or CAN
     InBlock,
-    AfterBlock,  ///< a good one; one character more and it was not (a character came twice)
-    AfterEot,    ///< silence proves that it was one
-    Purge,       ///< nonsense came: silence, then NAK
-    Withhold,    ///< a good block, but no room: ACK later
+    AfterBlock,  ///< a good block; it is bad if another character follows (one came twice)
+    AfterEot,    ///< silence proves that it was an EOT
+    Purge,       ///< noise came: waits for silence, then sends NAK
+    Withhold,    ///< a good block without room: ACK later
   };
   bool is_sender_step() const { return step_ >= Step::AwaitStart && step_ <= Step::AwaitEnd; }
 
@@ -88,27 +88,27 @@ class XmodemLine final : public DisciplineBase {
   std::optional<LineTime> deadline_;
   xmodem::Check check_ = xmodem::Check::Crc;
   std::uint8_t number_ = 1;  ///< of the block being sent or expected
-  unsigned tries_ = 0;       ///< of it, or of the beginning
+  unsigned tries_ = 0;       ///< for that block, or for the start
   bool was_can_ = false;     ///< the last character was CAN; two in a row end the transfer
   bool is_ready_ = true;
 
   CharacterEncoder checked_, encoder_;
-  std::vector<std::byte> data_;   ///< encoded, not yet in a block that was accepted
-  std::uint64_t text_taken_ = 0;  ///< text that data_ and the blocks before it hold
+  std::vector<std::byte> data_;   ///< encoded, not yet in an accepted block
+  std::uint64_t text_taken_ = 0;  ///< text in data_ and the blocks before it
   std::vector<std::byte> block_;
-  std::size_t block_given_ = 0;       ///< characters of it that transmit gave
+  std::size_t block_given_ = 0;       ///< characters of the block that transmit returned
   std::size_t block_data_ = 0;        ///< characters of data_ in it
-  std::uint64_t block_text_end_ = 0;  ///< text that is complete with it
+  std::uint64_t block_text_end_ = 0;  ///< text that is complete with this block
   std::optional<LineTime> asked_at_;  ///< last NAK or C while idle
   bool is_asked_ = false;
 
   CharacterDecoder decoder_;
   xmodem::BlockReader reader_;
   bool is_first_block_ = true;
-  bool is_sender_there_ = false;  ///< a block has begun: it has chosen its check
+  bool is_sender_there_ = false;  ///< a block has begun: the sender has chosen its check
   LineTime purging_since_{};
   bool was_eot_refused_ = false;
-  bool was_received_ = false;  ///< the last transfer: its EOT may come again
+  bool was_received_ = false;  ///< the last transfer was received: its EOT may come again
 };
 
 }  // namespace dripline::wire

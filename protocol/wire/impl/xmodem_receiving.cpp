@@ -10,7 +10,7 @@ constexpr LineTime kCrcAskingPeriod = std::chrono::seconds(3);
 constexpr unsigned kCrcAsks = 4;  ///< then the checksum is asked for
 /// Asking period where the settings name no limit.
 constexpr LineTime kAskingPeriod = std::chrono::seconds(10);
-/// Silence inside a block, after nonsense, or after an EOT.
+/// Silence inside a block, after noise, or after an EOT.
 constexpr LineTime kSilence = std::chrono::seconds(1);
 constexpr int kSilenceAfterBlock = 2;  ///< character times
 constexpr LineTime kLongestNonsense = std::chrono::seconds(60);
@@ -36,7 +36,7 @@ LineTime XmodemLine::asking_period() const {
   return settings_.answer_limit ? LineTime(*settings_.answer_limit) : kAskingPeriod;
 }
 
-/// For the first block: the sender may not be there yet.
+/// Asks for the first block: the sender may not be ready yet.
 void XmodemLine::ask(LineTime now) {
   const unsigned limit = settings_.retries + kCrcAsks;
   const bool is_limited = settings_.answer_limit || role_ == Role::Host;
@@ -91,7 +91,7 @@ void XmodemLine::judge_block(LineTime now) {
   if (reader_.number() == number_) return block_good(now);
   const auto before = static_cast<std::uint8_t>(number_ - 1);
   if (reader_.number() == before && !is_first_block_) {
-    say(kAck);  // our answer was lost: the block is known
+    say(kAck);  // our answer was lost: this block is already accepted
     step_ = Step::AwaitBlock;
     deadline_ = now + asking_period();
     return;
@@ -105,7 +105,7 @@ void XmodemLine::judge_block(LineTime now) {
 void XmodemLine::block_good(LineTime now) {
   std::string text;
   for (const std::byte character : reader_.data()) {
-    const DecodedCharacter decoded = decoder_.decode(character);  // padding adds nothing
+    const DecodedCharacter decoded = decoder_.decode(character);  // padding adds no text
     if (decoded.text) text += *decoded.text;
   }
   emit_text(text);
@@ -124,7 +124,7 @@ void XmodemLine::accept_block(LineTime now) {
   deadline_ = now + asking_period();
 }
 
-/// Nonsense: the sender must have said everything before it is asked again.
+/// Noise: the sender must be silent before the receiver asks again.
 void XmodemLine::purge(LineTime now) {
   if (step_ != Step::Purge) purging_since_ = now;
   if (now - purging_since_ > kLongestNonsense) {

@@ -8,9 +8,9 @@ using namespace xmodem;
 
 namespace {
 
-/// The receiver asks again after answer_limit; it must be given the chance to do so a few times.
+/// The receiver asks again after answer_limit; the sender waits long enough for a few requests.
 constexpr int kPatience = 6;
-/// A request heard that long ago is as good as new: receivers ask every three seconds or slower.
+/// A request of this age is still valid: receivers ask every three seconds or more slowly.
 constexpr LineTime kFreshRequest = std::chrono::seconds(1);
 
 }  // namespace
@@ -54,7 +54,7 @@ void XmodemLine::text_offered(LineTime now) {
 /// Moves text into data_ until it fills a block.
 void XmodemLine::fill_block() {
   while (has_text() && data_.size() < kBlockSize) {
-    (void)encoder_.encode(queued_text().substr(0, 1), data_);  // it was checked
+    (void)encoder_.encode(queued_text().substr(0, 1), data_);  // offer() has checked it
     take_text(1);
     ++text_taken_;
   }
@@ -69,7 +69,7 @@ void XmodemLine::prepare_block(LineTime now) {
     return;
   }
   block_data_ = std::min(data_.size(), kBlockSize);
-  // The last character of text may stand in this block and the next: it belongs to that one.
+  // The last character of text may be in this block and the next: it belongs to the next.
   const bool is_split = data_.size() > kBlockSize;
   block_text_end_ = text_taken_ - (is_split ? 1 : 0);
   block_ = make_block(number_, std::span(data_).first(block_data_), check_);
@@ -95,7 +95,7 @@ std::size_t XmodemLine::transmit(std::span<std::byte> room, LineTime now) {
   return count;
 }
 
-/// Answers that come before the block has left belong to nothing: a doubled ACK, an old NAK.
+/// Answers that come before the block has left are ignored: a doubled ACK, an old NAK.
 void XmodemLine::take_answer(char character, LineTime now) {
   switch (step_) {
     case Step::AwaitStart:
@@ -109,7 +109,7 @@ void XmodemLine::take_answer(char character, LineTime now) {
       if (character == kNak || (character == kCrcWanted && number_ == 1)) block_refused(now);
       return;
     case Step::AwaitEnd:
-      if (has_controls()) return;  // EOT has not left: a doubled answer to the last block
+      if (has_controls()) return;  // EOT has not left: this is a doubled answer to the last block
       if (character == kAck) {
         if (text_taken_ > block_text_end_) emit(TextAccepted{text_taken_});
         return end_transfer(now);
@@ -150,7 +150,7 @@ void XmodemLine::block_refused(LineTime now) {
   deadline_.reset();
 }
 
-/// EOT may be repeated of our own accord: hearing it twice does no harm.
+/// The sender may repeat EOT without a request: a second one does no harm.
 void XmodemLine::say_end(LineTime now) {
   if (step_ != Step::AwaitEnd) tries_ = 0;
   if (++tries_ > settings_.retries + 2) {  // the first one is always refused

@@ -1,5 +1,5 @@
 // Any text either is refused with words or becomes a value that survives the round trip; the first
-// byte says as which kind it is read.
+// byte selects the kind as which it is read.
 #include <cstddef>
 #include <cstdint>
 

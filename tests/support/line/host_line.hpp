@@ -18,7 +18,7 @@ class HostLine {
   /// One transfer; waits for nothing.
   void send(std::string text, std::string name = "");
   void abort();
-  /// Expects a transfer, where the protocol needs that to be said.
+  /// Expects a transfer, where the protocol needs a command for that.
   void receive();
   /// Sends this when the other end asks for a program, once.
   void answer_with(std::string text);

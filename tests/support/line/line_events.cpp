@@ -34,7 +34,7 @@ struct InWords {
     return event.is_receiving ? "received" : "sent";
   }
   std::string operator()(const FlowChanged& event) const {
-    return event.is_stopped ? "stopped" : "goes on";
+    return event.is_stopped ? "stopped" : "resumed";
   }
   std::string operator()(const TextAccepted& event) const {
     return fmt::format("accepted {}", event.bytes);
@@ -43,7 +43,7 @@ struct InWords {
     return fmt::format("failed {}: {}", to_string(event.error.code), event.error.what);
   }
   std::string operator()(const LineError& event) const {
-    return fmt::format("trouble {}: {}", to_string(event.error.code), event.error.what);
+    return fmt::format("error {}: {}", to_string(event.error.code), event.error.what);
   }
   std::string operator()(const TransferRequest& event) const {
     const std::string_view what =
@@ -99,29 +99,29 @@ void TestedLine::pass(LineTime after) {
 }
 
 std::string TestedLine::say_now(std::size_t at_most) {
-  std::string said;
+  std::string sent;
   std::byte room[64];
-  while (said.size() < at_most) {
-    const std::size_t size = std::min(sizeof(room), at_most - said.size());
+  while (sent.size() < at_most) {
+    const std::size_t size = std::min(sizeof(room), at_most - sent.size());
     const std::size_t count = line->transmit(std::span(room).first(size), now);
     if (count == 0) break;
-    said.append(reinterpret_cast<const char*>(room), count);
+    sent.append(reinterpret_cast<const char*>(room), count);
   }
-  return said;
+  return sent;
 }
 
 std::string TestedLine::say(std::size_t at_most) {
-  std::string said = say_now(at_most);
-  while (said.size() < at_most) {
+  std::string sent = say_now(at_most);
+  while (sent.size() < at_most) {
     const auto at = line->deadline();
     if (!at) break;
     now = std::max(now, *at);
     line->tick(now);
-    const std::string more = say_now(at_most - said.size());
+    const std::string more = say_now(at_most - sent.size());
     if (more.empty()) break;
-    said += more;
+    sent += more;
   }
-  return said;
+  return sent;
 }
 
 }  // namespace dripline::test_support

@@ -9,8 +9,8 @@
 namespace dripline::test_support {
 
 /// One line an event, texts that follow each other joined:
-///   receiving 15 | sending | text "G0\nM30\n" | received | sent | stopped | goes on | accepted 128
-///   failed timeout: ... | trouble corrupt: ... | wants a program 15 | sends a program | wants the
+///   receiving 15 | sending | text "G0\nM30\n" | received | sent | stopped | resumed | accepted 128
+///   failed timeout: ... | error corrupt: ... | wants a program 15 | sends a program | wants the
 ///   directory
 std::string event_lines(const std::vector<wire::Event>& events);
 
@@ -25,7 +25,7 @@ class EventLog {
   std::vector<wire::Event> events_;
 };
 
-/// One end in a test's hands: time, what was said to it, what it says.
+/// One end driven by a test: time, input and output.
 struct TestedLine {
   std::unique_ptr<wire::Discipline> line;
   wire::LineTime now{};

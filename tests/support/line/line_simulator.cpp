@@ -118,7 +118,7 @@ void LineSimulator::leave(std::size_t from) {
   wire.driver[0] = wire.driver[1];
   if (--wire.held > 0) wire.leaves_at = now_ + character_time_;
   ++wire.counts.characters;
-  if (is_told_to_stop_[from] && !is_control_character(character)) {
+  if (is_stopped_[from] && !is_control_character(character)) {
     wire.counts.left_after_stop = std::max(wire.counts.left_after_stop, ++wire.left_since_stop);
   }
 
@@ -144,7 +144,7 @@ void LineSimulator::meet_fault(Wire& wire, Fate& fate) {
       if (settings_.parity == wire::Parity::Even || settings_.parity == wire::Parity::Odd) {
         fate.fault = LineFault::Parity;
       } else if (settings_.code != wire::CharacterCode::Iso) {
-        ++wire.counts.silent;  // ISO's own parity tells
+        ++wire.counts.silent;  // ISO's own parity shows it
       }
       break;
     case Kind::Delay:
@@ -204,7 +204,7 @@ void LineSimulator::note_stop(std::size_t end, std::byte character) {
   if (settings_.code == wire::CharacterCode::Ascii) character &= kSevenBits;
   const std::byte dc3 = stop_character();
   if (character != kDc1 && character != dc3) return;
-  is_told_to_stop_[end] = character == dc3;
+  is_stopped_[end] = character == dc3;
   wires_[end].left_since_stop = wires_[end].given_since_stop = 0;
 }
 
@@ -216,7 +216,7 @@ void LineSimulator::join_lines() {
     if (in == inputs_[i]) continue;
     inputs_[i] = in;
     if (wire::is_held_by_cts(settings_)) {
-      is_told_to_stop_[i] = !in.cts;
+      is_stopped_[i] = !in.cts;
       wires_[i].left_since_stop = wires_[i].given_since_stop = 0;
     }
     ends_[i].line->lines(in, now_);
@@ -241,7 +241,7 @@ void LineSimulator::transmit(std::size_t from) {
     if (count == 0) return;
     if (wire.held == 0) wire.leaves_at = now_ + character_time_;
     for (std::size_t i = 0; i < count; ++i) {
-      if (is_told_to_stop_[from] && !is_control_character(wire.driver[wire.held + i])) {
+      if (is_stopped_[from] && !is_control_character(wire.driver[wire.held + i])) {
         wire.counts.given_after_stop =
             std::max(wire.counts.given_after_stop, ++wire.given_since_stop);
       }
@@ -287,8 +287,8 @@ void LineSimulator::handle(LineEnd& end, const wire::Event& event) {
     end.accepted = accepted->bytes;
   } else if (const auto* failed = std::get_if<wire::TransferFailed>(&event)) {
     end.failures.push_back(failed->error);
-  } else if (const auto* trouble = std::get_if<wire::LineError>(&event)) {
-    end.faults.push_back(trouble->error);
+  } else if (const auto* fault = std::get_if<wire::LineError>(&event)) {
+    end.faults.push_back(fault->error);
   } else if (const auto* request = std::get_if<wire::TransferRequest>(&event)) {
     end.requests.push_back(*request);
   }

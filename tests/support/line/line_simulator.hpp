@@ -24,7 +24,7 @@ struct LineFaults {
     Delay,      ///< it and all after it come later
     Break,      ///< a break comes in its place
     Parity,     ///< the UART reports a parity error in its place
-    StuckXoff,  ///< a DC3 that nobody sent comes before it; on RTS/CTS the line drops for good
+    StuckXoff,  ///< a false DC3 comes before it; on RTS/CTS the line drops permanently
   };
   double rate = 0;
   std::vector<Kind> kinds = {Kind::Drop,  Kind::Double, Kind::Flip,     Kind::Delay,
@@ -44,7 +44,7 @@ class FaultDice {
   std::uint64_t state_;
 };
 
-/// One end: the discipline and an owner that sends what it is told and keeps what comes in.
+/// One end: the discipline and an owner that sends given programs and stores the received text.
 struct LineEnd {
   std::unique_ptr<wire::Discipline> line;
 
@@ -80,10 +80,10 @@ class LineSimulator {
     std::uint64_t seed = 1;
   };
   enum class Outcome : std::uint8_t {
-    Idle,     ///< both ends are idle, nothing is under way
-    Waiting,  ///< nothing is under way and no deadline is set, but an end is not idle
+    Idle,     ///< both ends are idle, no character is on the line
+    Waiting,  ///< no character is on the line and no deadline is set, but an end is not idle
     Limit,    ///< the limit came first
-    Busy,     ///< time stands still: an end names a deadline that has passed, again and again
+    Busy,     ///< time does not advance: an end repeats a deadline that has passed
   };
 
   explicit LineSimulator(Parts parts);
@@ -101,10 +101,10 @@ class LineSimulator {
   struct Direction {
     std::uint64_t characters = 0;  ///< that left the driver
     std::uint64_t faults = 0;
-    std::uint64_t reported = 0;  ///< of them: the UART said so
+    std::uint64_t reported = 0;  ///< of them reported by the UART
     std::uint64_t silent = 0;    ///< of them: characters lost, doubled or changed without a word
     /// Most characters, control characters not counted, that left the driver after the sending end
-    /// was told to stop; and those that were given to the driver then.
+    /// was stopped; and those that were given to the driver then.
     std::uint64_t left_after_stop = 0, given_after_stop = 0;
     std::string seen;  ///< characters as they arrived; kept when keep_traffic(true)
   };
@@ -161,7 +161,7 @@ class LineSimulator {
   std::array<LineEnd, 2> ends_;
   std::array<Wire, 2> wires_;
   std::array<wire::InputLines, 2> inputs_{};
-  std::array<bool, 2> is_told_to_stop_{};
+  std::array<bool, 2> is_stopped_{};
   std::array<std::optional<wire::LineTime>, 2> held_until_{};
   bool keeps_traffic_ = false;
 };

@@ -33,7 +33,7 @@ void write_all(int descriptor, std::string_view text) {
       continue;
     }
     pollfd entry{descriptor, POLLOUT, 0};
-    if (::poll(&entry, 1, 2000) <= 0) return;  // nobody reads: the test will say what is missing
+    if (::poll(&entry, 1, 2000) <= 0) return;  // no reader: the test will report what is missing
   }
 }
 

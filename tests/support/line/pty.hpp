@@ -24,7 +24,7 @@ class Pty {
   /// Another descriptor of the port itself, to look at its settings.
   int slave() const { return slave_; }
 
-  /// The adapter is pulled out: whoever has the port open sees a hang-up, the path is gone.
+  /// The adapter is removed: a process with the port open sees a hang-up, and the path is gone.
   void unplug();
   void plug_in();
 

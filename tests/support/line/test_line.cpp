@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::seconds kPatience{10};
 
-/// What the test has said about the characters; shared with the open channel.
+/// The test's settings for the characters; shared with the open channel.
 struct Faults {
   std::mutex mutex;
   std::deque<wire::LineFault> waiting;

@@ -92,9 +92,9 @@ TEST(CharacterDecoder, PutsAQuestionMarkWhereItCannotRead) {
   ASSERT_EQ(decoder.decode(std::byte{0x47}).text, 'G');
   const auto wrong = decoder.decode(std::byte{0x31});
   EXPECT_EQ(wrong.text, '?');
-  ASSERT_TRUE(wrong.trouble);
-  EXPECT_EQ(wrong.trouble->code, Errc::Corrupt);
-  EXPECT_EQ(wrong.trouble->what, "line 1, column 2: 0x31 has not the parity of the ISO code");
+  ASSERT_TRUE(wrong.error);
+  EXPECT_EQ(wrong.error->code, Errc::Corrupt);
+  EXPECT_EQ(wrong.error->what, "line 1, column 2: 0x31 has not the parity of the ISO code");
 }
 
 }  // namespace

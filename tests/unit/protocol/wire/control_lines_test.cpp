@@ -46,7 +46,7 @@ TEST(DcCodes, ControlStartsAndStopsTheReader) {
 TEST(DcCodes, HostSendsWhenTheReaderIsStarted) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x11");
-  EXPECT_EQ(host.events(), "goes on\nwants a program\n");
+  EXPECT_EQ(host.events(), "resumed\nwants a program\n");
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("O1\nM30\n"));
   EXPECT_EQ(host.say(), "%\nO1\nM30\n%");
@@ -138,7 +138,7 @@ TEST(DcCodes, KeepsTheReadersStartForTheProgramThatComesLater) {
   EXPECT_TRUE(host.line->state().is_asked);
   host.pass(std::chrono::hours(1));
   host.hear("\x11");
-  EXPECT_EQ(host.events(), "goes on\nwants a program\n") << "one request";
+  EXPECT_EQ(host.events(), "resumed\nwants a program\n") << "one request";
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("O1\n"));
   EXPECT_EQ(host.say(), "%\nO1\n%");
@@ -222,7 +222,7 @@ TEST(DcCodes, TakesWhatIsPrintedWhileTheControlHoldsTheFeed) {
   host.hear("\x11");
   ASSERT_TRUE(host.offer("M30\n"));
   EXPECT_EQ(host.say(), "\nG1 X1\nM30\n%");
-  EXPECT_EQ(host.events(), "goes on\nsent\n");
+  EXPECT_EQ(host.events(), "resumed\nsent\n");
 }
 
 TEST(DcCodes, KeepsTextThatComesWithoutDc2WhileItSends) {
@@ -248,7 +248,7 @@ TEST(DcCodes, SaysThatAPunchedProgramLostItsStartCharacter) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x12O7\nM30\n%\x14");
   EXPECT_EQ(host.events(),
-            "receiving\ntext \"O7\\nM30\\n\"\ntrouble corrupt: the start character before the "
+            "receiving\ntext \"O7\\nM30\\n\"\nerror corrupt: the start character before the "
             "program is missing\nreceived\n");
 }
 
@@ -388,7 +388,7 @@ TEST(ProtoTrakControl, FoldsSmallLettersAndSkipsLayout) {
 TEST(ProtoTrakControl, EndsAtDosEndOfFileAndSaysSo) {
   TestedLine control = receiving("prototrak");
   control.hear("PN1 ;\r\n\x1a");
-  EXPECT_THAT(control.events(), HasSubstr("trouble syntax: the program ends with 0x1a"));
+  EXPECT_THAT(control.events(), HasSubstr("error syntax: the program ends with 0x1a"));
 }
 
 TEST(ProtoTrakControl, RefusesABlockWithoutAnEnd) {

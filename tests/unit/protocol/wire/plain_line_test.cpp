@@ -115,7 +115,7 @@ TEST(PlainSending, StopsAtDc3AndGoesOnAtDc1) {
   EXPECT_TRUE(host.line->state().may_wait_without_limit);
   host.hear(kDc1);
   EXPECT_EQ(host.say(), "CDEF\r\n");
-  EXPECT_EQ(host.events(), "sending\nstopped\ngoes on\nsent\n");
+  EXPECT_EQ(host.events(), "sending\nstopped\nresumed\nsent\n");
 }
 
 TEST(PlainSending, IgnoresDc3WhereNothingHoldsTheLine) {
@@ -204,7 +204,7 @@ TEST(PlainSending, FailsWhenNoDc1ComesInTime) {
 TEST(PlainSending, StartsAtOnceWhenDc1CameFirst) {
   TestedLine host(settings_with({{"wait_for_xon", "yes"}}), Role::Host);
   host.hear(kDc1);
-  EXPECT_EQ(host.events(), "goes on\nwants a program\n");
+  EXPECT_EQ(host.events(), "resumed\nwants a program\n");
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("AB\n"));
   EXPECT_EQ(host.say(), "AB\r\n");
@@ -268,7 +268,7 @@ TEST(PlainReceiving, EndsAtTheEndCharacter) {
 TEST(PlainReceiving, SaysThatTheStartCharacterIsMissing) {
   TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}}), Role::Host);
   host.hear("O1\r\n%");
-  EXPECT_THAT(host.events(), HasSubstr("trouble corrupt: the start character before the program"));
+  EXPECT_THAT(host.events(), HasSubstr("error corrupt: the start character before the program"));
 }
 
 TEST(PlainReceiving, KeepsATitleAfterTheStartCharacter) {
@@ -290,7 +290,7 @@ TEST(PlainReceiving, PutsAQuestionMarkInThePlaceOfABadCharacterAndSaysWhere) {
   host.hear_fault(LineFault::Parity);
   host.hear("5\r\n");
   EXPECT_EQ(host.events(),
-            "receiving\ntext \"G1\\nX\"\ntrouble corrupt: line 2, column 2: parity error\n"
+            "receiving\ntext \"G1\\nX\"\nerror corrupt: line 2, column 2: parity error\n"
             "text \"?5\\n\"\n");
 }
 
@@ -331,9 +331,9 @@ TEST(PlainReceiving, SaysDc1OnceMoreToASenderThatStaysSilent) {
 TEST(PlainReceiving, SaysThatEndsOfBlockAreMissing) {
   TestedLine host(LineSettings{}, Role::Host);
   host.hear("G1\r\n" + std::string(1024, 'X'));
-  EXPECT_THAT(host.events(), testing::Not(HasSubstr("trouble")));
+  EXPECT_THAT(host.events(), testing::Not(HasSubstr("error ")));
   host.hear("XX");
-  EXPECT_THAT(host.events(), HasSubstr("trouble corrupt: line 2 is longer than 1024 characters"));
+  EXPECT_THAT(host.events(), HasSubstr("error corrupt: line 2 is longer than 1024 characters"));
 }
 
 TEST(PlainReceiving, HoldsTheOtherEndWithRts) {

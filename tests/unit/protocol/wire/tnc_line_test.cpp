@@ -415,7 +415,7 @@ TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
   std::string text, faults;
   for (const auto& event : host->take_events()) {
     if (const auto* got = std::get_if<TextReceived>(&event)) text += got->text;
-    if (const auto* trouble = std::get_if<LineError>(&event)) faults += trouble->error.what + "|";
+    if (const auto* fault = std::get_if<LineError>(&event)) faults += fault->error.what + "|";
   }
   EXPECT_EQ(text, "0 BEGIN PGM 3 MM\n2 L X?4\n3 END PGM 3 MM\n");
   EXPECT_EQ(faults, "parity error after '2 L X'|block 2 came after block 0|");
