@@ -24,7 +24,7 @@ struct ServerTopics {
 
 /// The server's entities for one machine, in the machine's partition. They stay when the machine is
 /// lost, so that one that comes back finds them; their number is bounded by kMaxMachines, and then
-/// a lost machine gives way. The state is the watcher's.
+/// a lost machine is dropped. The watcher owns the state.
 struct Attachment {
   Entity publisher, subscriber;
   std::unique_ptr<Writer<RecordAck>> ack;

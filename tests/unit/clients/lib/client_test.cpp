@@ -52,7 +52,7 @@ TEST_F(ClientCall, AsksForRunsWithItsFilters) {
   EXPECT_EQ(last.path, "/api/v1/runs?limit=5&offset=10&machine=lathe-1&state=active");
 }
 
-TEST_F(ClientCall, StartsARunWithTheRevisionOnlyWhenSaid) {
+TEST_F(ClientCall, StartsARunWithTheRevisionOnlyWhenGiven) {
   [[maybe_unused]] auto latest = answering(404, "{}").start_run({"lathe-1", "O1", {}});
   EXPECT_EQ(last.body, R"({"machine":"lathe-1","program":"O1"})");
   [[maybe_unused]] auto third = answering(404, "{}").start_run({"lathe-1", "O1", 3});
@@ -88,7 +88,7 @@ TEST_F(ClientCall, SendsOrdersToAMachinesPanel) {
   EXPECT_EQ(last.body, R"({"action":"switch","name":"emergency_stop","value":1.0})");
 }
 
-TEST_F(ClientCall, PassesOnWhatTheServerSays) {
+TEST_F(ClientCall, PassesOnTheServersError) {
   const auto run = answering(409, R"({"error":{"code":"busy","message":"lathe-1 has run r1"}})")
                        .start_run({"lathe-1", "O1", {}});
   ASSERT_FALSE(run);
@@ -97,7 +97,7 @@ TEST_F(ClientCall, PassesOnWhatTheServerSays) {
   EXPECT_EQ(run.error().what, "lathe-1 has run r1");
 }
 
-TEST_F(ClientCall, TellsAStrangerFromAServer) {
+TEST_F(ClientCall, DistinguishesAStrangerFromAServer) {
   const auto machines = answering(500, "<html>proxy</html>").machines();
   ASSERT_FALSE(machines);
   EXPECT_EQ(machines.error().kind, Failure::Kind::BadReply);
@@ -122,9 +122,9 @@ TEST_F(ClientCall, GivesAReportToTheSink) {
   EXPECT_EQ(text, "X1\n");
 }
 
-TEST(ClientConnection, SaysThatNobodyAnswers) {
-  Client nobody{ServerAddress{"http://127.0.0.1:1", "t", {}}};
-  const auto health = nobody.health();
+TEST(ClientConnection, ReportsThatNoServerAnswers) {
+  Client unreachable{ServerAddress{"http://127.0.0.1:1", "t", {}}};
+  const auto health = unreachable.health();
   ASSERT_FALSE(health);
   EXPECT_EQ(health.error().kind, Failure::Kind::Unreachable);
   EXPECT_NE(health.error().what.find("http://127.0.0.1:1"), std::string::npos);

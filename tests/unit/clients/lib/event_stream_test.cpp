@@ -49,7 +49,7 @@ TEST(EventStream, ConnectsAgainAfterACut) {
   EXPECT_TRUE(next_of<StreamOpened>(stream));
 }
 
-TEST(EventStream, SaysThatTheTokenIsWrong) {
+TEST(EventStream, ReportsAWrongToken) {
   FakeServer server;
   EventStream stream({server.url(), "wrong", {}}, "");
   const auto lost = next_of<StreamLost>(stream);

@@ -62,7 +62,7 @@ TEST_F(Pull, NamesARevisionThatDoesNotExist) {
   EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(Pull, GoesOnAfterABrokenConnection) {
+TEST_F(Pull, ContinuesAfterABrokenConnection) {
   server.add_program("O0200", "G1 X1\nM30\n");
   server.cut_content(2);
   const auto revision = pull_program_to_file(client, options, path());
@@ -71,7 +71,7 @@ TEST_F(Pull, GoesOnAfterABrokenConnection) {
   EXPECT_EQ(waits, 2);
 }
 
-TEST_F(Pull, SaysAtOnceThatAChunkIsDamaged) {
+TEST_F(Pull, ReportsADamagedChunkAtOnce) {
   server.add_program("O0200", std::string(1'000'000, 'A'));
   server.damage_content_at(700'000);
   const auto revision = pull_program_to_file(client, options, path());

@@ -66,7 +66,7 @@ TEST_F(Push, SendsInPiecesAndCommits) {
   EXPECT_LE(longest_read, 4u * 1024 * 1024);
 }
 
-TEST_F(Push, SaysWhenNothingChanged) {
+TEST_F(Push, ReportsAnUnchangedRevision) {
   server.add_program("O0200", "M30\n");
   const auto revision = push("M30\n");
   ASSERT_TRUE(revision);
@@ -74,7 +74,7 @@ TEST_F(Push, SaysWhenNothingChanged) {
   EXPECT_EQ(server.revisions("O0200"), 1u);
 }
 
-TEST_F(Push, GoesOnWhereTheServerStoppedReceiving) {
+TEST_F(Push, ContinuesWhereTheServerStoppedReceiving) {
   server.fail_piece({});
   server.fail_piece({1'000'001, 0, "", false});
   server.fail_piece({4 * 1024 * 1024, 0, "", false});
@@ -102,7 +102,7 @@ TEST_F(Push, EndsAtOnceWhenAPieceIsRefused) {
   EXPECT_EQ(server.uploads_open(), 0);
 }
 
-TEST_F(Push, SaysWhyWhenTheServerDropsTheUploadWithTheRefusal) {
+TEST_F(Push, ReportsTheReasonWhenTheServerDropsTheUploadWithTheRefusal) {
   server.fail_piece({0, 422, "unsupported", true});
   const auto revision = push("hello\n");
   ASSERT_FALSE(revision);

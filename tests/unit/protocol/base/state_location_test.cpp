@@ -6,7 +6,7 @@
 namespace dripline {
 namespace {
 
-TEST(DefaultStateFolder, IsTheFirstThatIsSaid) {
+TEST(DefaultStateFolder, IsTheFirstThatIsSet) {
   std::map<std::string, std::string, std::less<>> variables;
   const auto folder = [&](bool is_root) {
     return default_state_folder(

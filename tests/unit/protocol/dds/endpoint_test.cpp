@@ -169,7 +169,7 @@ TEST_F(Endpoint, NoGatewayHearsAnother) {
 
 TEST_F(Endpoint, WritingToAnUnknownMachineIsNotFound) {
   auto server = open_server();
-  const auto written = server->endpoint->write(RecordAck{"nobody", 1, 1});
+  const auto written = server->endpoint->write(RecordAck{"absent-1", 1, 1});
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, Errc::NotFound);
 }

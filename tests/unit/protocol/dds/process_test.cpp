@@ -85,7 +85,7 @@ using Clock = std::chrono::steady_clock;
 // A lease much longer than the test's patience: nothing here may wait for a ghost to be given up.
 constexpr std::uint32_t kLongLease = 30'000;
 
-// Not before: until its lease ends nobody can tell a killed server from a living one.
+// Not before: until its lease ends a killed server looks like a running one.
 TEST_F(Process, AGatewayMeetsTheSuccessorOfAKilledServerWhenItsLeaseEnds) {
   options_.lease_ms = 600;
   open_server();  // finds a free domain, then is gone

@@ -5,7 +5,7 @@ namespace {
 
 class Reconnect : public Network {
  protected:
-  /// Messages pass both ways.
+  /// Messages pass in both directions.
   void expect_working(TestServer& server, TestGateway& gateway, std::uint64_t mark) {
     ASSERT_TRUE(gateway.endpoint->write(record("lathe-1", mark)));
     auto got = server.records.take();
@@ -42,7 +42,7 @@ TEST_F(Reconnect, GatewayStartedFirstMeetsTheServer) {
   expect_working(*server, *gateway, 1);
 }
 
-TEST_F(Reconnect, ServerTellsThatAGatewayLeftAndCameBack) {
+TEST_F(Reconnect, ServerReportsThatAGatewayLeftAndCameBack) {
   auto server = open_server();
   auto gateway = open_gateway("lathe-1", 1);
   ASSERT_TRUE(server->announces.take());

@@ -1,4 +1,4 @@
-// Samples that no endpoint of ours would write, from writers that spoil them on the way.
+// Samples that no endpoint would write, from writers that damage them.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -91,7 +91,7 @@ TEST_F(Rejection, TheServerDropsAndCountsWhatFailsItsCheckOrComesFromOthers) {
   EXPECT_EQ(server->records.take().value().number, 5U) << "the first that was delivered";
 }
 
-TEST_F(Rejection, AServersWordIsTakenFromNobodyElse) {
+TEST_F(Rejection, ServerMessagesAreAcceptedFromItsParticipantOnly) {
   auto server = open_server();
   Rogue<Status> status;
   Rogue<CommandResult> result;

@@ -15,7 +15,7 @@ struct TextCase {
 
 class SendableText : public testing::TestWithParam<TextCase> {};
 
-TEST_P(SendableText, IsToldApart) {
+TEST_P(SendableText, IsRecognized) {
   EXPECT_EQ(is_sendable_text(GetParam().text), GetParam().is_fine);
   EXPECT_TRUE(is_sendable_text(make_sendable(GetParam().text, 64)));
   if (GetParam().is_fine) {
@@ -50,7 +50,7 @@ TEST(MakeSendable, WritesEachBadByteAsHexadecimal) {
             "S\\xFCd");
 }
 
-TEST(MakeSendable, CutsAtACharacterAndSaysSo) {
+TEST(MakeSendable, CutsAtACharacterAndMarksIt) {
   EXPECT_EQ(make_sendable("0123456789", 10), "0123456789");
   EXPECT_EQ(make_sendable("0123456789a", 10), "0123456…");
   EXPECT_EQ(make_sendable("012345üüü", 10), "012345…");

@@ -44,7 +44,7 @@ TEST_F(DaemonLog, NeverTakesMoreThanItsFiles) {
             std::string::npos);
 }
 
-TEST_F(DaemonLog, OpensItsFileAnewWhenItWasMovedAway) {
+TEST_F(DaemonLog, ReopensItsFileWhenItWasMovedAway) {
   ASSERT_TRUE(start_log("d", options()));
   spdlog::info("first");
   std::filesystem::rename(file(), folder_.path() / "moved");
@@ -59,7 +59,7 @@ TEST_F(DaemonLog, HasNoFileToOpenOnStandardError) {
   EXPECT_FALSE(reopen_log());
 }
 
-TEST_F(DaemonLog, BoundsWhatALibrarySays) {
+TEST_F(DaemonLog, BoundsTheMessagesOfALibrary) {
   ASSERT_TRUE(start_log("d", options()));
   for (int i = 0; i < 100'000; ++i) log_foreign(false, "malformed packet");
   const std::string text = text_of(file());

@@ -23,7 +23,7 @@ struct Refused {
 };
 class ParseAddressRefuses : public testing::TestWithParam<Refused> {};
 
-TEST_P(ParseAddressRefuses, AndSaysWhy) {
+TEST_P(ParseAddressRefuses, AndReportsTheError) {
   const auto parsed = parse_address(GetParam().text);
   ASSERT_FALSE(parsed);
   EXPECT_EQ(parsed.error().code, GetParam().code);

@@ -151,7 +151,7 @@ TEST(LineDriver, LetsNothingGoAfterXoffBeyondTwoCharacters) {
   }
 }
 
-TEST(LineDriver, TellsOfRoomWhileSending) {
+TEST(LineDriver, ReportsRoomWhileSending) {
   const Pty pty;
   LineLog log;
   const auto line = start_toy(log, pty.path());
@@ -221,7 +221,7 @@ TEST(LineDriver, SendsNothingToATncWhoseRtsIsOff) {
   EXPECT_EQ(pty.read(9), "1 STOP\r\n\x03");
 }
 
-TEST(LineDriver, KeepsWhatADriverDoesNotTakeAndGoesOn) {
+TEST(LineDriver, KeepsWhatADriverDoesNotTakeAndContinues) {
   const Pty pty;
   LineLog log;
   const auto control = std::make_shared<ChannelControl>();

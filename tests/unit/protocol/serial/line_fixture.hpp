@@ -9,7 +9,7 @@
 
 namespace dripline::serial {
 
-/// What a line told, kept for a test to look at from its own thread.
+/// The events of a line, stored for a test that reads them on its own thread.
 struct LineLog {
   struct Passed {
     LineTraffic::What what;

@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using test_support::eventually;
 using test_support::Pty;
 
-TEST(LostLine, IsNoticedAndOpenedAnewWhenThePortIsBack) {
+TEST(LostLine, IsDetectedAndReopenedWhenThePortIsBack) {
   Pty pty;
   LineLog log;
   const auto line = start_toy(log, pty.path());
@@ -30,7 +30,7 @@ TEST(LostLine, IsNoticedAndOpenedAnewWhenThePortIsBack) {
   EXPECT_EQ(pty.read(6), "G0 X1\n");
 }
 
-TEST(LostLine, TellsEachReasonOnce) {
+TEST(LostLine, ReportsEachReasonOnce) {
   Pty pty;
   pty.unplug();
   LineLog log;

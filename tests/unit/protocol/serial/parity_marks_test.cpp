@@ -33,15 +33,15 @@ TEST(ParityMarks, TakesADoubledFfForOne) {
             "B");
 }
 
-TEST(ParityMarks, TellsAFaultyCharacterAndGoesOn) {
+TEST(ParityMarks, ReportsAFaultyCharacterAndContinues) {
   EXPECT_EQ(decoded({'A', 0xFF, 0x00, 41, 'B'}), "A(41)B");
 }
 
-TEST(ParityMarks, TellsABreak) {
+TEST(ParityMarks, ReportsABreak) {
   EXPECT_EQ(decoded({0xFF, 0x00, 0x00, 'B'}), "(break)B");
 }
 
-TEST(ParityMarks, TellsAFaultyFf) {
+TEST(ParityMarks, ReportsAFaultyFf) {
   EXPECT_EQ(decoded({0xFF, 0x00, 0xFF, 'B'}), "(255)B");
 }
 

@@ -54,7 +54,7 @@ TEST(Rfc2217Client, OffersTheComPortOptionFirst) {
   EXPECT_NE(std::search(opening.begin(), opening.end(), offer.begin(), offer.end()), opening.end());
 }
 
-TEST(Rfc2217Client, TellsWhetherTheServerAgrees) {
+TEST(Rfc2217Client, ReportsWhetherTheServerAgrees) {
   Rfc2217Client client;
   EXPECT_EQ(feed(client, {kIac, kDo, kComPort}).events,
             std::vector<TelnetEvent>{ComPortAgreed{true}});

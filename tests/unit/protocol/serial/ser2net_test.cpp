@@ -90,7 +90,7 @@ TEST_F(Ser2net, CarriesEveryCharacterBothWays) {
   EXPECT_EQ(got, text);
 }
 
-TEST_F(Ser2net, TellsARestartedServer) {
+TEST_F(Ser2net, DetectsARestartedServer) {
   const auto channel = open("9600n81");
   ASSERT_TRUE(channel) << channel.error().what << server_->output();
   server_->kill();

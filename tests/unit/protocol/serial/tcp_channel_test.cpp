@@ -26,7 +26,7 @@ TEST(TcpChannel, CarriesCharactersBothWays) {
   EXPECT_EQ(got, 2U);
 }
 
-TEST(TcpChannel, TellsThatTheServerClosed) {
+TEST(TcpChannel, ReportsThatTheServerClosed) {
   TcpPeer peer;
   auto channel = open_channel(peer.address(), {}, 1s);
   ASSERT_TRUE(peer.accept());
@@ -43,7 +43,7 @@ TEST(TcpChannel, TellsThatTheServerClosed) {
   EXPECT_NE(what.find(peer.address()), std::string::npos);
 }
 
-TEST(TcpChannel, IsRefusedWhereNobodyListens) {
+TEST(TcpChannel, IsRefusedWhereNoServerListens) {
   std::string address;
   {
     const TcpPeer gone;

@@ -56,7 +56,7 @@ TEST(TtyChannel, CarriesEveryCharacterBothWays) {
   EXPECT_EQ(got, text);
 }
 
-TEST(TtyChannel, TellsAHangUp) {
+TEST(TtyChannel, ReportsAHangUp) {
   Pty pty;
   auto channel = open(pty.path());
   ASSERT_TRUE(channel);
@@ -132,7 +132,7 @@ TEST(TtyChannel, RefusesAPortInUseAndNamesItsOwner) {
   EXPECT_NE(channel.error().what.find(owner), std::string::npos) << channel.error().what;
   ASSERT_EQ(::write(done[1], "x", 1), 1);
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);
-  EXPECT_TRUE(open(pty.path())) << "free again, although its owner never said so";
+  EXPECT_TRUE(open(pty.path())) << "free again, although its owner did not release it";
 }
 
 TEST(PortLock, RespectsTheLockFileOfAnotherProgram) {

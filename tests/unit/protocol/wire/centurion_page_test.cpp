@@ -73,7 +73,7 @@ TEST(CenturionPage, TakesOnlyWhatThePageHas) {  // CEN-197
   EXPECT_EQ(set_page_value(page, "colour", "3").error().code, Errc::NotFound);
 }
 
-TEST(CenturionPage, SaysHowThePageMustStandForALine) {  // CEN-197, CEN-198, CEN-199
+TEST(CenturionPage, ListsTheSettingsOfThePageForALine) {  // CEN-197, CEN-198, CEN-199
   for (const std::string name : {"centurion", "centurion-tape"}) {
     const auto line = (*find_template(name))->settings;
     const auto port = name == "centurion" ? PagePort::Primary : PagePort::Secondary;

@@ -167,7 +167,7 @@ TEST(DcCodes, TakesARequestBackWhenTheControlIsSwitchedOff) {
   EXPECT_EQ(host.say_now(), "");
 }
 
-TEST(DcCodes, WaitsForTheOperatorWithoutALimitUnlessToldTo) {
+TEST(DcCodes, WaitsForTheOperatorWithoutALimitByDefault) {
   TestedLine host(template_with("fanuc"), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   host.pass(std::chrono::hours(1));
@@ -244,7 +244,7 @@ TEST(DcCodes, TakesPrintedLinesWithoutTheMarksOfAProgram) {
   EXPECT_EQ(host.events(), "receiving\ntext \"B 2\\n\"\nreceived\n");
 }
 
-TEST(DcCodes, SaysThatAPunchedProgramLostItsStartCharacter) {
+TEST(DcCodes, ReportsThatAPunchedProgramLostItsStartCharacter) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x12O7\nM30\n%\x14");
   EXPECT_EQ(host.events(),
@@ -297,7 +297,7 @@ TEST(DcCodes, ControlPunchesBetweenDc2AndDc4) {
   EXPECT_EQ(control.say(), "\x12%\nO7\nM30\n%\x14");
 }
 
-TEST(DcCodes, ControlGoesOnListeningAfterWhatItPunches) {
+TEST(DcCodes, ControlContinuesToListenAfterItsPunching) {
   TestedLine control = receiving("fanuc");
   ASSERT_TRUE(control.line->begin_send("", control.now));
   ASSERT_TRUE(control.offer("X1\n"));
@@ -320,7 +320,7 @@ TEST(DcCodes, HostTakesWhatIsPunched) {
   EXPECT_EQ(host.events(), "receiving\ntext \"O7\\nM30\\n\"\nreceived\n");
 }
 
-TEST(DcCodes, HostSaysThatAPunchedProgramIsNotComplete) {
+TEST(DcCodes, HostReportsThatAPunchedProgramIsNotComplete) {
   TestedLine host(template_with("fanuc"), Role::Host);
   host.hear("\x12%\nO7\n\x14");
   EXPECT_THAT(host.events(), HasSubstr("failed corrupt: DC4 came before the end character"));
@@ -385,7 +385,7 @@ TEST(ProtoTrakControl, FoldsSmallLettersAndSkipsLayout) {
   EXPECT_EQ(control.events(), "text \"PN1G21;\\n%\\n\"\nreceived\n");
 }
 
-TEST(ProtoTrakControl, EndsAtDosEndOfFileAndSaysSo) {
+TEST(ProtoTrakControl, EndsAtDosEndOfFileWithAnError) {
   TestedLine control = receiving("prototrak");
   control.hear("PN1 ;\r\n\x1a");
   EXPECT_THAT(control.events(), HasSubstr("error syntax: the program ends with 0x1a"));
@@ -449,7 +449,7 @@ TEST(CenturionControl, SplitsAtNothingThatOnlyLooksLikeAnOLine) {
   EXPECT_EQ(control.events(), "text \"O1\\nON ERROR\\nG0 O2\\nO12345\\nM30\\n\"\nreceived\n");
 }
 
-TEST(CenturionControl, KeepsAllInOneUnlessToldToSplit) {  // CEN-201
+TEST(CenturionControl, KeepsAllInOneUnlessSetToSplit) {  // CEN-201
   TestedLine control = receiving("centurion");
   control.hear("O1\r\nM30\r\nO2\r\nM30\r\n");
   control.pass(seconds(2));
@@ -479,7 +479,7 @@ TEST(CenturionControl, SendsCrAloneOrCrLf) {  // CEN-198, CEN-200
   }
 }
 
-TEST(CenturionControl, StartsAndStopsWhatStandsForItsTapeReader) {  // CEN-199
+TEST(CenturionControl, StartsAndStopsTheHostAsItsTapeReader) {  // CEN-199
   TestedLine control(
       template_with("centurion-tape",
                     {{"tape_start", "STX"}, {"tape_stop", "EM"}, {"end_char", "EOT"}}),
@@ -584,7 +584,7 @@ TEST(CenturionDnc, CannotContinueOverALine) {
   EXPECT_EQ(begun.error().code, Errc::Unsupported);
 }
 
-TEST(CenturionDnc, CannotBeLinkedWhileARunGoesOn) {  // CEN-208
+TEST(CenturionDnc, CannotBeLinkedDuringARun) {  // CEN-208
   TestedLine control = receiving("centurion", {{"dnc_mode", "run"}});
   const auto again = control.line->begin_receive("", control.now);
   ASSERT_FALSE(again);

@@ -95,7 +95,7 @@ TEST(LineDiagnosis, TrustsNoHandfulOfCharacters) {
   EXPECT_GT(read_sample(sample(9600, kProgram)).score, 0.99);
 }
 
-TEST(LineDiagnosis, TellsAMissingGroundFromAStrangeRate) {
+TEST(LineDiagnosis, DistinguishesAMissingGroundFromAWrongRate) {
   LineObservation seen;
   seen.samples = {sample(9600, "")};
   seen.samples[0].breaks = 20;
@@ -106,8 +106,8 @@ TEST(LineDiagnosis, TellsAMissingGroundFromAStrangeRate) {
   EXPECT_FALSE(diagnose(seen).settings);
 }
 
-// Rows: PT-02, PT-38: jumpers and the tester's lights are told from the modem lines.
-TEST(LineDiagnosis, SaysWhatSilenceMeansByTheModemLines) {
+// Rows: PT-02, PT-38: jumpers and the tester's lights are detected by the modem lines.
+TEST(LineDiagnosis, ExplainsSilenceByTheModemLines) {
   LineObservation seen;
   seen.samples = {sample(9600, "")};
   EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("no modem lines")));
@@ -121,7 +121,7 @@ TEST(LineDiagnosis, SaysWhatSilenceMeansByTheModemLines) {
   EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("comes back")));
 }
 
-TEST(LineDiagnosis, SaysHowTheControlTakesXoff) {
+TEST(LineDiagnosis, ReportsHowTheControlObeysXoff) {
   LineObservation seen;
   seen.samples = {sample(9600, kProgram)};
   seen.after_stop = 17;

@@ -111,7 +111,7 @@ std::vector<Protocol> both_ways(const std::vector<Protocol>& protocols) {
 
 class UncheckedLine : public testing::TestWithParam<Part> {};
 
-TEST_P(UncheckedLine, SaysWhatItSeesAndNeverHangs) {
+TEST_P(UncheckedLine, ReportsDetectedErrorsAndNeverHangs) {
   const FaultCase fault_case = case_of(GetParam());
   run_part(GetParam(), fault_case, [&](const FaultRun& run) {
     ASSERT_TRUE(run.has_ended()) << run.story();
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class ProtoTrakLine : public testing::TestWithParam<Part> {};
 
-TEST_P(ProtoTrakLine, KeepsAllOrSaysWhy) {
+TEST_P(ProtoTrakLine, KeepsAllOrReportsTheError) {
   FaultCase fault_case = case_of(GetParam());
   fault_case.hold_rate = 0;
   fault_case.expected = [](const std::string& text) { return text + "%\n"; };
@@ -176,7 +176,7 @@ std::size_t wrong_at_most(const FaultCase& fault_case, std::size_t runs) {
   return runs / (fault_case.settings.xmodem_crc ? 20'000 : 2'000);
 }
 
-TEST_P(XmodemLineFaults, DeliversExactlyOrSaysWhyNot) {
+TEST_P(XmodemLineFaults, DeliversExactlyOrReportsTheError) {
   FaultCase fault_case = case_of(GetParam());
   // Eight bits of checksum miss one damaged block in some hundred: only for lines that are nearly
   // good.

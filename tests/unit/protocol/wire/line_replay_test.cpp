@@ -78,7 +78,7 @@ TEST(LineReplay, AnswersABlockwiseTransferAsItWasRecorded) {
   EXPECT_EQ(report.deviations, 0U) << testing::PrintToString(report.findings);
 }
 
-TEST(LineReplay, SaysWhereTheRecordedControlAnsweredOtherwise) {
+TEST(LineReplay, ReportsWhereTheRecordedControlAnsweredOtherwise) {
   auto spoiled = block(2, "1 STOP");
   spoiled[3] = 'X';
   const auto report = Recording("tnc155-bcc")

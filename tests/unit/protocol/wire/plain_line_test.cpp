@@ -80,7 +80,7 @@ TEST(PlainSending, RefusesCharactersThatTheCodeDoesNotHave) {
   EXPECT_THAT(offered.error().what, HasSubstr("line 2"));
 }
 
-TEST(PlainSending, TakesNoMoreThanItSaysItHasRoomFor) {
+TEST(PlainSending, AcceptsNoMoreThanItsRoom) {
   TestedLine host(LineSettings{}, Role::Host);
   EXPECT_EQ(host.line->room(), 0u) << "nothing is being sent";
   ASSERT_TRUE(host.line->begin_send("", host.now));
@@ -103,7 +103,7 @@ TEST(PlainSending, CountsWhatHasLeft) {
   EXPECT_EQ(host.line->state().text_sent, 3u);
 }
 
-TEST(PlainSending, StopsAtDc3AndGoesOnAtDc1) {
+TEST(PlainSending, StopsAtDc3AndResumesAtDc1) {
   TestedLine host(LineSettings{}, Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("ABCDEF\n"));
@@ -137,7 +137,7 @@ TEST(PlainSending, StopsWhileCtsIsOff) {
   EXPECT_EQ(host.say(), "AB\r\n");
 }
 
-/// What was on the way is lost, in the middle of a block perhaps: the rest must not follow it.
+/// Characters on the line are lost, perhaps in the middle of a block: the rest must not follow.
 TEST(PlainSending, EndsWhenDsrGoesOffInTheMiddle) {
   TestedLine host(LineSettings{}, Role::Host);
   host.line->lines({.cts = true, .dsr = true, .dcd = true}, host.now);
@@ -149,7 +149,7 @@ TEST(PlainSending, EndsWhenDsrGoesOffInTheMiddle) {
   EXPECT_EQ(host.line->state().phase, Phase::Idle);
 }
 
-TEST(PlainSending, GoesOnWhereTheCableHasNoDsr) {
+TEST(PlainSending, ContinuesWhereTheCableHasNoDsr) {
   TestedLine host(LineSettings{}, Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("G0 X1\n", false));
@@ -184,7 +184,7 @@ TEST(PlainSending, StaysStoppedForTheNextTransferUntilAborted) {
   EXPECT_EQ(host.say(), "AB\r\n");
 }
 
-TEST(PlainSending, WaitsForTheControlsDc1WhenToldTo) {
+TEST(PlainSending, WaitsForTheControlsDc1WhenSet) {
   TestedLine host(settings_with({{"wait_for_xon", "yes"}}), Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("AB\n"));
@@ -265,7 +265,7 @@ TEST(PlainReceiving, EndsAtTheEndCharacter) {
   EXPECT_EQ(host.events(), "receiving\ntext \"O1\\n\"\nreceived\n");
 }
 
-TEST(PlainReceiving, SaysThatTheStartCharacterIsMissing) {
+TEST(PlainReceiving, ReportsAMissingStartCharacter) {
   TestedLine host(settings_with({{"start_char", "%"}, {"end_char", "%"}}), Role::Host);
   host.hear("O1\r\n%");
   EXPECT_THAT(host.events(), HasSubstr("error corrupt: the start character before the program"));
@@ -284,7 +284,7 @@ TEST(PlainReceiving, FailsWhenTheEndCharacterDoesNotCome) {
   EXPECT_THAT(host.events(), HasSubstr("failed timeout: the end character did not come"));
 }
 
-TEST(PlainReceiving, PutsAQuestionMarkInThePlaceOfABadCharacterAndSaysWhere) {
+TEST(PlainReceiving, ReplacesABadCharacterByAQuestionMarkAndReportsItsPlace) {
   TestedLine host(LineSettings{}, Role::Host);
   host.hear("G1\r\nX");
   host.hear_fault(LineFault::Parity);
@@ -305,7 +305,7 @@ TEST(PlainReceiving, HoldsTheOtherEndWithDc3) {
   EXPECT_EQ(control.say_now(), kDc1);
 }
 
-TEST(PlainReceiving, SaysDc3AgainToASenderThatGoesOn) {
+TEST(PlainReceiving, RepeatsDc3ToASenderThatContinues) {
   TestedLine control(LineSettings{}, Role::Control);
   ASSERT_TRUE(control.line->begin_receive("", control.now));
   control.line->set_ready(false, control.now);
@@ -316,7 +316,7 @@ TEST(PlainReceiving, SaysDc3AgainToASenderThatGoesOn) {
   EXPECT_EQ(control.say_now(), kDc3);
 }
 
-TEST(PlainReceiving, SaysDc1OnceMoreToASenderThatStaysSilent) {
+TEST(PlainReceiving, RepeatsDc1ToASenderThatStaysSilent) {
   TestedLine control(LineSettings{}, Role::Control);
   ASSERT_TRUE(control.line->begin_receive("", control.now));
   control.line->set_ready(false, control.now);
@@ -328,7 +328,7 @@ TEST(PlainReceiving, SaysDc1OnceMoreToASenderThatStaysSilent) {
   EXPECT_EQ(control.say_now(), "");
 }
 
-TEST(PlainReceiving, SaysThatEndsOfBlockAreMissing) {
+TEST(PlainReceiving, ReportsMissingEndsOfBlock) {
   TestedLine host(LineSettings{}, Role::Host);
   host.hear("G1\r\n" + std::string(1024, 'X'));
   EXPECT_THAT(host.events(), testing::Not(HasSubstr("error ")));
@@ -357,13 +357,13 @@ TEST(PlainReceiving, DoesNotTakeItsOwnHoldForTheEnd) {
   EXPECT_THAT(control.events(), HasSubstr("received"));
 }
 
-TEST(PlainReceiving, HearsNothingAtAControlThatWasNotTold) {
+TEST(PlainReceiving, ReceivesNothingAtAControlWithoutACommand) {
   TestedLine control(LineSettings{}, Role::Control);
   control.hear("G1\r\n");
   EXPECT_EQ(control.events(), "");
 }
 
-TEST(PlainReceiving, GoesOnWhileTheHostFeeds) {
+TEST(PlainReceiving, ContinuesWhileTheHostFeeds) {
   TestedLine host(LineSettings{}, Role::Host);
   ASSERT_TRUE(host.line->begin_send("", host.now));
   ASSERT_TRUE(host.offer("G1\n", false));

@@ -126,7 +126,7 @@ TEST(SimulatedLine, CarriesReportsWhileItFeeds) {
   EXPECT_EQ(reported, report);
 }
 
-TEST(SimulatedLine, LosesWhatItIsToldToLose) {
+TEST(SimulatedLine, LosesTheSelectedCharacters) {
   LineSettings settings = line_of("plain");
   LineSimulator line =
       simulated(settings, {.rate = 0.05, .kinds = {test_support::LineFaults::Kind::Drop}});

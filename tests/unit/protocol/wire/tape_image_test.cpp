@@ -121,7 +121,7 @@ TEST(TapeImage, EndsAtTheClosingRewindStopAndReadsOnAfterTheNextEndOfBlock) {
   EXPECT_EQ(tape.text, "%\nN1M2\n%\n%\nN5M30\n%\n") << tape.error;
 }
 
-TEST(TapeImage, SaysWhichBlockIsLostWithoutAnEndOfBlockBeforeIt) {
+TEST(TapeImage, ReportsTheBlockThatIsLostWithoutAnEndOfBlockBeforeIt) {
   TapeForm form;
   form.has_rewind_stop = false;
   const auto rows = punched(form, kProgram);

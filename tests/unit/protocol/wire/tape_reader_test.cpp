@@ -87,7 +87,7 @@ TEST_P(TapeReaderLine, FindsABlockWithoutTakingTheOnesBefore) {
   EXPECT_EQ(wire.control().received, "N30Z-7\nN40M30\n");
 }
 
-TEST_P(TapeReaderLine, SaysWhenABlockIsNotOnTheTape) {
+TEST_P(TapeReaderLine, ReportsABlockThatIsNotOnTheTape) {
   auto wire = line(settings_of(GetParam()));
   ASSERT_TRUE(wire.host().send(kProgram, wire.now()));
   ASSERT_TRUE(wire.control().line->begin_receive("N31", wire.now()));

@@ -98,7 +98,7 @@ bool is_blind_spot(std::string_view sent, std::string_view received) {
 
 class TncBlockwiseFaults : public testing::TestWithParam<Part> {};
 
-TEST_P(TncBlockwiseFaults, DeliversExactlyOrSaysWhyNot) {
+TEST_P(TncBlockwiseFaults, DeliversExactlyOrReportsTheError) {
   run_part(GetParam(), [](const FaultRun& run) {
     ASSERT_TRUE(run.has_ended()) << run.story();
     const bool is_prefix = run.text.starts_with(run.receiver->received);
@@ -109,7 +109,7 @@ TEST_P(TncBlockwiseFaults, DeliversExactlyOrSaysWhyNot) {
     if (run.receiver->receptions > 0 && run.receiver->received != run.text) {
       ASSERT_TRUE(is_blind_spot(run.text, run.receiver->received)) << run.story();
     }
-    if (run.sender->sends > 0) {  // a control is not told that its ETX and EOT came
+    if (run.sender->sends > 0) {  // a control gets no answer to its ETX and EOT
       ASSERT_TRUE(run.receiver->receptions == 1 || !run.receiver->failures.empty()) << run.story();
     }
     ASSERT_LE(run.sender->accepted, run.text.size()) << run.story();
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Repeating, TncBlockwiseFaults,
 
 class TncStandardFaults : public testing::TestWithParam<Part> {};
 
-TEST_P(TncStandardFaults, SaysWhatItSeesAndNeverHangs) {
+TEST_P(TncStandardFaults, ReportsDetectedErrorsAndNeverHangs) {
   run_part(GetParam(), [](const FaultRun& run) {
     ASSERT_TRUE(run.has_ended()) << run.story();
     if (run.forward.silent == 0 && run.backward.silent == 0) {

@@ -80,7 +80,7 @@ TEST(TncFrames, FindEveryLostAndEveryDoubledCharacter) {
   }
 }
 
-TEST(TncFrames, BeginAnewWhereABlockBeginsInsideAnother) {
+TEST(TncFrames, RestartWhereABlockBeginsInsideAnother) {
   const auto block = make_tnc_block(2, "1 STOP", kTnc);
   const auto read = frames(block.substr(0, 5) + block);
   ASSERT_EQ(read.size(), 1U);

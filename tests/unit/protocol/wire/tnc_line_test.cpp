@@ -90,7 +90,7 @@ TEST_P(TncLine, LosesNothingWhenTheReceiverHasNoRoomNowAndThen) {
   EXPECT_EQ(wire.host().sends, 1U);
 }
 
-TEST_P(TncLine, SaysWhenTheControlsProgramHasNoEnd) {
+TEST_P(TncLine, ReportsAProgramOfTheControlWithoutAnEnd) {
   auto wire = line(settings_of(GetParam()));
   serve(wire, "");
   ASSERT_TRUE(wire.control().send("0 BEGIN PGM 8 MM\n1 STOP\n", wire.now(), "8"));
@@ -119,7 +119,7 @@ TEST(TncBlockwise, SendsExactlyTheCharactersOfTheProtocol) {
 }
 
 // Rows: HD-227 (the control asks for more when there is room).
-TEST(TncBlockwise, WaitsWithoutLimitForAControlWhoseMemoryIsFullAndSaysSo) {
+TEST(TncBlockwise, WaitsWithoutLimitForAControlWhoseMemoryIsFullAndReportsIt) {
   auto wire = line(settings_of(Flow::HeidenhainBcc));
   serve(wire, kProgram);
   ASSERT_TRUE(wire.control().line->request({Request::Kind::SendProgram, "27"}, wire.now()));
@@ -175,12 +175,12 @@ class AskingControl {
   }
   std::string hear(std::string_view characters) {
     line_->receive(std::as_bytes(std::span(characters)), {});
-    std::string said;
+    std::string sent;
     std::array<std::byte, 64> room{};
     for (std::size_t n = line_->transmit(room, {}); n > 0; n = line_->transmit(room, {})) {
-      said += std::string(reinterpret_cast<const char*>(room.data()), n);
+      sent += std::string(reinterpret_cast<const char*>(room.data()), n);
     }
-    return said;
+    return sent;
   }
   Phase phase() const { return line_->state().phase; }
   /// Empty: none.
@@ -200,10 +200,10 @@ class AskingControl {
 TEST(TncBlockwise, TakesASecondEtxForTheEndOfTheList) {
   for (const char* answer : {"\x04", "\x03", "\x06\x03"}) {
     AskingControl control("");
-    const auto said = control.hear(answer);
+    const auto sent = control.hear(answer);
     EXPECT_EQ(control.phase(), Phase::Idle);
     EXPECT_EQ(control.failure(), "the device has no program left");
-    EXPECT_EQ(said, answer[0] == '\x04' ? "" : "\x04");
+    EXPECT_EQ(sent, answer[0] == '\x04' ? "" : "\x04");
   }
 }
 
@@ -240,12 +240,12 @@ TEST(TncBlockwise, RepeatsARefusedBlockThreeTimesAndThenStops) {
   auto host = make_discipline(settings, Role::Host).value();
   const auto hear = [&](std::string_view characters) {
     host->receive(std::as_bytes(std::span(characters)), LineTime{});
-    std::string said;
+    std::string sent;
     std::array<std::byte, 64> room{};
     for (std::size_t n = host->transmit(room, LineTime{}); n > 0; n = host->transmit(room, {})) {
-      said += std::string(reinterpret_cast<const char*>(room.data()), n);
+      sent += std::string(reinterpret_cast<const char*>(room.data()), n);
     }
-    return said;
+    return sent;
   };
   const HeidenhainSettings tnc;
   ASSERT_TRUE(host->begin_send("", {}));
@@ -389,7 +389,7 @@ TEST(TncStandard, SkipsOtherProgramsUntilTheWantedOne) {
   EXPECT_EQ(wire.host().sends, 1U);
 }
 
-TEST(TncStandard, TellsProgramsApartThatFollowEachOtherWithoutAnEndCharacter) {
+TEST(TncStandard, SeparatesProgramsThatFollowEachOtherWithoutAnEndCharacter) {
   auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
   const std::string heard = "0 BEGIN PGM 3 MM\r\n1 END PGM 3 MM\r\n%8 G71\r\nN9999 %8 G71\r\n\x03";
   host->receive(std::as_bytes(std::span(heard)), {});
@@ -404,7 +404,7 @@ TEST(TncStandard, TellsProgramsApartThatFollowEachOtherWithoutAnEndCharacter) {
 }
 
 // Rows: HD-231 (a program that is not complete).
-TEST(TncStandard, SaysWhereABlockIsMissingAndWhereParityWasWrong) {
+TEST(TncStandard, ReportsAMissingBlockAndWrongParity) {
   auto host = make_discipline(settings_of(Flow::Heidenhain), Role::Host).value();
   const auto hear = [&](std::string_view text) {
     host->receive(std::as_bytes(std::span(text)), LineTime{});

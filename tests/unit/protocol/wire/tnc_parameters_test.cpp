@@ -30,7 +30,7 @@ TEST(TncBaudRates, AreEight) {
             "baud 19200: a TNC 151/155 has 110, 150, 300, 600, 1200, 2400, 4800, 9600");
 }
 
-TEST(TncParameters, AreTheTemplatesWhereNothingIsSaid) {
+TEST(TncParameters, AreTheTemplatesByDefault) {
   const auto standard = line_of_tnc({});
   ASSERT_TRUE(standard) << standard.error().what;
   const auto blockwise = line_of_tnc(with({{223, 1}}));

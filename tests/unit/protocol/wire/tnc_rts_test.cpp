@@ -31,9 +31,9 @@ struct TncEnd {
   void hear(std::string_view text) { line->receive(std::as_bytes(std::span(text)), now); }
   void set_cts(bool is_on) { line->lines({.cts = is_on}, now); }
   std::string say(std::size_t most = 1000) {
-    std::string said(most, '\0');
-    said.resize(line->transmit(std::as_writable_bytes(std::span(said)), now));
-    return said;
+    std::string sent(most, '\0');
+    sent.resize(line->transmit(std::as_writable_bytes(std::span(sent)), now));
+    return sent;
   }
   std::unique_ptr<Discipline> line;
   LineTime now{};
@@ -42,7 +42,7 @@ struct TncEnd {
 class TncRtsCts : public testing::TestWithParam<Role> {};
 
 // Rows: HD-220 (a line whose CTS is off gets no character, no control character either).
-TEST_P(TncRtsCts, SaysNothingWhileCtsIsOff) {
+TEST_P(TncRtsCts, SendsNothingWhileCtsIsOff) {
   TncEnd end(GetParam());
   ASSERT_TRUE(end.line->begin_send("27", end.now));
   ASSERT_TRUE(end.line->offer(kProgram, true, end.now));
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(, TncRtsCts, testing::Values(Role::Host, Role::Control)
                          });
 
 // Rows: HD-220 (MP222: bit 2, bit 3, both).
-TEST(TncStops, AreObeyedAsTheParameterSaysThem) {
+TEST(TncStops, AreObeyedByTheParameter) {
   struct Case {
     TncStop stop;
     bool by_dc3, by_cts;

@@ -75,7 +75,7 @@ TEST(XmodemSender, SendsBlocksUntilAllAreAccepted) {
   EXPECT_EQ(line.events(), "accepted 128\naccepted 200\nsent\n");
 }
 
-TEST(XmodemSender, UsesTheChecksumForAReceiverThatSaysNak) {
+TEST(XmodemSender, UsesTheChecksumForAReceiverThatSendsNak) {
   TestedLine line = sender(xmodem_line(), "M30\n");
   line.hear(kNak);
   EXPECT_EQ(line.say_now(), block(1, "M30\n", Check::Sum));
@@ -164,7 +164,7 @@ TEST(XmodemSender, StopsWhenTheReceiverCancels) {
   EXPECT_EQ(line.say_now(), "");
 }
 
-TEST(XmodemSender, WaitsForTheReceiverAsLongAsItIsTold) {
+TEST(XmodemSender, WaitsForTheReceiverAsLongAsItsLimit) {
   TestedLine patient = sender(xmodem_line(), "M30\n");
   EXPECT_TRUE(patient.line->state().awaits_start);
   EXPECT_TRUE(patient.line->state().may_wait_without_limit);
@@ -178,7 +178,7 @@ TEST(XmodemSender, WaitsForTheReceiverAsLongAsItIsTold) {
   EXPECT_THAT(line.events(), HasSubstr("failed timeout: the receiver did not ask"));
 }
 
-TEST(XmodemSender, AbortTellsTheReceiver) {
+TEST(XmodemSender, AbortNotifiesTheReceiver) {
   TestedLine line = sender(xmodem_line(), "M30\n");
   line.line->abort(line.now);
   EXPECT_EQ(line.say_now(), kFiveCans);
@@ -201,7 +201,7 @@ TEST(XmodemHost, KeepsARequestWhileTheReceiverAsks) {
     line.hear("C");
     line.pass(seconds(3));
   }
-  EXPECT_EQ(line.say_now(), "") << "nobody has ordered anything";
+  EXPECT_EQ(line.say_now(), "") << "there was no command";
   EXPECT_TRUE(line.line->state().is_asked);
   ASSERT_TRUE(line.line->begin_send("", line.now));
   ASSERT_TRUE(line.offer("M30\n"));
@@ -217,7 +217,7 @@ TEST(XmodemHost, DropsTheRequestOfAReceiverThatIsSilent) {
   EXPECT_FALSE(line.line->state().is_asked);
   EXPECT_FALSE(line.line->deadline());
   line.hear("C");
-  EXPECT_EQ(line.events(), "wants a program\nwants a program\n") << "each sequence is told";
+  EXPECT_EQ(line.events(), "wants a program\nwants a program\n") << "each sequence is reported";
 }
 
 TEST(XmodemHost, RefusesByCancelling) {

@@ -364,7 +364,7 @@ TEST_F(ApiTest, ShowsWhatProgramsCallThemselves) {
   EXPECT_EQ(json(get("/api/v1/programs/O0001"))["revisions"][0]["title"], "BUSH 12");
 }
 
-/// CEN-213: for whoever knows the control's messages.
+/// CEN-213: for operators who know the control's messages.
 TEST_F(ApiTest, RefusesMovesOfProgramsInTheWordsOfTheirControlToo) {
   push("O0001", "O0001\n");
   push("O0002", "O0002\n");

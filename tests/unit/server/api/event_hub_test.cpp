@@ -63,7 +63,7 @@ TEST(EventHub, CountsWhatASlowListenerOfAPortLost) {
   const std::string text = slow->take();
   EXPECT_TRUE(text.ends_with("event: traffic\ndata: {}\n\nevent: lost\ndata: {\"lost\":17}\n\n"));
   hub.publish({.kind = "traffic", .data = "{}", .port = "line-1"});
-  EXPECT_EQ(slow->take(), "event: traffic\ndata: {}\n\n") << "and goes on";
+  EXPECT_EQ(slow->take(), "event: traffic\ndata: {}\n\n") << "and continues";
 }
 
 TEST(EventHub, KeepsNoMoreBytesForAPortThanAgreed) {

@@ -144,7 +144,7 @@ TEST_F(HttpAttack, IdleConnectionsDoNotKeepOutWhoAsks) {
   expect_health();
 }
 
-TEST_F(HttpAttack, AConnectionThatSaysNothingIsClosed) {
+TEST_F(HttpAttack, ASilentConnectionIsClosed) {
   options_.limits.head = 200ms;
   start();
   RawPeer silent = peer();
@@ -218,7 +218,7 @@ TEST_F(HttpAttack, HealthAnswersWhileEveryHandlerWaits) {
   expect_health();
 }
 
-TEST_F(HttpAttack, CommandsThatWaitForAMachineHoldUpNobody) {
+TEST_F(HttpAttack, CommandsThatWaitForAMachineDelayNoOtherRequest) {
   options_.handler_threads = 2;
   start();
   std::vector<RawPeer> peers = idle(40);
@@ -265,7 +265,7 @@ TEST_F(HttpAttack, EventStreamsLeaveRoomForRequests) {
   expect_served();
 }
 
-TEST_F(HttpAttack, AStreamThatNobodyReadsIsCutOff) {
+TEST_F(HttpAttack, AStreamWithoutAReaderIsCutOff) {
   options_.limits.event_streams = 1;
   options_.limits.write = 500ms;
   options_.heartbeat = 50ms;
@@ -373,7 +373,7 @@ struct BadCase {
 };
 class HttpRefusal : public HttpAttack, public testing::WithParamInterface<BadCase> {};
 
-TEST_P(HttpRefusal, SaysWhy) {
+TEST_P(HttpRefusal, ReportsTheReason) {
   start();
   RawPeer one = peer();
   one.send(GetParam().request);

@@ -203,7 +203,7 @@ TEST(HttpServer, RefusesToListenBeyondThisMachineWithoutTls) {
   EXPECT_EQ(server.error().code, Errc::Denied);
 }
 
-TEST(HttpServer, SaysWhenItsAddressIsTaken) {
+TEST(HttpServer, ReportsThatItsAddressIsTaken) {
   api::HttpOptions options;
   options.address = api::parse_http_address("127.0.0.1:0").value();
   const api::HttpHandlers handler{.handle = [](const auto&) { return api::no_content(); }};

@@ -103,7 +103,7 @@ class OpenApi : public ApiTest {
     expect_described("GET", "/api/v1/machines/{name}/memory", get(path));
     EXPECT_EQ(get(path + "?run=line-1").status, 200);
     EXPECT_EQ(get(path + "?run=r9").status, 404);
-    EXPECT_EQ(get("/api/v1/machines/nobody/memory").status, 404);
+    EXPECT_EQ(get("/api/v1/machines/absent/memory").status, 404);
   }
   void expect_judgement_described() {
     for (const std::string number : {"1", "2"}) {

@@ -58,7 +58,7 @@ TEST_F(PortRoutes, PassRefusalsOnAndWriteNothingDown) {
   EXPECT_EQ(json(get("/api/v1/audit"))["entries"].size(), 1u);
 }
 
-TEST_F(PortRoutes, ShowHowALineStands) {
+TEST_F(PortRoutes, ShowTheStateOfALine) {
   add_port("line-1");
   auto& view = ports_.views[0];
   view.is_open = true;
