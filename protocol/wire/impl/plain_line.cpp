@@ -55,11 +55,11 @@ bool PlainLine::take_dc(char dc, LineTime now) {
 }
 
 void PlainLine::fault(LineFault fault, LineTime now) {
-  if (!reception_.is_open) {
+  if (!inbound_.is_open) {
     emit_fault({Errc::Corrupt, std::string(fault_text(fault)) + " on the line"});
     return;
   }
-  reception_.heard = now;
+  inbound_.heard = now;
   if (const auto read = reader_.read_fault(fault); !read) fail_reception(read.error(), now);
 }
 
@@ -78,7 +78,7 @@ void PlainLine::lines(InputLines lines, LineTime now) {
     emit(FlowChanged{!lines.cts});
     note_hold(now);
   }
-  if (!lines.dsr && reception_.is_open) {
+  if (!lines.dsr && inbound_.is_open) {
     if (const auto error = reader_.rules().not_ready()) fail_reception(*error, now);
   }
 }
@@ -125,7 +125,7 @@ void PlainLine::drop_request() {
 
 void PlainLine::abort(LineTime now) {
   const bool was_punching = is_sending() && is_dc_codes() && role_ == Role::Control;
-  const bool was_reading = reception_.is_open;
+  const bool was_reading = inbound_.is_open;
   if (was_punching) say(kDc4);
   if (was_reading) stop_reading();
   drop_transfer(now);
@@ -148,7 +148,7 @@ void PlainLine::transfer_over(LineTime /*now*/) {
 
 LineState PlainLine::state() const {
   LineState state;
-  state.phase = !is_sending() && reception_.is_open ? Phase::Receiving : phase_;
+  state.phase = !is_sending() && inbound_.is_open ? Phase::Receiving : phase_;
   state.is_stopped = !may_send();
   state.is_stopping = !is_ready_;
   state.is_asked = is_asked_;
@@ -157,7 +157,7 @@ LineState PlainLine::state() const {
     state.waiting_for = is_stopped_ ? "DC1" : "CTS";
     state.may_wait_without_limit = !hold_deadline();
     state.awaits_start = waits_for_dc1() && !has_started_;
-  } else if (!is_sending() && reception_.is_open && is_ready_) {
+  } else if (!is_sending() && inbound_.is_open && is_ready_) {
     state.waiting_for = "text";
     state.may_wait_without_limit = !silence_deadline();
   }

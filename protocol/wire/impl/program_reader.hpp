@@ -36,7 +36,7 @@ class ProgramReader {
   Result<bool> read_text(char character);
   Result<bool> read_mark(char character);
   void begin_text();
-  void tell_missing_start();
+  void report_missing_start();
   Result<bool> take(char character);
   bool is_mark(char character) const {
     return character == settings_.start_character || character == end_character_;
