@@ -7,6 +7,7 @@
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/setup/setup_forms.hpp"
 #include "clients/cli/setup/setup_menu.hpp"
+#include "clients/cli/setup/setup_options.hpp"
 #include "clients/cli/setup/setup_text.hpp"
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
@@ -274,6 +275,7 @@ void add_setup_commands(CLI::App& app, Context& context) {
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");
   add_import(*group, context);
+  add_setup_options(*group, context);
 
   add_setup_changes(*group, context);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/interpreter/core/memory_verdict.hpp"
@@ -11,6 +12,8 @@
 #include "gateway/interpreter/core/setup.hpp"
 
 namespace dripline::interpreter {
+
+struct ListedOption;  ///< option_rows.hpp
 
 /// What the control moves: decides the axes of a simulated machine.
 enum class MachineKind : std::uint8_t { Mill, Lathe };
@@ -51,6 +54,8 @@ struct Dialect {
   /// Whether the program is marked as protected against erasing and changing. `head`: its first
   /// bytes. nullptr: programs have no such mark.
   bool (*is_protected)(std::string_view head) = nullptr;
+  /// The keys of `[control]` (option_rows.hpp), grouped by meaning; nullptr: none.
+  std::vector<ListedOption> (*options)() = nullptr;
 };
 
 }  // namespace dripline::interpreter

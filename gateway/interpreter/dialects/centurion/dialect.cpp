@@ -62,15 +62,16 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kCenturionDialect{"centurion",
-                                "Milltronics Centurion 5T/6T (lathe)",
-                                &likelihood,
-                                &make,
-                                Units::Inch,
-                                MachineKind::Lathe,
-                                {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
-                                true,  // M6 prompts and waits (manual: M6)
-                                nullptr,
-                                &read_panel_tables};
+const Dialect kCenturionDialect{
+    .name = "centurion",
+    .title = "Milltronics Centurion 5T/6T (lathe)",
+    .likelihood = &likelihood,
+    .make = &make,
+    .units = Units::Inch,
+    .machine = MachineKind::Lathe,
+    .feed_override_switch = {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
+    .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
+    .panel_tables = &read_panel_tables,
+    .options = &list_options};
 
 }  // namespace dripline::interpreter

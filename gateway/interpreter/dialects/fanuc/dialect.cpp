@@ -71,15 +71,13 @@ int likelihood(std::string_view head, std::string_view) {
 
 }  // namespace
 
-const Dialect kFanucDialect{"fanuc",
-                            "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining center)",
-                            &likelihood,
-                            &make,
-                            Units::Millimetre,
-                            MachineKind::Mill,
-                            // T selects and M06 exchanges (spec 7.1): only a machine without
-                            // `tool_changer` has a tool change stop.
-                            {},
-                            true};
+const Dialect kFanucDialect{.name = "fanuc",
+                            .title = "Fanuc 0-M, 6M, 11M, 16/18/21-M (machining center)",
+                            .likelihood = &likelihood,
+                            .make = &make,
+                            // T selects and M06 exchanges, as the machine's builder has it: only a
+                            // machine without `tool_changer` stops for a tool change.
+                            .waits_at_tool_change = true,
+                            .options = &list_options};
 
 }  // namespace dripline::interpreter

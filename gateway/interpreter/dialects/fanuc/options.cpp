@@ -2,78 +2,27 @@
 
 #include <algorithm>
 
+#include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/fanuc/dialect.hpp"
+
 namespace dripline::interpreter::fanuc {
 namespace {
 
-/// What a model row of the control's table decides, where no option says otherwise.
+using C = ControlOptions;
+using Row = OptionRow<C>;
+
+/// What a model decides where no option does.
 struct ModelRow {
-  std::size_t repeat;  ///< as the choices of `repeat_address`
-  std::size_t call;    ///< as those of `m98_form`
-  int call_depth;
-  int last_common;
-  int last_kept;
+  RepeatAddress repeat;
+  CallForm call;
+  std::size_t call_depth;
+  int last_common, last_kept;
 };
 constexpr std::array<ModelRow, 4> kModels{
-    {{2, 0, 4, 149, 531}, {1, 1, 2, 149, 531}, {1, 1, 4, 199, 599}, {0, 0, 4, 149, 531}}};
-
-/// Reads options one after the other; the first error is kept and ends the reading.
-class Reader {
- public:
-  explicit Reader(const Options& options) : options_(options) {}
-
-  void flag(std::string_view key, bool& out) { take(options_.flag(key, out), out); }
-  void number(std::string_view key, double& out) { take(options_.number(key, out), out); }
-  void length(std::string_view key, double& out) {
-    Length value = Length::mm(out);
-    take(options_.length(key, value), value);
-    out = value.mm();
-  }
-  /// A whole number from `least` up.
-  template <class Number>
-  void count(std::string_view key, std::int64_t least, std::int64_t most, Number& out) {
-    std::int64_t value = static_cast<std::int64_t>(out);
-    take(options_.integer(key, value), value);
-    if (value < least || value > most) {
-      complain("[control] {}: {} is not {} to {}", key, value, least, most);
-      return;
-    }
-    out = static_cast<Number>(value);
-  }
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> allowed,
-                     std::size_t fallback) {
-    std::size_t value = fallback;
-    take(options_.choice(key, allowed, fallback), value);
-    return value;
-  }
-  void integers(std::string_view key, std::vector<std::int64_t>& out) {
-    take(options_.integers(key), out);
-  }
-  void position(std::string_view key, Position& out) { take(options_.position(key), out); }
-  std::vector<Position> positions(std::string_view key) {
-    std::vector<Position> values;
-    take(options_.positions(key), values);
-    return values;
-  }
-  bool has(std::string_view key) const { return options_.find(key) != nullptr; }
-
-  template <class... Args>
-  void complain(fmt::format_string<Args...> format, Args&&... args) {
-    if (!error_) error_ = Error{Errc::Syntax, fmt::format(format, std::forward<Args>(args)...)};
-  }
-  const std::optional<Error>& error() const { return error_; }
-
- private:
-  template <class Read, class Out>
-  void take(const Result<Read>& read, Out& out) {
-    if (!read) {
-      if (!error_) error_ = read.error();
-    } else {
-      out = *read;
-    }
-  }
-  const Options& options_;
-  std::optional<Error> error_;
-};
+    {{RepeatAddress::Both, CallForm::EightDigits, 4, 149, 531},
+     {RepeatAddress::L, CallForm::L, 2, 149, 531},
+     {RepeatAddress::L, CallForm::L, 4, 199, 599},
+     {RepeatAddress::K, CallForm::EightDigits, 4, 149, 531}}};
 
 AxisValues values_of(const Position& position) {
   AxisValues values{};
@@ -81,247 +30,262 @@ AxisValues values_of(const Position& position) {
   return values;
 }
 
-void read_numbers(Reader& read, ControlOptions& control) {
-  read.flag("calculator_point", control.calculator_point);
-  read.flag("tool_changer", control.has_tool_changer);
-  control.decimals_mm = 2 + static_cast<int>(read.choice("increment", {"IS-A", "IS-B", "IS-C"}, 1));
-  read.number("feed_unit_inch", control.feed_unit_inch);
-  if (!(control.feed_unit_inch > 0)) read.complain("[control] feed_unit_inch: must be above 0");
-  read.flag("diameter_offset", control.diameter_offset);
-  control.offset_memory =
-      static_cast<OffsetMemory>(read.choice("offset_memory", {"A", "B", "C"}, 0));
-}
-
-void read_model(Reader& read, ControlOptions& control) {
-  const bool is_given = read.has("model");
-  const std::size_t model = read.choice("model", {"0M", "6M", "11M", "16M"}, 3);
-  control.model = static_cast<Model>(model);
-  const ModelRow& row = kModels[model];
-  control.repeat_address = static_cast<RepeatAddress>(
-      read.choice("repeat_address", {"K", "L", "both"}, is_given ? row.repeat : 2));
-  control.call_form =
-      static_cast<CallForm>(read.choice("m98_form", {"P8", "L", "both"}, is_given ? row.call : 2));
-  control.max_call_depth = static_cast<std::size_t>(row.call_depth);
-  read.count("max_call_depth", 1, 16, control.max_call_depth);
-  read.count("max_nesting", 1, static_cast<std::int64_t>(kMaxFrames), control.max_nesting);
-  read.count("max_loops", 1, 1'000'000'000, control.max_loops);
-  read.count("max_blocks", 1, 1'000'000'000'000, control.max_blocks);
+Result<void> read_model(const Options& options, const OptionKey& key, C& control) {
+  if (options.find(key.key) == nullptr) return {};
+  const auto model = read_word(options, key, 3);
+  if (!model) return fail(model.error());
+  const ModelRow& row = kModels[*model];
+  control.model = static_cast<Model>(*model);
+  control.repeat_address = row.repeat;
+  control.call_form = row.call;
+  control.max_call_depth = row.call_depth;
   control.last_common = row.last_common;
   control.last_kept = row.last_kept;
-  read.count("last_common", 149, 199, control.last_common);
-  read.count("last_kept", 531, 999, control.last_kept);
+  return {};
 }
 
-void read_start(Reader& read, ControlOptions& control) {
-  control.start_units =
-      read.choice("start_units", {"in", "mm"}, 1) == 0 ? Units::Inch : Units::Millimetre;
+Result<void> read_increment(const Options& options, const OptionKey& key, C& control) {
+  const auto increment = read_word(options, key, 1);
+  if (!increment) return fail(increment.error());
+  control.decimals_mm = 2 + static_cast<int>(*increment);
+  return {};
+}
+
+/// Whether power on can put a code in force: a state that needs more than its code (a center, a
+/// number) cannot be had.
+bool is_start_code(std::int64_t code) {
+  if (code < 0 || code >= 100) return false;
+  const std::uint8_t group = group_of(static_cast<std::uint8_t>(code));
+  constexpr std::array<std::int64_t, 5> kNeedMore{41, 42, 51, 66, 68};
+  return group != kNoGroup && group != kOneShot && (group != kCycleGroup || code == 80) &&
+         std::find(kNeedMore.begin(), kNeedMore.end(), code) == kNeedMore.end();
+}
+
+Result<void> read_start_codes(const Options& options, const OptionKey& key, C& control) {
   std::vector<std::int64_t> codes{0, 17, 90, 94, 40, 49, 50, 54, 64, 67, 69, 80, 97, 98, 22, 15};
-  std::vector<std::int64_t> given;
-  read.integers("start_g", given);
-  codes.insert(codes.end(), given.begin(), given.end());
+  const auto given = options.integers(key.key);
+  if (!given) return fail(given.error());
+  codes.insert(codes.end(), given->begin(), given->end());
   for (const std::int64_t code : codes) {
-    if (code == 20 || code == 21)
-      control.start_units = code == 20 ? Units::Inch : Units::Millimetre;
-    const bool is_code = code >= 0 && code < 100;
-    const std::uint8_t group = is_code ? group_of(static_cast<std::uint8_t>(code)) : kNoGroup;
-    // A state that needs more than its code (a center, a number) cannot be had at power on.
-    if (group == kNoGroup || group == kOneShot || code == 51 || code == 68 || code == 66 ||
-        (group == kCycleGroup && code != 80) || code == 41 || code == 42) {
-      read.complain("[control] start_g: G{} is not a state this control can start in", code);
-      return;
+    if (!is_start_code(code)) {
+      return fail(Errc::Syntax, "[control] start_g: G{} is not a state this control can start in",
+                  code);
     }
+    if (code == 20) control.start_units = Units::Inch;
+    if (code == 21) control.start_units = Units::Millimetre;
     control.start_g.push_back(static_cast<std::uint8_t>(code));
   }
-}
-
-void read_reference(Reader& read, ControlOptions& control) {
-  const std::vector<Position> points = read.positions("reference");
-  if (points.size() > control.reference.size()) {
-    read.complain("[control] reference: {} points, this control has 4", points.size());
-    return;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) control.reference[i] = values_of(points[i]);
-}
-
-void read_cycles(Reader& read, ControlOptions& control) {
   if (control.start_units == Units::Inch) {
     control.peck_return = Length::inch(0.004).mm();
     control.peck_clearance = Length::inch(0.04).mm();
     control.peck_tap_return = control.peck_return;
   }
-  read.length("g73_return", control.peck_return);
-  read.length("g83_clearance", control.peck_clearance);
-  read.length("peck_tapping_return", control.peck_tap_return);
-  control.peck_tap_leaves = read.choice("peck_tapping", {"high-speed", "standard"}, 0) == 1;
-  if (!(control.peck_return >= 0) || !(control.peck_clearance >= 0) ||
-      !(control.peck_tap_return >= 0)) {
-    read.complain("[control] g73_return, g83_clearance, peck_tapping_return: must not be below 0");
-  }
-  const std::size_t direction = read.choice("shift_direction", {"+X", "-X", "+Y", "-Y"}, 0);
-  control.shift_first = direction == 0 ? 1 : direction == 1 ? -1 : 0;
-  control.shift_second = direction == 2 ? 1 : direction == 3 ? -1 : 0;
-  Position overrun;
-  read.position("single_direction", overrun);
-  control.single_direction = values_of(overrun);
+  return {};
 }
 
-void read_geometry(Reader& read, ControlOptions& control) {
-  read.length("arc_error", control.arc_error);
-  control.arc_needs_center = read.choice("arc_without_center", {"line", "alarm"}, 0) == 1;
-  control.short_radius_is_semicircle = read.choice("short_radius", {"alarm", "semicircle"}, 0) == 1;
-  read.number("scale_default", control.scale_default);
-  read.number("rotate_default", control.rotate_default);
-  read.flag("rotate_incremental", control.rotate_incremental);
-  control.start_up_b = read.choice("startup", {"A", "B"}, 0) == 1;
-  control.length_axis_type =
-      static_cast<char>('A' + read.choice("length_axis", {"A", "B", "C"}, 0));
+Result<void> read_reference(const Options& options, const OptionKey& key, C& control) {
+  const auto points = options.positions(key.key);
+  if (!points) return fail(points.error());
+  if (points->size() > control.reference.size()) {
+    return fail(Errc::Syntax, "[control] reference: {} points, this control has {}", points->size(),
+                control.reference.size());
+  }
+  std::transform(points->begin(), points->end(), control.reference.begin(), values_of);
+  return {};
 }
 
-/// Two positions make limit 1 (least, most), two more the forbidden zone of limit 2.
-void read_limits(Reader& read, ControlOptions& control) {
-  const std::vector<Position> corners = read.positions("stroke_limits");
-  if (corners.size() % 2 != 0 || corners.size() > 4) {
-    read.complain(
-        "[control] stroke_limits: expected the least and the most position of limit 1, and of "
-        "limit 2");
-    return;
+Result<void> read_shift_direction(const Options& options, const OptionKey& key, C& control) {
+  const auto direction = read_word(options, key, 0);
+  if (!direction) return fail(direction.error());
+  control.shift_first = *direction == 0 ? 1 : *direction == 1 ? -1 : 0;
+  control.shift_second = *direction == 2 ? 1 : *direction == 3 ? -1 : 0;
+  return {};
+}
+
+Result<void> read_single_direction(const Options& options, const OptionKey& key, C& control) {
+  const auto overrun = options.position(key.key);
+  if (!overrun) return fail(overrun.error());
+  control.single_direction = values_of(*overrun);
+  return {};
+}
+
+Result<void> read_length_axis(const Options& options, const OptionKey& key, C& control) {
+  const auto type = read_word(options, key, 0);
+  if (!type) return fail(type.error());
+  control.length_axis_type = static_cast<char>('A' + *type);
+  return {};
+}
+
+/// X, Y and Z of a corner; an axis that is left out is at `missing`.
+std::array<double, 3> corner_of(const Position& position, double missing) {
+  std::array<double, 3> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto axis = static_cast<Axis>(i);
+    values[i] = position.has(axis) ? position.raw(axis) : missing;
   }
+  return values;
+}
+
+/// Two corners are limit 1, two more the forbidden zone of limit 2.
+Result<void> read_limits(const Options& options, const OptionKey& key, C& control) {
   constexpr double kFar = 1e9;
-  const auto corner = [](const Position& position, double missing) {
-    std::array<double, 3> values{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Axis>(i);
-      values[i] = position.has(axis) ? position.raw(axis) : missing;
-    }
-    return values;
-  };
-  if (corners.size() >= 2) {
-    control.has_limits = true;
-    control.limit_low = corner(corners[0], -kFar);
-    control.limit_high = corner(corners[1], kFar);
+  const auto corners = options.positions(key.key);
+  if (!corners) return fail(corners.error());
+  if (corners->size() % 2 != 0 || corners->size() > 4) {
+    return fail(Errc::Syntax,
+                "[control] stroke_limits: expected the lowest and the highest position of limit 1, "
+                "and of limit 2");
   }
-  if (corners.size() == 4) {
-    control.zone.low = corner(corners[2], -kFar);
-    control.zone.high = corner(corners[3], kFar);
+  control.has_limits = !corners->empty();
+  if (control.has_limits) {
+    control.limit_low = corner_of((*corners)[0], -kFar);
+    control.limit_high = corner_of((*corners)[1], kFar);
   }
+  if (corners->size() == 4) {
+    control.zone.low = corner_of((*corners)[2], -kFar);
+    control.zone.high = corner_of((*corners)[3], kFar);
+  }
+  return {};
 }
 
-void read_macros(Reader& read, ControlOptions& control) {
-  control.leading_zero_print = true;
-  read.flag("leading_zero_print", control.leading_zero_print);
-  read.choice("print_newline", {"LF", "CRLF", "LFCRCR"}, 0);  // a matter of the line, not of traces
-  control.print_expands = read.choice("print_overflow", {"cut", "expand"}, 0) == 1;
-  std::int64_t range = 0;
-  read.count("atan_range", 0, 1, range);
-  control.atan_is_signed = range == 1;
-  read.flag("reset_clears_locals", control.reset_clears_locals);
-  read.flag("reset_clears_commons", control.reset_clears_commons);
-  read.integers("g_macro", control.g_macros);
-  read.integers("m_macro", control.m_macros);
-  if (control.g_macros.size() > 10 || control.m_macros.size() > 10) {
-    read.complain("[control] g_macro, m_macro: this control has 10 of each");
-  }
+Result<void> read_g_macros(const Options& options, const OptionKey& key, C& control) {
+  if (auto done = assign(read_integers(options, key), control.g_macros); !done) return done;
   for (const std::int64_t code : control.g_macros) {
-    if (code < 1 || code > 255 || code == 65 || code == 66 || code == 67) {
-      read.complain("[control] g_macro: G{} cannot call a program", code);
+    if (code >= 65 && code <= 67) {
+      return fail(Errc::Syntax, "[control] g_macro: G{} cannot call a program", code);
     }
   }
-  for (const std::int64_t code : control.m_macros) {
-    if (code < 1 || code > 99'999'999) read.complain("[control] m_macro: M{} is no code", code);
-  }
-  read.flag("t_macro", control.t_macro);
-  read.integers("before_m", control.before_m);
+  return {};
 }
 
-void read_text_rules(Reader& read, ControlOptions& control) {
-  read.flag("semicolon_eob", control.semicolon_eob);
-  read.flag("comment_over_eob", control.comment_over_eob);
-  read.flag("dnc", control.is_dnc);
-  bool unroll = false;
-  read.flag("unroll",
-            unroll);  // for whoever feeds a real control; the trace is the unrolled program
-  std::vector<std::int64_t> levels;
-  read.integers("skip_levels", levels);
-  for (const std::int64_t level : levels) {
-    if (level < 1 || level > 9) {
-      read.complain("[control] skip_levels: {} is not 1 to 9", level);
-      return;
-    }
+Result<void> read_skip_levels(const Options& options, const OptionKey& key, C& control) {
+  const auto levels = read_integers(options, key);
+  if (!levels) return fail(levels.error());
+  for (const std::int64_t level : *levels) {
     control.skip_levels = static_cast<std::uint16_t>(control.skip_levels | (1u << level));
   }
+  return {};
 }
+
+// A row that others depend on is above them: model, start_g.
+constexpr std::array kRows{
+    Row{{"model", "0M|6M|11M|16M",
+         "sets the defaults of repeat_address, m98_form, max_call_depth, last_common, last_kept",
+         "16M"},
+        read_model},
+    row<&C::calculator_point>(
+        "calculator_point", kFlag,
+        "a number without a point is in millimetres or inches, not increments"),
+    row<&C::has_tool_changer>(
+        "tool_changer", kFlag,
+        "false: M06 stops the spindle and waits until the operator has changed"),
+    Row{{"increment", "IS-A|IS-B|IS-C", "least increment: 0.01, 0.001, 0.0001 mm", "IS-B"},
+        read_increment},
+    row<&C::start_units>("start_units", "in|mm", "units in force at power on"),
+    Row{{"start_g", kWholes, "G codes in force at power on besides the usual ones"},
+        read_start_codes},
+    row<&C::repeat_address>("repeat_address", "K|L|both",
+                            "address of the repeats of a canned cycle"),
+    row<&C::call_form>("m98_form", "P8|L|both",
+                       "repeats of M98: in P of up to 8 digits, or in a word L"),
+    row<&C::offset_memory>("offset_memory", "A|B|C",
+                           "tool offsets: one, geometry and wear, or these for H and D each"),
+    row<&C::start_up_b>("startup", "A|B", "start and cancel of cutter compensation"),
+    Row{{"reference", kAxisTables, "first to fourth reference point, in machine coordinates",
+         "0 on every axis"},
+        read_reference},
+    row<&C::peck_return>("g73_return", kLength, "retraction of a peck of G73", kNotNegative, "",
+                         "0.1 mm, 0.004 in"),
+    row<&C::peck_clearance>("g83_clearance", kLength,
+                            "where G83 goes from rapid to feed, above the last depth", kNotNegative,
+                            "", "1 mm, 0.04 in"),
+    row<&C::peck_tap_leaves>("peck_tapping", "high-speed|standard",
+                             "a peck of rigid tapping goes back a little, or out to R"),
+    row<&C::peck_tap_return>("peck_tapping_return", kLength,
+                             "retraction of a peck of rigid tapping", kNotNegative, "",
+                             "0.1 mm, 0.004 in"),
+    Row{{"shift_direction", "+X|-X|+Y|-Y", "direction of the shift of G76 and G87"},
+        read_shift_direction},
+    Row{{"single_direction", kAxisTable, "overrun of G60, with its sign", "0 on every axis"},
+        read_single_direction},
+    row<&C::arc_error>(
+        "arc_error", kLength,
+        "allowed difference of the radii at start and end of an arc; 0: not checked"),
+    row<&C::arc_needs_center>("arc_without_center", "line|alarm",
+                              "what an arc without I, J, K and R is"),
+    row<&C::short_radius_is_semicircle>("short_radius", "alarm|semicircle",
+                                        "what R is that is too short to reach the end"),
+    row<&C::scale_default>("scale_default", kNumber, "factor of G51 without P"),
+    row<&C::rotate_default>("rotate_default", kNumber, "angle of G68 without R", {}, "degree"),
+    row<&C::rotate_incremental>("rotate_incremental", kFlag,
+                                "R of G68 in G91 is added to the angle in force"),
+    row<&C::leading_zero_print>("leading_zero_print", kFlag,
+                                "DPRNT prints blanks for leading zeros"),
+    Row{{"print_newline", "LF|CRLF|LFCRCR",
+         "end of a line of DPRNT at a real control; no effect here"},
+        check_option<C>},
+    row<&C::print_expands>("print_overflow", "cut|expand",
+                           "a number too long for its DPRNT format is cut, or printed"),
+    row<&C::atan_is_signed>("atan_range", kWhole,
+                            "results of ATAN: 0: 0 to 360 degrees; 1: -180 to 180", {0, 1}),
+    row<&C::reset_clears_locals>("reset_clears_locals", kFlag, "reset and M30 clear #1 to #33"),
+    row<&C::reset_clears_commons>("reset_clears_commons", kFlag,
+                                  "reset and M30 clear the variables from #100"),
+    Row{{"stroke_limits", kAxisTables,
+         "lowest and highest position of limit 1, then of the forbidden zone of limit 2"},
+        read_limits},
+    Row{{"skip_levels",
+         kWholes,
+         "block skip switches that are on: /2 to /9, and / or /1",
+         "",
+         {1, 9}},
+        read_skip_levels},
+    row<&C::m_macros>("m_macro", kWholes, "M codes that call O9020 to O9029 as a macro",
+                      {1, 99'999'999, false, 10}),
+    Row{{"g_macro",
+         kWholes,
+         "G codes that call O9010 to O9019 as a macro",
+         "",
+         {1, 255, false, 10}},
+        read_g_macros},
+    row<&C::t_macro>("t_macro", kFlag, "T calls O9000"),
+    row<&C::semicolon_eob>("semicolon_eob", kFlag, "a semicolon ends a block"),
+    row<&C::comment_over_eob>("comment_over_eob", kFlag, "a comment may go over ends of blocks"),
+    row<&C::feed_unit_inch>("feed_unit_inch", kNumber, "unit of F without a point in inch",
+                            kPositive, "inch/min"),
+    row<&C::diameter_offset>("diameter_offset", kFlag,
+                             "offsets of cutter compensation are diameters"),
+    row<&C::before_m>("before_m", kWholes,
+                      "M codes that act before the move of their block; none: all do"),
+    row<&C::is_dnc>("dnc", kFlag,
+                    "as in a DNC run: no loops and jumps in the fed program; calls take programs "
+                    "of the library"),
+    Row{{"unroll", kFlag,
+         "sends a real control the program without loops and calls; no effect here", "false"},
+        check_option<C>},
+    row<&C::max_call_depth>("max_call_depth", kWhole, "calls within calls", {1, 16}),
+    row<&C::max_nesting>("max_nesting", kWhole,
+                         "calls within calls, macros and subprograms together", {1, kMaxFrames}),
+    row<&C::max_loops>("max_loops", kWhole, "jumps back without a move before an alarm", {1, 1e9}),
+    row<&C::max_blocks>("max_blocks", kWhole, "blocks without a move before an alarm", {1, 1e12}),
+    row<&C::last_common>("last_common", kWhole, "last variable from #100", {149, 199}),
+    row<&C::last_kept>("last_kept", kWhole, "last variable from #500", {531, 999}),
+    Row{{"length_axis", "A|B|C", "type of tool length compensation"}, read_length_axis},
+    pins_row<&C::pins_at_one, &C::answers_pins>(),
+};
 
 }  // namespace
 
+std::vector<ListedOption> list_options() {
+  return list_rows(kRows);
+}
+
 Result<ControlOptions> read_options(const Setup& setup) {
-  const Options& options = setup.control;
-  auto known = options.check_known({"model",
-                                    "calculator_point",
-                                    "tool_changer",
-                                    "increment",
-                                    "start_units",
-                                    "start_g",
-                                    "repeat_address",
-                                    "m98_form",
-                                    "offset_memory",
-                                    "startup",
-                                    "reference",
-                                    "g73_return",
-                                    "g83_clearance",
-                                    "peck_tapping",
-                                    "peck_tapping_return",
-                                    "shift_direction",
-                                    "single_direction",
-                                    "arc_error",
-                                    "arc_without_center",
-                                    "scale_default",
-                                    "rotate_default",
-                                    "rotate_incremental",
-                                    "leading_zero_print",
-                                    "print_newline",
-                                    "atan_range",
-                                    "reset_clears_locals",
-                                    "reset_clears_commons",
-                                    "stroke_limits",
-                                    "skip_levels",
-                                    "m_macro",
-                                    "g_macro",
-                                    "t_macro",
-                                    "semicolon_eob",
-                                    "comment_over_eob",
-                                    "feed_unit_inch",
-                                    "short_radius",
-                                    "diameter_offset",
-                                    "before_m",
-                                    "print_overflow",
-                                    "dnc",
-                                    "unroll",
-                                    "max_call_depth",
-                                    "max_nesting",
-                                    "max_loops",
-                                    "max_blocks",
-                                    "last_common",
-                                    "last_kept",
-                                    "length_axis",
-                                    "pins"});
-  if (!known) return fail(known.error());
+  ControlOptions control;
+  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control mirrors with G51");
   }
-  ControlOptions control;
-  Reader read(options);
-  read_model(read, control);
-  read_numbers(read, control);
-  read_start(read, control);
-  read_reference(read, control);
-  read_cycles(read, control);
-  read_geometry(read, control);
-  read_limits(read, control);
-  read_macros(read, control);
-  read_text_rules(read, control);
-  control.answers_pins = read.has("pins");
-  read.integers("pins", control.pins_at_one);
-  if (read.error()) return fail(*read.error());
   if (setup.switches.block_skip) control.skip_levels |= 1u << 1;
   control.optional_stop = setup.switches.optional_stop;
   return control;

@@ -3,17 +3,29 @@
 #include <algorithm>
 #include <string>
 
+#include "gateway/interpreter/core/option_rows.hpp"
 #include "gateway/interpreter/dialects/prototrak/event_list.hpp"
 #include "gateway/interpreter/dialects/prototrak/interpreter.hpp"
 
 namespace dripline::interpreter {
 namespace prototrak {
 
+namespace {
+
+constexpr std::array kRows{row<&ControlOptions::waits>(
+    "waits", kFlag,
+    "the operator moves Z: waits at positions and at both ends of a chain of cuts")};
+
+}  // namespace
+
+std::vector<ListedOption> list_options() {
+  return list_rows(kRows);
+}
+
 Result<ControlOptions> read_options(const Setup& setup) {
-  if (const auto known = setup.control.check_known({"waits"}); !known) return fail(known.error());
-  const auto waits = setup.control.flag("waits", true);
-  if (!waits) return fail(waits.error());
-  return ControlOptions{*waits};
+  ControlOptions control;
+  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
+  return control;
 }
 
 }  // namespace prototrak
@@ -71,8 +83,9 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 .make = make,
                                 .units = Units::Inch,
                                 .machine = MachineKind::Mill,
-                                // Every tool is changed by hand at a prompt (spec 12).
+                                // Every tool is changed by hand at a prompt.
                                 .waits_at_tool_change = true,
-                                .list = list};
+                                .list = list,
+                                .options = list_options};
 
 }  // namespace dripline::interpreter

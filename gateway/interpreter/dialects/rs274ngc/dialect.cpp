@@ -90,15 +90,13 @@ int likelihood(std::string_view head, std::string_view file_name) {
 
 }  // namespace
 
-const Dialect kRs274NgcDialect{"rs274ngc",
-                               "RS274/NGC (NIST, LinuxCNC)",
-                               &likelihood,
-                               &make,
-                               Units::Millimetre,
-                               MachineKind::Mill,
-                               // The language's machine has a changer with slots (spec 1, 6: M6):
-                               // only one without `tool_changer` has a tool change stop.
-                               {},
-                               true};
+const Dialect kRs274NgcDialect{.name = "rs274ngc",
+                               .title = "RS274/NGC (NIST, LinuxCNC)",
+                               .likelihood = &likelihood,
+                               .make = &make,
+                               // The language's machine has a changer with slots (NIST 3.6, M6):
+                               // only a machine without `tool_changer` stops for a tool change.
+                               .waits_at_tool_change = true,
+                               .options = &list_options};
 
 }  // namespace dripline::interpreter

@@ -1,98 +1,61 @@
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
-#include <fmt/core.h>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "gateway/interpreter/core/option.hpp"
+#include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/retained_memory.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-Result<AddressSet> read_axes(const Options& options) {
-  const auto letters = options.text("axes", "XYZABC");
+using C = ControlOptions;
+using Row = OptionRow<C>;
+
+Result<void> read_axes(const Options& options, const OptionKey& key, C& control) {
+  const auto letters = options.text(key.key, key.fallback);
   if (!letters) return fail(letters.error());
-  AddressSet axes = 0;
   for (const char c : *letters) {
     if (!axis_of(c)) return fail(Errc::Syntax, "[control] axes: \"{}\" is not an axis", c);
-    axes |= set_of(c);
+    control.axes |= set_of(c);
   }
-  return axes;
-}
-
-Result<std::uint64_t> read_limit(const Options& options, std::string_view name,
-                                 std::uint64_t fallback) {
-  const auto value = options.integer(name, static_cast<std::int64_t>(fallback));
-  if (!value) return fail(value.error());
-  if (*value < 1) return fail(Errc::Syntax, "[control] {}: expected a number from 1", name);
-  return static_cast<std::uint64_t>(*value);
-}
-
-Result<void> read_limits(const Options& options, ControlOptions& control) {
-  const auto passes = read_limit(options, "max_passes", control.max_passes);
-  const auto restarts = read_limit(options, "max_loops", control.max_restarts);
-  const auto slots = read_limit(options, "slots", static_cast<std::uint64_t>(control.slots));
-  if (!passes) return fail(passes.error());
-  if (!restarts) return fail(restarts.error());
-  if (!slots) return fail(slots.error());
-  if (*slots > 99'999) return fail(Errc::Syntax, "[control] slots: at most 99999");
-  control.max_passes = *passes;
-  control.max_restarts = *restarts;
-  control.slots = static_cast<int>(*slots);
   return {};
 }
 
-Result<void> read_tolerance(const Options& options, ControlOptions& control) {
-  constexpr double kLeast = 1e-6;
-  const auto tolerance = options.length("spline_tolerance", Length::mm(control.spline_tolerance));
-  if (!tolerance) return fail(tolerance.error());
-  if (!(tolerance->mm() >= kLeast)) {
-    return fail(Errc::Syntax, "[control] spline_tolerance: {} mm is below {} mm", tolerance->mm(),
-                kLeast);
-  }
-  control.spline_tolerance = tolerance->mm();
-  return {};
-}
-
-Result<void> read_pins(const Options& options, ControlOptions& control) {
-  const auto pins = options.integers("pins");
-  if (!pins) return fail(pins.error());
-  control.pins = *pins;
-  control.answers_pins = options.find("pins") != nullptr;
-  return {};
-}
+constexpr std::array kRows{
+    row<&C::profile>("profile", "nist|linuxcnc", "which language programs are in"),
+    Row{{"axes", kText, "letters of the axes that the machine has", "XYZABC"}, read_axes},
+    row<&C::ignores_missing_axes>("ignore_missing_axis_words", kFlag,
+                                  "true: words of other axes have no effect; else an alarm"),
+    row<&C::has_tool_changer>("tool_changer", kFlag,
+                              "false: M6 stops and waits until the operator has changed the tool"),
+    row<&C::slots>("slots", kWhole,
+                   "slots of the tool changer: highest T, H and D of the profile nist",
+                   {1, 99'999}),
+    row<&C::max_passes>("max_passes", kWhole,
+                        "passes of loops and calls without a move before an alarm", {.low = 1}),
+    row<&C::max_restarts>("max_loops", kWhole,
+                          "restarts of the main program by M99 without a move before an alarm",
+                          {.low = 1}),
+    row<&C::spline_tolerance>("spline_tolerance", kLength,
+                              "distance of a spline's straight pieces from the curve",
+                              {.low = 1e-6}),
+    pins_row<&C::pins, &C::answers_pins>(),
+};
 
 }  // namespace
 
+std::vector<ListedOption> list_options() {
+  return list_rows(kRows);
+}
+
 Result<ControlOptions> read_options(const Setup& setup) {
-  const Options& options = setup.control;
-  if (auto known = options.check_known({"profile", "axes", "ignore_missing_axis_words", "slots",
-                                        "max_passes", "max_loops", "pins", "spline_tolerance",
-                                        "tool_changer"});
-      !known) {
-    return fail(known.error());
-  }
+  ControlOptions control;
+  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
   if (!setup.switches.mirror.empty()) {
     return fail(Errc::Unsupported, "switches.mirror: this control has no mirror switch");
   }
-  ControlOptions control;
-  const auto profile = options.choice("profile", {"nist", "linuxcnc"}, 0);
-  const auto axes = read_axes(options);
-  const auto ignores = options.flag("ignore_missing_axis_words", false);
-  if (!profile) return fail(profile.error());
-  if (!axes) return fail(axes.error());
-  if (!ignores) return fail(ignores.error());
-  const auto has_changer = options.flag("tool_changer", true);
-  if (!has_changer) return fail(has_changer.error());
-  control.has_tool_changer = *has_changer;
-  control.profile = *profile == 0 ? Profile::Nist : Profile::LinuxCnc;
-  control.axes = *axes;
-  control.ignores_missing_axes = *ignores;
-  if (auto read = read_limits(options, control); !read) return fail(read.error());
-  if (auto read = read_tolerance(options, control); !read) return fail(read.error());
-  if (auto read = read_pins(options, control); !read) return fail(read.error());
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;
   if (setup.units.value_or(Units::Millimetre) == Units::Inch) {

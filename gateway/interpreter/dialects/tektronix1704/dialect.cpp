@@ -47,8 +47,9 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .units = Units::Inch,
                                     .machine = MachineKind::Mill,
                                     .feed_override_switch = {0.125, 1.25, Length::inch(200)},
-                                    // Without a changer M06 is an M00 with a lamp (spec 9.1).
+                                    // Without a changer M06 is an M00 with a lamp.
                                     .waits_at_tool_change = true,
-                                    .list = planning_sheet};
+                                    .list = planning_sheet,
+                                    .options = list_options};
 
 }  // namespace dripline::interpreter

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/dialect.hpp"
+
 namespace dripline::interpreter::tektronix1704 {
 namespace {
 
@@ -20,7 +23,7 @@ constexpr std::array kStepNames{
     std::pair{CycleStep::ManualOut, std::string_view("manual_out")},
 };
 
-/// After EIA RS-326-A (spec 12).
+/// After EIA RS-326-A.
 std::array<CycleSteps, 10> standard_cycles() {
   using enum CycleStep;
   return {CycleSteps{},
@@ -43,88 +46,60 @@ double timer_seconds(std::int64_t position) {
   return kFirst + static_cast<double>(position - 1) * kSpan / kSteps;
 }
 
-Result<void> read_flags(const Options& options, ControlOptions& control) {
-  struct Row {
-    std::string_view key;
-    bool ControlOptions::*member;
-  };
-  static constexpr std::array kRows{
-      Row{"circular", &ControlOptions::has_arcs},
-      Row{"fixed_cycles", &ControlOptions::has_cycles},
-      Row{"dwell", &ControlOptions::has_dwell},
-      Row{"quill", &ControlOptions::has_quill},
-      Row{"spindle_s", &ControlOptions::has_spindle_speed},
-      Row{"tool_t", &ControlOptions::has_tool_codes},
-      Row{"auto_toolchange", &ControlOptions::has_tool_changer},
-      Row{"mist", &ControlOptions::has_mist},
-      Row{"strict", &ControlOptions::is_strict},
-      Row{"cycle_z_with_xy", &ControlOptions::cycle_z_moves_with_xy},
-      Row{"m05_delayed", &ControlOptions::m05_is_delayed},
-      Row{"m09_delayed", &ControlOptions::m09_is_delayed},
-      Row{"m05_stops_coolant", &ControlOptions::m05_stops_coolant},
-      Row{"reader_check", &ControlOptions::checks_reader},
-  };
-  for (const Row& row : kRows) {
-    const auto value = options.flag(row.key, control.*row.member);
-    if (!value) return fail(value.error());
-    control.*row.member = *value;
-  }
-  return {};
-}
+using C = ControlOptions;
+using Row = OptionRow<C>;
 
-Result<void> read_choices(const Options& options, ControlOptions& control) {
-  const auto units = options.choice("units", {"inch", "opt1", "opt2", "metric"}, 0);
-  const auto errors = options.choice("errors", {"stop", "skip_block"}, 0);
-  const auto arcs = options.choice("arc_policy", {"alarm", "run"}, 0);
-  const auto feed = options.choice("opt1_feed", {"tenths", "count_x_0.2"}, 0);
-  for (const auto* choice : {&units, &errors, &arcs, &feed}) {
-    if (!*choice) return fail(choice->error());
-  }
+/// The feed limits follow from the unit of F.
+Result<void> read_units(const Options& options, const OptionKey& key, C& control) {
+  const auto units = read_word(options, key, 0);
+  if (!units) return fail(units.error());
   control.units = static_cast<UnitSet>(*units);
-  control.skips_bad_blocks = *errors == 1;
-  control.runs_bad_arcs = *arcs == 1;
-  control.option1_feed_is_doubled = *feed == 1;
-  return {};
-}
-
-Result<void> read_rates(const Options& options, ControlOptions& control) {
   const bool is_coarse = control.units == UnitSet::Option2 || control.is_metric();
   const bool is_doubled = control.units == UnitSet::Option1;
-  const double least = is_coarse ? 1 : is_doubled ? 0.2 : 0.1;
-  const double most = is_coarse ? 2000 : is_doubled ? 400 : 200;
-  const double rapid = control.is_metric() ? 4000 : control.units == UnitSet::Option2 ? 2000 : 400;
-  struct Row {
-    std::string_view key;
-    double ControlOptions::*member;
-    double fallback;
-  };
-  for (const Row& row : {Row{"min_feed", &ControlOptions::min_feed, least},
-                         Row{"max_feed", &ControlOptions::max_feed, most},
-                         Row{"rapid", &ControlOptions::rapid, rapid},
-                         Row{"reader_cps", &ControlOptions::reader_characters_per_second, 300}}) {
-    const auto value = options.number(row.key, row.fallback);
-    if (!value) return fail(value.error());
-    if (!(*value > 0)) return fail(Errc::Syntax, "[control] {}: must be above 0", row.key);
-    control.*row.member = *value;
-  }
+  control.min_feed = is_coarse ? 1 : is_doubled ? 0.2 : 0.1;
+  control.max_feed = is_coarse ? 2000 : is_doubled ? 400 : 200;
+  control.rapid = control.is_metric() ? 4000 : control.units == UnitSet::Option2 ? 2000 : 400;
   return {};
 }
 
-Result<void> read_timers(const Options& options, ControlOptions& control) {
-  const auto dwell = options.integer("dwell_timer", 1);
-  const auto peck = options.integer("peck_timer", 1);
-  for (const auto* position : {&dwell, &peck}) {
-    if (!*position) return fail(position->error());
-    if (**position < 1 || **position > 15) {
-      return fail(Errc::LimitExceeded, "[control] timers have positions 1 to 15, not {}",
-                  **position);
-    }
-  }
-  control.dwell_seconds = timer_seconds(*dwell);
-  control.peck_seconds = timer_seconds(*peck);
-  const auto tolerance = options.integer("arc_tolerance", 5);
+template <double C::*kSeconds>
+Result<void> read_timer(const Options& options, const OptionKey& key, C& control) {
+  const auto position = options.integer(key.key, 1);
+  if (!position) return fail(position.error());
+  if (auto good = check_range(key, static_cast<double>(*position)); !good) return good;
+  control.*kSeconds = timer_seconds(*position);
+  return {};
+}
+
+Result<void> read_search(const Options& options, const OptionKey& key, C& control) {
+  const auto number = options.integer(key.key, -1);
+  if (!number) return fail(number.error());
+  if (*number > 999) return fail(Errc::Syntax, "[control] search: {} is over 999", *number);
+  if (*number >= 0) control.search = static_cast<int>(*number);
+  return {};
+}
+
+Result<void> read_arc_tolerance(const Options& options, const OptionKey& key, C& control) {
+  const auto tolerance = options.integer(key.key, control.arc_tolerance);
   if (!tolerance) return fail(tolerance.error());
   control.arc_tolerance = std::clamp<std::int64_t>(*tolerance, 0, 1000);
+  return {};
+}
+
+Result<void> read_mdi(const Options& options, const OptionKey& key, C& control) {
+  constexpr std::size_t kMaxBlock = 200;
+  const OptionValue* mdi = options.find(key.key);
+  if (mdi == nullptr) return {};
+  const auto* list = std::get_if<OptionList>(&mdi->value);
+  if (list == nullptr) return fail(Errc::Syntax, "[control] mdi: expected a list");
+  for (const OptionValue& value : *list) {
+    const auto* block = std::get_if<std::string>(&value.value);
+    if (block == nullptr || block->size() > kMaxBlock) {
+      return fail(Errc::Syntax, "[control] mdi: expected blocks as text, up to {} characters",
+                  kMaxBlock);
+    }
+    control.mdi.push_back(*block);
+  }
   return {};
 }
 
@@ -166,26 +141,28 @@ Result<CycleSteps> read_steps(const OptionEntry& entry) {
   return steps;
 }
 
-Result<void> read_tables(const Options& options, ControlOptions& control) {
+Result<void> read_cycle_table(const Options& options, const OptionKey& key, C& control) {
   control.cycles = standard_cycles();
-  const auto cycles = table_of(options, "cycle_table");
-  const auto speeds = table_of(options, "spindle_table");
-  const auto names = table_of(options, "usermcodes");
-  for (const auto* table : {&cycles, &speeds, &names}) {
-    if (!*table) return fail(table->error());
-  }
-  for (const OptionEntry& entry : **cycles) {
-    const auto code = code_of("cycle_table", entry.key);
+  const auto table = table_of(options, key.key);
+  if (!table) return fail(table.error());
+  for (const OptionEntry& entry : **table) {
+    const auto code = code_of(key.key, entry.key);
     if (!code) return fail(code.error());
     if (*code < 81 || *code > 89) {
-      return fail(Errc::LimitExceeded, "[control] cycle_table: {} is not 81 to 89", *code);
+      return fail(Errc::Syntax, "[control] cycle_table: {} is not 81 to 89", *code);
     }
     auto steps = read_steps(entry);
     if (!steps) return fail(steps.error());
     control.cycles[*code - 80] = std::move(*steps);
   }
-  for (const OptionEntry& entry : **speeds) {
-    const auto code = code_of("spindle_table", entry.key);
+  return {};
+}
+
+Result<void> read_spindle_table(const Options& options, const OptionKey& key, C& control) {
+  const auto table = table_of(options, key.key);
+  if (!table) return fail(table.error());
+  for (const OptionEntry& entry : **table) {
+    const auto code = code_of(key.key, entry.key);
     if (!code) return fail(code.error());
     const auto* whole = std::get_if<std::int64_t>(&entry.value.value);
     const auto* real = std::get_if<double>(&entry.value.value);
@@ -194,8 +171,14 @@ Result<void> read_tables(const Options& options, ControlOptions& control) {
     }
     control.spindle_speed[*code] = whole != nullptr ? static_cast<double>(*whole) : *real;
   }
-  for (const OptionEntry& entry : **names) {
-    const auto code = code_of("usermcodes", entry.key);
+  return {};
+}
+
+Result<void> read_m_names(const Options& options, const OptionKey& key, C& control) {
+  const auto table = table_of(options, key.key);
+  if (!table) return fail(table.error());
+  for (const OptionEntry& entry : **table) {
+    const auto code = code_of(key.key, entry.key);
     if (!code) return fail(code.error());
     const auto* name = std::get_if<std::string>(&entry.value.value);
     if (name == nullptr) return fail(Errc::Syntax, "[control] usermcodes: M{}: text", entry.key);
@@ -208,24 +191,103 @@ std::int64_t counts(const ControlOptions& control, Length length) {
   return std::llround(length.mm() / control.mm_per_count());
 }
 
-Result<void> read_positions(const Setup& setup, ControlOptions& control) {
-  const auto zero = setup.control.position("zero");
-  const auto low = setup.control.position("travel_low");
-  const auto high = setup.control.position("travel_high");
-  for (const auto* position : {&zero, &low, &high}) {
-    if (!*position) return fail(position->error());
-  }
+Result<void> read_zero(const Options& options, const OptionKey& key, C& control) {
+  const auto zero = options.position(key.key);
+  if (!zero) return fail(zero.error());
   for (std::size_t i = 0; i < kAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
-    control.start[i] = counts(control, setup.start.linear(axis));
-    control.zero[i] = counts(control, zero->linear(axis));
-    if (low->has(axis)) control.travel[i].low = counts(control, low->linear(axis));
-    if (high->has(axis)) control.travel[i].high = counts(control, high->linear(axis));
+    control.zero[i] = counts(control, zero->linear(static_cast<Axis>(i)));
   }
   return {};
 }
 
-Result<void> read_mirror(const Setup& setup, ControlOptions& control) {
+template <std::optional<std::int64_t> AxisLimits::*kEnd>
+Result<void> read_travel(const Options& options, const OptionKey& key, C& control) {
+  const auto end = options.position(key.key);
+  if (!end) return fail(end.error());
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    if (end->has(axis)) control.travel[i].*kEnd = counts(control, end->linear(axis));
+  }
+  return {};
+}
+
+// `units` is above the rows that depend on it.
+constexpr std::array kRows{
+    row<&C::axes>("axes", kWhole, "2: X and Y; 3: also Z", {2, 3}),
+    Row{{"units", "inch|opt1|opt2|metric",
+         "unit of a count: 0.0001 in, 0.0002 in, 0.001 in, 0.001 mm"},
+        read_units},
+    row<&C::option1_feed_is_doubled>("opt1_feed", "tenths|count_x_0.2",
+                                     "unit of F with units = \"opt1\": 0.1 or 0.2 in/min"),
+    row<&C::has_arcs>("circular", kFlag, "fitted: arcs"),
+    row<&C::has_cycles>("fixed_cycles", kFlag, "fitted: fixed cycles, G81 to G89"),
+    Row{{"cycle_table", "table",
+         "steps of a cycle: { 81 = [\"feed_in\", \"rapid_out\"] }; steps are feed_in, peck_in, "
+         "dwell, spindle_stop, spindle_reverse, program_stop, feed_out, rapid_out, manual_out",
+         "as EIA RS-326-A"},
+        read_cycle_table},
+    row<&C::has_dwell>("dwell", kFlag, "fitted: dwell, G04"),
+    row<&C::has_quill>("quill", kFlag, "fitted: quill in the place of a Z axis"),
+    row<&C::has_spindle_speed>("spindle_s", kFlag, "fitted: spindle speed, S"),
+    Row{{"spindle_table", "table", "speed of an S code: { 01 = 500 }", "", {}, "rpm"},
+        read_spindle_table},
+    row<&C::has_tool_codes>("tool_t", kFlag, "fitted: tool codes, T"),
+    row<&C::has_tool_changer>("auto_toolchange", kFlag,
+                              "fitted: tool changer; without one M06 stops the tape"),
+    row<&C::has_mist>("mist", kFlag, "fitted: mist coolant, M07"),
+    Row{{"mirror", kText, "axes with a mirror switch on the panel", "XYZ"}},
+    row<&C::reader_characters_per_second>(
+        "reader_cps", kNumber, "characters that the tape reader reads", kPositive, "1/s"),
+    row<&C::checks_reader>("reader_check", kFlag,
+                           "warns of blocks that take longer to read than to cut"),
+    row<&C::max_feed>("max_feed", kNumber, "highest feed", kPositive, "in or mm/min",
+                      "200; 400 with opt1; 2000 with opt2, metric"),
+    row<&C::min_feed>("min_feed", kNumber, "lowest feed", kPositive, "in or mm/min",
+                      "0.1; 0.2 with opt1; 1 with opt2, metric"),
+    row<&C::rapid>("rapid", kNumber, "rapid traverse rate", kPositive, "in or mm/min",
+                   "400; 2000 with opt2; 4000 with metric"),
+    Row{{"travel_low", kAxisTable, "lower end of travel, machine coordinates", "no limit"},
+        read_travel<&AxisLimits::low>},
+    Row{{"travel_high", kAxisTable, "upper end of travel, machine coordinates", "no limit"},
+        read_travel<&AxisLimits::high>},
+    Row{{"usermcodes", "table", "names of the machine builder's M functions: { 23 = \"clamp\" }"},
+        read_m_names},
+    row<&C::runs_bad_arcs>("arc_policy", "alarm|run",
+                           "what an arc off its circle or quadrant does"),
+    Row{{"arc_tolerance",
+         kWhole,
+         "allowed distance of an arc's end from its circle, up to 1000",
+         "5",
+         {},
+         "count"},
+        read_arc_tolerance},
+    row<&C::skips_bad_blocks>("errors", "stop|skip_block", "what a block does that cannot be read"),
+    row<&C::is_strict>("strict", kFlag, "what the manual forbids stops the tape; else a warning"),
+    row<&C::cycle_z_moves_with_xy>("cycle_z_with_xy", kFlag,
+                                   "Z goes to R of a cycle together with X and Y"),
+    row<&C::m05_is_delayed>("m05_delayed", kFlag, "M05 acts after the move of its block"),
+    row<&C::m09_is_delayed>("m09_delayed", kFlag, "M09 acts after the move of its block"),
+    row<&C::m05_stops_coolant>("m05_stops_coolant", kFlag, "M05 stops the coolant too"),
+    Row{{"dwell_timer",
+         kWhole,
+         "position of the panel's dwell timer: 1.3 to 12 seconds",
+         "1",
+         {1, 15}},
+        read_timer<&C::dwell_seconds>},
+    Row{{"peck_timer",
+         kWhole,
+         "position of the panel's peck timer: 1.3 to 12 seconds",
+         "1",
+         {1, 15}},
+        read_timer<&C::peck_seconds>},
+    Row{{"mdi", "list of texts", "blocks keyed in before the tape starts"}, read_mdi},
+    Row{{"search", kWhole, "sequence number to run the tape forward to, up to 999; -1: none", "-1"},
+        read_search},
+    Row{{"zero", kAxisTable, "machine coordinates of the program's zero", "0 on every axis"},
+        read_zero},
+};
+
+Result<void> read_mirror_switches(const Setup& setup, ControlOptions& control) {
   const auto fitted = setup.control.text("mirror", "XYZ");
   if (!fitted) return fail(fitted.error());
   for (const Axis axis : setup.switches.mirror) {
@@ -235,33 +297,6 @@ Result<void> read_mirror(const Setup& setup, ControlOptions& control) {
                   letter(axis));
     }
     control.mirror[index] = true;
-  }
-  return {};
-}
-
-Result<void> read_start(const Options& options, ControlOptions& control) {
-  const auto axes = options.integer("axes", 3);
-  if (!axes) return fail(axes.error());
-  if (*axes != 2 && *axes != 3) {
-    return fail(Errc::LimitExceeded, "[control] axes: {} is neither 2 nor 3", *axes);
-  }
-  control.axes = static_cast<std::size_t>(*axes);
-  const auto search = options.integer("search", -1);
-  if (!search) return fail(search.error());
-  if (*search > 999) {
-    return fail(Errc::LimitExceeded, "[control] search: {} is over 999", *search);
-  }
-  if (*search >= 0) control.search = static_cast<int>(*search);
-  const OptionValue* mdi = options.find("mdi");
-  const auto* list = mdi != nullptr ? std::get_if<OptionList>(&mdi->value) : nullptr;
-  if (mdi != nullptr && list == nullptr)
-    return fail(Errc::Syntax, "[control] mdi: expected a list");
-  for (const OptionValue& value : list != nullptr ? *list : OptionList{}) {
-    const auto* block = std::get_if<std::string>(&value.value);
-    if (block == nullptr || block->size() > 200) {
-      return fail(Errc::Syntax, "[control] mdi: expected blocks as text, up to 200 characters");
-    }
-    control.mdi.push_back(*block);
   }
   return {};
 }
@@ -279,52 +314,18 @@ double ControlOptions::mm_per_count() const {
   }
 }
 
+std::vector<ListedOption> list_options() {
+  return list_rows(kRows);
+}
+
 Result<ControlOptions> read_options(const Setup& setup) {
-  const Options& options = setup.control;
-  const auto known = options.check_known({"axes",
-                                          "units",
-                                          "circular",
-                                          "fixed_cycles",
-                                          "cycle_table",
-                                          "dwell",
-                                          "quill",
-                                          "spindle_s",
-                                          "spindle_table",
-                                          "tool_t",
-                                          "auto_toolchange",
-                                          "mist",
-                                          "mirror",
-                                          "reader_cps",
-                                          "reader_check",
-                                          "max_feed",
-                                          "min_feed",
-                                          "rapid",
-                                          "travel_low",
-                                          "travel_high",
-                                          "usermcodes",
-                                          "opt1_feed",
-                                          "arc_policy",
-                                          "arc_tolerance",
-                                          "errors",
-                                          "strict",
-                                          "cycle_z_with_xy",
-                                          "m05_delayed",
-                                          "m09_delayed",
-                                          "m05_stops_coolant",
-                                          "dwell_timer",
-                                          "peck_timer",
-                                          "mdi",
-                                          "search",
-                                          "zero"});
-  if (!known) return fail(known.error());
   ControlOptions control;
+  if (auto done = read_rows(kRows, setup.control, control); !done) return fail(done.error());
+  if (auto done = read_mirror_switches(setup, control); !done) return fail(done.error());
   control.optional_stop = setup.switches.optional_stop;
-  for (const auto& read :
-       {read_start, read_flags, read_choices, read_rates, read_timers, read_tables}) {
-    if (auto done = read(options, control); !done) return fail(done.error());
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    control.start[i] = counts(control, setup.start.linear(static_cast<Axis>(i)));
   }
-  if (auto done = read_positions(setup, control); !done) return fail(done.error());
-  if (auto done = read_mirror(setup, control); !done) return fail(done.error());
   return control;
 }
 

@@ -138,6 +138,7 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              // it is programmed (spec 6).
                              .waits_at_tool_change = true,
                              .check_memory = &check_memory,
-                             .is_protected = &is_protected};
+                             .is_protected = &is_protected,
+                             .options = &list_options};
 
 }  // namespace dripline::interpreter

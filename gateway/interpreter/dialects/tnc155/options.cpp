@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gateway/interpreter/core/option_rows.hpp"
+#include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
@@ -11,85 +13,11 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-/// Reads options one after the other; the first error stays.
-class Reader {
- public:
-  struct Bounds {
-    int least, most;
-  };
-  explicit Reader(const Options& options) : options_(options) {}
+using C = ControlOptions;
+using Row = OptionRow<C>;
 
-  void flag(std::string_view key, bool& value) { take(options_.flag(key, value), value); }
-  void number(std::string_view key, double& value) { take(options_.number(key, value), value); }
-  void length(std::string_view key, double& value) {
-    Length read = Length::mm(value);
-    take(options_.length(key, read), read);
-    value = read.mm();
-  }
-  void integer(std::string_view key, int& value, Bounds bounds) {
-    std::int64_t read = value;
-    take(options_.integer(key, read), read);
-    if (read < bounds.least || read > bounds.most) {
-      refuse(fail(Errc::Syntax, "option {}: {} is not a number from {} to {}", key, read,
-                  bounds.least, bounds.most));
-      return;
-    }
-    value = static_cast<int>(read);
-  }
-  void position(std::string_view key, Position& value) { take(options_.position(key), value); }
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> allowed,
-                     std::size_t fallback) {
-    take(options_.choice(key, allowed, fallback), fallback);
-    return fallback;
-  }
-  void not_negative(std::string_view key, double value) {
-    if (value < 0) refuse(fail(Errc::Syntax, "option {}: {} is less than 0", key, value));
-  }
-  void positive(std::string_view key, double value) {
-    if (!(value > 0)) refuse(fail(Errc::Syntax, "option {}: {} is not more than 0", key, value));
-  }
-  void within(std::string_view key, double value, Bounds bounds) {
-    if (value >= bounds.least && value <= bounds.most) return;
-    refuse(
-        fail(Errc::Syntax, "option {}: {} is not {} to {}", key, value, bounds.least, bounds.most));
-  }
-  void refuse(Result<void> error) {
-    if (!error_ && !error) error_ = error.error();
-  }
-  const std::optional<Error>& error() const { return error_; }
-
- private:
-  template <class Value>
-  void take(Result<Value> read, Value& value) {
-    if (read) {
-      value = std::move(*read);
-    } else {
-      refuse(fail(read.error()));
-    }
-  }
-  const Options& options_;
-  std::optional<Error> error_;
-};
-
-/// `start_at`, as a start names it: "N400" or "400". It goes before `start_block`.
-Result<void> read_start(const Options& options, int& start_block) {
-  const auto text = options.text("start_at", "");
-  if (!text) return fail(text.error());
-  if (text->empty()) return {};
-  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
-  int number = -1;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
-      number > kMaxBlockNumber) {
-    return fail(Errc::Syntax,
-                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
-                kMaxBlockNumber);
-  }
-  start_block = number;
-  return {};
-}
-
-constexpr int kFastestSpindle = 30'000;
+constexpr double kFastestSpindle = 30'000;
+constexpr OptionRange kSpindleSpeeds{0, kFastestSpindle};
 
 /// The preferred numbers of coded speeds: a twentieth of a decade apart, five decades.
 std::vector<double> preferred_speeds() {
@@ -102,20 +30,165 @@ std::vector<double> preferred_speeds() {
   return speeds;
 }
 
-Result<std::vector<double>> read_speeds(const Options& options) {
-  auto read = options.integers("spindle_table");
-  if (!read) return fail(read.error());
-  if (read->empty()) return preferred_speeds();
-  std::vector<double> speeds;
-  for (const std::int64_t speed : *read) {
-    if (!speeds.empty() && static_cast<double>(speed) <= speeds.back()) {
-      return fail(Errc::Syntax, "option spindle_table: {} does not rise above {}", speed,
-                  speeds.back());
+Result<void> read_speeds(const Options& options, const OptionKey& key, C& control) {
+  const auto speeds = options.integers(key.key);
+  if (!speeds) return fail(speeds.error());
+  if (speeds->empty()) control.spindle_table = preferred_speeds();
+  for (const std::int64_t number : *speeds) {
+    const auto speed = static_cast<double>(number);
+    if (!control.spindle_table.empty() && speed <= control.spindle_table.back()) {
+      return fail(Errc::Syntax, "option spindle_table: {} does not rise above {}", number,
+                  control.spindle_table.back());
     }
-    speeds.push_back(static_cast<double>(speed));
+    control.spindle_table.push_back(speed);
   }
-  return speeds;
+  return {};
 }
+
+Result<void> read_decimal_sign(const Options& options, const OptionKey&, C& control) {
+  return assign(decimal_sign_of(options), control.decimal_sign);
+}
+
+Result<void> read_fourth_axis(const Options& options, const OptionKey& key, C& control) {
+  const auto axis = read_word(options, key, 2);
+  if (!axis) return fail(axis.error());
+  control.fourth_axis = *axis_of(key.words()[*axis].front());
+  return {};
+}
+
+/// As a start names it: "N400" or "400". It goes before `start_block`, which is above this row.
+Result<void> read_start_at(const Options& options, const OptionKey& key, C& control) {
+  const auto text = options.text(key.key, "");
+  if (!text) return fail(text.error());
+  if (text->empty()) return {};
+  const std::string_view digits = std::string_view(*text).substr(text->front() == 'N' ? 1 : 0);
+  int number = -1;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size() || number < 0 ||
+      number > kMaxBlockNumber) {
+    return fail(Errc::Syntax,
+                "option start_at: \"{}\" is no block of this control: it goes to N0 to N{}", *text,
+                kMaxBlockNumber);
+  }
+  control.start_block = number;
+  return {};
+}
+
+constexpr auto kRows = in_table(
+    "option",
+    std::array{
+        // Which control it is
+        Row{{"model", kText,
+             "TNC 155 or TNC 151 with A, P, AR, PR, E, V, ER or VR: decides which functions exist",
+             "TNC 155 A"}},
+        Row{{"software",
+             kWhole,
+             "last two digits of the NC software's number: decides which functions exist",
+             "nc_software's, or 8",
+             {1, ControlVersion::kHighestSoftware}}},
+        Row{{"nc_software", kText, "number of the NC software, as 227 020 08"}},
+        Row{{"plc_software", kText, "number of the PLC software, as 228 601 01"}},
+        // Memory
+        row<&C::memory_limits>(
+            "memory_limits", kFlag,
+            "true: a program that does not fit the memory is an alarm; else a warning"),
+        row<&C::memory_blocks>("memory_blocks", kWhole, "blocks of all programs in the memory",
+                               {1, 100'000}),
+        row<&C::strict_numbers>("strict_numbers", kFlag,
+                                "a gap in the block numbers of plain language is an alarm"),
+        row<&C::checks_calls>("program_check", "call|start",
+                              "when called programs must be there: at the call, the start"),
+        row<&C::program_start>(
+            "program_start", "absolute|complete|any",
+            "what the first positioning block must be; complete: with two coordinates"),
+        row<&C::blockwise_restrictions>(
+            "blockwise_restrictions", kFlag,
+            "refuses calls, repeats, jumps and all tools but the one defined last"),
+        row<&C::start_block>("start_block", kWhole,
+                             "GOTO before the start: number of the first block; -1: none",
+                             {-1, kMaxBlockNumber}),
+        Row{{"start_at", kText, "the same, as a start names it: N400 or 400"}, read_start_at},
+        // Program text
+        Row{{"decimal_sign", "comma|point", "in programs that are written"}, read_decimal_sign},
+        Row{{"heading_letter", "%|H",
+             "in headings of blockwise transfers where dncgw --line is the control"},
+            check_option<C>},
+        row<&C::iso_continuation>("iso_continuation", kFlag,
+                                  "an ISO line without a number continues the block before it"),
+        row<&C::modes_go_over_calls>(
+            "iso_modes", "program|run",
+            "what is in force in ISO belongs to each program, or to the run"),
+        Row{{"block_increment",
+             kWhole,
+             "of ISO block numbers that are written; 0: blocks get none",
+             "10",
+             {0, 99}}},
+        // Tools
+        row<&C::central_tool_file>(
+            "central_tool_file", kFlag,
+            "true: [[tool]] is the tool store; else for tools without TOOL DEF"),
+        row<&C::random_changer>("random_changer", kFlag,
+                                "a tool goes back into the pocket of the next one"),
+        row<&C::magazine_pockets>("magazine_pockets", kWhole, "pockets of the random changer",
+                                  {0, 9'999}),
+        // Touch probe
+        row<&C::probe_clearance>("probe_clearance", kLength,
+                                 "distance in front of the expected point", kNotNegative),
+        row<&C::probe_travel>("probe_travel", kLength,
+                              "longest travel without contact before an alarm", kNotNegative),
+        row<&C::probe_feed>("probe_feed", kFeed, "feed of probing", kPositive, "", "200 mm/min"),
+        row<&C::basic_rotation>("basic_rotation", kNumber,
+                                "angle of the workpiece, as dnc touch measures it", {-360, 360},
+                                "degree"),
+        Row{{"basic_rotation_touches", "list of texts",
+             "the two points it was measured with, for dnc touch corner --rotation-touches"}},
+        // Cycles and auxiliary functions
+        row<&C::pocket_overlap>("pocket_overlap", kNumber,
+                                "stepover of pockets as a share of the tool radius", kPositive),
+        row<&C::cancels_transformations>("cancel_transformations", kFlag,
+                                         "M02, M30 and END PGM cancel transformations (MP 173)"),
+        row<&C::scales_three_axes>("scale_three_axes", kFlag,
+                                   "cycle 11 scales all main axes; else those of the plane"),
+        row<&C::m89_modal>("m89_modal", kFlag, "M89 calls the cycle at every block"),
+        row<&C::m06_stop>("m06_stop", kFlag, "M06 stops the program"),
+        // Spindle and feed
+        row<&C::spindle_coded>("spindle", "analogue|coded",
+                               "coded: speeds of spindle_table only, rounded up"),
+        Row{{"spindle_table",
+             kWholes,
+             "coded speeds, rising",
+             "20 preferred numbers a decade",
+             {},
+             "rpm"},
+            read_speeds},
+        row<&C::spindle_minimum>("spindle_minimum", kNumber, "lowest speed", kSpindleSpeeds, "rpm"),
+        row<&C::spindle_maximum>("spindle_maximum", kNumber, "highest speed", kSpindleSpeeds,
+                                 "rpm"),
+        row<&C::contour_feed>(
+            "rotary_feed", "rotary|contour",
+            "feed of a move with linear and rotary axes: of the rotary axis, or along the path"),
+        // Axes
+        Row{{"fourth_axis", "A|B|C|U|V|W", "what IV is", "C"}, read_fourth_axis},
+        row<&C::circle_tolerance>("circle_tolerance", kLength,
+                                  "between the radii at start and end of an arc", kNotNegative),
+        row<&C::limit_low>("limit_low", kAxisTable, "MOD function LIMIT, machine coordinates"),
+        row<&C::limit_high>("limit_high", kAxisTable, "MOD function LIMIT, machine coordinates"),
+        row<&C::m92_position>("m92_position", kAxisTable, "what coordinates of M92 refer to"),
+        // MOD functions, kept for the control
+        Row{{"display_units", "mm|inch", "of the display only"}},
+        Row{{"position_display", "ACTL|REF|LAG|NOML|DIST",
+             "actual, from the reference point, following error, nominal, distance to go"}},
+        Row{{"display_size", "small|large", "large: the current block only"}},
+        Row{{"baud_rate",
+             kWhole,
+             "of the control's interface, for dnc port show",
+             "",
+             {110, 9'600},
+             "baud"}},
+        Row{{"machine_parameters", "table", "kept for the control and sent to it: { MP71 = 515 }"}},
+        Row{{"user_parameters", "list of tables",
+             "machine parameters the operator may set: parameter, text, value, least, most"}},
+    });
 
 /// Options that turn on what the control's version has not.
 Result<void> check_version(const Options& options, ControlOptions& read) {
@@ -142,78 +215,26 @@ Result<void> check_version(const Options& options, ControlOptions& read) {
               version.model(), fmt::join(memories, " or "));
 }
 
-/// Values that exclude each other, or that no control has.
-void check_limits(const ControlOptions& read, Reader& reader) {
-  reader.not_negative("probe_clearance", read.probe_clearance);
-  reader.not_negative("probe_travel", read.probe_travel);
-  reader.not_negative("circle_tolerance", read.circle_tolerance);
-  reader.positive("probe_feed", read.probe_feed);
-  reader.positive("pocket_overlap", read.pocket_overlap);
-  reader.within("basic_rotation", read.basic_rotation, {-360, 360});
-  reader.within("spindle_minimum", read.spindle_minimum, {0, kFastestSpindle});
-  reader.within("spindle_maximum", read.spindle_maximum, {0, kFastestSpindle});
+/// Values that exclude each other.
+Result<void> check_limits(const ControlOptions& read) {
   if (read.spindle_minimum > read.spindle_maximum) {
-    reader.refuse(fail(Errc::Syntax, "option spindle_minimum: {} is more than spindle_maximum, {}",
-                       read.spindle_minimum, read.spindle_maximum));
+    return fail(Errc::Syntax, "option spindle_minimum: {} is more than spindle_maximum, {}",
+                read.spindle_minimum, read.spindle_maximum);
   }
   for (const Axis axis : kAllAxes) {
     if (!read.limit_low.has(axis) || !read.limit_high.has(axis)) continue;
     if (read.limit_low.raw(axis) <= read.limit_high.raw(axis)) continue;
-    reader.refuse(fail(Errc::Syntax, "option limit_low: {} {} is above limit_high, {}",
-                       letter(axis), read.limit_low.raw(axis), read.limit_high.raw(axis)));
+    return fail(Errc::Syntax, "option limit_low: {} {} is above limit_high, {}", letter(axis),
+                read.limit_low.raw(axis), read.limit_high.raw(axis));
   }
-}
-
-Result<void> check_names(const Options& options) {
-  return options.check_known({"basic_rotation_touches",  // of dnc touch
-                              "program_start",
-                              "random_changer",
-                              "magazine_pockets",
-                              "probe_clearance",
-                              "probe_travel",
-                              "probe_feed",
-                              "basic_rotation",
-                              "pocket_overlap",
-                              "m89_modal",
-                              "m06_stop",
-                              "central_tool_file",
-                              "decimal_sign",
-                              "iso_continuation",
-                              "strict_numbers",
-                              "blockwise_restrictions",
-                              "heading_letter",
-                              "cancel_transformations",
-                              "scale_three_axes",
-                              "spindle",
-                              "spindle_table",
-                              "spindle_minimum",
-                              "spindle_maximum",
-                              "rotary_feed",
-                              "circle_tolerance",
-                              "fourth_axis",
-                              "limit_low",
-                              "limit_high",
-                              "m92_position",
-                              "start_block",
-                              "memory_limits",
-                              "memory_blocks",
-                              "machine_parameters",
-                              "start_at",
-                              "program_check",
-                              "iso_modes",
-                              "model",
-                              "software",
-                              "display_units",
-                              "position_display",
-                              "display_size",
-                              "block_increment",
-                              "baud_rate",
-                              "nc_software",
-                              "plc_software",
-                              "user_parameters"});
+  return {};
 }
 
 }  // namespace
+
+std::vector<ListedOption> list_options() {
+  return list_rows(kRows);
+}
 
 Result<char> decimal_sign_of(const Options& options) {
   const auto choice = options.choice("decimal_sign", {"comma", "point"}, 0);
@@ -223,52 +244,9 @@ Result<char> decimal_sign_of(const Options& options) {
 
 Result<ControlOptions> read_options(const Setup& setup) {
   const Options& options = setup.control;
-  auto known = check_names(options);
-  if (!known) return fail(known.error());
   ControlOptions read;
-  Reader reader(options);
-  reader.length("probe_clearance", read.probe_clearance);
-  reader.length("probe_travel", read.probe_travel);
-  reader.length("probe_feed", read.probe_feed);
-  reader.number("basic_rotation", read.basic_rotation);
-  reader.number("pocket_overlap", read.pocket_overlap);
-  reader.flag("m89_modal", read.m89_modal);
-  reader.flag("m06_stop", read.m06_stop);
-  reader.flag("central_tool_file", read.central_tool_file);
-  reader.flag("random_changer", read.random_changer);
-  reader.integer("magazine_pockets", read.magazine_pockets, {0, 9'999});
-  reader.flag("iso_continuation", read.iso_continuation);
-  reader.flag("blockwise_restrictions", read.blockwise_restrictions);
-  reader.flag("cancel_transformations", read.cancels_transformations);
-  reader.flag("scale_three_axes", read.scales_three_axes);
-  reader.choice("heading_letter", {"%", "H"}, 0);  // of dncgw --line, dnc port
-  reader.flag("strict_numbers", read.strict_numbers);
-  const auto sign = decimal_sign_of(options);
-  if (!sign) return fail(sign.error());
-  read.decimal_sign = *sign;
-  read.modes_go_over_calls = reader.choice("iso_modes", {"program", "run"}, 0) == 1;
-  read.checks_calls = reader.choice("program_check", {"start", "call"}, 0) == 0;
-  read.program_start =
-      static_cast<ProgramStart>(reader.choice("program_start", {"absolute", "complete", "any"}, 0));
-  reader.flag("memory_limits", read.memory_limits);
-  int memory_blocks = static_cast<int>(read.memory_blocks);
-  reader.integer("memory_blocks", memory_blocks, {1, 100'000});
-  read.memory_blocks = static_cast<std::size_t>(memory_blocks);
-  read.spindle_coded = reader.choice("spindle", {"analogue", "coded"}, 0) == 1;
-  reader.number("spindle_minimum", read.spindle_minimum);
-  reader.number("spindle_maximum", read.spindle_maximum);
-  read.contour_feed = reader.choice("rotary_feed", {"contour", "rotary"}, 0) == 0;
-  reader.length("circle_tolerance", read.circle_tolerance);
-  constexpr std::string_view kFourth = "ABCUVW";
-  const std::size_t fourth = reader.choice("fourth_axis", {"A", "B", "C", "U", "V", "W"}, 2);
-  read.fourth_axis = *axis_of(kFourth[fourth]);
-  reader.position("limit_low", read.limit_low);
-  reader.position("limit_high", read.limit_high);
-  reader.position("m92_position", read.m92_position);
-  reader.integer("start_block", read.start_block, {-1, 65'534});
-  check_limits(read, reader);
-  if (reader.error()) return fail(*reader.error());
-  if (auto start = read_start(options, read.start_block); !start) return fail(start.error());
+  if (auto done = read_rows(kRows, options, read); !done) return fail(done.error());
+  if (auto good = check_limits(read); !good) return fail(good.error());
   if (auto kept = machine_parameters_of(options); !kept) return fail(kept.error());
   const auto version = version_of(options);
   if (!version) return fail(version.error());
@@ -277,9 +255,6 @@ Result<ControlOptions> read_options(const Setup& setup) {
   const auto mod = read_mod_settings(options);
   if (!mod) return fail(mod.error());
   read.block_increment = mod->block_increment;
-  auto speeds = read_speeds(options);
-  if (!speeds) return fail(speeds.error());
-  read.spindle_table = std::move(*speeds);
   return read;
 }
 

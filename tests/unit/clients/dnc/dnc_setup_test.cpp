@@ -1,4 +1,8 @@
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "tests/unit/clients/dnc/dnc_process.hpp"
 #include "tests/unit/clients/support/fake_server.hpp"
@@ -283,6 +287,57 @@ TEST_F(DncSetup, LeavesPocketsAloneWhereTheyMayBeWrong) {
   EXPECT_EQ(refusal(),
             "dnc: setup 4 of mill-3 has no random changer (random_changer): its pockets do not "
             "change\n");
+}
+
+TEST(DncSetupOptions, ListTheKeysOfAControlWithoutAServer) {
+  const test_support::Dnc dnc(DNC_PATH);
+  const auto listed = dnc({"setup", "options", "rs274ngc"});
+  EXPECT_EQ(listed.status, 0) << listed.err;
+  const std::string text = squeezed(listed.out);
+  EXPECT_NE(text.find("KEY VALUE DEFAULT MEANING"), std::string::npos);
+  EXPECT_NE(text.find("profile nist, linuxcnc nist which language programs are in"),
+            std::string::npos);
+  EXPECT_NE(text.find("slots whole number, 1 to 99999 128 "), std::string::npos);
+  EXPECT_EQ(text.find("custom_g"), std::string::npos);
+
+  const auto unknown = dnc({"setup", "options", "mazak"});
+  EXPECT_NE(unknown.status, 0);
+  EXPECT_NE(unknown.err.find("\"mazak\" is not known"), std::string::npos) << unknown.err;
+}
+
+TEST(DncSetupOptions, GiveEveryControlAsJson) {
+  const test_support::Dnc dnc(DNC_PATH);
+  const auto all = json::parse(dnc({"setup", "options", "--json"}).out).at("controls");
+  ASSERT_EQ(all.size(), 6U);
+  for (const json& control : all) {
+    for (const json& option : control.at("options")) {
+      for (const char* member : {"key", "type", "default", "text"}) {
+        EXPECT_FALSE(option.at(member).get<std::string>().empty()) << option;
+      }
+    }
+  }
+  const auto fanuc =
+      json::parse(dnc({"setup", "options", "fanuc", "--json"}).out).at("controls").at(0);
+  EXPECT_EQ(fanuc.at("control"), "fanuc");
+  const json depth = {{"key", "max_call_depth"}, {"type", "whole number"},
+                      {"range", "1 to 16"},      {"unit", ""},
+                      {"default", "4"},          {"text", "calls within calls"}};
+  const auto& options = fanuc.at("options");
+  EXPECT_NE(std::find(options.begin(), options.end(), depth), options.end());
+}
+
+/// DRIPLINE_ACCEPT=1 rewrites the page.
+TEST(DncSetupOptions, AreTheReferenceOfTheDocuments) {
+  const test_support::Dnc dnc(DNC_PATH);
+  const auto written = dnc({"setup", "options", "--markdown"});
+  ASSERT_EQ(written.status, 0) << written.err;
+  if (std::getenv("DRIPLINE_ACCEPT") != nullptr) {
+    std::ofstream(OPTIONS_PAGE) << written.out;
+    GTEST_SKIP() << "rewritten: " << OPTIONS_PAGE;
+  }
+  std::ifstream file(OPTIONS_PAGE);
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(page, written.out) << OPTIONS_PAGE << " is not up to date: run with DRIPLINE_ACCEPT=1";
 }
 
 }  // namespace
