@@ -13,7 +13,7 @@
 
 namespace dripline::cli {
 
-/// What every command shares: the options before the verb, and the status it leaves.
+/// The state every command shares: the options before the verb, and the status it leaves.
 class Context {
  public:
   client::LocationOptions location;
@@ -33,7 +33,7 @@ class Context {
 /// Adds `--json` to a command.
 void add_json_flag(CLI::App& command, Context& context);
 
-/// How long transfers go on when the server does not answer; Ctrl-C ends the waiting.
+/// How long transfers continue while the server does not answer; Ctrl-C ends the waiting.
 client::RetryPolicy retry_policy();
 
 /// All pages of a listing: `fetch(Page)` is asked until a page is not full or `limit` is reached

@@ -4,14 +4,14 @@
 
 namespace dripline::cli {
 
-/// What `dnc` exits with; documented in `dnc --help` and README.md, never renumbered.
+/// The exit statuses of `dnc`; documented in `dnc --help` and README.md, never renumbered.
 inline constexpr int kExitOk = 0;
-inline constexpr int kExitNo = 1;           ///< the program, the run or the server said no
+inline constexpr int kExitNo = 1;           ///< the program, the run or the server refused
 inline constexpr int kExitUsage = 2;        ///< usage, unreadable file, unknown control
 inline constexpr int kExitUnreachable = 3;  ///< no server, or not a Dripline server
 inline constexpr int kExitDenied = 4;       ///< the server does not accept the token
 inline constexpr int kExitClosedPipe =
-    141;  ///< nobody reads standard output any more, as for SIGPIPE
+    141;  ///< standard output has no reader any more, as for SIGPIPE
 inline constexpr int kExitInterrupted = 130;  ///< Ctrl-C
 
 int exit_status(const client::Failure& failure);

@@ -14,7 +14,7 @@ constexpr const char* kFooter = R"(Which server:
   --server, else DRIPLINE_SERVER, else the local server's file STATE/dncd.json. STATE is --state,
   else DRIPLINE_STATE, else /var/lib/dripline (root), $XDG_STATE_HOME/dripline or
   ~/.local/state/dripline. The token is --token-file's, else DRIPLINE_TOKEN, else the local
-  server's. These options may stand before or after the verb.
+  server's. These options may come before or after the verb.
 
 Examples:
   dnc program push shaft.nc --name O0200 --control centurion
@@ -29,11 +29,11 @@ Examples:
 
 Exit status:
   0    it went well
-  1    the program, the run or the server said no
+  1    the program, the run or the server refused
   2    usage, an unreadable file, an unknown control
   3    the server is not reachable
   4    the server does not accept the token
-  130  ended by Ctrl-C; a watched run goes on
+  130  ended by Ctrl-C; a watched run continues
 
 `dnc VERB --help` and `dnc VERB VERB --help` say more. NO_COLOR is respected.)";
 
@@ -68,7 +68,7 @@ std::string typed_verbs(const CLI::App& app) {
 int report_parse_end(const CLI::App& app, const CLI::ParseError& end) {
   if (end.get_exit_code() == 0) return app.exit(end);
   const auto unknown = app.remaining(true);
-  // CLI11 says only that a verb is missing when there is one that it does not know.
+  // CLI11 reports only that a verb is missing when there is one that it does not know.
   if (dynamic_cast<const CLI::RequiredError*>(&end) != nullptr && !unknown.empty()) {
     std::fprintf(stderr, "dnc: '%s' is not known here\nSee %s --help.\n", unknown.front().c_str(),
                  typed_verbs(app).c_str());

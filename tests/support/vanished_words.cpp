@@ -140,7 +140,7 @@ class Search {
     constexpr std::size_t kMaxWords = 16;
     const auto events = run_whole(text_, max_blocks);
     if (events.empty() || events.back().starts_with("alarm ")) return std::nullopt;
-    // a title in front is left out, and what stands after the end
+    // a title in front is left out, and the text after the end
     const std::size_t first = text_.find_first_not_of(" \t\r\n");
     const bool has_title = first != text_.npos && text_[first] == '%';
     const std::size_t begin = has_title ? text_.find(';') : 0;

@@ -25,7 +25,7 @@ ArcMethod method_of(const std::string& name) {
   return name == "secant" ? ArcMethod::Secant : ArcMethod::Chord;
 }
 
-/// Blocks of a control that counts: X12345 is 1.2345 with four decimals.
+/// Blocks of a control with whole counts: X12345 is 1.2345 with four decimals.
 std::string blocks_text(const std::vector<interpreter::PathPoint>& points, int decimals) {
   const double scale = std::pow(10.0, decimals);
   std::string text;
@@ -71,21 +71,24 @@ int approximate(Context& context, const ApproximateCommand& command) {
 
 void add_approximate_command(CLI::App& app, Context& context) {
   auto* command = app.add_subcommand(
-      "approximate", "An arc by straight lines to a tolerance, for controls without arcs");
+      "approximate", "Approximate an arc by straight lines, for controls without arcs");
   auto options = std::make_shared<ApproximateCommand>();
-  command->add_option("--radius", options->radius, "Of the tool's path")->required();
-  command->add_option("--tolerance", options->tolerance, "How far the path may leave the arc")
+  command->add_option("--radius", options->radius, "Radius of the arc")->required();
+  command->add_option("--tolerance", options->tolerance, "Largest distance between lines and arc")
       ->required();
-  command->add_option("--x", options->x, "Center [0]");
-  command->add_option("--y", options->y, "Center [0]");
-  command->add_option("--from", options->from, "Angle of the begin, degrees from +X [0]");
-  command->add_option("--sweep", options->sweep, "Degrees, counterclockwise positive [90]");
-  command->add_option("--method", options->method, "Where the error lies [chord: inside]")
+  command->add_option("--x", options->x, "X of the center [0]");
+  command->add_option("--y", options->y, "Y of the center [0]");
+  command->add_option("--from", options->from, "Angle of the start point, degrees from +X [0]");
+  command->add_option("--sweep", options->sweep,
+                      "Included angle in degrees, counterclockwise positive [90]");
+  command
+      ->add_option("--method", options->method,
+                   "Lines inside (chord), outside (tangent) or across (secant) [chord]")
       ->check(CLI::IsMember({"chord", "tangent", "secant"}));
-  command->add_option("--decimals", options->decimals, "Of coordinates [4]")
+  command->add_option("--decimals", options->decimals, "Decimals of coordinates [4]")
       ->check(CLI::Range(0, 8));
   command->add_flag("--blocks", options->as_blocks,
-                    "As blocks of whole counts (tektronix-1704) instead of a table");
+                    "Print blocks in whole counts (tektronix-1704), not a table");
   add_json_flag(*command, context);
   command->footer(
       "All lengths are in one unit of your choice.\n\nExample:\n  dnc approximate --x 1 --y 3 "

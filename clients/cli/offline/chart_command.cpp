@@ -65,11 +65,13 @@ int show_chart(const Context& context, const ChartCommand& command) {
 }  // namespace
 
 void add_chart_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand("chart", "Help pages of a Centurion control (charts.dat)");
+  auto* command =
+      app.add_subcommand("chart", "Show the help pages of a Centurion control (charts.dat)");
   auto options = std::make_shared<ChartCommand>();
-  command->add_option("INDEX", options->index, "charts.dat; its pages lie beside it")->required();
-  command->add_option("PAGE", options->page, "The page after this line of the index");
-  command->add_flag("--whole", options->is_whole, "More than the 16 lines the control shows");
+  command->add_option("INDEX", options->index, "charts.dat; the pages are in the same folder")
+      ->required();
+  command->add_option("PAGE", options->page, "Show the page of this line of the index");
+  command->add_flag("--whole", options->is_whole, "Show more than the 16 lines the control shows");
   command->footer("No server is needed.\n\nExample:\n  dnc chart charts.dat 5");
   command->callback([&context, options] { context.status = show_chart(context, *options); });
 }

@@ -58,7 +58,7 @@ Result<interpreter::OfflineLimits> limits_of(const std::string& to) {
   return limits;
 }
 
-/// What the control's own memory says of the program: warnings, or the alarm where its setup says
+/// Checks the program against the control's own memory: warnings, or the alarm where the setup says
 /// that it keeps its programs. False: it would not take the program.
 Result<bool> check_memory(const OfflineProgram& program, interpreter::EventSink& sink) {
   if (program.dialect().check_memory == nullptr) return true;
@@ -121,7 +121,7 @@ struct CheckSinks {
   interpreter::EventTee with_stops{summary, stops};
   interpreter::EventTee all{with_stops, state};
 
-  /// Without what nobody asked for, as most events would pass for nothing.
+  /// Only the sinks that are needed: every sink costs time at every event.
   interpreter::EventSink& of(const CheckCommand& command) {
     if (!command.to.empty()) return all;
     return command.lists_stops ? static_cast<interpreter::EventSink&>(with_stops) : summary;
@@ -169,21 +169,21 @@ int check(Context& context, const CheckCommand& command) {
 }  // namespace
 
 void add_check_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
-      "check", "Interpret a program on disk: warnings, alarm, lengths, time, extents");
+  auto* command =
+      app.add_subcommand("check", "Check a program: warnings, alarm, lengths, time, extents");
   auto options = std::make_shared<CheckCommand>();
   add_offline_options(*command, *options);
   command
       ->add_option("--to", options->to,
-                   "End after the first block with this number (120, N120), or that begins in "
-                   "this line (L7), and say how the machine stands there")
+                   "Stop after the first block with this number (120, N120) or on "
+                   "this line (L7), and show the state of the machine there")
       ->type_name("BLOCK");
   command->add_flag("--stops", options->lists_stops,
-                    "Name the blocks at which the program stops and waits for the operator");
+                    "List the blocks at which the program waits for the operator");
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
-      "folder;\nwarnings, alarms and stops in one name its file. The check itself goes on over "
+      "folder;\nwarnings, alarms and stops in one name its file. The check continues over "
       "stops, and ends a program that\nrepeats without end with an alarm.\n"
       "A program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
       "program, 32 programs)\nis warned of; with memory_limits = true in the setup's [control] it "

@@ -51,7 +51,6 @@ std::string place(const std::string& file, const Diagnostic& diagnostic) {
   return text;
 }
 
-/// Of a Warning or an Alarm.
 template <class Event>
 std::string diagnostic_line(const CheckReport& report, const Event& event, std::string_view kind) {
   const Diagnostic& diagnostic = event.diagnostic;
@@ -132,7 +131,6 @@ void add_state(Details& details, const Summary& summary, const MachineState& sta
                                        : (coolant.mist ? "mist" : "off"));
 }
 
-/// Of a Warning or an Alarm.
 template <class Event>
 Json diagnostic_json(const CheckReport& report, const Event& event) {
   const Diagnostic& diagnostic = event.diagnostic;

@@ -27,7 +27,7 @@ struct CheckReport {
   std::vector<std::string> called{};
   interpreter::Summary summary;
   double elapsed_seconds = 0;  ///< that the check took
-  /// How the machine stands after the block that the check was to end at.
+  /// The state of the machine after the block at which the check was to stop.
   std::optional<interpreter::MachineState> stopped{};
   std::optional<ProgrammedStops> stops{};  ///< where they were asked for
 };

@@ -139,27 +139,28 @@ int list_events(Context& context, const ConversationalCommand& command) {
 using Options = std::shared_ptr<ConversationalCommand>;
 
 void add_post(CLI::App& group, Context& context, const Options& options) {
-  auto* post_verb = group.add_subcommand("post", "The program text of a file of events");
+  auto* post_verb = group.add_subcommand("post", "Write the program of an event file");
   post_verb->add_option("FILE", options->file, "TOML with [[event]] tables, or the same as JSON")
       ->required();
   post_verb->add_option("-o,--output", options->output,
                         "File to write [standard output]; it is written whole or not at all");
-  post_verb->add_flag("--printed-crest-formula", options->has_printed_crest_formula,
-                      "Threads by their crest as the manual prints them, not as geometry has it");
+  post_verb->add_flag(
+      "--printed-crest-formula", options->has_printed_crest_formula,
+      "Compute threads by their crest as the manual prints it, not as geometry has it");
   post_verb->callback([&context, options] { context.status = post(*options); });
 }
 
 void add_events(CLI::App& group, Context& context, const Options& options) {
-  auto* events = group.add_subcommand("events", "Every event with its fields and limits");
-  events->add_option("TYPE", options->event, "Only this one, e.g. drill");
+  auto* events = group.add_subcommand("events", "List the events with their fields and limits");
+  events->add_option("TYPE", options->event, "List only this event, e.g. drill");
   add_json_flag(*events, context);
   events->footer("Limits are those of inch programs; --json has both.");
   events->callback([&context, options] { context.status = list_events(context, *options); });
 }
 
 void add_new(CLI::App& group, Context& context, const Options& options) {
-  auto* starter = group.add_subcommand("new", "A small job with comments, to start from");
-  starter->add_option("--program", options->program, "Its O number [1]")
+  auto* starter = group.add_subcommand("new", "Write a small job with comments, to start from");
+  starter->add_option("--program", options->program, "O number of the program [1]")
       ->check(CLI::Range(1, 9999));
   starter->add_option("-o,--output", options->output, "File to write [standard output]");
   starter->callback([&context, options] {
@@ -170,8 +171,8 @@ void add_new(CLI::App& group, Context& context, const Options& options) {
 }  // namespace
 
 void add_conversational_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("conversational",
-                                   "Programs from events, as the Centurion lathe's screens do it");
+  auto* group = app.add_subcommand(
+      "conversational", "Make programs from events, as the screens of the Centurion lathe do");
   group->require_subcommand(1);
   const auto options = std::make_shared<ConversationalCommand>();
   add_post(*group, context, options);

@@ -58,7 +58,7 @@ Result<CharacterCode> source_code(const ConvertCommand& command, client::FileSou
   if (auto read = file.read(0, head); !read) return fail(read.error());
   const auto verdict = wire::detect_code(std::as_bytes(std::span(head)));
   if (!verdict) {
-    return fail(verdict.error().code, "{}; --from says it", verdict.error().what);
+    return fail(verdict.error().code, "{}; name it with --from", verdict.error().what);
   }
   return verdict->code;
 }
@@ -123,7 +123,7 @@ int list(const ConvertCommand& command, CharacterCode code, client::FileSource& 
   return output.write(text) ? kExitOk : output.complain();
 }
 
-/// What a person should know of what was read and left out.
+/// Notes for the user about what was read and left out.
 void say_notices(const ConvertCommand& command, const TapeConversion& conversion) {
   const auto& source = conversion.source();
   if (!source.lost_block.empty()) {
@@ -157,7 +157,7 @@ int refuse(const Error& error) {
   return kExitUsage;
 }
 
-/// What the tape or the program holds is no misuse.
+/// A fault in the tape or the program is no misuse.
 int say_no(const Error& error) {
   complain(error);
   return error.code == Errc::Io ? kExitUsage : kExitNo;
@@ -275,43 +275,44 @@ void add_options(CLI::App& command, ConvertCommand& options) {
   targets.push_back("plain");
   command
       .add_option("--to", options.to,
-                  "eia, iso, or ascii (program text; the default); of a TNC 151/155 program its "
-                  "form: iso or plain")
+                  "Write eia, iso, or ascii (program text; the default); for a TNC 151/155 "
+                  "program: iso or plain")
       ->check(CLI::IsMember(targets));
   codes.push_back("auto");
-  command.add_option("--from", options.from, "eia, iso, ascii, or auto (found out from IN)")
+  command.add_option("--from", options.from, "Read eia, iso, ascii, or auto (detected from IN)")
       ->check(CLI::IsMember(codes));
   command.add_flag("--list", options.is_listing, "List IN row by row with its holes, as text");
   command
       .add_option("--eob", options.end_of_block,
-                  "End of block of ISO and ASCII: lf, cr, crlf, lfcr, lfcrcr")
+                  "Set the end of block of ISO and ASCII: lf, cr, crlf, lfcr, lfcrcr")
       ->check(CLI::IsMember(names_of(kEndsOfBlock)));
-  command.add_option("--leader", options.leader, "Blank rows in front, 10 to an inch (tapes: 100)");
-  command.add_option("--trailer", options.trailer, "Blank rows at the end (tapes: 100)");
-  command.add_option("--title", options.title, "Title that the eye reads from the holes");
+  command.add_option("--leader", options.leader,
+                     "Punch this many blank rows in front, 10 to an inch [tapes: 100]");
+  command.add_option("--trailer", options.trailer,
+                     "Punch this many blank rows at the end [tapes: 100]");
+  command.add_option("--title", options.title, "Punch a title that people can read");
   command.add_flag("--no-rewind-stop", options.has_no_rewind_stop,
                    "Put no rewind stop before the first block");
   command.add_flag("--eia-parentheses", options.has_parentheses,
                    "Punch ( and ) in EIA as 1A and 4A, as some controls read them");
   command.add_flag("--keep-comments", options.keeps_comments,
-                   "An error instead of leaving out comments in EIA");
+                   "Refuse comments in EIA instead of leaving them out");
   command.add_flag("--keep-head", options.keeps_head,
-                   "Take what stands before the first end of block for a block");
+                   "Read the text before the first end of block as a block");
   command.add_flag("--replace-wrong", options.replaces_wrong,
-                   "'?' for rows that cannot be read, instead of an error");
+                   "Write '?' for rows that cannot be read, instead of an error");
   command.add_flag("--decimal-point", options.has_decimal_point,
-                   "TNC programs: a point in numbers instead of the comma");
+                   "TNC programs: write a decimal point instead of the comma");
   command
       .add_option("--increment", options.increment,
-                  "TNC programs: of ISO block numbers; 0: none (default: block_increment of "
-                  "--setup, else 10)")
+                  "TNC programs: step of ISO block numbers, 0: no numbers [block_increment of "
+                  "--setup, else 10]")
       ->check(CLI::Range(0, 99));
   command.add_option(
       "--setup", options.setup,
       "TNC programs: TOML file with the options of the control (decimal_sign, "
-      "iso_continuation, block_increment, model and software: what that one has not is refused)");
-  command.add_flag("--strict-blanks", options.is_strict,
-                   "Blank tape inside an EIA block is an error");
+      "iso_continuation, block_increment, model and software; what that control lacks is refused)");
+  command.add_flag("--strict-blanks", options.is_strict, "Refuse blank tape inside an EIA block");
 }
 
 }  // namespace
@@ -323,7 +324,7 @@ void add_convert_command(CLI::App& app, Context& context) {
   auto options = std::make_shared<ConvertCommand>();
   add_options(*command, *options);
   command->footer(
-      "No server is needed. A tape is read as a control reads it: nothing counts before the first "
+      "No server is needed. A tape is read as a control reads it: nothing applies before the first "
       "end of block; deletes and blanks are left out.\n\nA program that begins with BEGIN PGM is "
       "plain language of a HEIDENHAIN TNC 151/155: --to iso makes it the control's ISO form "
       "(--from ascii: an ISO tape of the text), --to plain makes plain language of ISO. What has "

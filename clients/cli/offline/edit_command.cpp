@@ -93,7 +93,7 @@ Result<std::vector<WordChange>> word_changes_of(const EditCommand& command) {
 tl::unexpected<Error> no_block_editor(const EditedText& original) {
   return fail(Errc::Unsupported,
               "{}: its control keeps a program as lines, without numbers, words or protection of "
-              "its own; --control says another one",
+              "its own; choose another with --control",
               original.name());
 }
 
@@ -193,7 +193,7 @@ nlohmann::ordered_json search_json(const WordSearch& search) {
   return {{"blocks", std::move(found)}, {"unread", std::move(unread)}};
 }
 
-/// The blocks that have a word with one of the addresses, as they stand in the program.
+/// Lists the blocks that have a word with one of the addresses.
 int show_found(Context& context, const EditCommand& command, const EditedText& original) {
   if (original.editor() == nullptr) return complain(no_block_editor(original).value());
   const auto search = original.editor()->search(original.text(), command.wanted);
@@ -258,40 +258,37 @@ int edit(Context& context, const EditCommand& command) {
 }
 
 void add_place_options(CLI::App& command, EditedText::Place& place) {
-  command.add_option("FILE", place.file, "The NC program, changed in place");
+  command.add_option("FILE", place.file, "NC program to edit in place");
   command.add_option("--program", place.program,
-                     "A program of the server instead: the change becomes its next revision");
+                     "Edit a program of the server; the change becomes its next revision");
   command.add_option("--control", place.control,
-                     "Its control (default: found out from the text, or as the server has it)");
-  command.add_option("-o,--output", place.output, "Write to this file instead");
-  command.add_option("--comment", place.comment, "What changed; kept with the revision");
+                     "Control of the program [detected from the text, or as the server has it]");
+  command.add_option("-o,--output", place.output, "Write to this file, not in place");
+  command.add_option("--comment", place.comment, "Say what changed; kept with the revision");
   command.add_flag("--force", place.overrides_protection,
-                   "Also where the program is protected against editing");
+                   "Edit even a program that is protected against editing");
 }
 
 void add_word_options(CLI::App& command, EditCommand& options) {
   command
-      .add_option(
-          "--set", options.values,
-          "A block, and one of its words with another value: 4 F250, 4 \"IX+2.5\", 2 \"TOOL "
-          "CALL 3\"")
+      .add_option("--set", options.values,
+                  "Set a word of a block: 4 F250, 4 \"IX+2.5\", 2 \"TOOL CALL 3\"")
       ->type_name("BLOCK WORD")
       ->allow_extra_args(false);
   command
       .add_option("--leave-out", options.omissions,
-                  "A block, and the address of a word to take out: what is in force stays (NO ENT)")
+                  "Remove a word from a block; the value in force stays (NO ENT)")
       ->type_name("BLOCK ADDRESS")
       ->allow_extra_args(false);
   command
       .add_option("--shorten", options.shortenings,
-                  "A block, and the address of the first of the words to leave out (END)")
+                  "Remove a word of a block and all after it (END)")
       ->type_name("BLOCK ADDRESS")
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--find", options.wanted,
-          "Only show the blocks that have a word with this address: X, IX, F, \"TOOL CALL\"; "
-          "Q finds every use")
+      .add_option("--find", options.wanted,
+                  "List the blocks that have a word with this address: X, IX, F, \"TOOL CALL\"; "
+                  "Q finds every use")
       ->type_name("ADDRESS")
       ->allow_extra_args(false);
 }
@@ -300,44 +297,47 @@ void add_word_options(CLI::App& command, EditCommand& options) {
 
 void add_edit_command(CLI::App& app, Context& context) {
   auto* command = app.add_subcommand(
-      "edit", "Edit a program as at the control: blocks out and in, words, numbers, search");
+      "edit", "Edit a program: delete, replace, insert and renumber blocks, change words");
   auto options = std::make_shared<EditCommand>();
   add_place_options(*command, options->place);
-  command->add_option("--delete", options->deletions, "Blocks to take out: 7, or 5..7")
+  command->add_option("--delete", options->deletions, "Delete blocks: 7, or 5..7")
       ->type_name("BLOCKS")
       ->allow_extra_args(false);
-  command->add_option("--replace", options->replacements, "Blocks, and what stands there instead")
+  command->add_option("--replace", options->replacements, "Replace blocks by this text")
       ->type_name("BLOCKS TEXT")
       ->allow_extra_args(false);
   command
       ->add_option("--insert-after", options->insertions,
-                   "A block, and what is put in after it; several lines are several blocks")
+                   "Insert text after a block; several lines are several blocks")
       ->type_name("BLOCK TEXT")
       ->allow_extra_args(false);
   add_word_options(*command, *options);
   auto* renumber =
       command
           ->add_option("--renumber", options->increment,
-                       "Then number all blocks as the control does; in ISO with this step, 0: no "
-                       "numbers (default: block_increment of --setup, else 10)")
+                       "Renumber all blocks as the control does; in ISO with this step, 0: no "
+                       "numbers [block_increment of --setup, else 10]")
           ->expected(0, 1)
           ->check(CLI::Range(0, 99))
           ->type_name("STEP");
   command->add_option("--setup", options->setup,
                       "TOML file with the options of the control (block_increment)");
-  auto* protects =
-      command->add_flag("--protect", options->protects, "Mark it as protected (P, G50)");
-  command->add_flag("--unprotect", options->unprotects, "Take that mark away")->excludes(protects);
-  command->add_flag("--dry-run", options->is_trial, "Show the change and write nothing");
+  auto* protects = command->add_flag("--protect", options->protects,
+                                     "Protect the program against editing (P, G50)");
+  command->add_flag("--unprotect", options->unprotects, "Remove that protection")
+      ->excludes(protects);
+  command->add_flag("--dry-run", options->is_trial, "Show the change without writing it");
   add_json_flag(*command, context);
   command->footer(
-      "All numbers are those before the edit. Programs of a tnc155 go by their block numbers: what "
-      "is put in\nis read as the control reads it, refused in its words and written in its layout, "
-      "and the blocks\nbehind move up or down. Words are changed by their addresses, as they stand "
-      "in the block (X is not IX);\nvalues come first, then what is left out. Programs of other "
-      "controls go by their lines and have no words.\nThe changed blocks are shown; a file is "
-      "replaced as a whole or not at all.\n\nExit status: 0 done, 1 the control or the server said "
-      "no and nothing was changed, 2 usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 "
+      "All numbers are those before the edit. Blocks of a tnc155 program are named by block "
+      "number;\n"
+      "inserted text is read as the control reads it and written in its layout, and the blocks "
+      "after\n"
+      "it are renumbered. Words are named by their address as written in the block (X is not IX);\n"
+      "values are set first, then words are removed. Blocks of other controls are named by line,\n"
+      "and have no words. The changed blocks are shown; a file is "
+      "replaced as a whole or not at all.\n\nExit status: 0 done, 1 the control or the server "
+      "refused and nothing was changed, 2 usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 "
       "--insert-after 9 \"L X+10 R0 F MAX M\"\n  dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc "
       "edit 15.h --find \"TOOL CALL\"\n  dnc edit --program 15.h --replace 4 \"TOOL CALL 2 Z "
       "S800\" --comment \"new tool\"");

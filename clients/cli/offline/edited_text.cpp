@@ -12,7 +12,7 @@
 namespace dripline::cli {
 namespace {
 
-/// What is edited is held in memory, several times.
+/// The text is held in memory several times.
 constexpr std::uint64_t kMaxBytes = 64 * 1024 * 1024;
 
 /// Text in memory as the source of a push.

@@ -21,7 +21,7 @@ class EditedText {
     bool overrides_protection = false;
   };
 
-  /// On failure it has complained, and context.status says so: `is_open` is false then.
+  /// On failure it has printed the error and set context.status; `is_open` is then false.
   EditedText(Context& context, Place place);
 
   bool is_open() const { return is_open_; }
@@ -32,7 +32,8 @@ class EditedText {
   bool is_protected() const;
   /// FILE, or the program's name.
   const std::string& name() const;
-  /// Writes atomically, or stores a new revision; gives the exit status. `written` says where to.
+  /// Writes atomically, or stores a new revision; returns the exit status. `written` names the
+  /// target.
   int save(const std::string& text, std::string& written);
 
  private:

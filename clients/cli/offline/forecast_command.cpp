@@ -79,7 +79,7 @@ std::string report_text(const Report& report, bool has_colour) {
   if (result.starved == 0) return text + "No block starves.\n";
   const std::string unit = unit_name(units);
   text +=
-      fmt::format("{} of them end before the next one is there; the axes stand. The longest:\n\n",
+      fmt::format("{} of them end before the next one has arrived; the axes wait. The longest:\n\n",
                   result.starved);
   Table table({{"LINE", Align::Right},
                {"N", Align::Right},
@@ -152,16 +152,18 @@ int forecast(Context& context, const ForecastCommand& command) {
 
 void add_forecast_command(CLI::App& app, Context& context) {
   auto* command = app.add_subcommand(
-      "forecast", "Which blocks of a program on disk would starve on a slow line or tape reader");
+      "forecast", "Find the blocks that would starve on a slow line or tape reader");
   auto options = std::make_shared<ForecastCommand>();
   add_offline_options(*command, options->program);
   command->add_option(
       "--line", options->line,
       "The line: a port template (dnc port templates) or a short form, e.g. 9600e72");
-  command->add_option("--cps", options->characters_per_second, "Characters a second instead")
+  command
+      ->add_option("--cps", options->characters_per_second,
+                   "Characters per second, instead of --line")
       ->check(CLI::PositiveNumber);
   command->add_option("--start-ms", options->start_ms,
-                      "A reader's start before each block [10 of tape readers, else 0]");
+                      "Start time of a reader before each block [tape readers 10, else 0]");
   command->add_option("--buffer", options->buffer,
                       "Characters the control holds ahead [0: the next block]");
   command->add_option("--limit", options->limit, "Blocks to list [20]");

@@ -11,7 +11,7 @@ namespace {
 
 namespace tnc155 = interpreter::tnc155;
 
-/// What the control's own options say of written programs.
+/// The control's options for written programs.
 Result<tnc_conversion::ConversionOptions> options_of(const std::string& file) {
   if (file.empty()) return tnc_conversion::ConversionOptions{};
   const auto mapped = MappedFile::open(file);

@@ -16,18 +16,18 @@ struct FormConversion {
   bool to_plain = false;      ///< else to ISO
   bool has_decimal_point = false;
   bool has_lf = false;                    ///< LF at line ends; else CR LF as the control writes it
-  std::optional<std::int32_t> increment;  ///< of ISO block numbers; absent: as the setup says
+  std::optional<std::int32_t> increment;  ///< of ISO block numbers; absent: as in the setup
   std::string setup;                      ///< file with the control's options; empty: none
 };
 
 /// True when `head`, the first bytes of a file, begins a program in the control's plain language.
 bool is_plain_language(std::string_view head);
 
-/// Of the numbers of ISO blocks, as the options in a setup file say; without a file the control's
+/// Step of ISO block numbers by the options of a setup file; without a file the control's
 /// own. Errors: those of reading it, and of the options.
 Result<std::int32_t> block_increment_of(const std::string& setup_file);
 
-/// Gives the exit status; says on standard error why not.
+/// Returns the exit status; prints the reason of a failure on standard error.
 int convert_form(Context& context, const FormConversion& command, client::FileSource& file);
 
 }  // namespace dripline::cli

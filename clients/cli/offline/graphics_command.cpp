@@ -42,7 +42,7 @@ Result<graphics::SimulationSettings> settings_of(const GraphicsCommand& command,
   return settings;
 }
 
-/// Where a section stands, as a part of the shown width: the middle unless it was named.
+/// Position of a section, as a part of the shown width: the middle unless it was named.
 double section_part(const AxisRanges& at, interpreter::Axis axis, double low, double high) {
   const auto& place = at.low[static_cast<std::size_t>(axis)];
   return place ? std::clamp((*place - low) / (high - low), 0.0, 1.0) : 0.5;
@@ -171,9 +171,9 @@ Result<void> check_view(const GraphicsCommand& command) {
   return fail(Errc::Syntax, "--view {}: a milled part has solid, plan and planes", command.view);
 }
 
-/// The detail is a part of the blank, which may stand in the program only: a first pass finds it.
-Result<void> settle_detail(const GraphicsCommand& command, const OfflineProgram& program,
-                           graphics::SimulationSettings& settings) {
+/// The detail is a part of the blank, which the program alone may define: a first pass finds it.
+Result<void> resolve_detail(const GraphicsCommand& command, const OfflineProgram& program,
+                            graphics::SimulationSettings& settings) {
   if (command.detail.empty()) return {};
   const auto ranges = parse_ranges(command.detail, command.is_inch);
   if (!ranges) return fail(ranges.error());
@@ -198,7 +198,8 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
   }
   auto settings = settings_of(command, program->setup());
   if (!settings) return complain(settings.error());
-  if (auto done = settle_detail(command, *program, *settings); !done) return complain(done.error());
+  if (auto done = resolve_detail(command, *program, *settings); !done)
+    return complain(done.error());
   SystemClock clock;
   LiveArea area = LiveArea::on_stderr();
   const std::uint64_t size = program->text().size();
@@ -237,9 +238,8 @@ int show(Context& context, const GraphicsCommand& command) {
 }
 
 void add_turning_options(CLI::App& command, GraphicsCommand& options) {
-  constexpr const char* kGroup = "Of a lathe's programs";
-  command.add_flag("--path", options.shows_path, "Draw the tool's way over the part")
-      ->group(kGroup);
+  constexpr const char* kGroup = "Lathe programs";
+  command.add_flag("--path", options.shows_path, "Draw the tool path over the part")->group(kGroup);
   command.add_flag("--limits", options.shows_limits, "Draw the setup's travel limits")
       ->group(kGroup);
   command.add_flag("--zone", options.shows_zone, "Draw the setup's safe zone")->group(kGroup);
@@ -261,20 +261,23 @@ void add_turning_options(CLI::App& command, GraphicsCommand& options) {
 void add_view_options(CLI::App& command, GraphicsCommand& options) {
   command
       .add_option("--view", options.view,
-                  "Of a mill: solid, plan or planes (plan and two sections) [solid];\n"
-                  "of a lathe: half (section above, outside below), full, section or path [half]")
+                  "Mill: solid, plan or planes (plan and two sections) [solid];\n"
+                  "lathe: half (section above, outside below), full, section or path [half]")
       ->check(CLI::IsMember({"solid", "plan", "planes", "half", "full", "section", "path"}));
-  command.add_option("--shades", options.shades, "Of depth in a plan: 5 or 17 [17]")
+  command.add_option("--shades", options.shades, "Shades of depth in a plan: 5 or 17 [17]")
       ->check(CLI::IsMember({5, 17}));
   command
       .add_option("--arrangement", options.arrangement,
-                  "Of planes: din (first angle) or us (third angle) [din]")
+                  "Arrangement of planes: din (first angle) or us (third angle) [din]")
       ->check(CLI::IsMember({"din", "us"}));
-  command.add_option("--section", options.section, "Where planes are cut, e.g. X40,Y20 [middle]");
-  command.add_option("--rotate", options.rotation, "Solid: degrees about the vertical [-30]");
-  command.add_option("--tilt", options.tilt, "Solid: 5 from the front to 90 from above [35]")
+  command.add_option("--section", options.section,
+                     "Position of the section planes, e.g. X40,Y20 [middle]");
+  command.add_option("--rotate", options.rotation,
+                     "Rotate the solid view, degrees about the vertical [-30]");
+  command.add_option("--tilt", options.tilt, "Tilt the solid view: 5 (front) to 90 (top) [35]")
       ->check(CLI::Range(5.0, 90.0));
-  command.add_option("--magnify", options.detail, "Only this part of the blank, e.g. X10:40,Y0:30");
+  command.add_option("--magnify", options.detail,
+                     "Draw only this part of the blank, e.g. X10:40,Y0:30");
   command.add_option("--size", options.size, "Cells along the longer side [512, lathe 1024]")
       ->check(CLI::Range(8, 4096));
 }
@@ -282,37 +285,40 @@ void add_view_options(CLI::App& command, GraphicsCommand& options) {
 }  // namespace
 
 void add_graphics_command(CLI::App& app, Context& context) {
-  auto* command =
-      app.add_subcommand("graphics", "Cut the blank with a program on disk and draw the part");
+  auto* command = app.add_subcommand("graphics", "Cut the blank with a program and draw the part");
   auto options = std::make_shared<GraphicsCommand>();
   add_offline_options(*command, options->program);
-  command->add_option("-o,--output", options->output, "The picture, a PNG file");
-  command->add_option("--heights", options->heights, "The surface as numbers, a JSON file");
-  command->add_option("--hardcopy", options->print, "The picture as bytes for a matrix printer");
+  command->add_option("-o,--output", options->output, "Write the picture to this PNG file");
+  command->add_option("--heights", options->heights,
+                      "Write the surface as numbers to this JSON file");
+  command->add_option("--hardcopy", options->print,
+                      "Write the picture as bytes for a matrix printer");
   command
       ->add_option("--printer", options->printer,
                    "epson or ti-850 [that of the setup's MP 226 to 233, else epson]")
       ->check(CLI::IsMember({"epson", "ti-850"}));
   add_view_options(*command, *options);
   add_turning_options(*command, *options);
-  command->add_option("--blank", options->blank,
-                      "In place of the program's own, e.g. X0:100,Y0:80,Z-20:0; on a lathe X are\n"
-                      "diameters, from a tube's bore or 0: X0:50,Z-80:0");
-  command->add_option("--spindle", options->spindle, "Axis of the tool, with --blank [Z]")
+  command->add_option(
+      "--blank", options->blank,
+      "Blank in place of the program's own, e.g. X0:100,Y0:80,Z-20:0; on a lathe X are\n"
+      "diameters, from a tube's bore or 0: X0:50,Z-80:0");
+  command->add_option("--spindle", options->spindle, "Tool axis, with --blank [Z]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command
       ->add_option("--tool-radius", options->tool_radius,
-                   "Of tools that neither the program nor the setup describes")
+                   "Radius of tools that neither the program nor the setup describes")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--inch", options->is_inch, "Lengths of this command are inches, not mm");
+  command->add_flag("--inch", options->is_inch,
+                    "Read the lengths of this command as inches, not mm");
   command->add_flag("--helices", options->shows_helices,
                     "Draw helices too, which the TNC 155 leaves out");
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. A mill's cutter is a flat-ended cylinder, a lathe's tool has the nose "
       "and\n"
-      "type of the setup's table; rapid moves cut too. A TNC whose setup says model and software\n"
-      "shows what that one can: no graphics on a TNC 151, a hardcopy from software 03.\n\n"
+      "type of the setup's table; rapid moves cut too. A TNC whose setup names model and software\n"
+      "shows what that control can show: no graphics on a TNC 151, a hardcopy from software 03.\n\n"
       "Exit status: 0 drawn, 1 the program alarms (drawn up to there), 2 usage or no blank.\n\n"
       "Example:\n  dnc graphics pocket.h -o pocket.png --view planes --section X40,Y25\n  dnc "
       "graphics shaft.nc --setup lathe.toml -o shaft.png --view half --path");

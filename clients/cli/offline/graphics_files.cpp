@@ -19,7 +19,7 @@ Result<void> write_file(const std::string& path, std::string_view bytes) {
 
 namespace {
 
-/// Of the control's parameters; absent: the setup has none of the eight.
+/// The printer of the control's parameters; absent: the setup has none of the eight.
 Result<std::optional<graphics::Printer>> printer_of(const interpreter::Setup& setup) {
   constexpr int kFirst = 226;
   constexpr double kMaxWord = 65'535;

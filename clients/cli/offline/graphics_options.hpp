@@ -12,7 +12,7 @@
 
 namespace dripline::cli {
 
-/// What `dnc graphics` is asked for. Lengths are in the user's units until they are read.
+/// The request of `dnc graphics`. Lengths are in the user's units until they are read.
 struct GraphicsCommand {
   OfflineCommand program;
   std::string output;   ///< .png

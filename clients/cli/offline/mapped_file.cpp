@@ -11,7 +11,7 @@
 namespace dripline::cli {
 namespace {
 
-/// Closes on every way out; the mapping outlives it.
+/// Closes at every return; the mapping outlives it.
 struct Descriptor {
   explicit Descriptor(const std::string& path)
       : number(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}

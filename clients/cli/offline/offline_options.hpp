@@ -18,7 +18,7 @@ inline void add_offline_options(CLI::App& command, OfflineCommand& options) {
 }
 
 /// The status for an interpretation that could not be carried through: a program that never ends is
-/// the program's fault, anything else (setup, missing answers) the user's to mend.
+/// the program's fault, anything else (setup, missing answers) the user's to correct.
 inline int complain_offline(const Error& error) {
   complain(error);
   return error.code == Errc::LimitExceeded ? kExitNo : kExitUsage;

@@ -12,7 +12,7 @@
 
 namespace dripline::cli {
 
-/// What `check` and `trace` are asked for.
+/// The request of `check` and `trace`.
 struct OfflineCommand {
   std::string file;
   std::string control;  ///< empty: found out from the text and the file's name
@@ -24,7 +24,7 @@ struct OfflineCommand {
 class OfflineProgram {
  public:
   /// Errors: Io, Unsupported, Syntax, NotFound; all are usage errors (exit status 2). A control
-  /// that cannot be told from the text is NotFound, with the candidates.
+  /// that is not clear from the text is NotFound, with the candidates.
   static Result<OfflineProgram> open(const OfflineCommand& command);
 
   const interpreter::Dialect& dialect() const { return *dialect_; }

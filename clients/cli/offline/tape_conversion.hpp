@@ -13,7 +13,7 @@
 
 namespace dripline::cli {
 
-/// Leaves out what stands in parentheses, for a code that has none. A piece at a time.
+/// Removes text in parentheses for a code that has none, a piece at a time.
 class CommentFilter {
  public:
   /// Appends what is left of `text`. Errors: Syntax (a comment that does not end in its block, or

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxSetup = 1024 * 1024;
 constexpr int kDataFormat = 222;
 constexpr int kUsualFormat = 168;  ///< 7 data bits
 
-/// Older software sends a hardcopy in the data bits that MP222 says; it needs all eight.
+/// Older software sends a hardcopy in the data bits of MP222; it needs all eight.
 Result<void> check_data_bits(const tnc::ControlVersion& version,
                              const interpreter::Options& control) {
   if (version.has(Feature::HardcopyIn8Bits)) return {};

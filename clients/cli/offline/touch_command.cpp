@@ -39,7 +39,7 @@ struct TouchCommand {
   }
 };
 
-/// What was touched: the ways, and where the stylus was at contact.
+/// The probe strokes, and where the stylus was at contact.
 struct Touched {
   std::vector<tnc::Touch> touches;
   std::vector<Position> at;
@@ -50,7 +50,7 @@ struct MeasuredValue {
   double value = 0;  ///< millimetres, degrees
   bool is_angle = false;
 };
-/// What was measured, in order, and what the control keeps of it.
+/// The measured values in order, and what the control keeps of them.
 struct Measured {
   std::vector<MeasuredValue> values;
   std::string keeps;  ///< TOML for a setup
@@ -73,7 +73,7 @@ const Function& function_of(const TouchCommand& command) {
   return kFunctions[0];
 }
 
-/// What the operator says that this axis of the place is called: 0 unless it was said.
+/// The coordinate the operator gives this axis of the point: 0 by default.
 NamedCoordinate named(const TouchCommand& command, Axis axis, std::size_t i) {
   const double value = i < command.values.size() ? command.values[i] : 0;
   return {axis, value * (is_rotary(axis) ? 1 : command.unit())};
@@ -199,7 +199,7 @@ void report(Context& context, const TouchCommand& command, const Touched& touche
   context.print(text);
 }
 
-/// What can be said before anything is touched. Errors: Syntax.
+/// Checks what can be checked before anything is probed. Errors: Syntax.
 Result<void> check(const TouchCommand& command, const TouchSetup& setup) {
   const Function& row = function_of(command);
   if (command.values.size() > row.values) {
@@ -208,7 +208,7 @@ Result<void> check(const TouchCommand& command, const TouchSetup& setup) {
   }
   if (row.function == ProbingFunction::Rotation && command.tool() != Axis::Z) {
     return fail(Errc::Syntax,
-                "--tool-axis {}: a basic rotation turns coordinates of the plane XY, across Z",
+                "--tool-axis {}: a basic rotation rotates coordinates of the plane XY, across Z",
                 command.tool_axis);
   }
   std::size_t kept = 0;
@@ -227,7 +227,7 @@ Result<void> check(const TouchCommand& command, const TouchSetup& setup) {
               kept != 0 ? " besides those of the basic rotation" : "", command.touches.size());
 }
 
-/// The ways of all touches; first those of the basic rotation, where they are taken.
+/// All probe strokes; first those of the basic rotation, where they are taken.
 Result<std::vector<tnc::Touch>> read_touches(const TouchCommand& command, const TouchSetup& setup) {
   std::vector<tnc::Touch> touches;
   if (command.takes_rotation_touches) touches = setup.rotation_touches;
@@ -278,7 +278,7 @@ void add_touch_options(CLI::App& command, TouchCommand& options) {
   command.add_option("--setup", options.setup, "TOML file with the workpiece: [probe]")->required();
   command.add_option("--ball", options.ball, "Effective radius of the stylus [0]")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--travel", options.travel, "Longest way of a touch [100 mm]")
+  command.add_option("--travel", options.travel, "Longest probe stroke [100 mm]")
       ->check(CLI::PositiveNumber);
   command.add_option("--tool-axis", options.tool_axis, "X, Y or Z [Z]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
@@ -287,20 +287,22 @@ void add_touch_options(CLI::App& command, TouchCommand& options) {
         return text.find_first_of("nN") == std::string::npos ? "" : text + " is no number";
       },
       "");  // the parser takes inf and nan for numbers
-  command.add_option("--ring", options.ring, "Radius of the ring gauge, of radius")
+  command.add_option("--ring", options.ring, "Radius of the ring gauge, for the function radius")
       ->check(is_number);
-  command.add_option("--nominal", options.nominal, "Angle the side should have, of rotation [0]")
+  command
+      .add_option("--nominal", options.nominal,
+                  "Nominal angle of the side, for the function rotation [0]")
       ->check(is_number);
   command
       .add_option("--datum", options.values,
-                  "What the place is to be called, a value an axis, e.g. 50,10 [0]")
+                  "Set the datum: coordinates of the measured point, e.g. 50,10 [0]")
       ->delimiter(',')
       ->check(is_number)
       ->allow_extra_args(false);
-  command.add_flag("--boss", options.is_boss, "The circle is touched from outside");
+  command.add_flag("--boss", options.is_boss, "Probe the circle from outside");
   command.add_flag("--rotation-touches", options.takes_rotation_touches,
                    "Corner: the first side is where the setup's basic rotation was touched");
-  command.add_flag("--inch", options.is_inch, "Lengths of this command are inches, not mm");
+  command.add_flag("--inch", options.is_inch, "Read the lengths of this command as inches, not mm");
 }
 
 }  // namespace
@@ -326,9 +328,9 @@ void add_touch_command(CLI::App& app, Context& context) {
       "axis, "
       "then of\nthe second; a corner two of each side. With a basic rotation in the setup the "
       "datum "
-      "makes the place be\ncalled so under it. What goes into the setup is in the setup's units. "
+      "applies to the\nrotated coordinates. Values for the setup are in the setup's units. "
       "The "
-      "fourth axis turns about the\nmachine's zero.\n\nExit status: 0 measured, 1 not touched or "
+      "fourth axis rotates about the\nmachine's zero.\n\nExit status: 0 measured, 1 not touched or "
       "not measurable, 2 usage.\n\nExamples:\n  dnc touch circle --setup bore.toml --ball 2 "
       "X+:50,40,-5 X-:50,40,-5 Y+:50,40,-5 Y-:50,40,-5\n  dnc touch corner --setup vice.toml "
       "--rotation-touches --datum 0,0 X+:-20,15,-5 X+:-20,35,-5");

@@ -9,7 +9,7 @@
 #include "gateway/interpreter/core/setup.hpp"
 #include "protocol/base/result.hpp"
 
-/// What `dnc touch` takes from a setup and what it gives for one.
+/// What `dnc touch` reads from a setup and writes into one.
 namespace dripline::cli {
 
 struct TouchSetup {
@@ -29,7 +29,7 @@ struct TouchForm {
   interpreter::Axis fourth_axis = interpreter::Axis::C;
   double millimetres = 1;
 };
-/// "X+:10,20,-5": along +X from there; the place of the fourth axis may stand after. Errors:
+/// "X+:10,20,-5": along +X from there; the position of the fourth axis may follow. Errors:
 /// Syntax.
 Result<tnc_probing::Touch> parse_touch(const std::string& text, const TouchForm& form);
 

@@ -51,12 +51,12 @@ int print_listing(const OfflineCommand& command) {
 
 void add_trace_command(CLI::App& app, Context& context) {
   auto* command =
-      app.add_subcommand("trace", "Print what a program on disk does, one JSON object a line");
+      app.add_subcommand("trace", "Print what a program does, one JSON object per line");
   auto options = std::make_shared<OfflineCommand>();
   add_offline_options(*command, *options);
   auto events = std::make_shared<bool>(false);
   command->add_flag("--events,--listing", *events,
-                    "The program in the control's own form instead: the events that a "
+                    "Print the program in the control's own form: the events that a "
                     "prototrak-plus stores, the planning sheet of a tektronix-1704");
   command->footer(
       "No server is needed. Positions are in the program's units. Called programs come from the "

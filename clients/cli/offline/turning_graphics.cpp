@@ -232,9 +232,10 @@ int show_turned(Context& context, const GraphicsCommand& command, const OfflineP
   if (!outcome) return complain_offline(outcome.error());
   if (simulation.failure()) return complain(*simulation.failure());
   if (!simulation.part() && command.view != "path") {
-    return complain(Error{Errc::NotFound,
-                          "the program says no bar (P156 its length, P157 its diameter); give one: "
-                          "--blank X0:50,Z-80:0, or draw --view path"});
+    return complain(
+        Error{Errc::NotFound,
+              "the program defines no bar (P156 its length, P157 its diameter); give one: "
+              "--blank X0:50,Z-80:0, or draw --view path"});
   }
   simulation.finish();
   if (auto written = write_files(command, program.setup(), simulation); !written)

@@ -5,7 +5,7 @@
 
 namespace dripline::cli {
 
-/// `dnc graphics` for a lathe's program: turns the bar, draws the part and the tool's way. Gives
+/// `dnc graphics` for a lathe's program: turns the bar, draws the part and the tool path. Returns
 /// the exit status.
 int show_turned(Context& context, const GraphicsCommand& command, const OfflineProgram& program);
 

@@ -100,9 +100,9 @@ class Examination {
     is_fixed_ = !applied && applied.error().code == Errc::Unsupported;
     if (!applied && !is_fixed_) return fail(applied.error());
     parts_.say(fmt::format("listening at {}", wire::short_form(settings)));
-    LineSample dropped;  // characters that were under way while the rate changed
+    LineSample dropped;  // characters in transit while the rate changed
     if (auto read = drain(dropped); !read) return fail(read.error());
-    // Nothing tells one rate from another before something comes.
+    // No rate can be told from another before a character arrives.
     while (sample.size() == 0 && parts_.now() < end && !parts_.is_ended()) {
       parts_.wait(milliseconds(100));
       if (auto read = drain(sample); !read) return fail(read.error());

@@ -10,7 +10,8 @@
 namespace dripline::cli {
 
 /// Listens to an open line while its control punches out: at one rate after the other until what
-/// comes reads as a program, then for longer; then says XOFF and counts. One thread.
+/// comes reads as a program, then for longer; then sends XOFF and counts what still comes. One
+/// thread.
 struct LineExamination {
   serial::Channel& channel;
   std::chrono::milliseconds listen{30'000};  ///< at most, for something to come and be read

@@ -24,7 +24,7 @@ client::PortRequest request_of(const client::Port& port) {
           port.rules, port.settings, port.enabled};
 }
 
-/// What was given changes `port`, the rest stays. Errors: a setting, or the file of rules.
+/// Applies the given options to `port`; the rest stays. Errors: a setting, or the file of rules.
 Result<void> apply(client::PortRequest& port, const PortCommand& command) {
   if (command.machine) port.machine = *command.machine;
   if (command.address) port.address = *command.address;
@@ -117,15 +117,15 @@ int apply_file(Context& context, const std::string& path) {
 std::shared_ptr<PortCommand> add_port_options(CLI::App& command, Context& context) {
   auto options = std::make_shared<PortCommand>();
   command.add_option("NAME", options->port.name, "The port")->required();
-  command.add_option("--machine", options->machine, "The machine at the line's other end");
+  command.add_option("--machine", options->machine, "Machine at the other end of the line");
   command.add_option("--address", options->address,
                      "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT");
   command.add_option("--template", options->line_template,
-                     "A control's usual line, see dnc port templates");
+                     "Usual line of a control, see dnc port templates");
   command.add_option("--rules", options->rules_file,
-                     "TOML file that says what a text from the control means");
+                     "TOML file with the rules for texts from the control");
   command.add_option("SETTING", options->settings,
-                     "KEY=VALUE over the template's, or a line such as 9600e72");
+                     "KEY=VALUE instead of the template's, or a line such as 9600e72");
   add_json_flag(command, context);
   return options;
 }
@@ -144,12 +144,12 @@ void add_add(CLI::App& group, Context& context) {
 }
 
 void add_set(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("set", "Change a port; what is not named stays");
+  auto* command = group.add_subcommand("set", "Change settings of a port");
   auto options = add_port_options(*command, context);
-  command->add_flag("--no-rules", options->has_no_rules, "Take its rules away");
+  command->add_flag("--no-rules", options->has_no_rules, "Remove its rules");
   command->footer(
-      "KEY= takes a setting of the port away, so that its template's holds again. An open line is "
-      "closed\nand opened anew.\n\nExample:\n  dnc port set line-3 baud=4800 eob=");
+      "KEY= removes a setting of the port, so that its template's applies again. An open line is "
+      "closed\nand opened again.\n\nExample:\n  dnc port set line-3 baud=4800 eob=");
   command->callback([&context, options] { context.status = change(context, *options); });
 }
 
@@ -164,7 +164,8 @@ CLI::App* add_by_name(CLI::App& group, Context& context, const char* verb, const
 }
 
 void add_templates(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("templates", "Lines of known controls, or one in full");
+  auto* command =
+      group.add_subcommand("templates", "List the lines of known controls, or show one in full");
   auto name = std::make_shared<std::string>();
   command->add_option("NAME", *name, "The template (default: list them)");
   add_json_flag(*command, context);
@@ -174,7 +175,7 @@ void add_templates(CLI::App& group, Context& context) {
 void add_apply(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("apply", "Set up the ports of a TOML file");
   auto path = std::make_shared<std::string>();
-  command->add_option("FILE", *path, "With a [[port]] for each")->required();
+  command->add_option("FILE", *path, "TOML file with a [[port]] for each port")->required();
   add_json_flag(*command, context);
   command->footer(
       "Ports of the same name are replaced, others stay. deploy/examples/ports.toml shows every "
@@ -183,10 +184,10 @@ void add_apply(CLI::App& group, Context& context) {
 }
 
 void add_test_rules(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("test-rules", "Which rule a text meets, and why");
+  auto* command = group.add_subcommand("test-rules", "Show which rule a text matches, and why");
   auto names = std::make_shared<std::pair<std::string, std::string>>();
   command->add_option("NAME", names->first, "The port")->required();
-  command->add_option("FILE", names->second, "What the control would send")->required();
+  command->add_option("FILE", names->second, "Text as the control would send it")->required();
   add_json_flag(*command, context);
   command->footer("Nothing is done: no program is sent or stored.");
   command->callback(
@@ -197,22 +198,24 @@ void add_monitor(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("monitor", "Watch a line until Ctrl-C");
   auto options = std::make_shared<MonitorCommand>();
   command->add_option("NAME", options->name, "The port")->required();
-  command->add_flag("--hex", options->is_hex, "Bytes in hexadecimal");
-  command->add_flag("--json", context.wants_json, "One JSON object a line");
+  command->add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
+  command->add_flag("--json", context.wants_json, "Print one JSON object per line");
   command->footer(
-      "Each line: time, direction (→ to the control, ← from it, ! an error, ~ modem lines, = how "
-      "the\nline stands), and the characters; <DC3> and its like are control characters. Watching "
+      "Each line: time, direction (→ to the control, ← from it, ! an error, ~ modem lines, = "
+      "the\nstate of the line), and the characters; <DC3> and its like are control characters. "
+      "Watching "
       "changes\nnothing on the line.");
   command->callback([&context, options] { context.status = monitor_port(context, *options); });
 }
 
 void add_recording(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("recording", "What passed over a line in the last minutes");
+  auto* command =
+      group.add_subcommand("recording", "Show what passed over a line in the last minutes");
   auto options = std::make_shared<RecordingCommand>();
   command->add_option("NAME", options->name, "The port")->required();
   command->add_option("-o,--output", options->output,
                       "Save it as JSON lines, - for standard output");
-  command->add_flag("--hex", options->is_hex, "Bytes in hexadecimal");
+  command->add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
   add_json_flag(*command, context);
   command->callback([&context, options] { context.status = show_recording(context, *options); });
 }
@@ -224,19 +227,18 @@ void add_port_commands(CLI::App& app, Context& context) {
   group->require_subcommand(1);
   add_add(*group, context);
   add_set(*group, context);
-  auto* list = group->add_subcommand("list", "All ports and how their lines stand");
+  auto* list = group->add_subcommand("list", "List all ports with the state of their lines");
   add_json_flag(*list, context);
   list->callback([&context] { context.status = list_ports(context); });
   add_json_flag(*add_by_name(*group, context, "show", "One port", show_port), context);
-  add_by_name(*group, context, "remove", "Close a line and forget the port", remove);
+  add_by_name(*group, context, "remove", "Close a line and remove the port", remove);
   add_json_flag(*add_by_name(*group, context, "enable", "Open the line", enable), context);
   add_json_flag(*add_by_name(*group, context, "disable", "Close the line, keep the port", disable),
                 context);
   add_templates(*group, context);
   add_apply(*group, context);
-  add_json_flag(
-      *add_by_name(*group, context, "test", "Look at a line without a program", test_port),
-      context);
+  add_json_flag(*add_by_name(*group, context, "test", "Test a line without a program", test_port),
+                context);
   add_test_rules(*group, context);
   add_monitor(*group, context);
   add_recording(*group, context);

@@ -101,7 +101,7 @@ int run_doctor(Context& context, const DoctorCommand& command) {
 
 void add_port_doctor_command(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
-      "doctor", "Find a line's settings and what is wrong with it from what its control punches");
+      "doctor", "Find the settings and the faults of a line from what its control punches out");
   auto options = std::make_shared<DoctorCommand>();
   command
       ->add_option("ADDRESS", options->address,
@@ -113,8 +113,8 @@ void add_port_doctor_command(CLI::App& group, Context& context) {
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. Start it, then let the control punch out a program of some length, "
-      "again\nif need be: one rate after the other is tried until what comes reads as a program.\n"
-      "\nExit status: 0 the settings were found, 1 not; what was heard is said either way.");
+      "again\nif need be: one rate after the other is tried until the text reads as a program.\n"
+      "\nExit status: 0 the settings were found, 1 not; what was heard is printed in both cases.");
   command->callback([&context, options] { context.status = run_doctor(context, *options); });
 }
 

@@ -126,7 +126,7 @@ Result<std::vector<client::PortRequest>> read_port_file(const std::string& path)
 
 namespace {
 
-/// The short form says all four, so none of the port's own may stand over it.
+/// The short form gives all four, so no setting of the port may override it.
 void set_line(client::Settings& settings, std::string_view value) {
   for (const char* part : {"baud", "parity", "data_bits", "stop_bits"}) settings.erase(part);
   settings["line"] = std::string(value);

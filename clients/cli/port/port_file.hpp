@@ -16,7 +16,7 @@ Result<std::string> read_small_file(const std::string& path, std::size_t limit);
 inline constexpr std::size_t kMaxRulesFile = 32 * 1024;
 
 /// The ports of a TOML file, as dncd takes them in its settings, see deploy/examples/ports.toml;
-/// rules files stand beside it. Errors:
+/// rules files are beside it. Errors:
 /// Syntax and LimitExceeded (naming file, line and key), and those of read_small_file.
 Result<std::vector<client::PortRequest>> read_port_file(const std::string& path);
 

@@ -8,7 +8,7 @@
 #include "protocol/base/result.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// Lines on the command line: how one is named, and how it is told to `dnc port add`.
+/// Lines on the command line: how one is named, and how it is written for `dnc port add`.
 namespace dripline::cli {
 
 /// A template or a short form such as 9600e72, and KEY=VALUE over it. Errors: NotFound, and those

@@ -27,7 +27,7 @@ void print_template(Context& context, const client::PortTemplates& all,
   for (const auto& row : all.settings) {
     const auto value = one.settings.find(row.key);
     const std::string text = value == one.settings.end() ? "" : value->second;
-    // What differs from a plain line is what makes the template.
+    // A template is defined by its differences from a plain line.
     table.add(
         {row.key, Cell(text, text == row.preset ? Style::Plain : Style::Good), row.text, row.type});
   }
@@ -35,7 +35,7 @@ void print_template(Context& context, const client::PortTemplates& all,
   context.print(table);
 }
 
-/// What the machine's newest setup says of it; a setup is often not there.
+/// The baud rate in the machine's newest setup; often there is no setup.
 std::optional<int> baud_rate_of_control(client::Client& client, const std::string& machine) {
   const auto setup = client.setup(machine, std::nullopt);
   if (!setup) return std::nullopt;
@@ -65,7 +65,7 @@ int list_ports(Context& context) {
     return kExitOk;
   }
   if (ports->empty()) {
-    context.print("No serial port is set up; dnc port add --help says how.\n");
+    context.print("No serial port is set up; see dnc port add --help.\n");
     return kExitOk;
   }
   Table table({{"NAME"},

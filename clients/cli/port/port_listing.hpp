@@ -4,7 +4,7 @@
 
 #include "clients/cli/context.hpp"
 
-/// What ports there are and how they are set. Each gives the exit status.
+/// Lists ports and their settings. Each function returns the exit status.
 namespace dripline::cli {
 
 int list_ports(Context& context);

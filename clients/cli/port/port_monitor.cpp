@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kIdle = 200ms;         ///< silence after which a begun line is shown
-constexpr auto kStateEvery = 1000ms;  ///< how often the server is asked how the line stands
+constexpr auto kStateEvery = 1000ms;  ///< how often the server is asked for the state of the line
 
 class PortMonitor {
  public:
@@ -86,7 +86,7 @@ class PortMonitor {
     next_state_ = clock_.steady_now() + kStateEvery;
   }
 
-  /// How the line stands: a line when it changes, and on a terminal the counters below.
+  /// Prints the state of the line when it changes, and on a terminal the counters below.
   void take_state(const client::Port& port) {
     if (context_.wants_json) return;
     std::string state = state_text(port);

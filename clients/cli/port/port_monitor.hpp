@@ -4,7 +4,7 @@
 
 #include "clients/cli/context.hpp"
 
-/// What passes over a line, now and lately. Each gives the exit status.
+/// Shows the traffic of a line, now and lately. Each function returns the exit status.
 namespace dripline::cli {
 
 struct MonitorCommand {

@@ -84,12 +84,13 @@ int line_of_page(Context& context, const PageCommand& command) {
 
 void add_port_page_command(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
-      "page", "The serial page of a Centurion: the line that fits it, or the page for a line");
+      "page", "Convert the serial page of a Centurion to a line, or a line to the page");
   auto options = std::make_shared<PageCommand>();
-  auto* file = command->add_option("FILE", options->file, "The page, as `--for` prints it");
+  auto* file = command->add_option("FILE", options->file, "Page, as `--for` prints it");
   auto* line = command->add_option("--for", options->line, "Template or short form of a line");
   command->add_option("--set", options->changes, "Settings of that line, KEY=VALUE")->needs(line);
-  command->add_flag("--secondary", options->is_secondary, "The line hangs on the secondary port");
+  command->add_flag("--secondary", options->is_secondary,
+                    "The line is connected to the secondary port");
   file->excludes(line);
   add_json_flag(*command, context);
   command->footer(

@@ -24,7 +24,7 @@ struct ParametersCommand {
   std::optional<unsigned> baud;
 };
 
-/// What a control's side of the line is, and whether its baud rate is known.
+/// The control's side of the line, and whether its baud rate is known.
 struct Interface {
   wire::TncInterface tnc;
   bool has_baud = false;
@@ -37,7 +37,7 @@ Result<void> read_setup(std::string_view text, Interface& interface) {
   if (options.find("machine_parameters") == nullptr && options.find("heading_letter") == nullptr &&
       options.find("baud_rate") == nullptr && options.find("user_parameters") == nullptr) {
     return fail(Errc::NotFound,
-                "the setup says nothing of a TNC's interface: machine_parameters, heading_letter "
+                "the setup has nothing of a TNC's interface: machine_parameters, heading_letter "
                 "or baud_rate in [control]");
   }
   const auto parameters = tnc::all_machine_parameters(options);
@@ -206,13 +206,13 @@ void add_port_parameters_command(CLI::App& group, Context& context) {
   command->add_option("--set", options->changes, "Settings of that line, KEY=VALUE")->needs(line);
   auto* port = command->add_option("--port", options->port,
                                    "Compare this port with FILE, or with its machine's setup");
-  auto* baud = command->add_option("--baud", options->baud,
-                                   "The control's, of MOD [the setup's baud_rate, or 2400]");
+  auto* baud = command->add_option(
+      "--baud", options->baud, "Baud rate of the control (MOD) [the setup's baud_rate, or 2400]");
   baud->excludes(line);
   line->excludes(file)->excludes(port);
   add_json_flag(*command, context);
   command->footer(
-      "MP 71 and 218 to 224 count; the letter in headings is the setup's heading_letter, else that "
+      "MP 71 and 218 to 224 apply; the letter in headings is the setup's heading_letter, else that "
       "of MP 218,\nelse %. Only --port needs a server.\n\n"
       "Exit status: 0 well, 1 the port is set otherwise, 2 usage, or a value no line can have.\n\n"
       "Examples:\n  dnc port parameters mill-3.toml            # template and settings for dnc "

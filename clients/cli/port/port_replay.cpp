@@ -98,7 +98,7 @@ Result<wire::ReplayReport> replay(const std::string& path, const wire::LineSetti
   return replay->finish();
 }
 
-/// What the control's interpreter makes of a text, in a sentence.
+/// Describes in a sentence how the control's interpreter reads a text.
 std::string interpreted(const interpreter::Dialect& dialect, const std::string& text) {
   const interpreter::Setup setup;
   interpreter::MemorySource source(text);
@@ -194,7 +194,7 @@ int run_replay(Context& context, const ReplayCommand& command) {
 
 void add_port_replay_command(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
-      "replay", "Play a recorded line against a simulated control, and say where it differs");
+      "replay", "Play a recorded line against a simulated control, and show where it differs");
   auto options = std::make_shared<ReplayCommand>();
   command->add_option("RECORDING", options->file, "JSON lines, see dnc port recording -o")
       ->required();
@@ -205,7 +205,7 @@ void add_port_replay_command(CLI::App& group, Context& context) {
   command->add_option("--dialect", options->dialect,
                       "Whose interpreter runs what arrives (default: the template's)");
   command->add_option("SETTING", options->settings,
-                      "KEY=VALUE over the template's, or a line such as 9600e72");
+                      "KEY=VALUE instead of the template's, or a line such as 9600e72");
   add_json_flag(*command, context);
   command->footer(
       "No server is needed. What was sent goes to the simulated control, and its answers are "

@@ -18,7 +18,7 @@ std::string value_of(const client::Settings& settings, const std::string& key) {
   return found == settings.end() ? "?" : found->second;
 }
 
-/// What the port changes of its template: "baud=4800 eob=lf".
+/// The settings that differ from the template: "baud=4800 eob=lf".
 std::string own_settings_text(const client::Settings& settings) {
   std::string text;
   for (const auto& [key, value] : settings) {
@@ -99,7 +99,7 @@ std::string baud_warning(const client::Port& port, std::optional<int> control_ra
   const auto line = port.effective.find("baud");
   if (!control_rate || line == port.effective.end()) return {};
   if (line->second == std::to_string(*control_rate)) return {};
-  return fmt::format("The setup of {} says {} baud at the control, and the line has {}.",
+  return fmt::format("The setup of {} has {} baud for the control, and the line has {}.",
                      port.machine, *control_rate, line->second);
 }
 

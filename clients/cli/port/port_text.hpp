@@ -12,17 +12,18 @@ namespace dripline::cli {
 
 /// "9600e72 xonxoff".
 std::string line_text(const client::Settings& effective);
-/// What the line does: "sending, stopped by the control, waits for ACK without limit since 12:01".
+/// The activity of the line: "sending, stopped by the control, waits for ACK without limit since
+/// 12:01".
 std::string state_text(const client::Port& port);
 /// The same in two cells of a listing: "sending, stopped" and "ACK for 12:34, no limit". `now` is
 /// ISO 8601 UTC.
 std::string short_state(const client::Port& port);
 std::string wait_text(const client::Port& port, std::string_view now);
-/// What the control asked for in vain: "the control asked for a program at 12:01; no run waits".
+/// The unanswered request of the control: "the control asked for a program at 12:01; no run waits".
 std::string request_text(const std::optional<client::Port::Request>& request);
 Style style_of_state(const client::Port& port);
 Details port_details(const client::Port& port);
-/// Where the control's baud rate, as its setup says it, is not the line's; else empty.
+/// A note where the baud rate of the control's setup is not the line's; else empty.
 std::string baud_warning(const client::Port& port, std::optional<int> control_rate);
 
 }  // namespace dripline::cli

@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kLook{300};
 struct SendCommand {
   std::string port;
   std::vector<std::string> programs;
-  bool is_left = false;  ///< alone, once it is under way
+  bool is_left = false;  ///< alone, once it has begun
 };
 
 struct ReceiveCommand {
@@ -62,11 +62,11 @@ int send(Context& context, const SendCommand& command) {
     }
     if (port->transfer->state != "sending") return say_transfer(context, *port->transfer);
   }
-  fmt::print(stderr, "dnc: the transfer goes on; dnc port stop {} ends it\n", command.port);
+  fmt::print(stderr, "dnc: the transfer continues; dnc port stop {} ends it\n", command.port);
   return kExitInterrupted;
 }
 
-/// What was noted on the line, with its time in front so that texts differ.
+/// The notes of the line, with their times in front so that texts differ.
 std::vector<std::string> notes_of(client::Client& client, const std::string& port) {
   std::string lines;
   const auto fetched = client.recording(port, [&](std::string_view piece) {
@@ -123,14 +123,16 @@ void add_send(CLI::App& group, Context& context) {
       group.add_subcommand("send", "Send programs to the control's memory, as one text");
   auto options = std::make_shared<SendCommand>();
   command->add_option("PORT", options->port, "The port")->required();
-  command->add_option("PROGRAM", options->programs, "Its name, or NAME@REVISION")->required();
+  command->add_option("PROGRAM", options->programs, "Program, or NAME@REVISION")->required();
   command->add_flag("--no-wait", options->is_left, "Do not wait for the end");
   add_json_flag(*command, context);
   command->footer(
-      "The control must be ready to receive. One program goes as it stands. Several go one after "
+      "The control must be ready to receive. One program is sent unchanged. Several are sent one "
+      "after "
       "the\nother, each from its O line (or with one made from its name), framed once as the "
       "line's "
-      "settings\nsay: a control that splits at O numbers has them as single programs then. It is "
+      "settings\nrequire; a control that splits at O numbers stores them as single programs. This "
+      "is "
       "no "
       "run.\n\nExample:\n  dnc port send line-2 O0100 O0200 O0300@4");
   command->callback([&context, options] { context.status = send(context, *options); });
@@ -144,8 +146,8 @@ void add_receive(CLI::App& group, Context& context) {
   command->footer(
       "Over XMODEM the receiver begins: this makes the server ask while the operator starts to "
       "send. "
-      "What\ncomes is a held revision, one for each O number where the port extracts programs. All "
-      "other lines\ntake what their control sends at any time.");
+      "It\nbecomes a held revision, one for each O number where the port extracts programs. All "
+      "other lines\naccept what their control sends at any time.");
   command->callback([&context, options] { context.status = receive(context, *options); });
 }
 
@@ -154,7 +156,7 @@ void add_receive(CLI::App& group, Context& context) {
 void add_port_transfer_commands(CLI::App& group, Context& context) {
   add_send(group, context);
   add_receive(group, context);
-  auto* command = group.add_subcommand("stop", "End what a line sends or receives without a run");
+  auto* command = group.add_subcommand("stop", "End a transfer that belongs to no run");
   auto name = std::make_shared<std::string>();
   command->add_option("PORT", *name, "The port")->required();
   command->callback([&context, name] { context.status = stop(context, *name); });

@@ -8,7 +8,7 @@
 namespace dripline::cli {
 
 int test_port(Context& context, const std::string& name);
-/// What the port's rules would do with the text in `file`.
+/// Shows what the port's rules would do with the text in `file`.
 int test_rules(Context& context, const std::string& name, const std::string& file);
 
 }  // namespace dripline::cli

@@ -55,7 +55,7 @@ bool is_line_end(char c) {
   return c == '\n' || c == '\r' || c == '\0';
 }
 
-/// What one end says to hold, begin or confirm.
+/// Characters that hold, begin or confirm.
 bool is_handshake(char c) {
   constexpr std::string_view kHandshakes = "\x04\x05\x06\x11\x12\x13\x14\x15\x18";
   return kHandshakes.find(c) != std::string_view::npos;

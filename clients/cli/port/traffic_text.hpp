@@ -13,7 +13,7 @@ std::string named_characters(std::string_view bytes);
 /// Turns what passed over a line into lines for people: time, direction, and the characters as text
 /// or in hexadecimal. Characters of one direction are put together up to the end of a block, a
 /// handshake (DC3, ACK ...), a pause of half a second, or the width of a line; the other direction
-/// goes on meanwhile. The time is that of a line's first character. Pure.
+/// continues meanwhile. The time is that of a line's first character. Pure.
 class TrafficText {
  public:
   struct Look {
@@ -22,10 +22,10 @@ class TrafficText {
   };
   explicit TrafficText(Look look) : look_(look) {}
 
-  /// The lines that are complete now, each with its line end. Errors in what the server said
+  /// The lines that are complete now, each with its line end. Errors in what the server sent
   /// (digits that are none) are shown as they are.
   std::string add(const client::Traffic& traffic);
-  /// What still waits for more of its kind.
+  /// The characters that still wait for more of their kind.
   std::string flush();
 
  private:

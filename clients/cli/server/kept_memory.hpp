@@ -11,8 +11,8 @@
 
 namespace dripline::cli {
 
-/// What a machine's control keeps when a program is over, as its gateway reports it at the end of
-/// a run.
+/// The memory that a machine's control keeps after a program, as its gateway reports it at the end
+/// of a run.
 struct KeptCell {
   std::optional<double> value;  ///< none: vacant
   std::optional<double> base;   ///< what the setup gave it

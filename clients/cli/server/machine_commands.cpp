@@ -85,7 +85,7 @@ void add_switch(CLI::App& group, Context& context) {
       ->required()
       ->check(CLI::IsMember({"on", "off"}));
   command->footer(
-      "With a run or without; dnc run switch does the same for the machine of a "
+      "It works with or without a run; dnc run switch does the same for the machine of a "
       "run.\n\nExample:\n  dnc machine switch mill-1 emergency_stop off");
   command->callback([&context, options] { context.status = set_switch(context, *options); });
 }
@@ -96,12 +96,12 @@ void add_machine_commands(CLI::App& app, Context& context) {
   auto* group = app.add_subcommand("machine", "Machines and what they do now");
   group->require_subcommand(1);
 
-  auto* list = group->add_subcommand("list", "All machines that ever announced themselves");
+  auto* list = group->add_subcommand("list", "List all machines that ever connected");
   add_json_flag(*list, context);
   list->callback([&context] { context.status = list_machines(context); });
 
   auto name = std::make_shared<std::string>();
-  auto* status = group->add_subcommand("status", "Everything known of one machine");
+  auto* status = group->add_subcommand("status", "Show everything known of a machine");
   status->add_option("NAME", *name, "The machine")->required();
   add_json_flag(*status, context);
   status->callback([&context, name] { context.status = show_status(context, *name); });
@@ -109,12 +109,13 @@ void add_machine_commands(CLI::App& app, Context& context) {
   add_switch(*group, context);
 
   auto watched = std::make_shared<std::string>();
-  auto* watch = group->add_subcommand("watch", "Follow one machine, or all, until Ctrl-C");
+  auto* watch = group->add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");
   watch->add_option("NAME", *watched, "The machine (default: all)");
-  watch->add_flag("--json", context.wants_json, "Print each change as one JSON object a line");
+  watch->add_flag("--json", context.wants_json, "Print each change as one JSON object per line");
   watch->footer(
-      "On a terminal one live line a machine; in a pipe one line for each change of what it "
-      "executes\nor says, and of its counters every five seconds. Watching changes nothing at the "
+      "On a terminal one live line per machine; in a pipe one line for each change of what it "
+      "executes\nor reports, and of its counters every five seconds. Watching changes nothing at "
+      "the "
       "machine.\n\nExample:\n  dnc machine watch lathe-1");
   watch->callback([&context, watched] { context.status = watch_machines(context, *watched); });
 }

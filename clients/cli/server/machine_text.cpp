@@ -21,14 +21,14 @@ std::string after_gap(const std::string& text) {
   return text.empty() ? std::string() : "  " + text;
 }
 
-/// The program can go on.
+/// The program can continue.
 bool is_interrupted(std::string_view execution) {
   constexpr std::string_view kInterrupted[] = {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD",
                                                "INTERRUPTED"};
   return std::ranges::find(kInterrupted, execution) != std::end(kInterrupted);
 }
 
-/// What an operator types next, when the run waits for one.
+/// The command an operator types next, when the run waits for one.
 std::string next_step(const client::Run& run, const client::MachineStatus& status) {
   if (status.execution == "WAIT" && status.message.starts_with("asks: ") &&
       status.remote_enable != "not_given") {
@@ -38,7 +38,7 @@ std::string next_step(const client::Run& run, const client::MachineStatus& statu
   if (is_local && status.waits_for == "cycle_start")
     return "cycle start, or the remote enable, is given at the machine";
   if (!is_interrupted(status.execution)) return {};
-  return fmt::format("dnc run resume {} goes on", short_id(run.id));
+  return fmt::format("dnc run resume {} continues", short_id(run.id));
 }
 
 /// The lamp of a control that shows a `*` while a program runs.
@@ -92,7 +92,7 @@ std::string spindle_state_text(const client::ActiveModes& modes) {
   if (modes.spindle == "clockwise") return "clockwise (M03)";
   if (modes.spindle == "counterclockwise") return "counterclockwise (M04)";
   if (modes.spindle == "off") return "off (M05)";
-  return modes.spindle.empty() ? "not told" : modes.spindle;
+  return modes.spindle.empty() ? "not reported" : modes.spindle;
 }
 
 /// What a status window has besides place, position and speeds, in the control's order.

@@ -23,18 +23,18 @@ std::string place_text(const client::MachineStatus& status);
 double fraction_executed(const client::MachineStatus& status);
 /// One line of what the machine does now.
 std::string status_line(const client::Machine& machine);
-/// What it executes; of a machine that is not connected only the last that was heard.
+/// What the machine executes; of one that is not connected, the last that it reported.
 Cell execution_cell(const client::Machine& machine);
 /// "1 block", "2 blocks"
 std::string count_text(std::uint64_t count, std::string_view thing);
 Details machine_details(const client::Machine& machine);
 
-/// How the run stands, as lines that fit a terminal of 80 columns; `status` is the machine's when
+/// The state of the run, as lines that fit a terminal of 80 columns; `status` is the machine's when
 /// it speaks of this run, or null. When the run waits for an operator, the last says what to type.
 std::vector<std::string> run_lines(const client::Run& run, const client::MachineStatus* status);
 /// The same as one line.
 std::string run_line(const client::Run& run, const client::MachineStatus* status);
-/// What it waits for and what an operator types next; empty while it waits for nobody.
+/// What it waits for and what an operator types next; empty while it waits for no operator.
 std::string waiting_line(const client::Run& run, const client::MachineStatus& status);
 /// A record of the run for people: "alarm  line 3  MCH0004 a feed per revolution ...".
 std::string record_line(const client::Record& record);

@@ -21,38 +21,38 @@ struct MemoryCommand {
 };
 
 struct Found {
-  client::Memory told;
+  client::Memory reported;
   KeptMemory memory;
 };
 
-Found found_in(client::Memory told) {
-  KeptMemory cells = cells_of(told);
-  return {std::move(told), std::move(cells)};
+Found found_in(client::Memory reported) {
+  KeptMemory cells = cells_of(reported);
+  return {std::move(reported), std::move(cells)};
 }
 
-/// The newest that the machine told, at most `limit`.
+/// The newest memories that the machine reported, at most `limit`.
 client::Reply<std::vector<Found>> memories(client::Client& client, const std::string& machine,
                                            std::uint64_t limit) {
-  auto told =
+  auto reported =
       fetch_all(limit, [&](client::Page page) { return client.memories(machine, "", page); });
-  if (!told) return client::failed(told.error());
+  if (!reported) return client::failed(reported.error());
   std::vector<Found> found;
-  for (auto& memory : *told) found.push_back(found_in(std::move(memory)));
+  for (auto& memory : *reported) found.push_back(found_in(std::move(memory)));
   return found;
 }
 
 /// Runs that were begun at the machine are not among the server's: they are known by what they
-/// told.
+/// reported.
 client::Reply<Found> of_own_run(client::Client& client, const MemoryCommand& command) {
   auto all = memories(client, command.machine, kMaxRuns);
   if (!all) return client::failed(all.error());
   Found* found = nullptr;
   for (auto& memory : *all) {
-    if (!memory.told.run.starts_with(command.run)) continue;
+    if (!memory.reported.run.starts_with(command.run)) continue;
     if (found != nullptr)
       return client::failed(client::Failure::Kind::Refused, Errc::Conflict,
                             "run '{}' fits {} and {}; expected more of the id", command.run,
-                            found->told.run, memory.told.run);
+                            found->reported.run, memory.reported.run);
     found = &memory;
   }
   if (found != nullptr) return std::move(*found);
@@ -68,11 +68,11 @@ client::Reply<Found> wanted(client::Client& client, const MemoryCommand& command
     auto run = find_run(client, command.run);
     if (!run && run.error().code == Errc::NotFound) return of_own_run(client, command);
     if (!run) return client::failed(run.error());
-    auto told = client.memories(run->machine, run->id, {1, 0});
-    if (!told) return client::failed(told.error());
-    return found_in(std::move(told->front()));
+    auto reported = client.memories(run->machine, run->id, {1, 0});
+    if (!reported) return client::failed(reported.error());
+    return found_in(std::move(reported->front()));
   }
-  constexpr std::uint64_t kEnough = 10;  // one that is still on its way is left out
+  constexpr std::uint64_t kEnough = 10;  // one that has not arrived yet is left out
   auto found = memories(client, command.machine, kEnough);
   if (!found) return client::failed(found.error());
   if (!found->empty()) return std::move(found->front());
@@ -97,7 +97,7 @@ std::string what_may_follow(client::Client& client, const std::string& machine) 
   const auto run = client.run(now->status->run);
   const bool is_over = run && run->state != "active" && run->state != "ordered";
   if (is_over) return {};
-  return fmt::format("Run {} is under way: what it changes is told at its end\n",
+  return fmt::format("Run {} is active: what it changes is reported at its end\n",
                      short_id(now->status->run));
 }
 
@@ -112,10 +112,10 @@ nlohmann::ordered_json to_json(const Found& found, const KeptMemory& cells) {
   };
   for (const auto& [name, cell] : cells)
     list.push_back({{"name", name}, {"value", number(cell.value)}, {"setup", number(cell.base)}});
-  return {{"machine", found.told.machine},
-          {"run", found.told.run},
-          {"program", found.told.program},
-          {"ended", found.told.time},
+  return {{"machine", found.reported.machine},
+          {"run", found.reported.run},
+          {"program", found.reported.program},
+          {"ended", found.reported.time},
           {"cells", std::move(list)}};
 }
 
@@ -134,9 +134,9 @@ int show(Context& context, const MemoryCommand& command) {
     table.add({name, number_text(cell.value), number_text(cell.base)});
   context.print(table);
   const std::string program =
-      found->told.program.empty() ? "begun at the machine" : "of " + found->told.program;
-  context.print(fmt::format("As run {} {} left it, {}\n", short_id(found->told.run), program,
-                            time_text(found->told.time)));
+      found->reported.program.empty() ? "begun at the machine" : "of " + found->reported.program;
+  context.print(fmt::format("As run {} {} left it, {}\n", short_id(found->reported.run), program,
+                            time_text(found->reported.time)));
   if (command.run.empty()) context.print(what_may_follow(*client, command.machine));
   return kExitOk;
 }
@@ -154,7 +154,7 @@ int list(Context& context, const MemoryCommand& command) {
   }
   Table table({{"RUN"}, {"PROGRAM"}, {"ENDED"}, {"CELLS", Align::Right}});
   for (const Found& found : *all) {
-    table.add({short_id(found.told.run), found.told.program, time_text(found.told.time),
+    table.add({short_id(found.reported.run), found.reported.program, time_text(found.reported.time),
                std::to_string(found.memory.size())});
   }
   context.print(table);
@@ -174,7 +174,7 @@ int compare(Context& context, const MemoryCommand& command) {
     const auto found = memory.find(name);
     return found == memory.end() ? std::string("as the setup") : number_text(found->second.value);
   };
-  Table table({{"NAME"}, {"NOW", Align::Right}, {short_id(then->told.run), Align::Right}});
+  Table table({{"NAME"}, {"NOW", Align::Right}, {short_id(then->reported.run), Align::Right}});
   bool differ = false;
   for (const auto& [name, unused] : filtered(names, command.filter)) {
     const std::string a = text_in(now->memory, name), b = text_in(then->memory, name);
@@ -216,7 +216,7 @@ int restore(Context& context, const MemoryCommand& command) {
     if (cell.value) variables[name] = *cell.value;
   }
   return save(context, *client, command, variables,
-              fmt::format("memory of run {}", short_id(then->told.run)));
+              fmt::format("memory of run {}", short_id(then->reported.run)));
 }
 
 int clear(Context& context, const MemoryCommand& command) {
@@ -246,16 +246,17 @@ std::pair<CLI::App*, std::shared_ptr<MemoryCommand>> add_verb(CLI::App& group, C
 }  // namespace
 
 void add_memory_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand(
-      "memory", "What a machine's control keeps from programs: variables, offsets");
+  auto* group =
+      app.add_subcommand("memory", "Memory that a control keeps from programs: variables, offsets");
   group->require_subcommand(1);
   group->footer(
-      "Told at the end of each run that changed it. At the next start what is kept wins over the "
+      "It is reported at the end of each run that changed it. At the next start what is kept wins "
+      "over the "
       "setup,\nexcept where the setup was changed since. Restoring and clearing make a new "
       "version of the\nsetup, which takes effect at the next start.");
 
-  constexpr const char* kFilter = "Only names that hold this text";
-  auto [showing, show_options] = add_verb(*group, context, "show", "What it keeps now", show);
+  constexpr const char* kFilter = "List only names that contain this text";
+  auto [showing, show_options] = add_verb(*group, context, "show", "Show what it keeps now", show);
   showing->add_option("--run", show_options->run, kRunHelp);
   showing->add_option("--filter", show_options->filter, kFilter);
   add_json_flag(*showing, context);
@@ -265,12 +266,12 @@ void add_memory_commands(CLI::App& app, Context& context) {
   add_json_flag(*listing, context);
 
   auto [comparing, compare_options] =
-      add_verb(*group, context, "compare", "What differs from what a run left", compare);
+      add_verb(*group, context, "compare", "Show the difference from what a run left", compare);
   comparing->add_option("RUN", compare_options->run, kRunHelp)->required();
   comparing->add_option("--filter", compare_options->filter, kFilter);
 
   auto [restoring, restore_options] = add_verb(
-      *group, context, "restore", "Give back what a run left, of this or another machine", restore);
+      *group, context, "restore", "Restore what a run left, of this or another machine", restore);
   restoring->add_option("RUN", restore_options->run, kRunHelp)->required();
   restoring->add_option("--filter", restore_options->filter, kFilter);
   restoring->add_option("-m,--comment", restore_options->comment, "Why, for the list of setups");

@@ -26,7 +26,7 @@ Cell held_cell(std::uint64_t held) {
   return held == 0 ? Cell("") : Cell(std::to_string(held), Style::Busy);
 }
 
-/// What becomes of a revision: only one that is not held can be run.
+/// The decision about a revision: only one that is not held can be run.
 Cell standing_cell(const client::Program& program, const client::Revision& revision) {
   if (revision.held) return {"held", Style::Busy};
   if (revision.revision == program.revision) return {"latest", Style::Good};
@@ -171,7 +171,7 @@ void add_judgement(CLI::App& group, Context& context, const char* verb, const ch
   command->add_option("REV", options->revision, "Its revision")->required();
   command->footer(
       "A program that an operator punched out at a control is stored as a held revision: it is "
-      "listed\nand can be pulled, but no run takes it before it is accepted. The decision stands "
+      "listed\nand can be pulled, but no run takes it before it is accepted. The decision is "
       "in "
       "the audit\ntrail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o punched.nc\n  dnc "
       "program accept O0200 3");
@@ -186,13 +186,14 @@ void add_push(CLI::App& group, Context& context) {
   command->add_option(
       "--control", options->control,
       "The control it is written for, e.g. centurion (default: the server finds out)");
-  command->add_option("--comment", options->comment, "What changed; kept with the revision");
+  command->add_option("--comment", options->comment, "Say what changed; kept with the revision");
   command->add_flag("--force", options->overrides_protection,
                     "Also where the program there is protected against change (tnc155: P, G50)");
   add_json_flag(*command, context);
   command->footer(
       "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
-      "breaks,\nit goes on where the server stopped receiving. The same content again makes no new "
+      "breaks,\nit continues where the server stopped receiving. The same content again makes no "
+      "new "
       "revision.\n\nExample:\n  dnc program push shaft.nc --name O0200 --control centurion "
       "--comment \"deeper groove\"");
   command->callback([&context, options] { context.status = push(context, *options); });
@@ -237,7 +238,7 @@ void add_copy(CLI::App& group, Context& context) {
   command->add_option("NEW", options->to, "Name of the copy; no program may have it")->required();
   command->add_option("--revision", options->revision, "Which revision (default: the latest)");
   command->footer(
-      "The copy begins with that revision as its first; what it is a copy of stands in its comment "
+      "The copy begins with that revision as its first; its source is in its comment "
       "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
   command->callback([&context, options] { context.status = copy_program(context, *options); });
 }

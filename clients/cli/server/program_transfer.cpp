@@ -17,7 +17,7 @@
 namespace dripline::cli {
 namespace {
 
-/// What a revision is, in one line.
+/// A revision in one line.
 std::string revision_line(const char* verb, const client::Revision& revision, double seconds) {
   const auto rate = seconds > 0.05 ? static_cast<double>(revision.size) / seconds : 0;
   std::string line =

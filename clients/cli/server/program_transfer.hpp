@@ -9,7 +9,7 @@
 namespace dripline::cli {
 
 struct PushCommand {
-  std::string file, name, control, comment;  ///< empty: not said
+  std::string file, name, control, comment;  ///< empty: not given
   bool overrides_protection = false;
 };
 struct PullCommand {

@@ -24,7 +24,7 @@ struct ExportCommand {
   std::string run, format, output;
 };
 
-/// What machines printed outside any run; of `machine` only when it is named.
+/// The lines that machines printed outside any run; only those of `machine` when it is named.
 client::Reply<std::vector<client::MachineReport>> machine_reports(client::Client& client,
                                                                   const std::string& machine) {
   auto reports = client.machine_reports();
@@ -123,7 +123,7 @@ client::Reply<ReportOf> find_report(client::Client& client, const std::string& r
 
 enum class Controls { AsTheyAre, Visible };
 
-/// What a machine printed must not steer a terminal.
+/// Control characters that a machine printed must not reach a terminal.
 int print_report(client::Client& client, const ReportOf& report, const std::string& format,
                  Controls controls) {
   StandardOutput output;
@@ -154,7 +154,7 @@ int show(Context& context, const ShowCommand& command) {
                               short_id(run->id), run->program, run->revision, run->machine,
                               run->state, count_text(run->outputs, "line")));
   } else {
-    context.print(fmt::format("What machine {} printed outside any run\n\n", report->machine));
+    context.print(fmt::format("Printed by machine {} outside any run\n\n", report->machine));
   }
   return print_report(*client, *report, "text", controls);
 }
@@ -206,7 +206,7 @@ void add_export(CLI::App& group, Context& context) {
 }  // namespace
 
 void add_report_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("report", "What machines wrote: DPRNT and other output lines");
+  auto* group = app.add_subcommand("report", "Output of machines: DPRNT and other lines");
   group->require_subcommand(1);
 
   auto* list_command = group->add_subcommand(

@@ -3,8 +3,8 @@
 #include "clients/cli/commands.hpp"
 #include "clients/cli/server/machine_text.hpp"
 #include "clients/cli/server/run_control.hpp"
+#include "clients/cli/server/run_follower.hpp"
 #include "clients/cli/server/run_reference.hpp"
-#include "clients/cli/server/run_watch.hpp"
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/value_text.hpp"
 
@@ -129,7 +129,7 @@ int watch(Context& context, const std::string& reference) {
 }
 
 void add_start(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("start", "Feed a program to a machine and execute it");
+  auto* command = group.add_subcommand("start", "Start a program on a machine");
   auto options = std::make_shared<StartCommand>();
   command->add_option("MACHINE", options->request.machine, "The machine")->required();
   command->add_option("PROGRAM", options->request.program, "The program in the library")
@@ -156,11 +156,10 @@ void add_start(CLI::App& group, Context& context) {
           "(variables, offsets) as it was at the begin of the machine's last run of this "
           "revision, or as it is now, so that the skipped part applies once more")
       ->check(CLI::IsMember({"begin", "now"}));
-  command->add_option(
-      "--pass", options->request.pass,
-      "With --from at a gateway: which time the program comes to that block (loops, "
-      "subprograms)");
-  auto* follow = command->add_flag("--follow", options->follows, "Watch it to its end");
+  command->add_option("--pass", options->request.pass,
+                      "With --from at a gateway: start at this pass of the block (loops, "
+                      "subprograms)");
+  auto* follow = command->add_flag("--follow", options->follows, "Follow the run to its end");
   command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
       ->excludes(follow);
   add_json_flag(*command, context);
@@ -169,7 +168,7 @@ void add_start(CLI::App& group, Context& context) {
       "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
       "send.\nAt a gateway the program is looked through: a start that would lose what the control "
       "keeps, "
-      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass say "
+      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass name "
       "what is "
       "meant.\n\n"
       "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
@@ -179,14 +178,14 @@ void add_start(CLI::App& group, Context& context) {
 }
 
 void add_list(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("list", "Runs, newest first");
+  auto* command = group.add_subcommand("list", "List runs, newest first");
   auto options = std::make_shared<ListCommand>();
-  command->add_option("--machine", options->query.machine, "Only of this machine");
-  command->add_option("--program", options->query.program, "Only of this program");
+  command->add_option("--machine", options->query.machine, "List only runs of this machine");
+  command->add_option("--program", options->query.program, "List only runs of this program");
   command->add_option("--state", options->query.state,
-                      "Only in this state: ordered, active, completed, aborted, alarmed, "
+                      "List only runs in this state: ordered, active, completed, aborted, alarmed, "
                       "interrupted, refused");
-  command->add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
+  command->add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(*command, context);
   command->callback([&context, options] { context.status = list(context, *options); });
 }
@@ -194,13 +193,13 @@ void add_list(CLI::App& group, Context& context) {
 }  // namespace
 
 void add_run_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("run", "Runs of programs on machines");
+  auto* group = app.add_subcommand("run", "Run programs on machines");
   group->require_subcommand(1);
   add_start(*group, context);
   add_list(*group, context);
 
   auto shown = std::make_shared<std::string>();
-  auto* show_command = group->add_subcommand("show", "Everything known of one run");
+  auto* show_command = group->add_subcommand("show", "Show everything known of a run");
   show_command->add_option("ID", *shown, kRunHelp)->required();
   add_json_flag(*show_command, context);
   show_command->callback([&context, shown] { context.status = show(context, *shown); });
@@ -211,9 +210,9 @@ void add_run_commands(CLI::App& app, Context& context) {
   auto* watch_command = group->add_subcommand("watch", "Follow a run to its end");
   watch_command->add_option("ID", *watched, kRunHelp)->required();
   watch_command->add_flag("--json", context.wants_json,
-                          "Print each change as one JSON object a line");
+                          "Print each change as one JSON object per line");
   watch_command->footer(
-      "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run goes on).");
+      "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run continues).");
   watch_command->callback([&context, watched] { context.status = watch(context, *watched); });
 }
 

@@ -49,7 +49,7 @@ void add_answer(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("answer", "Answer the question a run waits with");
   auto options = std::make_shared<RunControlCommand>();
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("TEXT", options->text, "What the operator would type")->required();
+  command->add_option("TEXT", options->text, "Text that the operator would type")->required();
   command->footer("Example:\n  dnc run answer latest 16.4856");
   command->callback([&context, options] {
     client::CommandRequest command = plain("answer");
@@ -67,8 +67,8 @@ void add_switch(CLI::App& group, Context& context) {
       ->required()
       ->check(CLI::IsMember({"on", "off"}));
   command->footer(
-      "emergency_stop brakes at once, turns spindle and coolant off and keeps the run from going "
-      "on; "
+      "emergency_stop brakes at once, switches spindle and coolant off and keeps the run from "
+      "continuing; "
       "when\nit is off again the run ends as aborted. It can be released by dnc machine switch "
       "too.\n\nExample:\n  dnc run switch latest single_block on");
   command->callback([&context, options] {
@@ -82,13 +82,13 @@ void add_handwheel(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand("handwheel", "Turn the handwheel that drives the program");
   auto options = std::make_shared<RunControlCommand>();
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("CLICKS", options->clicks, "How far, forward")
+  command->add_option("CLICKS", options->clicks, "Number of clicks, forward")
       ->required()
       ->check(CLI::Range(1, kMaxClicks));
   command->footer(
-      "In handwheel mode a program goes on only as far as the wheel is turned; the feed switch "
-      "says "
-      "how\nmuch a click is.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
+      "In handwheel mode a program moves only as far as the handwheel is turned; the feed switch "
+      "sets "
+      "the\ndistance per click.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
       "handwheel "
       "latest 200");
   command->callback([&context, options] {
@@ -118,10 +118,9 @@ void add_override(CLI::App& group, Context& context) {
   auto options = std::make_shared<RunControlCommand>();
   const CLI::Range percent(0.0, 1000.0);
   command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("--feed", options->feed, "Of the programmed feed, in per cent")
-      ->check(percent);
-  command->add_option("--rapid", options->rapid, "Of rapid traverse, in per cent")->check(percent);
-  command->add_option("--spindle", options->spindle, "Of the programmed speed, in per cent")
+  command->add_option("--feed", options->feed, "Percent of the programmed feed")->check(percent);
+  command->add_option("--rapid", options->rapid, "Percent of rapid traverse")->check(percent);
+  command->add_option("--spindle", options->spindle, "Percent of the programmed speed")
       ->check(percent);
   command->footer(
       "The machine has its own limits and refuses what is beyond them.\n\nExample:\n  dnc run "

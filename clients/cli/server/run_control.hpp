@@ -8,7 +8,7 @@ namespace dripline::cli {
 inline constexpr const char* kSwitchHelp =
     "single_block, optional_stop, block_skip, handwheel or emergency_stop";
 
-/// A dash stands for an underscore: "emergency-stop".
+/// A dash is read as an underscore: "emergency-stop".
 client::CommandRequest switch_command(std::string name, bool is_on);
 /// "hold", "feed override 50 %", "single_block on"
 std::string command_text(const client::CommandRequest& command);

@@ -6,7 +6,7 @@
 
 namespace dripline::cli {
 
-/// What the help of every verb says about its run.
+/// The help text of every verb for its run.
 inline constexpr const char* kRunHelp = "The run: its id, the beginning of it, or latest";
 
 /// The run that `reference` means: a full id, a prefix that fits only one run, or `latest`.

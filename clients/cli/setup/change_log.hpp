@@ -9,7 +9,7 @@
 namespace dripline::cli {
 
 /// Decides which states of a watched thing are worth a line in a pipe: each change of its `key`
-/// (what it executes, what it says) at once, and other changes (counters) every five seconds.
+/// (what it executes, what it reports) at once, and other changes (counters) every five seconds.
 class ChangeLog {
  public:
   bool is_worth_a_line(const std::string& key, const std::string& line, SteadyTime now) {

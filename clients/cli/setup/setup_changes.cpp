@@ -52,7 +52,7 @@ int save(Context& context, client::Client& client, const client::Setup& before,
   client::Setup changed = before;
   changed.text = request.text;
   if (const auto checked = read_setup(changed); !checked) return complain(checked.error());
-  // A machine never seen has its control from whoever saves.
+  // The control of a machine never seen is given by the user who saves.
   if (!client.machine(before.machine)) request.control = "tnc155";
   const auto saved = client.save_setup(request);
   return saved ? report_saved(context, *saved) : complain(saved.error());
@@ -68,7 +68,7 @@ client::Reply<double> number_of(const std::string& text) {
   return client::failed(Failure::Kind::Local, Errc::Syntax, "'{}' is not a number", text);
 }
 
-/// A user parameter's value stands with it, and may stand among the machine parameters too.
+/// A user parameter has its value beside it, and may be among the machine parameters too.
 Changes changes_of(const interpreter::Setup& data, const tnc155::UserParameter& parameter,
                    std::size_t place, double value) {
   const std::string text = fmt::format("{}", value);
@@ -140,8 +140,8 @@ client::Reply<void> check_setup_of(const client::Run& run, const client::Setup& 
                  short_id(run.id), run.machine, *run.setup, setup.revision);
 }
 
-/// By tool, as the run's last line about it says. A run that was cut off may have changed none; one
-/// that came to its end has reported all.
+/// Pocket by tool, from the run's last line about it. A run that was cut off may have changed none;
+/// one that came to its end has reported all.
 client::Reply<std::map<int, int>> reported_pockets(client::Client& client, const client::Run& run) {
   const auto records =
       fetch_all(0, [&](client::Page page) { return client.records(run.id, "output", page); });
@@ -193,7 +193,7 @@ int take_pockets(Context& context, const ChangeCommand& command) {
 
 void add_verb(CLI::App& command, Context& context, const std::shared_ptr<ChangeCommand>& options,
               int (*action)(Context&, const ChangeCommand&)) {
-  command.add_option("-m,--comment", options->comment, "Why, for the list");
+  command.add_option("-m,--comment", options->comment, "Give a reason; shown in the list");
   add_json_flag(command, context);
   command.callback([&context, options, action] { context.status = action(context, *options); });
 }
@@ -219,7 +219,7 @@ void add_setup_changes(CLI::App& group, Context& context) {
   parameter->add_option("MACHINE", options->machine, "The machine")->required();
   parameter
       ->add_option("PARAMETER", options->parameter,
-                   "Its text, its number in the menu (1 to 16), or its machine parameter: MP173")
+                   "Text, number in the menu (1 to 16), or machine parameter: MP173")
       ->required();
   parameter->add_option("VALUE", options->value, "A number within its range")->required();
   parameter->footer(
@@ -229,7 +229,7 @@ void add_setup_changes(CLI::App& group, Context& context) {
   add_verb(*parameter, context, options, &set_parameter);
 
   auto* pockets = group.add_subcommand(
-      "pockets", "Take over where a random tool changer has put the tools in the newest run");
+      "pockets", "Take over the pockets of a random tool changer from the newest run");
   auto taken = std::make_shared<ChangeCommand>();
   pockets->add_option("MACHINE", taken->machine, "The machine")->required();
   pockets->footer(

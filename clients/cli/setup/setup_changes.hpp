@@ -5,10 +5,10 @@
 namespace dripline::cli {
 
 /// Verbs of `dnc setup` that change something in a machine's newest setup: `parameter`, `pockets`.
-/// What somebody has stored since is never overwritten.
+/// Versions stored since by others are never overwritten.
 void add_setup_changes(CLI::App& group, Context& context);
 
-/// What saving gave, as text or JSON.
+/// The result of saving, as text or JSON.
 int report_saved(Context& context, const client::Setup& setup);
 
 }  // namespace dripline::cli

@@ -105,7 +105,7 @@ int pull(Context& context, const SetupCommand& command) {
                  fmt::format("setup {} of {}", setup->revision, setup->machine));
 }
 
-/// Of the machine, unless the command names it; a TNC where neither says it.
+/// The control of the machine, unless the command names it; a TNC where neither does.
 std::string control_of(client::Client& client, const SetupCommand& command) {
   if (!command.control.empty()) return command.control;
   const auto machine = client.machine(command.machine);
@@ -161,17 +161,17 @@ int import_form(const ImportCommand& command) {
 
 void add_import(CLI::App& group, Context& context) {
   auto* command = group.add_subcommand(
-      "import", "Make a setup from what a control sent: TNC tools or MP, Centurion parameters");
+      "import", "Make a setup from the text of a control: TNC tools or MP, Centurion parameters");
   auto options = std::make_shared<ImportCommand>();
   command
       ->add_option("FILE", options->file,
                    "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
       ->required();
   command->add_option("--setup", options->setup,
-                      "TOML file whose [control] says the TNC's model and software: what that one "
-                      "has not is refused");
+                      "TOML file whose [control] names the TNC's model and software; what that "
+                      "control lacks is refused");
   command->add_option("--map", options->map,
-                      "Of a Centurion: which of its numbers from P200 on is which of Dripline's "
+                      "Centurion: which of its numbers from P200 on is which of Dripline's "
                       "(deploy/examples/centurion-parameters.map)");
   command->add_option("-o,--output", options->output,
                       "TOML file to write, - for standard output [-]");
@@ -209,50 +209,51 @@ Verb add_verb(CLI::App& group, Context& context, const char* name, const char* h
 }
 
 void add_saving_options(Verb& verb, Context& context) {
-  verb.command->add_option("-m,--comment", verb.options->comment, "Why, for the list");
+  verb.command->add_option("-m,--comment", verb.options->comment,
+                           "Give a reason; shown in the list");
   verb.command->add_option("--control", verb.options->control,
-                           "Of a machine that was never connected, e.g. tnc155");
+                           "Control of a machine that was never connected, e.g. tnc155");
   add_json_flag(*verb.command, context);
 }
 
 }  // namespace
 
 void add_setup_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand(
-      "setup", "What a machine's control knows: tool table, offsets, parameters");
+  auto* group = app.add_subcommand("setup", "Tool tables, offsets and parameters of machines");
   group->require_subcommand(1);
   group->footer(
       "A setup is a TOML file with [[tool]], [[offset]], [[variable]] and [control]. The server "
       "checks it\nfor the machine's control, keeps every version, and sends the newest with each "
       "start of a program.");
 
-  auto listing = add_verb(*group, context, "list", "Versions of a setup, newest first", list);
+  auto listing =
+      add_verb(*group, context, "list", "List the versions of a setup, newest first", list);
   listing.command->add_option("--limit", listing.options->limit,
-                              "At most this many, 0 for all [20]");
+                              "List at most this many, 0 for all [20]");
   add_json_flag(*listing.command, context);
 
-  auto showing = add_verb(*group, context, "show", "The tables of a setup", show);
-  showing.command->add_option("-r,--revision", showing.options->revision, "This one [newest]");
+  auto showing = add_verb(*group, context, "show", "Show the tables of a setup", show);
+  showing.command->add_option("-r,--revision", showing.options->revision, "Version [newest]");
   showing.command->add_option("--control", showing.options->control,
-                              "Of a machine that was never connected, e.g. tnc155");
+                              "Control of a machine that was never connected, e.g. tnc155");
   showing.command
       ->add_option("--holds", showing.options->holds,
                    "A TNC: programs of the server that its memory has, for its vacant blocks")
       ->type_name("PROGRAM");
   showing.command->footer(
-      "Of a TNC also its MOD functions in the control's order, and the user parameters.");
+      "For a TNC also its MOD functions in the control's order, and the user parameters.");
   add_json_flag(*showing.command, context);
 
-  auto pushing = add_verb(*group, context, "push", "Make a file the machine's setup", push);
+  auto pushing = add_verb(*group, context, "push", "Store a file as the machine's setup", push);
   pushing.command->add_option("FILE", pushing.options->file, "TOML")->required();
   pushing.command->add_option("--base", pushing.options->base,
-                              "Only if this is still the newest version, 0: none yet");
+                              "Push only if this is still the newest version, 0: none yet");
   add_saving_options(pushing, context);
   pushing.command->footer(
       "Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
 
   auto pulling = add_verb(*group, context, "pull", "Fetch a setup's text", pull);
-  pulling.command->add_option("-r,--revision", pulling.options->revision, "This one [newest]");
+  pulling.command->add_option("-r,--revision", pulling.options->revision, "Version [newest]");
   pulling.command->add_option("-o,--output", pulling.options->file,
                               "File to write, - for standard output [-]");
 
@@ -263,15 +264,15 @@ void add_setup_commands(CLI::App& app, Context& context) {
   exporting.command->add_option("--control", exporting.options->control,
                                 "tnc155 or centurion [the machine's]");
   exporting.command->add_flag("--parameters", exporting.options->wants_parameters,
-                              "Of a TNC the machine parameters instead: MP0: ...");
+                              "TNC: export the machine parameters instead: MP0: ...");
   exporting.command->add_option("--map", exporting.options->map,
-                                "Of a Centurion: its numbers, filled in by its builder "
+                                "Centurion: its numbers, filled in by its builder "
                                 "(deploy/examples/centurion-parameters.map)");
   exporting.command->footer(
       "A Centurion's numbers from P500 on are not known. Without --map they are Dripline's own: a "
       "backup\nfor dnc setup import, which overwrites other parameters on a real control. Never "
       "send it to one.");
-  exporting.command->add_option("-r,--revision", exporting.options->revision, "This one [newest]");
+  exporting.command->add_option("-r,--revision", exporting.options->revision, "Version [newest]");
   exporting.command->add_option("-o,--output", exporting.options->file,
                                 "File to write, - for standard output [-]");
   add_import(*group, context);

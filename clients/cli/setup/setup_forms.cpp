@@ -36,7 +36,7 @@ std::string parameters_toml(const interpreter::tnc155::MachineParameters& parame
   return text;
 }
 
-/// What a TNC sends of its memory: program 0, or its machine parameters (MP0: ...).
+/// Text that a TNC sends of its memory: program 0, or its machine parameters (MP0: ...).
 Result<std::string> setup_of_memory_file(std::string_view text, const ControlVersion& tnc) {
   const std::size_t begin = std::min(text.find_first_not_of(" \r\n\t\2"), text.size());
   if (text.substr(begin).starts_with("MP")) {

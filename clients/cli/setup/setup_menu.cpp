@@ -67,14 +67,14 @@ client::Reply<std::optional<SetupMenu>> menu_of(client::Client& client, const cl
   }
   const auto data = interpreter::parse_control_data(setup.text);
   if (!data) return client::failed_locally(data.error());
-  // Of a machine never seen, options that only this control has tell it.
+  // A machine never seen is recognized by options that only this control has.
   const bool is_tnc = control == kControl || (control.empty() && !data->control.empty() &&
                                               tnc155::read_options(*data).has_value());
   if (!is_tnc) {
     if (request.holds.empty()) return std::optional<SetupMenu>{};
-    return client::failed(Failure::Kind::Local, Errc::Unsupported,
-                          "--holds is for a TNC; machine {} is {}", setup.machine,
-                          control.empty() ? "not known to be one; --control says it" : control);
+    return client::failed(
+        Failure::Kind::Local, Errc::Unsupported, "--holds is for a TNC; machine {} is {}",
+        setup.machine, control.empty() ? "not known to be one; name it with --control" : control);
   }
   const auto settings = tnc155::read_mod_settings(data->control);
   if (!settings) return client::failed_locally(settings.error());

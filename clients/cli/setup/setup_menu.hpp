@@ -17,7 +17,7 @@ struct SetupMenu {
 };
 
 struct SetupMenuRequest {
-  std::string control;             ///< of the machine; empty: what the server says, or the text
+  std::string control;             ///< of the machine; empty: as the server has it, or by the text
   std::vector<std::string> holds;  ///< programs of the server that the control's memory has
 };
 

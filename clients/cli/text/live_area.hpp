@@ -14,7 +14,7 @@ namespace dripline::cli {
 class LiveArea {
  public:
   using Writer = std::function<void(std::string_view)>;
-  /// `terminal` says whether and how wide; asked again at each drawing.
+  /// `terminal` reports whether there is one and its width; it is asked at each drawing.
   LiveArea(std::function<Terminal()> terminal, Writer writer);
   /// On standard error, so that standard output stays clean.
   static LiveArea on_stderr();
@@ -32,7 +32,7 @@ class LiveArea {
   std::string erasure() const;
   std::function<Terminal()> terminal_;
   Writer writer_;
-  std::size_t drawn_ = 0;  ///< lines; the cursor stands at the end of the last
+  std::size_t drawn_ = 0;  ///< lines; the cursor is at the end of the last
 };
 
 }  // namespace dripline::cli

@@ -23,7 +23,7 @@ std::string render_progress(const ProgressView& view, std::size_t width);
 std::string render_bar(double fraction, std::size_t cells);
 
 /// Shows long work on a terminal, redrawn at most ten times a second; nothing in a pipe. The clock
-/// and the area must outlive it. The bar vanishes with it: what was done is then said in words.
+/// and the area must outlive it. The bar vanishes with it; the result is then printed in words.
 class Progress {
  public:
   Progress(LiveArea& area, const Clock& clock, std::string label);

@@ -7,8 +7,8 @@
 
 namespace dripline::cli {
 
-/// Standard output for content of any length: unbuffered, and it notices when nobody reads any
-/// more. After a failed write nothing more is written.
+/// Standard output for content of any length: unbuffered, and it notices when there is no reader
+/// any more. After a failed write nothing more is written.
 class StandardOutput {
  public:
   /// Errors: Io.
@@ -16,7 +16,7 @@ class StandardOutput {
   const std::optional<Error>& error() const { return error_; }
   /// The reader has gone (`dnc ... | head`): no error to speak of.
   bool is_closed() const { return is_closed_; }
-  /// After a failed write: says so, unless the reader has gone, and gives the exit status.
+  /// After a failed write: reports it, unless the reader has gone, and returns the exit status.
   int complain() const;
 
  private:

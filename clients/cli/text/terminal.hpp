@@ -5,14 +5,14 @@
 
 namespace dripline::cli {
 
-/// What the place that text goes to can do.
+/// What the destination of text can show.
 struct Terminal {
   bool is_terminal = false;
   bool has_colour = false;  ///< a terminal, NO_COLOR unset and TERM not "dumb"
   int width = 80;           ///< columns
 };
 
-/// Of a file descriptor, now (a window can be resized).
+/// The terminal of a file descriptor, now (a window can be resized).
 Terminal terminal_of(int descriptor);
 
 enum class Style { Plain, Heading, Good, Bad, Busy, Faint };

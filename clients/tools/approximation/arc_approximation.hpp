@@ -20,7 +20,7 @@ struct ArcToApproximate {
   Length center_x, center_y;
   Length radius;  ///< of the tool's path: part radius and cutter radius
   Angle from;     ///< counterclockwise from +X
-  Angle sweep;    ///< positive counterclockwise; up to 360 either way
+  Angle sweep;    ///< positive counterclockwise; up to 360 in either direction
   Length tolerance;
   ArcMethod method = ArcMethod::Chord;
 };

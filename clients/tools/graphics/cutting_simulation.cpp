@@ -82,7 +82,7 @@ void CuttingSimulation::on_probe(const interpreter::Probe& event) {
   if (event.result) at_ = event.result->at;
 }
 
-/// The control says where its graphics show nothing; a blank of the user has the user's axis.
+/// The control reports where its graphics show nothing; a blank of the user has the user's axis.
 void CuttingSimulation::on_warning(const interpreter::Warning& event) {
   if (event.diagnostic.id == "TNC-GRAPHICS" && !settings_.blank) is_across_ = true;
   if (event.diagnostic.id == "TNC-GRAPHICS-AGAIN") is_across_ = false;

@@ -10,12 +10,12 @@
 
 namespace dripline::graphics {
 
-/// What is to be cut, and what is not known from the program.
+/// The blank, and what is not known from the program.
 struct SimulationSettings {
   /// Instead of the program's own blank; in machine coordinates (spindle axis: `spindle`).
   std::optional<Cuboid> blank;
   std::optional<interpreter::Axis> spindle;
-  /// Of tools that neither the program nor the setup gives a radius; absent: their cuts are not
+  /// Radius of tools that neither the program nor the setup gives one; absent: their cuts are not
   /// shown.
   std::optional<Length> tool_radius;
   std::vector<interpreter::ToolRecord> tools;  ///< of the setup
@@ -89,7 +89,7 @@ class CuttingSimulation final : public interpreter::EventSink {
   std::optional<HeightField> part_;
   std::optional<Error> failure_;
   std::optional<double> radius_;
-  bool is_across_ = false;  ///< the tool called last does not stand along the blank's axis
+  bool is_across_ = false;  ///< the tool called last is not along the blank's axis
   interpreter::Position at_;
   std::vector<OmittedSection> omitted_;  ///< at most one of each kind
   std::uint64_t cuts_ = 0;

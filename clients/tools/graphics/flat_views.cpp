@@ -25,7 +25,7 @@ std::size_t pixels_high(const HeightField& part) {
   return static_cast<std::size_t>(std::clamp(std::lround(cells), 8L, 4096L));
 }
 
-/// Material along a line of `count` cells, standing up.
+/// Upright material along a line of `count` cells.
 template <class HeightAt>
 Picture draw_section(const HeightField& part, std::size_t count, HeightAt height_at) {
   const std::size_t high = pixels_high(part);

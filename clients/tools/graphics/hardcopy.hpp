@@ -31,7 +31,7 @@ Result<Printer> find_printer(std::string_view name);
 /// Errors: LimitExceeded, naming the first parameter of the group.
 Result<Printer> printer_of_parameters(const std::array<std::uint16_t, 8>& words);
 
-/// Columns of dots a line has: both printers are told so by the bytes before a line.
+/// Columns of dots a line has: the bytes before a line set it at both printers.
 inline constexpr std::size_t kDotColumns = 512;
 
 /// The picture in black dots on white paper, eight rows a line, the upper row in the highest bit.

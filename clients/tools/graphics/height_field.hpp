@@ -6,7 +6,7 @@
 #include "protocol/base/result.hpp"
 
 /// Material removal on a screen, as the test graphics of a milling control show it: a cuboid blank
-/// and a flat-ended cutter whose axis never turns. All lengths are in millimetres.
+/// and a flat-ended cutter whose axis never tilts. All lengths are in millimetres.
 namespace dripline::graphics {
 
 /// A point seen along the tool: `u` and `v` are the work plane's axes, `w` points to the spindle.

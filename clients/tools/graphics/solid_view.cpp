@@ -17,7 +17,7 @@ double dot(const Vector& a, const Vector& b) {
   return a.u * b.u + a.v * b.v + a.w * b.w;
 }
 
-/// Where the eye stands, far away: unit vectors to the right and up in the picture, and into it.
+/// Position of the eye, far away: unit vectors to the right and up in the picture, and into it.
 struct Camera {
   Vector right, up, forward;
 
@@ -32,7 +32,7 @@ struct Camera {
   }
 };
 
-/// What a ray met: how light it looks.
+/// Brightness of the surface a ray met.
 Shade lit(const Vector& normal, double depth_part) {
   constexpr Vector kLight{-0.36, -0.48, 0.80};
   const double facing = std::max(0.0, dot(normal, kLight));
@@ -54,7 +54,7 @@ class Ray {
           part_.at(static_cast<std::size_t>(column_), static_cast<std::size_t>(row_));
       const double w_in = from_.w + along_.w * at_, w_out = from_.w + along_.w * leave;
       const double low = part_.extent().low.w;
-      if (height > low) {  // where it is cut through, nothing stands
+      if (height > low) {  // where it is cut through, there is no material
         if (w_in <= height && w_in >= low) {
           const bool is_step_of_slope = height - w_in < part_.cell();
           return lit(is_step_of_slope ? normal_at() : wall_normal(), depth_of(w_in));
@@ -129,7 +129,7 @@ class Ray {
     }
   }
 
-  /// Of the top, smooth where neighbours are about as high: a slope, not a step.
+  /// Normal of the top, smooth where neighbours are about as high: a slope, not a step.
   Vector normal_at() const {
     const auto column = static_cast<std::size_t>(column_), row = static_cast<std::size_t>(row_);
     const double here = part_.at(column, row), cell = part_.cell();
@@ -146,7 +146,7 @@ class Ray {
     return {-du / length, -dv / length, 1 / length};
   }
 
-  /// Of a wall: away from where its surroundings are higher, so that round walls look round.
+  /// Normal of a wall: away from where its surroundings are higher, so that round walls look round.
   Vector wall_normal() const {
     constexpr std::ptrdiff_t kReach = 3;
     double u = 0, v = 0;

@@ -7,7 +7,7 @@
 
 #include "protocol/base/result.hpp"
 
-/// What a lathe leaves of a bar, as one half of its section along the axis. All lengths are in
+/// The rest of a bar after turning, as one half of its section along the axis. All lengths are in
 /// millimetres; `x` is a radius, counted from the spindle's axis.
 namespace dripline::graphics {
 
@@ -38,7 +38,7 @@ class TurnedSection {
 
   /// Everything goes whose center lies within the outline.
   void remove(std::span<const SectionPoint> convex);
-  /// What hangs together by no more than `part` of the material falls off: rings between cuts.
+  /// Pieces of no more than `part` of the material fall off: rings between cuts.
   void drop_crumbs(double part);
 
   std::size_t columns() const { return columns_; }
@@ -66,7 +66,7 @@ class TurnedSection {
   std::vector<std::uint8_t> cells_;  ///< column by column
 };
 
-/// The convex outline around what `outline` covers on its way from one place to the other.
+/// The convex outline around what `outline` covers when it moves from one place to the other.
 ConvexOutline swept(const ConvexOutline& outline, const SectionPoint& from, const SectionPoint& to);
 
 }  // namespace dripline::graphics

@@ -19,7 +19,7 @@ struct Frame {
 struct TurnedView {
   TurnedSide above = TurnedSide::Section;  ///< the axis; below it is `below`
   TurnedSide below = TurnedSide::Outside;
-  /// What is shown, radii positive above the axis; absent: all that is drawn.
+  /// The part shown, radii positive above the axis; absent: all that is drawn.
   std::optional<Frame> window{};
   bool shows_path = false;
   std::optional<Frame> limits{}, zone{};  ///< software limits, safe zone
@@ -27,7 +27,7 @@ struct TurnedView {
   std::size_t width = 1024;               ///< pixels; the height follows, up to twice as much
 };
 
-/// The part (absent: the path alone) and the tool's way: feeds as lines, rapid moves dashed.
+/// The part (absent: the path alone) and the tool path: feeds as lines, rapid moves dashed.
 /// Errors: LimitExceeded (there is nothing to show, or a window without extent).
 Result<Picture> draw_turned(const TurnedSection* part, std::span<const PathPiece> path,
                             const TurnedView& view);

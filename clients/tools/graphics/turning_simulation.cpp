@@ -10,7 +10,7 @@ namespace {
 
 using interpreter::Axis;
 
-/// What a piece must be, as a part of the material, to stay when it hangs on nothing.
+/// Smallest loose piece that stays, as a part of the material.
 constexpr double kCrumb = 0.01;
 constexpr int kMaxChords = 4096;
 constexpr double kSagitta = 0.25;   ///< of a chord, in cells
@@ -70,23 +70,23 @@ void TurningSimulation::on_miscellaneous(const interpreter::Miscellaneous& event
 }
 
 void TurningSimulation::on_rapid(const interpreter::Rapid& event) {
-  go(point(event.to), Way::Rapid);
+  go(point(event.to), Travel::Rapid);
   at_ = event.to;
 }
 void TurningSimulation::on_line(const interpreter::Line& event) {
-  go(point(event.to), Way::Feed);
+  go(point(event.to), Travel::Feed);
   at_ = event.to;
 }
 void TurningSimulation::on_thread(const interpreter::Thread& event) {
   if (event.arc) {
-    go_around(interpreter::arc_of(event), Way::Thread);
+    go_around(interpreter::arc_of(event), Travel::Thread);
   } else {
-    go(point(event.to), Way::Thread);
+    go(point(event.to), Travel::Thread);
   }
   at_ = event.to;
 }
 void TurningSimulation::on_arc(const interpreter::Arc& event) {
-  go_around(event, Way::Feed);
+  go_around(event, Travel::Feed);
   at_ = event.to;
 }
 /// A probe's ball cuts nothing.
@@ -107,8 +107,8 @@ SectionPoint TurningSimulation::point(const interpreter::Position& position) con
   return {position.linear(Axis::Z).mm(), position.linear(Axis::X).mm() - axis_x_};
 }
 
-void TurningSimulation::go_around(const interpreter::Arc& arc, Way way) {
-  if (arc.plane != interpreter::Plane::ZX) return go(point(arc.to), way);
+void TurningSimulation::go_around(const interpreter::Arc& arc, Travel travel) {
+  if (arc.plane != interpreter::Plane::ZX) return go(point(arc.to), travel);
   const SectionPoint center{arc.center_first.mm(), arc.center_second.mm() - axis_x_};
   const SectionPoint from = point(at_);
   const double radius = std::hypot(from.z - center.z, from.x - center.x);
@@ -121,17 +121,17 @@ void TurningSimulation::go_around(const interpreter::Arc& arc, Way way) {
   for (int i = 1; i < chords; ++i) {
     const double angle = begin + turn * arc.sweep.radians() * i / chords;
     const SectionPoint to{center.z + radius * std::cos(angle), center.x + radius * std::sin(angle)};
-    go(to, way);
+    go(to, travel);
     at_.set(Axis::Z, Length::mm(to.z));
     at_.set(Axis::X, Length::mm(to.x + axis_x_));
   }
-  go(point(arc.to), way);
+  go(point(arc.to), travel);
 }
 
-void TurningSimulation::go(const SectionPoint& to, Way way) {
+void TurningSimulation::go(const SectionPoint& to, Travel travel) {
   const SectionPoint from = point(at_);
-  if (draws_) note({from, to, way == Way::Rapid});
-  if (part_) cut(from, to, way);
+  if (draws_) note({from, to, travel == Travel::Rapid});
+  if (part_) cut(from, to, travel);
 }
 
 void TurningSimulation::note(const PathPiece& piece) {
@@ -142,16 +142,17 @@ void TurningSimulation::note(const PathPiece& piece) {
   }
 }
 
-void TurningSimulation::cut(const SectionPoint& from, const SectionPoint& to, Way way) {
+void TurningSimulation::cut(const SectionPoint& from, const SectionPoint& to, Travel travel) {
   // a boring bar above the material reaches for no bore
   if (is_for_bores(tool_.type) && std::min(from.x, to.x) > part_->bar().x_high) return;
   ++cuts_;
   const bool is_on_axis = std::max(std::fabs(from.x), std::fabs(to.x)) < part_->cell();
-  for (const ConvexOutline& piece : pieces(way, is_on_axis)) part_->remove(swept(piece, from, to));
+  for (const ConvexOutline& piece : pieces(travel, is_on_axis))
+    part_->remove(swept(piece, from, to));
 }
 
-const std::vector<ConvexOutline>& TurningSimulation::pieces(Way way, bool is_on_axis) {
-  const bool is_thread = way == Way::Thread;
+const std::vector<ConvexOutline>& TurningSimulation::pieces(Travel travel, bool is_on_axis) {
+  const bool is_thread = travel == Travel::Thread;
   const bool is_drill = tool_.type == 7 && is_on_axis && tool_.width;
   auto& kept = is_thread ? threading_ : is_drill ? drilling_ : turning_;
   if (kept.empty()) {

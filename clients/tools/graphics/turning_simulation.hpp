@@ -11,7 +11,7 @@
 
 namespace dripline::graphics {
 
-/// What is to be turned, and what is not known from the program.
+/// The bar, and what is not known from the program.
 struct TurningSettings {
   /// Instead of the program's own bar; `z` in machine coordinates.
   std::optional<SectionExtent> bar;
@@ -24,13 +24,13 @@ struct TurningSettings {
   std::function<void(const interpreter::Origin&)> on_progress;
 };
 
-/// One straight piece of the tool's way.
+/// One straight piece of the tool path.
 struct PathPiece {
   SectionPoint from, to;  ///< of the imaginary tip; x may lie beyond the axis
   bool is_rapid = false;
 };
 
-/// Turns a bar with what a program does: a sink for its events. The tool's way is kept too, between
+/// Turns a bar with what a program does: a sink for its events. The tool path is kept too, between
 /// M91 and M90 only (they turn a Centurion's graphics on and off). One thread.
 class TurningSimulation final : public interpreter::EventSink {
  public:
@@ -63,14 +63,14 @@ class TurningSimulation final : public interpreter::EventSink {
   void on_block_end(const interpreter::Origin& event) override;
 
  private:
-  enum class Way { Rapid, Feed, Thread };
+  enum class Travel { Rapid, Feed, Thread };
   void begin(const SectionExtent& bar);
-  void go(const SectionPoint& to, Way way);
-  void go_around(const interpreter::Arc& arc, Way way);
+  void go(const SectionPoint& to, Travel travel);
+  void go_around(const interpreter::Arc& arc, Travel travel);
   void note(const PathPiece& piece);
-  void cut(const SectionPoint& from, const SectionPoint& to, Way way);
+  void cut(const SectionPoint& from, const SectionPoint& to, Travel travel);
   SectionPoint point(const interpreter::Position& position) const;
-  const std::vector<ConvexOutline>& pieces(Way way, bool is_on_axis);
+  const std::vector<ConvexOutline>& pieces(Travel travel, bool is_on_axis);
 
   TurningSettings settings_;
   std::optional<TurnedSection> part_;
@@ -78,7 +78,7 @@ class TurningSimulation final : public interpreter::EventSink {
   double bar_volume_ = 0;
   double axis_x_ = 0;  ///< the spindle's axis in machine coordinates
   TurningTool tool_;
-  /// Of the tool in use, for turning, threads and drilling; made when first wanted.
+  /// Shapes of the tool in use, for turning, threads and drilling; made when first wanted.
   std::vector<ConvexOutline> turning_, threading_, drilling_;
   interpreter::Position at_;
   std::vector<PathPiece> path_;

@@ -37,7 +37,7 @@ ConvexOutline circle(const SectionPoint& center, double radius) {
   return outline;
 }
 
-/// What is covered by `outline` and everything from it in direction `degrees`.
+/// The area of `outline` and of everything from it in direction `degrees`.
 ConvexOutline drawn_out(const ConvexOutline& outline, double degrees, double length) {
   return swept(outline, {}, towards(degrees, length));
 }
@@ -70,7 +70,7 @@ ConvexOutline drill(double diameter, double reach) {
   return {{0, 0}, {point, -radius}, {reach, -radius}, {reach, radius}, {point, radius}};
 }
 
-/// The way from the tip to the rest of the tool.
+/// From the tip to the rest of the tool.
 double shank_direction(int type) {
   switch (type) {
     case 1:

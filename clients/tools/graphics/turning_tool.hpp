@@ -12,7 +12,7 @@ namespace dripline::graphics {
 struct TurningTool {
   int type = 3;
   double radius = 0;
-  /// Of a drill (type 7 on the axis) its diameter; of a blade (5 to 8) its width, from the tip
+  /// Diameter of a drill (type 7 on the axis); width of a blade (5 to 8), from the tip
   /// towards +Z or +X.
   std::optional<double> width;
 };
@@ -25,7 +25,7 @@ struct ToolUse {
   bool is_on_axis = false;
 };
 
-/// What the tool takes away where its imaginary tip stands on (0, 0): convex pieces.
+/// The area the tool removes with its imaginary tip at (0, 0): convex pieces.
 std::vector<ConvexOutline> cutting_pieces(const TurningTool& tool, const ToolUse& use);
 
 }  // namespace dripline::graphics

@@ -11,7 +11,7 @@
 #include "protocol/wire/line_settings.hpp"
 
 /// The serial data on the Centurion's CTRL parameter page, as a record: what a line must be set to
-/// when the page stands so, and how the page must stand for a line.
+/// for a page, and the page for a line.
 namespace dripline::wire {
 
 enum class ComPort : std::uint8_t { None, Com1, Com2 };
@@ -31,7 +31,7 @@ struct CenturionPage {
   bool lf_becomes_cr = false;    ///< of what it receives: needed when the host ends blocks with LF
   bool sends_cr_lf = true;       ///< else CR alone ends a block it sends
   unsigned end_of_file = 0;      ///< ASCII value sent after a file; 0: none
-  unsigned tape_start = 0, tape_stop = 0;  ///< said at the tape reader on the secondary port
+  unsigned tape_start = 0, tape_stop = 0;  ///< set at the tape reader on the secondary port
 };
 
 /// One entry of the page: drives reading, errors and listings.
@@ -47,14 +47,14 @@ std::span<const PageRow> page_rows();
 /// Errors: NotFound (the key), and those of the row; `page` is then unchanged.
 Result<void> set_page_value(CenturionPage& page, std::string_view key, std::string_view value);
 
-/// Which of the page's ports a line hangs on. The secondary one can be the tape reader's.
+/// The page's port a line is connected to. The secondary one can be the tape reader's.
 enum class PagePort : std::uint8_t { Primary, Secondary };
 
 /// The settings of a line to that port: both ends alike, text as the page has it.
 /// Errors: Unsupported (the port is NONE, or both are the same connector).
 Result<LineSettings> line_of_page(const CenturionPage& page, PagePort port);
 
-/// How the page must stand for a line on that port. Errors: Unsupported, naming the setting the
+/// The page for a line on that port. Errors: Unsupported, naming the setting the
 /// page has no entry for, such as 57600 baud or another code than ASCII.
 Result<CenturionPage> page_of_line(const LineSettings& line, PagePort port);
 

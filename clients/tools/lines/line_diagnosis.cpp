@@ -11,7 +11,7 @@
 namespace dripline::wire {
 namespace {
 
-/// Characters of programs and of what stands around them.
+/// Characters of programs and of what surrounds them.
 bool is_program_character(std::uint8_t c) {
   constexpr std::string_view kSigns = " +-.,/()%:;=#*[]'\"$&<>_!?";
   constexpr std::string_view kControls("\0\t\n\r\x02\x03\x04\x11\x12\x13\x14\x7F", 12);
@@ -27,7 +27,7 @@ double weight(std::uint8_t c) {
   return c >= 'a' && c <= 'z' ? 0.5 : 0;
 }
 
-/// What the characters look like; blanks say nothing.
+/// The kind of text the characters look like; blanks are neutral.
 struct Census {
   double text = 0, eia_text = 0;  ///< that read as program characters: the low 7 bits, EIA
   std::size_t all = 0, even = 0, odd = 0, high = 0;
@@ -195,7 +195,7 @@ class Doctor {
       say("Every second one has a framing error although the rest is text: the control sends 8 "
           "data bits and a parity bit. Try 8e1 and 8o1.");
     } else if (breaks * 2 > all) {
-      say("Most are breaks: the line stands at the wrong level. Look for an open or missing ground "
+      say("Most are breaks: the line is at the wrong level. Look for an open or missing ground "
           "(pin 7 of 25, pin 5 of 9) and for pins 2 and 3 that are swapped.");
     } else if (framing * 2 > all) {
       say("Most have framing errors: the rate is one that was not tried, or the ground (pin 7 of "
@@ -209,7 +209,7 @@ class Doctor {
   void say_silence() {
     say("Nothing came.");
     if (seen_.is_echoed) {
-      say("What we send comes back: our data pins (2 and 3) are joined somewhere, so the cable "
+      say("What we send comes back: our data pins (2 and 3) are connected somewhere, so the cable "
           "ends before the control.");
       return;
     }
@@ -220,7 +220,7 @@ class Doctor {
     }
     const auto& on = seen_.wiring->all_on;
     if (!on.cts && !on.dsr && !on.dcd) {
-      say("CTS, DSR and DCD are off: nobody is at the other end, or the cable has three wires "
+      say("CTS, DSR and DCD are off: nothing is at the other end, or the cable has three wires "
           "only. Is the control on and the cable in its connector?");
     } else {
       say("Modem lines are on, so a cable is there. Either the control was not punching, or data "
@@ -232,7 +232,8 @@ class Doctor {
   void say_stop() {
     if (!seen_.after_stop) return;
     if (seen_.never_stopped) {
-      say("The control goes on sending after XOFF ({} characters and more): it does not listen to "
+      say("The control continues to send after XOFF ({} characters and more): it does not listen "
+          "to "
           "XOFF. Use RTS/CTS, or take everything at the line's rate.",
           *seen_.after_stop);
     } else {
@@ -245,7 +246,7 @@ class Doctor {
     const auto& wiring = *seen_.wiring;
     if (wiring.all_on.cts && !wiring.rts_off.cts) {
       say("CTS follows our RTS: the two are joined at the other end or in the cable. RTS/CTS can "
-          "hold nobody here; use XON/XOFF or pauses.");
+          "hold nothing here; use XON/XOFF or pauses.");
     } else if (!wiring.all_on.cts) {
       say("CTS is off: with flow=rtscts, or tnc_stop=rts, nothing would ever be sent.");
     }

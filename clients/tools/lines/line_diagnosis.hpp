@@ -10,11 +10,11 @@
 #include "protocol/wire/discipline.hpp"
 #include "protocol/wire/line_settings.hpp"
 
-/// What is heard of a control while it punches out, and what follows for the line's settings and
-/// its cabling. Pure; any thread.
+/// What is received from a control while it punches out, and what follows for the line's settings
+/// and its cabling. Pure; any thread.
 namespace dripline::wire {
 
-/// What came in while the line was set to `tried`: as 8 bits without parity, or with parity.
+/// Characters received while the line was set to `tried`: as 8 bits without parity, or with parity.
 struct LineSample {
   LineSettings tried;
   std::string bytes;  ///< without those that had a fault
@@ -57,7 +57,7 @@ struct LineDiagnosis {
   /// Baud, data bits, parity, code and end of block as heard; nullopt: nothing that reads as text.
   std::optional<LineSettings> settings;
   double confidence = 0;
-  std::size_t characters = 0;         ///< of the sample that says so
+  std::size_t characters = 0;         ///< of the sample that shows it
   std::vector<std::string> findings;  ///< a sentence each, the most important first
 };
 LineDiagnosis diagnose(const LineObservation& observation);

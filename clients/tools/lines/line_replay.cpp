@@ -67,7 +67,7 @@ void LineReplay::play(const RecordedTraffic& entry) {
       if (is_comparable(c)) recorded_ += c;
       if (!is_checked(settings_.flow)) hold(c);
     }
-    // What a plain control punches is taken once it is text: its DC3 and DC1 are none.
+    // Only text that a plain control punches is taken: its DC3 and DC1 are none.
     const bool begins = host_.line->state().phase == Phase::Idle && has_text(entry.bytes);
     if (begins && settings_.flow != Flow::HeidenhainBcc && settings_.flow != Flow::TapeReader) {
       (void)host_.line->begin_receive("", now_);
@@ -170,8 +170,8 @@ void LineReplay::take(End& end, const Event& event) {
     if (ended->is_receiving && !transfers.empty()) transfers.back().has_ended = true;
   } else if (const auto* failed = std::get_if<TransferFailed>(&event)) {
     say(fmt::format("{} would end the transfer: {}", who, failed->error.what));
-  } else if (const auto* trouble = std::get_if<LineError>(&event)) {
-    say(fmt::format("{} notices: {}", who, trouble->error.what));
+  } else if (const auto* error = std::get_if<LineError>(&event)) {
+    say(fmt::format("{} notices: {}", who, error->error.what));
   } else if (const auto* request = std::get_if<TransferRequest>(&event)) {
     if (request->kind == TransferRequest::Kind::TakeProgram) {
       (void)end.line->begin_receive(request->name, now_);
@@ -179,7 +179,7 @@ void LineReplay::take(End& end, const Event& event) {
   }
 }
 
-/// Only a checked protocol's answers are decided by what came before; when a control says stop and
+/// Only a checked protocol's answers are decided by what came before; when a control sends stop and
 /// go is its own affair.
 bool LineReplay::is_comparable(char c) const {
   const char low = static_cast<char>(c & 0x7F);
@@ -191,7 +191,7 @@ void LineReplay::compare() {
   for (std::size_t i = 0; i < both; ++i) {
     if (recorded_[i] == simulated_[i]) continue;
     ++report_->deviations;
-    say(fmt::format("the recorded control said {}, the simulated one {}",
+    say(fmt::format("the recorded control sent {}, the simulated one {}",
                     character_text(recorded_[i]), character_text(simulated_[i])));
   }
   recorded_.erase(0, both);
@@ -211,7 +211,7 @@ ReplayReport LineReplay::finish() {
   compare();
   if (!recorded_.empty() && !control_.transfers->empty()) {
     report_->deviations += recorded_.size();
-    say(fmt::format("the recorded control said {} characters more than the simulated one",
+    say(fmt::format("the recorded control sent {} characters more than the simulated one",
                     recorded_.size()));
   }
   return std::move(*report_);

@@ -8,7 +8,7 @@
 
 #include "protocol/wire/discipline.hpp"
 
-/// A recorded line played once more: what the host sent goes to a simulated control, what the
+/// A recorded line played again: what the host sent goes to a simulated control, what the
 /// control sent to a simulated host. Pure; one thread.
 namespace dripline::wire {
 

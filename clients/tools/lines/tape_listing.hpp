@@ -9,7 +9,7 @@
 
 namespace dripline::wire {
 
-/// A tape as text for people: one line for each row with its holes, its value and what it says;
+/// A tape as text for people: one line for each row with its holes, its value and its meaning;
 /// runs of blank rows in one line. A piece at a time; costs no memory. Not thread-safe.
 ///
 ///      101  ....o:.oo  0B  %  rewind stop

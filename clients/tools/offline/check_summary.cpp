@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60;
 
-/// Over the linear axes; a move of rotary axes alone counts its degrees as millimetres, which is
+/// Over the linear axes; a move of rotary axes alone takes its degrees as millimetres, which is
 /// how controls read the feed of such a move.
 Length distance(const Position& from, const Position& to) {
   double linear = 0;

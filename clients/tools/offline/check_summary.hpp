@@ -23,7 +23,7 @@ struct AxisExtent {
   double most = 0;
 };
 
-/// What `dnc check` says about a program. Value type.
+/// The report of `dnc check` about a program. Value type.
 struct Summary {
   std::string control;
   std::optional<std::string> program;
@@ -46,7 +46,7 @@ struct Summary {
 /// Adds up a program's events to a Summary. One thread; bounded memory.
 class CheckSummary final : public EventSink {
  public:
-  /// `start`: where the machine stands before the first move (Setup::start).
+  /// `start`: position of the machine before the first move (Setup::start).
   explicit CheckSummary(const Position& start = {}, CheckRates rates = {});
 
   const Summary& summary() const { return summary_; }

@@ -49,7 +49,7 @@ const ForecastResult& Forecast::finish() {
   return result_;
 }
 
-/// When the line has brought so many more characters: it goes on while there is room for them.
+/// When the line has brought so many more characters: it continues while there is room for them.
 Forecast::Arrival Forecast::arrival(std::uint64_t characters) {
   double begins = received_;
   const auto has_room = [&] {
@@ -62,7 +62,7 @@ Forecast::Arrival Forecast::arrival(std::uint64_t characters) {
   }
   const bool stood = begins > received_ || received_ == 0;
   const double start = line_.buffer == 0 || stood ? line_.start_seconds : 0;
-  // The first character stands under the reader when it starts.
+  // The first character is under the reader when it starts.
   const double count = static_cast<double>(characters) - (line_.start_seconds > 0 ? 1 : 0);
   const double reading = start + std::max(0.0, count) / line_.characters_per_second;
   return {begins + reading, reading};

@@ -8,7 +8,7 @@
 
 namespace dripline::interpreter {
 
-/// What brings the blocks to the control while it moves: a tape reader, a serial line.
+/// The source of blocks while the control moves: a tape reader, a serial line.
 struct FeedLine {
   double characters_per_second = 300;
   /// Before each block that is asked for by itself: a reader's start.
@@ -18,7 +18,7 @@ struct FeedLine {
   std::uint64_t buffer = 0;
 };
 
-/// A block whose successor comes too late: the axes stand and wait.
+/// A block whose successor comes too late: the axes stop and wait.
 struct StarvedBlock {
   ProgramIndex program = kMainProgram;  ///< of the block that is over too soon
   std::uint64_t line = 0;               ///< there

@@ -6,7 +6,7 @@
 
 namespace dripline::interpreter {
 
-/// How the machine stands when the last event has come: what a program has set so far. One thread.
+/// The state of the machine after the last event: what a program has set so far. One thread.
 class MachineState final : public EventSink {
  public:
   explicit MachineState(const Position& start = {}) : position_(start) {}

@@ -8,7 +8,7 @@
 namespace dripline::interpreter {
 
 /// Appends `value` with at most 6 decimals, no trailing zeros, no exponent and no negative zero.
-/// What is no finite number becomes `null`, as JSON has no word for it.
+/// A value that is not finite becomes `null`, as JSON has no word for it.
 void append_number(std::string& out, double value);
 void append_integer(std::string& out, std::int64_t value);
 void append_integer(std::string& out, std::uint64_t value);

@@ -9,7 +9,8 @@
 namespace dripline::interpreter {
 
 struct OfflineLimits {
-  std::uint64_t max_blocks = 1'000'000'000;  ///< executed; a program that never ends is told so
+  std::uint64_t max_blocks =
+      1'000'000'000;  ///< executed; an endless program is stopped with an alarm
   /// Executed that had been executed before: a loop without end is legitimate at a machine, and
   /// ends here with the alarm OFF0001.
   std::uint64_t max_repeated_blocks = 10'000'000;
@@ -17,7 +18,7 @@ struct OfflineLimits {
 };
 
 struct OfflineOutcome {
-  bool ended = false;        ///< the end of the program was reached; otherwise `alarm` says why not
+  bool ended = false;  ///< the end of the program was reached; otherwise `alarm` has the reason
   bool has_stopped = false;  ///< or the run met the limits' stop point
   std::uint64_t blocks = 0;
   std::uint64_t warnings = 0;

@@ -21,7 +21,7 @@ class StopList final : public EventSink {
   static constexpr std::size_t kMaxPlaces = 1000;
 
   const std::vector<Place>& places() const { return places_; }
-  /// Of all places, those beyond the first kMaxPlaces too.
+  /// Number of all places, those beyond the first kMaxPlaces included.
   std::uint64_t count() const { return count_; }
 
   void on_stop(const Stop& event) override;

@@ -10,7 +10,7 @@ namespace dripline::interpreter {
 namespace {
 
 constexpr std::size_t kFlushAt = 32 * 1024;
-/// Millimetres or degrees: what rounding leaves of a way there and back is no move.
+/// Millimetres or degrees: what rounding leaves of a path there and back is no move.
 constexpr double kNoMove = 1e-7;
 constexpr double kMillimetresPerFoot = 12 * Length::kMillimetresPerInch;
 constexpr double kMillimetresPerMetre = 1000;

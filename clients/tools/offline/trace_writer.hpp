@@ -11,14 +11,15 @@ namespace dripline::interpreter {
 /// Writes what a program does as a trace: one JSON object per line, in execution order. Lengths
 /// leave in the program's units, X doubled where the program writes it as a diameter. Relies on the
 /// interpreter to deliver on_program before anything else; a change of units before the first
-/// motion belongs into that header. Not printed: moves of zero length that are no turns, and probe
-/// questions without their result. One thread; no allocation for motion once the buffer has grown.
+/// motion belongs into that header. Not printed: moves of zero length that are no full circles, and
+/// probe questions without their result. One thread; no allocation for motion once the buffer has
+/// grown.
 class TraceWriter final : public EventSink {
  public:
   /// Takes whole lines, several at once, each with its end.
   using Write = std::function<void(std::string_view)>;
 
-  /// `start`: where the machine stands before the first move (Setup::start).
+  /// `start`: position of the machine before the first move (Setup::start).
   explicit TraceWriter(Write write, const Position& start = {});
   ~TraceWriter() override { flush(); }
   TraceWriter(const TraceWriter&) = delete;

@@ -6,9 +6,9 @@ namespace dripline::cli {
 namespace {
 
 TEST(KeptMemory, IsFilteredByName) {
-  client::Memory told;
-  told.cells = {{"P10", 7.5, 0}, {"PB50", 2, 1}, {"#500", std::nullopt, 3}};
-  const KeptMemory memory = cells_of(told);
+  client::Memory reported;
+  reported.cells = {{"P10", 7.5, 0}, {"PB50", 2, 1}, {"#500", std::nullopt, 3}};
+  const KeptMemory memory = cells_of(reported);
   EXPECT_EQ(memory.at("#500"), (KeptCell{std::nullopt, 3}));
   EXPECT_EQ(filtered(memory, "P").size(), 2U);
   EXPECT_EQ(filtered(memory, "").size(), 3U);

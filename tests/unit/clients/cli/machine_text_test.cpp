@@ -68,7 +68,7 @@ TEST(RunLines, SayHowAStoppedRunGoesOn) {
   auto machine = status();
   for (const char* stopped : {"PROGRAM_STOPPED", "OPTIONAL_STOP", "FEED_HOLD", "INTERRUPTED"}) {
     machine.execution = stopped;
-    EXPECT_EQ(run_lines(run(), &machine).back(), "dnc run resume 0192aabb goes on");
+    EXPECT_EQ(run_lines(run(), &machine).back(), "dnc run resume 0192aabb continues");
   }
   machine.execution = "WAIT";
   machine.message = "waiting for program text";
@@ -215,8 +215,9 @@ TEST(WaitingLine, NamesWhatARunWaitsForAndWhatGoesOn) {
   EXPECT_EQ(waiting_line(run(), stopped), "");
   stopped.execution = "PROGRAM_STOPPED";
   stopped.message = "operator stop: start at block 5";
-  EXPECT_EQ(waiting_line(run(), stopped),
-            "run 0192aabb waits: operator stop: start at block 5; dnc run resume 0192aabb goes on");
+  EXPECT_EQ(
+      waiting_line(run(), stopped),
+      "run 0192aabb waits: operator stop: start at block 5; dnc run resume 0192aabb continues");
 }
 
 TEST(OutcomeLine, SaysHowTheRunWent) {

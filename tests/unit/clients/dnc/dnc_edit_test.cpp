@@ -236,7 +236,7 @@ TEST_F(DncEdit, ChecksUpToABlockThatWaitsForItsSuccessor) {
   EXPECT_EQ(dnc({"check", "--to", "6", "7.h"}).status, 1);
 }
 
-// HD-052: 3101 blocks on the way are well, and too many for the control's memory.
+// HD-052: 3101 blocks in transit are well, and too many for the control's memory.
 TEST_F(DncEdit, WarnsOfAProgramThatTheControlCouldNotKeep) {
   std::string text = "0 BEGIN PGM 15 MM\n";
   for (int i = 1; i < 1500; ++i) text += std::to_string(i) + " CC\n";

@@ -169,7 +169,7 @@ TEST_F(DncOnline, LeavesTheRunAloneOnInterrupt) {
       [&] { return watch.output().find("O0200 on lathe-1") != std::string::npos; }));
   watch.signal(SIGINT);
   EXPECT_EQ(watch.wait(10s), 130);
-  EXPECT_NE(watch.output().find("run aa11 goes on"), std::string::npos) << watch.output();
+  EXPECT_NE(watch.output().find("run aa11 continues"), std::string::npos) << watch.output();
   EXPECT_EQ(commands, 0);
 }
 

@@ -29,7 +29,7 @@ TEST_F(DncTouch, MeasuresABoreAndGivesTheDatum) {
             std::string::npos);
 }
 
-// HD-211, HD-213: under the basic rotation the place is called as the operator said.
+// HD-211, HD-213: under the basic rotation the point has the coordinates the operator gave.
 TEST_F(DncTouch, GivesADatumForTheBasicRotation) {
   dnc.write("bore.toml",
             "[probe]\nsurface = [ { cylinder = { center = { X = 12.0, Y = 3.0 }, radius = 18.0 } } "
@@ -61,7 +61,7 @@ TEST_F(DncTouch, GivesADatumThatARunHas) {
   EXPECT_NE(run.out.find("\"Y\":3"), std::string::npos) << run.out;
 }
 
-// HD-212: the touch points of the basic rotation are a side of the corner, or all is touched anew.
+// HD-212: the touch points of the basic rotation are a side of the corner, or all is probed again.
 TEST_F(DncTouch, TakesTheTouchPointsOfTheBasicRotationForACorner) {
   const std::string probe =
       "[probe]\nsurface = [ { axis = \"Y\", at = 20.0 }, { axis = \"X\", at = 50.0 } ]\n";
@@ -81,9 +81,9 @@ TEST_F(DncTouch, TakesTheTouchPointsOfTheBasicRotationForACorner) {
   EXPECT_EQ(json::parse(corner.out).at("measured").at("Y"), 20);
   EXPECT_EQ(json::parse(corner.out).at("touched").size(), 4u);
   // NO ENT: all four, also where points are kept
-  const auto anew = dnc({"touch", "corner", "--setup", "turned.toml", "X+:0,30,-5", "X+:0,60,-5"});
-  EXPECT_EQ(anew.status, 2);
-  EXPECT_EQ(anew.err, "dnc: corner takes 4 touches, 2 are given\n");
+  const auto again = dnc({"touch", "corner", "--setup", "turned.toml", "X+:0,30,-5", "X+:0,60,-5"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_EQ(again.err, "dnc: corner takes 4 touches, 2 are given\n");
   const auto none = dnc({"touch", "corner", "--setup", "vice.toml", "--rotation-touches",
                          "X+:0,30,-5", "X+:0,60,-5"});
   EXPECT_EQ(none.err, "dnc: vice.toml has no touch points of a basic rotation\n");
@@ -136,7 +136,7 @@ TEST_F(DncTouch, RefusesTouchesThatMeasureSomethingElse) {
       {"touch", "rotation", "--tool-axis", "Y", "--setup", "plane.toml", "X+:1,2,3", "X+:1,5,3"});
   EXPECT_EQ(lying.status, 2);
   EXPECT_EQ(lying.err,
-            "dnc: --tool-axis Y: a basic rotation turns coordinates of the plane XY, across Z\n");
+            "dnc: --tool-axis Y: a basic rotation rotates coordinates of the plane XY, across Z\n");
   const auto circle = dnc(
       {"touch", "circle", "--setup", "plane.toml", "X+:1,2,3", "X+:1,2,3", "X-:1,2,3", "X-:1,2,3"});
   EXPECT_EQ(circle.status, 2);

@@ -16,8 +16,8 @@ nlohmann::json setup_json(const std::string& machine, const std::string& text);
 /// An open line with nothing on it.
 nlohmann::json port_json(const std::string& name);
 
-/// A revision of a program. Revisions are told apart by `program`; as the program's newest one its
-/// name stands under `name`.
+/// A revision of a program. Revisions are distinguished by `program`; as the program's newest one
+/// its name is `name`.
 nlohmann::json revision_json(const std::string& program, const std::string& name_key,
                              std::uint64_t number, const std::string& content);
 

@@ -114,7 +114,7 @@ TEST_F(CuttingSimulationTest, LeavesOutMovesOfAFourthAxisAndThoseWithoutATool) {
   EXPECT_EQ(removed(), 0);
 }
 
-// HD-204: the cutter stands along the blank's axis; the interpreter says where it does not.
+// HD-204: the cutter is along the blank's axis; the interpreter reports where it is not.
 TEST_F(CuttingSimulationTest, LeavesOutWhatAToolAcrossTheBlankDoes) {
   interpreter::Warning across;
   across.diagnostic.id = "TNC-GRAPHICS";
@@ -128,14 +128,14 @@ TEST_F(CuttingSimulationTest, LeavesOutWhatAToolAcrossTheBlankDoes) {
   EXPECT_EQ(removed(), 0);
   call_tool(5);
   simulation_->on_line({line(7), at(60, 50, -5), {}});
-  EXPECT_GT(removed(), 0) << "called anew, along the axis";
+  EXPECT_GT(removed(), 0) << "called again, along the axis";
   const double before = removed();
   simulation_->on_warning(across);
   interpreter::Warning again;
   again.diagnostic.id = "TNC-GRAPHICS-AGAIN";
   simulation_->on_warning(again);
   simulation_->on_line({line(8), at(70, 50, -5), {}});
-  EXPECT_GT(removed(), before) << "only its axis was named anew";
+  EXPECT_GT(removed(), before) << "only its axis was named again";
   // another warning means nothing, nor does this one for a blank of the user
   SimulationSettings own;
   own.blank = Cuboid{{0, 0, -20}, {100, 100, 0}};

@@ -52,7 +52,7 @@ TEST(HeightField, ARampIsAsDeepAsTheCutterLeavesIt) {
   EXPECT_NEAR(at(field, 50.05, 44.05), -5.3, 0.02);  // half a chord of 3 beside the middle line
   HeightField back = blank(1000);
   back.cut({100, 40, -10}, {0, 40, 0}, 5);
-  EXPECT_EQ(field.heights(), back.heights()) << "the way back cuts the same";
+  EXPECT_EQ(field.heights(), back.heights()) << "the return cuts the same";
 }
 
 TEST(HeightField, CutsThroughEndAtTheBottom) {

@@ -111,7 +111,7 @@ TEST(Turning, TheProgramSaysItsBar) {
   EXPECT_FALSE(turned("P157=25\nG0 X20 Z2\nG1 Z-10\n").part());
 }
 
-/// CEN-149: M90 stops drawing the way, M91 goes on.
+/// CEN-149: M90 stops drawing the path, M91 continues.
 TEST(Turning, TheWayIsKeptWhileGraphicsAreOn) {
   const auto simulation = turned("G0 X50 Z2\nM90\nG1 Z1\nZ0\nM91\nZ-1\n", kBar);
   ASSERT_EQ(simulation.path().size(), 2u);

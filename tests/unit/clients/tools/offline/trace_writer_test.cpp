@@ -139,7 +139,7 @@ TEST_F(TraceWriterTest, AProbeIsPrintedOnceItHasItsResult) {
             "{\"event\":\"probe\",\"line\":7,\"block\":\"1\",\"to\":{\"X\":0,\"Z\":-6},\"until\":"
             "\"contact\",\"result\":{\"tripped\":true,\"at\":{\"X\":0,\"Z\":-0.5}}}\n");
   writer.on_rapid({at(8), to(0, -0.5)});
-  EXPECT_EQ(written(), "") << "the machine stands where the probe stopped";
+  EXPECT_EQ(written(), "") << "the machine is where the probe stopped";
 }
 
 TEST_F(TraceWriterTest, OtherEventsHaveTheirMembers) {

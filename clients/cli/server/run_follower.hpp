@@ -10,8 +10,8 @@ enum class WatchStyle {
   Silent,  ///< only the outcome
 };
 
-/// Follows a run to its end and says how it ended. Gives the exit status: by the run's outcome, or
-/// kExitInterrupted on Ctrl-C, which leaves the run alone.
+/// Follows a run to its end and prints the outcome. Returns the exit status: by the run's outcome,
+/// or kExitInterrupted on Ctrl-C, which leaves the run alone.
 int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style);
 
 }  // namespace dripline::cli

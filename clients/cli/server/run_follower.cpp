@@ -1,4 +1,4 @@
-#include "clients/cli/server/run_watch.hpp"
+#include "clients/cli/server/run_follower.hpp"
 
 #include <unistd.h>
 
@@ -18,19 +18,19 @@ using namespace std::chrono_literals;
 
 /// Asked again after this much silence: an event can be lost when the server sheds a slow client.
 constexpr auto kAskAfter = 2s;
-/// A server that stays away this long is given up; the run goes on without us.
+/// A server that stays away this long is given up; the run continues without us.
 constexpr auto kGiveUpAfter = 60s;
 
-/// What the operator must see even when the next status replaces it.
+/// Texts the operator must see even when the next status replaces them.
 bool is_for_people(const client::Record& record) {
   if (record.device == "memory") return false;  // for dnc memory
   return record.kind == "message" || record.kind == "stop" || record.kind == "warning" ||
          record.kind == "alarm";
 }
 
-class RunWatch {
+class RunFollower {
  public:
-  RunWatch(Context& context, client::Client& client, client::Run run, WatchStyle style)
+  RunFollower(Context& context, client::Client& client, client::Run run, WatchStyle style)
       : context_(context), client_(client), run_(std::move(run)), style_(style) {}
 
   int watch() {
@@ -72,7 +72,7 @@ class RunWatch {
     if (failure.kind == client::Failure::Kind::Denied) failure_ = failure;
     if (is_lost_) return;
     is_lost_ = true;
-    note(failure.what + "; trying again, the run goes on");
+    note(failure.what + "; trying again, the run continues");
   }
 
   /// The present state, asked for; a server that is away is only given up after a while.
@@ -106,7 +106,7 @@ class RunWatch {
     print(printable(line));
   }
 
-  /// Whoever waits for the end without watching is told, once each time, that somebody has to act.
+  /// Notifies a user who waits for the end without watching, once each time an operator must act.
   void tell_what_it_waits_for(const client::MachineStatus* status) {
     std::string line = status != nullptr ? waiting_line(run_, *status) : std::string();
     if (line == told_) return;
@@ -153,7 +153,7 @@ class RunWatch {
   int leave() {
     area_.clear();
     note(
-        fmt::format("watching ended, run {} goes on; dnc run watch {} follows it again, dnc run "
+        fmt::format("watching ended, run {} continues; dnc run watch {} follows it again, dnc run "
                     "abort {} ends it",
                     short_id(run_.id), short_id(run_.id), short_id(run_.id)));
     return kExitInterrupted;
@@ -161,7 +161,7 @@ class RunWatch {
 
   int give_up() {
     area_.clear();
-    note(fmt::format("how run {} goes on is not known here", short_id(run_.id)));
+    note(fmt::format("the further course of run {} is not known here", short_id(run_.id)));
     return complain(*failure_);
   }
 
@@ -183,7 +183,7 @@ class RunWatch {
 
 int watch_run(Context& context, client::Client& client, client::Run run, WatchStyle style) {
   catch_interrupts();
-  return RunWatch(context, client, std::move(run), style).watch();
+  return RunFollower(context, client, std::move(run), style).watch();
 }
 
 }  // namespace dripline::cli
