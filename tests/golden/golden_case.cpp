@@ -74,21 +74,28 @@ std::string GoldenCase::text(std::string_view part) const {
   return found == nullptr ? std::string() : *found;
 }
 
-std::ostream& operator<<(std::ostream& out, const GoldenCase& golden) {
+std::ostream& operator<<(std::ostream& out, const GoldenName& golden) {
   return out << golden.control << '/' << golden.name;
 }
 
-std::vector<GoldenCase> golden_cases(std::string_view control) {
-  std::vector<GoldenCase> cases;
-  if (!fs::exists(kRoot)) return cases;
+std::vector<GoldenName> golden_names(std::string_view control) {
+  std::vector<GoldenName> names;
+  if (!fs::exists(kRoot)) return names;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot)) {
     const fs::path& path = entry.path();
     if (path.extension() != kSuffix) continue;
     if (!control.empty() && path.parent_path().filename() != control) continue;
-    cases.push_back(parse_case(path, read_file(path)));
+    names.push_back({path.parent_path().filename(), path.stem()});
   }
-  std::sort(cases.begin(), cases.end(),
-            [](const auto& a, const auto& b) { return a.file < b.file; });
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<GoldenCase> golden_cases(std::string_view control) {
+  std::vector<GoldenCase> cases;
+  for (const auto& [folder, name] : golden_names(control)) {
+    cases.push_back(read_golden_case(folder, name));
+  }
   return cases;
 }
 

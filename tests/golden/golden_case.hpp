@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -29,10 +30,20 @@ struct GoldenCase {
   std::string program() const { return text("program.nc"); }
 };
 
-/// What gtest prints for a case in a listing.
-std::ostream& operator<<(std::ostream& out, const GoldenCase& golden);
+/// Names one case without its text: every test runs in a process of its own, and reading all cases
+/// for each of them took most of the suite's processor time.
+struct GoldenName {
+  std::string control;
+  std::string name;
+  friend auto operator<=>(const GoldenName&, const GoldenName&) = default;
+};
+
+/// Prints a case in gtest's listings.
+std::ostream& operator<<(std::ostream& out, const GoldenName& golden);
 
 /// Every case in the tree, or those of one control, in the order of their names.
+std::vector<GoldenName> golden_names(std::string_view control = {});
+/// The same, read.
 std::vector<GoldenCase> golden_cases(std::string_view control = {});
 /// Throws when there is no such file or its form is wrong.
 GoldenCase read_golden_case(std::string_view control, std::string_view name);

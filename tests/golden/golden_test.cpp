@@ -15,16 +15,18 @@
 namespace dripline::interpreter {
 namespace {
 
-class Golden : public testing::TestWithParam<GoldenCase> {
+class Golden : public testing::TestWithParam<GoldenName> {
  protected:
   void SetUp() override {
-    const auto found = find_dialect(GetParam().control);
+    golden_ = read_golden_case(GetParam().control, GetParam().name);
+    const auto found = find_dialect(golden_.control);
     ASSERT_TRUE(found) << found.error().what;
     dialect_ = *found;
-    setup_ = setup_of(GetParam(), *dialect_);
-    program_ = GetParam().program();
+    setup_ = setup_of(golden_, *dialect_);
+    program_ = golden_.program();
   }
 
+  GoldenCase golden_;
   const Dialect* dialect_ = nullptr;
   interpreter::Setup setup_;  // qualified: gtest keeps a private member of that name
   std::string program_;
@@ -36,7 +38,7 @@ bool accepts() {
 }
 
 TEST_P(Golden, TraceIsAsExpected) {
-  MemorySource source(program_, loader_of(GetParam()));
+  MemorySource source(program_, loader_of(golden_));
   std::string trace;
   std::optional<OfflineOutcome> outcome;
   {
@@ -45,7 +47,7 @@ TEST_P(Golden, TraceIsAsExpected) {
     ASSERT_TRUE(ran) << ran.error().what;
     outcome = *ran;
   }
-  const auto verdict = verdict_of(GetParam());
+  const auto verdict = verdict_of(golden_);
   ASSERT_EQ(verdict.has_value(), outcome->alarm.has_value())
       << (outcome->alarm ? outcome->alarm->text : "no alarm");
   if (verdict) {
@@ -54,10 +56,10 @@ TEST_P(Golden, TraceIsAsExpected) {
     EXPECT_EQ(outcome->alarm->column, verdict->column) << outcome->alarm->text;
   }
   if (accepts()) {
-    accept_trace(GetParam(), trace);
-    GTEST_SKIP() << "accepted: review the diff of " << GetParam().file;
+    accept_trace(golden_, trace);
+    GTEST_SKIP() << "accepted: review the diff of " << golden_.file;
   }
-  EXPECT_EQ(trace, GetParam().text("expected.jsonl"));
+  EXPECT_EQ(trace, golden_.text("expected.jsonl"));
 }
 
 /// Gives every text in windows of at most `chunk` bytes more than asked for, each only after one
@@ -90,7 +92,7 @@ class SlowSource final : public ProgramSource {
 TEST_P(Golden, NoAxisWordVanishes) {
   constexpr std::uint64_t kMaxBlocks = 300;
   const auto found =
-      find_vanished_word(*dialect_, program_, setup_, kMaxBlocks, loader_of(GetParam()));
+      find_vanished_word(*dialect_, program_, setup_, kMaxBlocks, loader_of(golden_));
   EXPECT_FALSE(found) << *found;
 }
 
@@ -150,7 +152,7 @@ class Stepper {
 
 /// The machine reports the block that ends the program as executed, too.
 TEST_P(Golden, TheLastBlockEnds) {
-  MemorySource whole(program_, loader_of(GetParam()));
+  MemorySource whole(program_, loader_of(golden_));
   EventLog log;
   auto interpreter = dialect_->make(setup_, whole, log);
   ASSERT_TRUE(interpreter) << interpreter.error().what;
@@ -164,7 +166,7 @@ TEST_P(Golden, TheLastBlockEnds) {
 }
 
 TEST_P(Golden, WindowsOfTheTextDoNotShow) {
-  MemorySource whole(program_, loader_of(GetParam()));
+  MemorySource whole(program_, loader_of(golden_));
   EventLog expected;
   auto reference = dialect_->make(setup_, whole, expected);
   ASSERT_TRUE(reference) << reference.error().what;
@@ -180,7 +182,7 @@ TEST_P(Golden, WindowsOfTheTextDoNotShow) {
 
 TEST_P(Golden, RunsOnTheSameFromEveryBlockBoundary) {
   constexpr std::size_t kMaxBoundaries = 150;  // of long programs a sample
-  MemorySource source(program_, loader_of(GetParam()));
+  MemorySource source(program_, loader_of(golden_));
   EventLog whole;
   std::vector<Boundary> boundaries;
   auto interpreter = dialect_->make(setup_, source, whole);
@@ -202,14 +204,14 @@ TEST_P(Golden, RunsOnTheSameFromEveryBlockBoundary) {
   }
 }
 
-std::string test_name(const testing::TestParamInfo<GoldenCase>& info) {
+std::string test_name(const testing::TestParamInfo<GoldenName>& info) {
   std::string name = info.param.control + "_" + info.param.name;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(, Golden, testing::ValuesIn(golden_cases()), test_name);
+INSTANTIATE_TEST_SUITE_P(, Golden, testing::ValuesIn(golden_names()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Golden);
 
 }  // namespace
