@@ -69,10 +69,10 @@ struct SwitchCommand {
 int set_switch(Context& context, const SwitchCommand& command) {
   auto client = context.connect();
   if (!client) return context.status;
-  const auto command = switch_command(command.name, command.state == "on");
-  if (auto given = client->command_machine(command.machine, command); !given)
+  const auto request = switch_command(command.name, command.state == "on");
+  if (auto given = client->command_machine(command.machine, request); !given)
     return complain(given.error());
-  context.print(fmt::format("{} took {}\n", command.machine, command_text(command)));
+  context.print(fmt::format("{} took {}\n", command.machine, command_text(request)));
   return kExitOk;
 }
 
