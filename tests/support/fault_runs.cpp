@@ -59,7 +59,7 @@ std::string FaultRun::story() const {
       backward.faults, text, end_story(*sender), end_story(*receiver));
 }
 
-bool FaultRun::is_said() const {
+bool FaultRun::is_reported() const {
   return !sender->failures.empty() || !sender->faults.empty() || !receiver->failures.empty() ||
          !receiver->faults.empty();
 }

@@ -117,11 +117,11 @@ TEST_P(UncheckedLine, ReportsDetectedErrorsAndNeverHangs) {
     ASSERT_TRUE(run.has_ended()) << run.story();
     const bool is_unchanged = run.forward.silent == 0 && run.backward.silent == 0;
     if (is_unchanged) {
-      ASSERT_TRUE(run.is_exact() || run.is_said()) << run.story();
+      ASSERT_TRUE(run.is_exact() || run.is_reported()) << run.story();
     }
     if (run.forward.faults + run.backward.faults == 0) {
       ASSERT_TRUE(run.is_exact()) << run.story();
-      ASSERT_FALSE(run.is_said()) << run.story();
+      ASSERT_FALSE(run.is_reported()) << run.story();
     }
     const bool has_heard = run.receiver->faults.size() + run.receiver->failures.size() > 0;
     if (run.forward.reported > 0) {

@@ -104,7 +104,7 @@ TEST_P(TncBlockwiseFaults, DeliversExactlyOrReportsTheError) {
     const bool is_prefix = run.text.starts_with(run.receiver->received);
     ASSERT_TRUE(is_prefix || is_blind_spot(run.text, run.receiver->received)) << run.story();
     if (run.receiver->receptions == 0) {
-      ASSERT_TRUE(run.is_said()) << run.story();
+      ASSERT_TRUE(run.is_reported()) << run.story();
     }
     if (run.receiver->receptions > 0 && run.receiver->received != run.text) {
       ASSERT_TRUE(is_blind_spot(run.text, run.receiver->received)) << run.story();
@@ -114,7 +114,7 @@ TEST_P(TncBlockwiseFaults, DeliversExactlyOrReportsTheError) {
     }
     ASSERT_LE(run.sender->accepted, run.text.size()) << run.story();
     if (run.forward.faults + run.backward.faults == 0) {
-      ASSERT_TRUE(run.is_exact() && !run.is_said()) << run.story();
+      ASSERT_TRUE(run.is_exact() && !run.is_reported()) << run.story();
     }
   });
 }
@@ -130,10 +130,10 @@ TEST_P(TncStandardFaults, ReportsDetectedErrorsAndNeverHangs) {
   run_part(GetParam(), [](const FaultRun& run) {
     ASSERT_TRUE(run.has_ended()) << run.story();
     if (run.forward.silent == 0 && run.backward.silent == 0) {
-      ASSERT_TRUE(run.is_exact() || run.is_said()) << run.story();
+      ASSERT_TRUE(run.is_exact() || run.is_reported()) << run.story();
     }
     if (run.forward.faults + run.backward.faults == 0) {
-      ASSERT_TRUE(run.is_exact() && !run.is_said()) << run.story();
+      ASSERT_TRUE(run.is_exact() && !run.is_reported()) << run.story();
     }
   });
 }
@@ -149,7 +149,7 @@ class TapeFaults : public testing::TestWithParam<Part> {};
 TEST_P(TapeFaults, AreSeenByTheParityOfTheCode) {
   run_part(GetParam(), [](const FaultRun& run) {
     ASSERT_TRUE(run.has_ended()) << run.story();
-    ASSERT_TRUE(run.is_exact() || run.is_said()) << run.story();
+    ASSERT_TRUE(run.is_exact() || run.is_reported()) << run.story();
     if (run.forward.faults + run.backward.faults == 0) {
       ASSERT_TRUE(run.is_exact()) << run.story();
     }
