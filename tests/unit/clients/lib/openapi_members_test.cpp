@@ -64,8 +64,8 @@ TEST_F(OpenApiMembers, AreReadByTheClient) {
   EXPECT_EQ(read_by_the_client<ActiveModes>(), described("ActiveModes"));
   EXPECT_EQ(read_by_the_client<Coordinates>(), described("Coordinates"));
   EXPECT_EQ(read_by_the_client<ProgramFrame>(), described("ProgramFrame"));
-  EXPECT_EQ(read_by_the_client<Run>(), described("Run"));
-  EXPECT_EQ(read_by_the_client<Setup>(), described("Setup"));
+  EXPECT_EQ(read_by_the_client<client::Run>(), described("Run"));
+  EXPECT_EQ(read_by_the_client<client::Setup>(), described("Setup"));
   EXPECT_EQ(read_by_the_client<Memory>(), described("Memory"));
   EXPECT_EQ(read_by_the_client<MemoryCell>(), described("Memory/properties/cells/items"));
   EXPECT_EQ(read_by_the_client<Report>(), described("Report"));
