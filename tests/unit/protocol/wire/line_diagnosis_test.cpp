@@ -112,7 +112,7 @@ TEST(LineDiagnosis, ExplainsSilenceByTheModemLines) {
   seen.samples = {sample(9600, "")};
   EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("no modem lines")));
   seen.wiring = LineWiring{{false, false, false}, {false, false, false}, {false, false, false}};
-  EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("nobody is at the other end")));
+  EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("nothing is at the other end")));
   seen.wiring->all_on = {true, true, true};
   EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("null modem")));
   EXPECT_THAT(diagnose(seen).findings, Contains(HasSubstr("CTS follows our RTS")));

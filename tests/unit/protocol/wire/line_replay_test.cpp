@@ -90,7 +90,7 @@ TEST(LineReplay, ReportsWhereTheRecordedControlAnsweredOtherwise) {
                           .report();
   EXPECT_EQ(report.deviations, 1U);
   EXPECT_THAT(report.findings,
-              Contains(HasSubstr("the recorded control said ACK, the simulated one NAK")));
+              Contains(HasSubstr("the recorded control sent ACK, the simulated one NAK")));
 }
 
 TEST(LineReplay, TakesWhatATncPutsOutBlockwise) {
