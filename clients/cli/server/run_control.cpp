@@ -52,9 +52,9 @@ void add_answer(CLI::App& group, Context& context) {
   command->add_option("TEXT", options->text, "Text that the operator would type")->required();
   command->footer("Example:\n  dnc run answer latest 16.4856");
   command->callback([&context, options] {
-    client::CommandRequest command = plain("answer");
-    command.text = options->text;
-    context.status = give(context, options->run, {command});
+    client::CommandRequest request = plain("answer");
+    request.text = options->text;
+    context.status = give(context, options->run, {request});
   });
 }
 
@@ -92,9 +92,9 @@ void add_handwheel(CLI::App& group, Context& context) {
       "handwheel "
       "latest 200");
   command->callback([&context, options] {
-    client::CommandRequest command = plain("handwheel");
-    command.value = options->clicks;
-    context.status = give(context, options->run, {command});
+    client::CommandRequest request = plain("handwheel");
+    request.value = options->clicks;
+    context.status = give(context, options->run, {request});
   });
 }
 
