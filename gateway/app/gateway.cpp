@@ -4,24 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/interpreter/registry.hpp"
-
 namespace dripline::gateway {
-namespace {
-
-machine::MachineLimits limits_of(std::string_view control) {
-  const auto dialect = interpreter::find_dialect(control);
-  const bool is_lathe = dialect && (*dialect)->machine == interpreter::MachineKind::Lathe;
-  auto limits = is_lathe ? machine::MachineLimits::lathe() : machine::MachineLimits::mill();
-  limits.waits_at_tool_change = dialect && (*dialect)->waits_at_tool_change;
-  if (dialect && (*dialect)->feed_override_switch.fastest) {
-    limits.fastest_feed_per_minute = (*dialect)->feed_override_switch.fastest->mm();
-  }
-  return limits;
-}
-
-}  // namespace
-
 Gateway::Gateway(Parts parts)
     : parts_(std::move(parts)),
       outbox_(parts_.outbox),
@@ -29,7 +12,8 @@ Gateway::Gateway(Parts parts)
                  parts_.clock,
                  [this](const interpreter::Output& output) { print_on_line(output); }}),
       memory_(parts_.outbox),
-      machine_(limits_of(parts_.options.control), parts_.setup.workpiece, recorder_),
+      motion_(parts_.make_motion(recorder_)),
+      machine_(*motion_),
       sender_(
           parts_.options.machine, parts_.outbox, {},
           [this](const dds::Record& record) { return parts_.endpoint.write(record).has_value(); }),
@@ -48,6 +32,7 @@ Gateway::Gateway(Parts parts)
 }
 
 Result<void> Gateway::recover() {
+  if (auto fits = check_speed(machine_.capabilities(), parts_.options.speed); !fits) return fits;
   if (!memory_.fault().empty()) {
     last_message_ = valid_text(memory_.fault(), kMaxReason);
     spdlog::error("{}: no program is begun until the memory is discarded at the panel {}",

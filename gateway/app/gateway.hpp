@@ -36,14 +36,16 @@ class Gateway {
     report::RunJournal& journal;
     ExecutionProbe& execution_probe;
     const Clock& clock;
-    std::uint64_t session = 0;          ///< of this process, not zero
-    feed::ControlLine* line = nullptr;  ///< where programs come from instead of the server
+    machine::MotionFactory make_motion;  ///< of what moves the machine
+    std::uint64_t session = 0;           ///< of this process, not zero
+    feed::ControlLine* line = nullptr;   ///< where programs come from instead of the server
   };
   /// All references must outlive it.
   explicit Gateway(Parts parts);
 
   /// Before the first turn: ends the run that a former process was busy with as interrupted at the
-  /// block it executed last. Errors: those of the outbox.
+  /// block it executed last. Errors: those of the outbox; Unsupported (a speed that the machine
+  /// does not have).
   Result<void> recover();
 
   void receive(Incoming incoming, SteadyTime now);
@@ -153,7 +155,8 @@ class Gateway {
   report::Outbox& outbox_;
   ExecutionRecorder recorder_;
   ControlMemory memory_;
-  machine::Machine machine_;
+  std::unique_ptr<machine::MotionBackend> motion_;
+  machine::MotionBackend& machine_;
   report::RecordSender sender_;
   report::StatusPublisher publisher_;
   std::unique_ptr<RunSession> session_;

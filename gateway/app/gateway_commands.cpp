@@ -163,6 +163,8 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
     }
     setup.stands = machine_.status().position;
   }
+  const interpreter::Position at = setup.stands.value_or(setup.start);
+  if (auto done = machine_.check_begin(at); !done) return done;
   auto session = RunSession::make({.run = run,
                                    .feed = std::move(feed),
                                    .machine = machine_,
@@ -191,7 +193,7 @@ Result<void> Gateway::begin_run(const report::ActiveRun& run,
   }
   parts_.journal.begin(run.run);
   take_panel_tables(setup);
-  machine_.begin(setup.stands.value_or(setup.start));
+  machine_.begin(at);
   session_ = std::move(*session);
   session_->size_feed(parts_.options.speed.factor);
   last_step_ = parts_.clock.steady_now();

@@ -139,7 +139,7 @@ Gateway::Reply Gateway::cycle_start() {
 /// True: nobody has begun the run yet. Nothing of it is interpreted, an abort works.
 bool Gateway::wait_for_cycle_start(SteadyTime now) {
   if (!consent_.is_awaited()) return false;
-  (void)machine_.advance(machine::Seconds{0}, 0);
+  (void)machine_.poll(machine::Seconds{0}, 0);
   commit_reports();
   if (consent_.is_overdue(now)) {
     end_run(dds::RunOutcome::Aborted, fmt::format("no cycle start at the machine within {} s",

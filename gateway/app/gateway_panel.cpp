@@ -61,7 +61,9 @@ Gateway::Reply Gateway::set_switch(const dds::Command& command) {
   OperatorPanel panel = machine_.panel();
   const bool is_on = command.value == 1;
   if (command.argument == "emergency_stop") return set_emergency_stop(is_on);
+  const machine::MotionCapabilities& can = machine_.capabilities();
   if (command.argument == "single_block") {
+    if (!can.single_block) return refuse("this machine has no single_block");
     panel.single_block = is_on;
   } else if (command.argument == "optional_stop") {
     panel.optional_stop = is_on;
@@ -71,6 +73,7 @@ Gateway::Reply Gateway::set_switch(const dds::Command& command) {
     if (panel_tables_.click_seconds.empty())
       return refuse(
           fmt::format("a handwheel drives no program of control {}", parts_.options.control));
+    if (!can.handwheel) return refuse("this machine drives no program by its handwheel");
     panel.handwheel = is_on;
   } else {
     return refuse(
@@ -118,7 +121,19 @@ std::optional<std::string> Gateway::refusal_of_spindle(double factor) const {
                      range_of(CommandAction::SpindleOverride));
 }
 
+namespace {
+
+bool has_override(const machine::MotionCapabilities& machine, CommandAction override) {
+  if (override == CommandAction::FeedOverride) return machine.feed_override;
+  if (override == CommandAction::RapidOverride) return machine.rapid_override;
+  return machine.spindle_override;
+}
+
+}  // namespace
+
 Gateway::Reply Gateway::set_override(const dds::Command& command) {
+  if (!has_override(machine_.capabilities(), command.action))
+    return refuse(fmt::format("this machine has no {}", dds::to_string(command.action)));
   OperatorPanel panel = machine_.panel();
   dds::override_of(command.action, panel) = command.value;
   if (!std::isfinite(command.value) || panel.clamped() != panel)

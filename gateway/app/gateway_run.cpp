@@ -28,7 +28,7 @@ void Gateway::run_slice(SteadyTime now) {
                           : std::numeric_limits<double>::infinity();
   if (wait_for_cycle_start(now)) return;
   if (wait_out_fault(now)) {
-    (void)machine_.advance(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
+    (void)machine_.poll(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
     return;
   }
   SteadyTime deadline = now + kSlice;
@@ -50,7 +50,7 @@ bool Gateway::run_round(double& machine_seconds, SteadyTime& deadline) {
   if (recorder_.alarm() || recorder_.was_aborted()) return false;  // nothing more counts
   const std::size_t blocks = session_->fill(kBlocksPerRound);
   const machine::MachineStatus before = machine_.status();
-  const double used = machine_.advance(machine::Seconds{machine_seconds}, kActionsPerRound).count();
+  const double used = machine_.poll(machine::Seconds{machine_seconds}, kActionsPerRound).count();
   machine_seconds -= used;
   const bool has_advanced = used > 0 || machine_.status().queued != before.queued;
   const bool can_go_on = (blocks > 0 || has_advanced) && machine_seconds > 0;

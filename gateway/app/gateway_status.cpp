@@ -154,7 +154,7 @@ dds::Status Gateway::status() const {
   for (std::size_t i = 0; i < status.position.size(); ++i) {
     const auto axis = static_cast<interpreter::Axis>(i);
     status.position[i] = now.position.raw(axis);
-    if (machine_.limits().axis(axis)) status.axes |= static_cast<std::uint16_t>(1U << i);
+    if (machine_.capabilities().axes.test(i)) status.axes |= static_cast<std::uint16_t>(1U << i);
   }
   status.feed_mm_per_min = now.feed_per_minute;
   status.spindle_rpm = now.spindle_rpm;

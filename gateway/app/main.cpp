@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/app/motion_choice.hpp"
 #include "gateway/app/no_server.hpp"
 #include "gateway/app/panel_socket.hpp"
 #include "gateway/app/setup_line.hpp"
@@ -134,6 +135,8 @@ Result<void> run(const GatewayOptions& options) {
   auto setup = read_setup(options, **dialect);
   if (!setup) return fail(setup.error());
   if (auto fits = check_line(options, *setup); !fits) return fits;
+  auto motion = make_motion(options.motion, **dialect, setup->workpiece);
+  if (!motion) return fail(motion.error());
   auto folder = StateFolder::open(options.state);
   if (!folder) return fail(folder.error());
   auto outbox = open_outbox(*folder);
@@ -160,7 +163,7 @@ Result<void> run(const GatewayOptions& options) {
   if (!panel) return fail(panel.error());
   const SignalWatch watch(inbox, signals);
   Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal,
-                   *execution_probe, clock, new_session(), line->get()});
+                   *execution_probe, clock, *std::move(motion), new_session(), line->get()});
   if (const auto done = gateway.recover(); !done) return done;
   spdlog::info(
       "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",

@@ -280,6 +280,11 @@ Result<Speed> parse_speed(std::string_view text) {
   return Speed{value};
 }
 
+Result<void> check_speed(const machine::MotionCapabilities& machine, const Speed& speed) {
+  if (machine.simulated_time || speed.factor == 1) return {};
+  return fail(Errc::Unsupported, "this machine moves in real time: its speed is 1x");
+}
+
 Result<void> apply_config(std::string_view toml, GatewayOptions& options) {
   toml::table table;
   try {

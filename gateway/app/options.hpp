@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/machine/motion_backend.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
 #include "protocol/wire/line_settings.hpp"
@@ -20,6 +21,9 @@ struct Speed {
 };
 /// "1x", "100x", "0.5x" or "max". Errors: Syntax, LimitExceeded (not above 0, or above 10^6).
 Result<Speed> parse_speed(std::string_view text);
+
+/// Only simulated time passes faster or slower. Errors: Unsupported.
+Result<void> check_speed(const machine::MotionCapabilities& machine, const Speed& speed);
 
 /// The gateway in the place of a control at the end of a line.
 struct LineOptions {
@@ -36,6 +40,7 @@ struct GatewayOptions {
   std::string control;
   std::filesystem::path state;
   dds::NetworkOptions network;
+  std::string motion = "simulated";  ///< see motion_choice.hpp
   Speed speed;
   std::optional<std::filesystem::path> setup, log, execution_probe;
   std::string log_level = "info";

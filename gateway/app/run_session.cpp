@@ -31,7 +31,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   interpreter::Setup given = setup;
   given.answers.clear();
   const auto make = [&](const interpreter::Setup& its_setup) {
-    return dialect.make(its_setup, session->feed(), session->parts_.machine.events());
+    return dialect.make(its_setup, session->feed(), session->events_);
   };
   auto made = make(given);
   if (!made) return fail(made.error());
@@ -73,7 +73,9 @@ Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup&
 }
 
 RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
-    : parts_(std::move(parts)), setup_(setup) {}
+    : parts_(std::move(parts)),
+      setup_(setup),
+      events_(parts_.machine.capabilities(), parts_.machine.events()) {}
 
 std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
@@ -175,6 +177,11 @@ bool RunSession::settle_question() {
 
 bool RunSession::settle(const interpreter::ProbeQuestion& question) {
   waits_ = Waits::ForMachine;
+  if (!parts_.machine.capabilities().probing) {
+    events_.refuse(question.probe.origin, "probe");
+    is_over_ = true;
+    return false;
+  }
   if (!is_probing_) {
     parts_.machine.begin_probe(question.probe);
     is_probing_ = true;
@@ -194,9 +201,8 @@ bool RunSession::settle(const interpreter::PromptQuestion&) {
   return false;
 }
 
-/// A simulated machine has no inputs wired: they all read low.
-bool RunSession::settle(const interpreter::InputQuestion&) {
-  return machine_rests() && give(false);
+bool RunSession::settle(const interpreter::InputQuestion& question) {
+  return machine_rests() && give(parts_.machine.input(question.pin));
 }
 
 bool RunSession::settle(const interpreter::TimeQuestion&) {

@@ -11,7 +11,7 @@
 #include "gateway/app/execution_recorder.hpp"
 #include "gateway/feed/program_feed.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "gateway/machine/machine.hpp"
+#include "gateway/machine/capability_filter.hpp"
 
 namespace dripline::gateway {
 
@@ -23,7 +23,7 @@ class RunSession {
   struct Parts {
     report::ActiveRun run;
     std::unique_ptr<feed::ProgramFeed> feed;  ///< where its text comes from
-    machine::Machine& machine;
+    machine::MotionBackend& machine;
     ExecutionRecorder& recorder;
     const Clock& clock;
     ControlMemory& memory;
@@ -81,6 +81,7 @@ class RunSession {
   Parts parts_;
   interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
   std::size_t next_answer_ = 0;
+  machine::CapabilityFilter events_;  ///< from the interpreter to the machine
   std::unique_ptr<interpreter::Interpreter> interpreter_;
   interpreter::RetainedMemory* retained_ = nullptr;  ///< of it; null: its control keeps nothing
   struct Change {

@@ -12,7 +12,7 @@ struct OperatorPanel {
   double rapid_override = 1;    ///< 0 .. 1
   double spindle_override = 1;  ///< 0 .. 2.55
   bool handwheel = false;       ///< the program's time passes only as the handwheel is turned
-  bool emergency_stop = false;  ///< pressed in: see Machine::set_panel
+  bool emergency_stop = false;  ///< pressed in: see MotionBackend::set_panel
 
   static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1, kMaxSpindleOverride = 2.55;
 

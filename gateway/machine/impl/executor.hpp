@@ -5,7 +5,9 @@
 #include "gateway/machine/impl/intake.hpp"
 #include "gateway/machine/impl/motion.hpp"
 #include "gateway/machine/impl/planner.hpp"
-#include "gateway/machine/machine.hpp"
+#include "gateway/machine/machine_limits.hpp"
+#include "gateway/machine/machine_status.hpp"
+#include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::impl {
 

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 
-#include "gateway/machine/machine.hpp"
+#include "gateway/machine/simulated_machine.hpp"
 
 /// How fast the machine takes and executes blocks at "max" speed, without an interpreter. The queue
 /// is kept full, as the gateway keeps it, so every move is planned with the whole look-ahead.
@@ -60,7 +60,7 @@ void execute(benchmark::State& state, Shape shape, std::size_t ahead) {
   double machine_seconds = 0;
   for (auto _ : state) {
     Counter counter;
-    Machine machine(MachineLimits::lathe(), {}, counter);
+    SimulatedMachine machine(MachineLimits::lathe(), {}, counter);
     machine.begin(point(20, 0));
     Origin origin;
     machine_seconds = 0;
@@ -69,9 +69,9 @@ void execute(benchmark::State& state, Shape shape, std::size_t ahead) {
         ++origin.block;
         queue_block(machine.events(), shape, origin);
       }
-      machine_seconds += machine.advance_all(ahead / 2).count();
+      machine_seconds += machine.poll_all(ahead / 2).count();
     }
-    machine_seconds += machine.advance_all().count();
+    machine_seconds += machine.poll_all().count();
     if (counter.blocks != kBlocks) state.SkipWithError("blocks were lost");
   }
   state.counters["blocks_per_second"] =

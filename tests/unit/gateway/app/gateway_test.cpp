@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/app/state_folder.hpp"
+#include "gateway/machine/simulated_machine.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
 namespace dripline::gateway {
@@ -147,7 +148,7 @@ TEST(Gateway, InterpretsNothingMoreAfterAnAbort) {
   for (int i = 0; i < 50'000; ++i) text += i % 2 == 0 ? "X1\n" : "X2\n";
   shop.push("O1", text + "END\n");
   ASSERT_TRUE(shop.start("O1").accepted);
-  constexpr std::uint64_t kFull = machine::Machine::kQueuedActions;
+  constexpr std::uint64_t kFull = machine::SimulatedMachine::kQueuedActions;
   ASSERT_TRUE(shop.run_until([&] { return shop.status->accepted > kFull; }));
   EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
   EXPECT_LT(shop.ended().accepted, kFull + 1000);

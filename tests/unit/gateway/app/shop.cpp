@@ -38,16 +38,17 @@ void Shop::restart_gateway() {
   process_.reset();
   process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
   requests_.clear();
-  Gateway::Parts parts{options_,
-                       control_,
-                       setup,
-                       *this,
-                       process_->outbox,
-                       process_->journal,
-                       process_->execution_probe,
-                       clock,
-                       0};
-  parts.session = static_cast<std::uint64_t>(++sessions_);
+  Gateway::Parts parts{
+      .options = options_,
+      .dialect = control_,
+      .setup = setup,
+      .endpoint = *this,
+      .outbox = process_->outbox,
+      .journal = process_->journal,
+      .execution_probe = process_->execution_probe,
+      .clock = clock,
+      .make_motion = motion ? motion : make_motion("simulated", control_, setup.workpiece).value(),
+      .session = static_cast<std::uint64_t>(++sessions_)};
   gateway = std::make_unique<Gateway>(std::move(parts));
   if (const auto done = gateway->recover(); !done) throw std::runtime_error(done.error().what);
   gateway->receive(ServerSeen{is_up}, clock.steady);

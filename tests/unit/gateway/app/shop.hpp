@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/app/gateway.hpp"
+#include "gateway/app/motion_choice.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::gateway {
@@ -74,6 +75,7 @@ class Shop : public dds::GatewayEndpoint {
   std::map<std::string, dds::CommandResult> results;
   std::uint64_t outbox_bytes = 4ULL << 30;
   interpreter::Setup setup;
+  machine::MotionFactory motion;  ///< empty: the simulated machine; from the next gateway on
   std::unique_ptr<Gateway> gateway;
   std::filesystem::path folder() const { return folder_.path(); }
   ExecutionProbe::Counts execution_probe() const;

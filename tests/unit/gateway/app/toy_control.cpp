@@ -7,6 +7,8 @@ namespace {
 
 using namespace interpreter;
 
+const Feed kFeed = Feed::per_minute(Length::mm(6000));
+
 class ToyInterpreter final : public Interpreter {
  public:
   ToyInterpreter(const Setup& setup, ProgramSource& source, EventSink& sink)
@@ -24,6 +26,7 @@ class ToyInterpreter final : public Interpreter {
     if (const auto* text = std::get_if<PromptAnswer>(&given)) answer_ = text->text.value_or("");
     if (const auto* probed = std::get_if<ProbeResult>(&given))
       answer_ = probed->tripped ? "tripped" : "free";
+    if (const auto* is_high = std::get_if<bool>(&given)) answer_ = *is_high ? "high" : "low";
     return {};
   }
   std::uint64_t blocks() const override { return blocks_; }
@@ -63,10 +66,26 @@ class ToyInterpreter final : public Interpreter {
       Probe probe;
       probe.origin = origin_;
       probe.to.set(Axis::X, Length::mm(-10));
-      probe.feed = Feed::per_minute(Length::mm(6000));
+      probe.feed = kFeed;
       return ask(ProbeQuestion{probe});
     }
+    if (line.starts_with("PIN ")) {
+      if (!answer_) return ask(InputQuestion{line[4] - '0'});
+      sink_.on_output({origin_, OutputDevice::File, *answer_});
+    }
     answer_.reset();
+    if (line == "ARC") {
+      Arc arc;
+      arc.origin = origin_;
+      arc.feed = kFeed;
+      sink_.on_arc(arc);
+    }
+    if (line == "THREAD") {
+      Thread thread;
+      thread.origin = origin_;
+      thread.lead = Length::mm(1);
+      sink_.on_thread(thread);
+    }
     if (line == "TOOLS") {
       const std::string count = std::to_string(setup_.tools.size());
       sink_.on_output({origin_, OutputDevice::File, count});
@@ -90,7 +109,8 @@ class ToyInterpreter final : public Interpreter {
     Line event;
     event.origin = origin_;
     event.to.set(Axis::X, Length::mm(x));
-    event.feed = Feed::per_minute(Length::mm(6000));
+    const bool is_per_revolution = line.ends_with(" PER REVOLUTION");
+    event.feed = is_per_revolution ? Feed::per_revolution(Length::mm(0.1)) : kFeed;
     sink_.on_line(event);
   }
   StepState ask(Question question) {

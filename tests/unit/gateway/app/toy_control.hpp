@@ -10,6 +10,8 @@ namespace dripline::gateway {
 ///   PROBE  probe move to X-10            BAD          alarm TOY0001
 ///   JUMP   to the first line, twice      CALL <name>  reads the first line of a called program
 ///   TOOLS  how many tools it knows, as an output
+///   ARC, THREAD, X<mm> PER REVOLUTION   what a machine may be unable to do
+///   PIN <n>  asks for an input, as an output
 ///   END    end of the program            anything else does nothing
 const interpreter::Dialect& toy_control();
 

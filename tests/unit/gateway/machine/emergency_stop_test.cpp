@@ -27,14 +27,14 @@ std::size_t count_of(const TestMachine& test, std::string_view line) {
 TEST(EmergencyStop, BrakesAtOnceAndStandsUntilItIsReleased) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});  // 19.8 mm done, at 20 mm/s
+  test.machine.poll(Seconds{1});  // 19.8 mm done, at 20 mm/s
   set_emergency_stop(test, true);
   EXPECT_EQ(test.machine.state(), MachineState::EmergencyStop);
   EXPECT_NEAR(test.run_all(), 0.02, 1e-9);
   EXPECT_FALSE(test.machine.is_moving());
   EXPECT_NEAR(test.z(), 20, 1e-9);
   EXPECT_FALSE(test.machine.resume());
-  EXPECT_EQ(test.machine.advance(Seconds{5}).count(), 0);
+  EXPECT_EQ(test.machine.poll(Seconds{5}).count(), 0);
   EXPECT_EQ(test.machine.state(), MachineState::EmergencyStop);
   EXPECT_TRUE(test.recorder.lines.empty());
 }
@@ -42,7 +42,7 @@ TEST(EmergencyStop, BrakesAtOnceAndStandsUntilItIsReleased) {
 TEST(EmergencyStop, EndsTheProgramWhenItIsReleased) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   set_emergency_stop(test, true);
   test.run_all();
   set_emergency_stop(test, false);
@@ -56,9 +56,9 @@ TEST(EmergencyStop, EndsTheProgramWhenItIsReleased) {
 TEST(EmergencyStop, ReleasedTooSoonComesToRestFirst) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   set_emergency_stop(test, true);
-  test.machine.advance(Seconds{0.01});
+  test.machine.poll(Seconds{0.01});
   set_emergency_stop(test, false);
   EXPECT_EQ(test.machine.state(), MachineState::EmergencyStop);
   EXPECT_TRUE(test.recorder.lines.empty());
@@ -71,7 +71,7 @@ TEST(EmergencyStop, BrakesAThread) {
   TestMachine test;
   test.program.spindle(600);
   test.program.thread(0, 100, 2);  // 20 mm/s
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   set_emergency_stop(test, true);
   EXPECT_NEAR(test.run_all(), 0.02, 1e-9);
   EXPECT_LT(test.z(), 21);
@@ -80,9 +80,9 @@ TEST(EmergencyStop, BrakesAThread) {
 TEST(EmergencyStop, InterruptsADwell) {
   TestMachine test;
   test.program.dwell(5);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   set_emergency_stop(test, true);
-  EXPECT_EQ(test.machine.advance(Seconds{9}).count(), 0);
+  EXPECT_EQ(test.machine.poll(Seconds{9}).count(), 0);
   EXPECT_NEAR(test.machine.status().dwell_left.count(), 4, 1e-9);
 }
 
@@ -95,7 +95,7 @@ TEST(EmergencyStop, TurnsSpindleAndCoolantOffForGood) {
     test.program.spindle(600);
     test.program.line(0, i * 0.05, 1200);
   }
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   ASSERT_TRUE(test.machine.status().flood);
   ASSERT_EQ(test.machine.status().spindle_rpm, 600);
   const auto blocks = test.recorder.blocks.size();
@@ -173,7 +173,7 @@ TEST(EmergencyStop, BrakesWhatTheHandwheelDrives) {
 TEST(EmergencyStop, EndsAnAbortThatWasUnderWay) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.abort();
   set_emergency_stop(test, true);
   test.run_all();

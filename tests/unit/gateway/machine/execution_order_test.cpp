@@ -27,9 +27,9 @@ TEST(Execution, OutputIsToldOnlyAfterTheMotionBeforeIt) {
   test.program.line(0, 10, 600);
   test.program.output("done");
   test.program.line(0, 0, 600);
-  test.machine.advance(Seconds{0.9});
+  test.machine.poll(Seconds{0.9});
   EXPECT_TRUE(test.recorder.lines.empty());
-  test.machine.advance(Seconds{0.2});
+  test.machine.poll(Seconds{0.2});
   EXPECT_EQ(test.recorder.lines, (std::vector<std::string>{"block 1", "output done", "block 2"}));
 }
 
@@ -39,7 +39,7 @@ TEST(Execution, BlockOfSeveralMovesIsDoneAfterItsLast) {
   test.machine.events().on_rapid({origin, Program::at(0, 10)});
   test.machine.events().on_rapid({origin, Program::at(10, 10)});
   test.program.end_block();
-  test.machine.advance_all(1);
+  test.machine.poll_all(1);
   EXPECT_TRUE(test.recorder.blocks.empty());
   test.run_all();
   EXPECT_EQ(test.recorder.blocks.size(), 1u);
@@ -103,20 +103,20 @@ TEST(Execution, MotionIsAnnouncedAfterWhatWasToldBeforeIt) {
     }
     void on_output(const interpreter::Output& o) override { lines.emplace_back(o.text); }
   } announcer;
-  Machine machine(plain_lathe(), {}, announcer);
+  SimulatedMachine machine(plain_lathe(), {}, announcer);
   Program program(machine.events());
   program.output("a");
   program.line(0, 1, 600);
   program.output("b");
   program.dwell(1);
-  machine.advance_all();
+  machine.poll_all();
   EXPECT_EQ(announcer.lines, (std::vector<std::string>{"a", "motion 2", "b", "motion 4"}));
 }
 
 TEST(Execution, BudgetOfActionsIsKept) {
   TestMachine test;
   for (int i = 1; i <= 100; ++i) test.program.line(0, i, 1200);
-  test.machine.advance_all(30);
+  test.machine.poll_all(30);
   EXPECT_EQ(test.recorder.blocks.size(), 30u);
   test.run_all();
   EXPECT_EQ(test.recorder.blocks.size(), 100u);
@@ -126,8 +126,8 @@ TEST(Queue, SaysWhenItIsFullAndEmptiesAgain) {
   TestMachine test;
   std::size_t blocks = 0;
   while (test.machine.has_room()) test.program.line(0, static_cast<double>(++blocks), 1200);
-  EXPECT_EQ(blocks, Machine::kQueuedActions);
-  test.machine.advance_all(1);
+  EXPECT_EQ(blocks, SimulatedMachine::kQueuedActions);
+  test.machine.poll_all(1);
   EXPECT_TRUE(test.machine.has_room());
   test.run_all();
   EXPECT_EQ(test.recorder.blocks.size(), blocks);
@@ -142,7 +142,7 @@ TEST(Queue, IsFullOfTextToo) {
     while (test.machine.has_room()) {
       test.program.output(fmt::format("{} {}", outputs++, text));
     }
-    test.machine.advance_all(50);
+    test.machine.poll_all(50);
   }
   test.run_all();
   ASSERT_EQ(test.recorder.lines.size(), outputs);
@@ -154,7 +154,7 @@ TEST(Queue, OverrunByOneBlockIsAnAlarmAndNotMemory) {
   TestMachine test;
   while (test.machine.has_room()) test.program.empty();
   const Origin& origin = test.program.begin_block();
-  for (std::size_t i = 0; i < 2 * Machine::kBlockReserve; ++i)
+  for (std::size_t i = 0; i < 2 * SimulatedMachine::kBlockReserve; ++i)
     test.machine.events().on_coolant({origin, i % 2 == 0, false});
   test.program.end_block();
   test.recorder.lines.clear();

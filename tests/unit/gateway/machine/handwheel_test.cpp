@@ -30,11 +30,11 @@ TEST(Handwheel, LetsTheProgramsTimePassOnlyAsItIsTurned) {
   TestMachine test;
   test.machine.set_panel(by_handwheel());
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{5});
+  test.machine.poll(Seconds{5});
   EXPECT_EQ(test.z(), 0);
   EXPECT_FALSE(test.machine.is_moving());
   test.machine.turn_handwheel(Seconds{0.5});
-  EXPECT_EQ(test.machine.advance(Seconds{5}).count(), 0.5);
+  EXPECT_EQ(test.machine.poll(Seconds{5}).count(), 0.5);
   EXPECT_NEAR(test.z(), 0.5 * 20 - 0.2, 1e-9);
   EXPECT_EQ(test.machine.status().feed_per_minute, 0) << "the wheel is at rest";
   test.machine.turn_handwheel(Seconds{100});
@@ -48,7 +48,7 @@ TEST(Handwheel, NeverDrivesFasterThanTheProgram) {
   test.machine.set_panel(by_handwheel());
   test.program.line(0, 100, 1200);
   test.machine.turn_handwheel(Seconds{2});
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   EXPECT_NEAR(test.z(), 20 - 0.2, 1e-9);
   EXPECT_TRUE(test.machine.is_moving());
 }
@@ -90,7 +90,7 @@ TEST(Handwheel, AtRestStillLetsAHoldAndAnAbortEnd) {
   for (const bool aborts : {false, true}) {
     TestMachine test;
     test.program.line(0, 100, 1200);
-    test.machine.advance(Seconds{1});
+    test.machine.poll(Seconds{1});
     test.machine.set_panel(by_handwheel());
     if (aborts) {
       test.machine.abort();

@@ -45,7 +45,7 @@ TEST(LookAhead, SharperCornersAreSlower) {
     const double angle = degrees * Angle::kPi / 180;
     test.program.line(0, 10, 1200);
     test.program.line(10 * std::sin(angle), 10 + 10 * std::cos(angle), 1200);
-    test.machine.advance_all(1);  // stands in thought exactly at the corner
+    test.machine.poll_all(1);  // stands in thought exactly at the corner
     const double at_corner = test.machine.status().feed_per_minute;
     EXPECT_LE(at_corner, last) << degrees;
     last = at_corner;
@@ -108,7 +108,7 @@ TEST(LookAhead, SlowsDownInTimeForSlowerBlocks) {
 TEST(LookAhead, MovesThatArriveLaterAreStillBlendedIn) {
   TestMachine test;
   test.program.line(0, 10, 1200);
-  const double first = test.machine.advance(Seconds{0.1}).count();
+  const double first = test.machine.poll(Seconds{0.1}).count();
   test.program.line(0, 20, 1200);
   EXPECT_NEAR(first + test.run_all(), trapezoid(20, 20, 1000), 1e-9);
 }
@@ -125,7 +125,7 @@ TEST(LookAhead, BufferedSecondsAreThoseOfTheQueuedMotion) {
   for (int i = 1; i <= 10; ++i) test.program.line(0, i * 10, 600);
   test.program.dwell(3);
   EXPECT_NEAR(test.machine.buffered().count(), 13, 1e-9);
-  test.machine.advance(Seconds{5});
+  test.machine.poll(Seconds{5});
   EXPECT_NEAR(test.machine.buffered().count(), 8, 0.02);
   test.run_all();
   EXPECT_EQ(test.machine.buffered().count(), 0);

@@ -54,7 +54,7 @@ TEST(ArcMove, StaysOnItsCircle) {
   test.run_all();
   test.program.arc(10, 0, 0, 0, 90, 600);
   for (int i = 0; i < 12; ++i) {
-    test.machine.advance(Seconds{0.1});
+    test.machine.poll(Seconds{0.1});
     EXPECT_NEAR(std::hypot(test.x(), test.z()), 10, 1e-9);
     EXPECT_GT(test.x(), 0);
     EXPECT_GT(test.z(), 0);
@@ -74,7 +74,7 @@ TEST(ArcMove, TakesTheTurnThatMeetsTheEndWhateverItIsCalled) {
   test.program.line(0, 10, 600);
   test.run_all();
   test.program.arc(10, 0, 0, 0, 90, 600, interpreter::Turn::Clockwise);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   EXPECT_NEAR(std::hypot(test.x(), test.z()), 10, 1e-9);
   EXPECT_GT(test.z(), 0);
   EXPECT_GT(test.x(), 0);
@@ -83,7 +83,7 @@ TEST(ArcMove, TakesTheTurnThatMeetsTheEndWhateverItIsCalled) {
 TEST(DwellMove, LastsItsSeconds) {
   TestMachine test;
   test.program.dwell(2.5);
-  EXPECT_EQ(test.machine.advance(Seconds{1}).count(), 1);
+  EXPECT_EQ(test.machine.poll(Seconds{1}).count(), 1);
   EXPECT_EQ(test.machine.state(), MachineState::Running);
   EXPECT_NEAR(test.run_all(), 1.5, kExact);
 }
@@ -142,7 +142,7 @@ TEST(SurfaceSpeed, OfARapidIsThatOfItsEnd) {
   test.machine.begin(Program::at(50, 0));
   test.program.surface_speed(100'000, 5000);
   test.program.rapid(20, 0);
-  test.machine.advance(Seconds{0.001});
+  test.machine.poll(Seconds{0.001});
   EXPECT_NEAR(test.machine.status().spindle_rpm, 100'000 / (40 * Angle::kPi), 1e-9);
 }
 

@@ -58,7 +58,7 @@ TEST(Override, OfRapidsLeavesFeedsAlone) {
 TEST(Override, ChangedOnTheWayRampsAndLosesNoDistance) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});  // 19.8 mm done, at 20 mm/s
+  test.machine.poll(Seconds{1});  // 19.8 mm done, at 20 mm/s
   test.machine.set_panel(with_feed(0.5));
   const double ramp = 10.0 / 1000;
   const double left = 100 - 19.8 - 15 * ramp - 100.0 / 2000;
@@ -70,10 +70,10 @@ TEST(Override, LoweredAcrossShortBlocksStillRamps) {
   TestMachine test;
   for (int i = 1; i <= 10'000 && test.machine.has_room(); ++i)
     test.program.line(0, i * 0.001, 1200);
-  test.machine.advance(Seconds{0.2});
+  test.machine.poll(Seconds{0.2});
   const double before = test.machine.status().feed_per_minute;
   test.machine.set_panel(with_feed(0.1));
-  test.machine.advance(Seconds{0.001});
+  test.machine.poll(Seconds{0.001});
   EXPECT_NEAR(before, 1200, 1e-6);
   EXPECT_NEAR(test.machine.status().feed_per_minute, 1200 - 60, 1e-3);
 }
@@ -81,12 +81,12 @@ TEST(Override, LoweredAcrossShortBlocksStillRamps) {
 TEST(Override, OfZeroStandsUntilItIsRaised) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.set_panel(with_feed(0));
   EXPECT_NEAR(test.run_all(), 0.02, 1e-9);
   EXPECT_EQ(test.machine.state(), MachineState::Running);
   EXPECT_FALSE(test.machine.is_moving());
-  EXPECT_EQ(test.machine.advance(Seconds{1}).count(), 0);
+  EXPECT_EQ(test.machine.poll(Seconds{1}).count(), 0);
   test.machine.set_panel(with_feed(1));
   test.run_all();
   EXPECT_EQ(test.z(), 100);
@@ -95,7 +95,7 @@ TEST(Override, OfZeroStandsUntilItIsRaised) {
 TEST(Hold, SlowsDownAlongThePathAndResumesWithoutLosingDistance) {
   TestMachine test;
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.hold();
   EXPECT_EQ(test.machine.state(), MachineState::Held);
   EXPECT_TRUE(test.machine.is_moving());
@@ -111,7 +111,7 @@ TEST(Hold, SlowsDownAlongThePathAndResumesWithoutLosingDistance) {
 TEST(Hold, CrossesBlocksWhileSlowingDown) {
   TestMachine test;
   for (int i = 1; i <= 1000; ++i) test.program.line(0, i * 0.05, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.hold();
   const auto before = test.recorder.blocks.size();
   test.run_all();
@@ -126,9 +126,9 @@ TEST(Hold, CrossesBlocksWhileSlowingDown) {
 TEST(Hold, ComesToRestEvenWithoutABudgetOfActions) {
   TestMachine test;
   for (int i = 1; i <= 1000; ++i) test.program.line(0, i * 0.05, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.hold();
-  EXPECT_NEAR(test.machine.advance(Seconds{1}, 0).count(), 0.02, 1e-9);
+  EXPECT_NEAR(test.machine.poll(Seconds{1}, 0).count(), 0.02, 1e-9);
   EXPECT_FALSE(test.machine.is_moving());
 }
 
@@ -136,7 +136,7 @@ TEST(Hold, OnAnArcStaysOnTheArc) {
   TestMachine test;
   test.machine.begin(Program::at(0, 10));
   test.program.arc(10, 0, 0, 0, 90, 1200);
-  test.machine.advance(Seconds{0.3});
+  test.machine.poll(Seconds{0.3});
   test.machine.hold();
   test.run_all();
   EXPECT_NEAR(std::hypot(test.x(), test.z()), 10, 1e-9);
@@ -150,7 +150,7 @@ TEST(Hold, LetsAThreadFinish) {
   test.program.spindle(600);
   test.program.thread(0, -20, 1.5);
   test.program.line(0, 0, 1200);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.hold();
   test.run_all();
   EXPECT_EQ(test.z(), -20);
@@ -161,7 +161,7 @@ TEST(Hold, LetsAThreadFinish) {
 TEST(Hold, PausesADwell) {
   TestMachine test;
   test.program.dwell(2);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.hold();
   EXPECT_EQ(test.run_all(), 0);
   test.machine.resume();
@@ -196,7 +196,7 @@ TEST(SingleBlock, StandsAfterEachBlock) {
 TEST(SingleBlock, SwitchedOnAtSpeedStandsAtTheFirstBlockEndItCan) {
   TestMachine test;
   for (int i = 1; i <= 1000; ++i) test.program.line(0, i * 0.05, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   OperatorPanel panel;
   panel.single_block = true;
   test.machine.set_panel(panel);
@@ -252,7 +252,7 @@ TEST(Abort, SlowsDownThenDiscardsEverything) {
   TestMachine test;
   test.program.line(0, 100, 1200);
   test.program.output("never");
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.abort();
   EXPECT_TRUE(test.recorder.lines.empty());
   EXPECT_NEAR(test.run_all(), 0.02, 1e-9);

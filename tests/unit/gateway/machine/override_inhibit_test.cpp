@@ -51,7 +51,7 @@ TEST(OverrideInhibit, KeepsTheSpindleAtItsFullSpeed) {
   test.program.spindle(600);
   test.program.lock(tapping());
   test.program.line(0, 20, Feed::per_revolution(Length::mm(2)));  // 20 mm/s at 600
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   EXPECT_EQ(test.machine.status().spindle_rpm, 600);
   test.run_all();
   test.program.unlock();
@@ -63,7 +63,7 @@ TEST(OverrideInhibit, KeepsTheSpindleAtItsFullSpeed) {
 TEST(OverrideInhibit, DelaysAHoldAskedForInTheHoleAfterTheWayOut) {
   TestMachine test;
   tap_a_hole(test);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.hold();
   EXPECT_EQ(test.machine.state(), MachineState::Held) << "the lamp is lit";
   test.run_all();
@@ -78,7 +78,7 @@ TEST(OverrideInhibit, DelaysAHoldAskedForInTheHoleAfterTheWayOut) {
 TEST(OverrideInhibit, LetsAHoldActAtOnceOnTheWayOut) {
   TestMachine test;
   tap_a_hole(test);
-  test.machine.advance(Seconds{2.3});  // the way out takes half a second
+  test.machine.poll(Seconds{2.3});  // the way out takes half a second
   ASSERT_GT(test.z(), 0);
   test.machine.hold();
   test.run_all();
@@ -105,7 +105,7 @@ TEST(OverrideInhibit, IsGoneThroughWhenThereIsNoRoomToStopBefore) {
   test.program.line(0, 0, 1200);
   const double rapid =
       20.0 / 100 + 0.1 / 2 + 0.08 * 0.08 / 2 / 0.1;  // brakes to 20 mm/s at its end
-  test.machine.advance(Seconds{rapid - 0.005});
+  test.machine.poll(Seconds{rapid - 0.005});
   test.machine.hold();
   test.run_all();
   EXPECT_NEAR(test.z(), 20, 0.2);
@@ -115,16 +115,16 @@ TEST(OverrideInhibit, IsGoneThroughWhenThereIsNoRoomToStopBefore) {
 TEST(OverrideInhibit, IsFinishedWithoutABudgetOfActions) {
   TestMachine test;
   tap_a_hole(test);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.hold();
-  test.machine.advance(Seconds{60}, 0);
+  test.machine.poll(Seconds{60}, 0);
   EXPECT_NEAR(test.z(), 50, 1e-9);
 }
 
 TEST(OverrideInhibit, DoesNotStopAnAbort) {
   TestMachine test;
   tap_a_hole(test);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.abort();
   test.run_all();
   EXPECT_EQ(test.machine.state(), MachineState::Aborted);
@@ -172,7 +172,7 @@ TEST(OverrideInhibit, HoldsOffBetweenThreadsThatFollowOneAnother) {
   test.program.thread(0, 20, 2);
   test.program.thread(5, 25, 2);  // the pull-out
   test.program.rapid(5, 50);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   test.machine.hold();
   test.run_all();
   EXPECT_NEAR(test.x(), 5, 1e-9);
@@ -184,7 +184,7 @@ TEST(OverrideInhibit, EndsWithItsProgram) {
   test.program.lock(tapping());
   test.machine.begin(Program::at(0, 0));
   test.program.line(0, 100, 1200);
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   test.machine.hold();
   test.run_all();
   EXPECT_LT(test.z(), 21);

@@ -36,7 +36,7 @@ TEST(Probing, StopsAtTheSurfaceAfterAllThatWasQueued) {
   EXPECT_EQ(test.recorder.lines,
             (std::vector<std::string>{"block 1", "output before", "block 2", "probed"}));
   test.program.end_block();
-  EXPECT_TRUE(test.machine.advance_all().count() == 0);
+  EXPECT_TRUE(test.machine.poll_all().count() == 0);
   EXPECT_EQ(test.recorder.blocks.back(), 3u);
 }
 
@@ -73,7 +73,7 @@ TEST(Probing, CanBeHeldAndResumed) {
   TestMachine test(plain_lathe(), face_at(-5));
   const Origin& origin = test.program.begin_block();
   test.machine.begin_probe(probe_to(origin, 0, -20));
-  test.machine.advance(Seconds{0.2});
+  test.machine.poll(Seconds{0.2});
   test.machine.hold();
   test.run_all();
   EXPECT_TRUE(test.recorder.probes.empty());
@@ -86,7 +86,7 @@ TEST(Probing, AbortedIsNotAnswered) {
   TestMachine test(plain_lathe(), face_at(-5));
   const Origin& origin = test.program.begin_block();
   test.machine.begin_probe(probe_to(origin, 0, -20));
-  test.machine.advance(Seconds{0.2});
+  test.machine.poll(Seconds{0.2});
   test.machine.abort();
   test.run_all();
   EXPECT_EQ(test.recorder.lines, std::vector<std::string>{"aborted"});

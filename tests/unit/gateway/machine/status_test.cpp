@@ -15,12 +15,12 @@ TEST(MachineStatus, NamesTheMoveThatIsMade) {
   program.arc(0, -10, -10, 5, 180, 600);  // from X10 to X0 about X5: half a turn
   program.arc(10, -10, -10, 5, 180, 600, interpreter::Turn::Clockwise);
   program.thread(10, -20, 1);
-  test.machine.advance_all(1);
+  test.machine.poll_all(1);
   EXPECT_EQ(test.machine.status().motion, MotionKind::None);
   for (const MotionKind expected :
        {MotionKind::Rapid, MotionKind::Line, MotionKind::Counterclockwise, MotionKind::Clockwise,
         MotionKind::Thread}) {
-    test.machine.advance_all(1);
+    test.machine.poll_all(1);
     EXPECT_EQ(test.machine.status().motion, expected);
   }
 }
@@ -28,7 +28,7 @@ TEST(MachineStatus, NamesTheMoveThatIsMade) {
 TEST(MachineStatus, SaysThatAnAxisLimitsTheFeed) {
   TestMachine test;
   test.program.line(0, -100, 6000);  // the axes allow 3000
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   EXPECT_TRUE(test.machine.status().is_feed_limited);
   OperatorPanel half = test.machine.panel();
   half.feed_override = 0.4;
@@ -45,14 +45,14 @@ TEST(MachineStatus, KnowsWhereTheMoveEnds) {
   test.program.line(0, 50, 1200);
   const auto target = [&test] { return test.machine.status().target.linear(Axis::Z).mm(); };
   EXPECT_EQ(target(), 0) << "nothing has begun";
-  test.machine.advance(Seconds{1});
+  test.machine.poll(Seconds{1});
   EXPECT_NEAR(test.z(), 19.8, 1e-9);
   EXPECT_EQ(target(), 100);
   test.machine.hold();
   test.run_all();
   EXPECT_EQ(target(), 100) << "held";
   test.machine.resume();
-  test.machine.advance(Seconds{5});
+  test.machine.poll(Seconds{5});
   EXPECT_EQ(target(), 50);
   test.run_all();
   EXPECT_EQ(target(), test.z());
@@ -61,7 +61,7 @@ TEST(MachineStatus, KnowsWhereTheMoveEnds) {
 TEST(MachineStatus, CountsADwellDown) {
   TestMachine test;
   test.program.dwell(2);
-  test.machine.advance(Seconds{0.5});
+  test.machine.poll(Seconds{0.5});
   EXPECT_DOUBLE_EQ(test.machine.status().dwell_left.count(), 1.5);
   test.run_all();
   EXPECT_EQ(test.machine.status().dwell_left.count(), 0);
@@ -78,7 +78,7 @@ TEST(MachineStatus, KnowsToolsAndCoolantWhenTheyAreExecuted) {
   events.on_tool({test.program.begin_block(), 4, false, std::nullopt, {}});
   test.program.end_block();
   EXPECT_FALSE(test.machine.status().next_tool);
-  test.machine.advance(Seconds{0.1});
+  test.machine.poll(Seconds{0.1});
   MachineStatus status = test.machine.status();
   EXPECT_EQ(status.next_tool, 4);
   EXPECT_EQ(status.tool_offset, 14);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/machine/machine.hpp"
+#include "gateway/machine/simulated_machine.hpp"
 
 namespace dripline::machine::test {
 
@@ -184,12 +184,12 @@ struct TestMachine {
                        interpreter::Workpiece workpiece = {})
       : machine(limits, std::move(workpiece), recorder), program(machine.events()) {}
 
-  double run_all() { return machine.advance_all().count(); }
+  double run_all() { return machine.poll_all().count(); }
   double x() const { return machine.status().position.linear(Axis::X).mm(); }
   double z() const { return machine.status().position.linear(Axis::Z).mm(); }
 
   Recorder recorder;
-  Machine machine;
+  SimulatedMachine machine;
   Program program;
 };
 

@@ -81,7 +81,7 @@ TEST(TimeSlices, AnySlicingGivesTheSameOrderAndTheSameTotal) {
     std::exponential_distribution<double> slice(1 / (total / 2000));
     double sum = 0;
     while (sliced.machine.state() == MachineState::Running)
-      sum += sliced.machine.advance(Seconds{slice(random)}).count();
+      sum += sliced.machine.poll(Seconds{slice(random)}).count();
     EXPECT_EQ(sliced.recorder.lines, whole.recorder.lines) << seed;
     EXPECT_EQ(whole.recorder.lines.back(), "end");
     EXPECT_NEAR(sum, total, total * 1e-9) << seed;
@@ -95,8 +95,8 @@ TEST(TimeSlices, SmallStepsPassThroughTheSamePlaces) {
   queue_random_program(coarse, 7);
   queue_random_program(fine, 7);
   for (int second = 0; second < 20; ++second) {
-    coarse.machine.advance(Seconds{1});
-    for (int i = 0; i < 1024; ++i) fine.machine.advance(Seconds{1.0 / 1024});
+    coarse.machine.poll(Seconds{1});
+    for (int i = 0; i < 1024; ++i) fine.machine.poll(Seconds{1.0 / 1024});
     EXPECT_NEAR(coarse.x(), fine.x(), 1e-7);
     EXPECT_NEAR(coarse.z(), fine.z(), 1e-7);
     EXPECT_EQ(coarse.recorder.blocks, fine.recorder.blocks);
@@ -112,9 +112,9 @@ TEST(TimeSlices, HoldingAnywhereLosesNothing) {
     std::mt19937 random(seed);
     std::exponential_distribution<double> slice(2);
     while (held.machine.state() != MachineState::Completed) {
-      held.machine.advance(Seconds{slice(random)});
+      held.machine.poll(Seconds{slice(random)});
       held.machine.hold();
-      held.machine.advance(Seconds{slice(random) / 20});  // often still slowing down
+      held.machine.poll(Seconds{slice(random) / 20});  // often still slowing down
       held.machine.resume();
     }
     EXPECT_EQ(held.recorder.lines, plain.recorder.lines) << seed;
@@ -139,7 +139,7 @@ TEST(TimeSlices, AnyOperatorAndAnyFeedOfBlocksGiveTheSameExecution) {
       panel.rapid_override = static_cast<double>(random() % 11) / 10;
       if (random() % 2 == 0) disturbed.machine.set_panel(panel);
       if (random() % 4 == 0) disturbed.machine.hold();
-      const double used = disturbed.machine.advance(Seconds{slice(random)}, random() % 9).count();
+      const double used = disturbed.machine.poll(Seconds{slice(random)}, random() % 9).count();
       ASSERT_GE(used, 0);
       if (random() % 2 == 0) disturbed.machine.resume();
     }
@@ -162,7 +162,7 @@ TEST(TimeSlices, SpeedNeverJumpsByMoreThanTheAccelerationAllows) {
       panel.rapid_override = std::uniform_real_distribution<double>(0.2, 1)(random);
       test.machine.set_panel(panel);
     }
-    test.machine.advance(Seconds{step});
+    test.machine.poll(Seconds{step});
     const double now = test.machine.status().feed_per_minute / 60;
     // 1000 mm/s^2 an axis: at most sqrt(2) of it along a diagonal.
     ASSERT_LE(std::fabs(now - last), 1000 * std::sqrt(2) * step + 1e-3) << i;

@@ -3,7 +3,7 @@
 
 #include "gateway/interpreter/core/memory_source.hpp"
 #include "gateway/interpreter/registry.hpp"
-#include "gateway/machine/machine.hpp"
+#include "gateway/machine/simulated_machine.hpp"
 
 /// What the panel's lamps and buttons stand for, as states of the machine after the control. Rows:
 /// TK-31, TK-35, TK-46, TK-57.
@@ -32,7 +32,7 @@ class Station {
   machine::MachineStatus run() {
     StepState step = StepState::Ran;
     while (step == StepState::Ran && machine_.has_room()) step = interpreter_->step(1);
-    machine_.advance_all();
+    machine_.poll_all();
     return machine_.status();
   }
   machine::MachineStatus cycle_start() {
@@ -52,7 +52,7 @@ class Station {
   std::string tape_;
   MemorySource source_;
   Nobody nobody_;
-  machine::Machine machine_;
+  machine::SimulatedMachine machine_;
   std::unique_ptr<Interpreter> interpreter_;
 };
 

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "gateway/machine/execution_sink.hpp"
+#include "gateway/machine/machine_status.hpp"
+#include "gateway/machine/operator_panel.hpp"
+#include "protocol/base/result.hpp"
+
+namespace dripline::machine {
+
+/// What a back end can do. A program that asks for more gets an alarm in place of the event
+/// (capability_filter.hpp); an operator's command that asks for more is refused.
+struct MotionCapabilities {
+  std::bitset<interpreter::kAxisCount> axes;
+  bool arcs = false;
+  bool threads = false;           ///< feed synchronized to the spindle
+  bool spindle_feedback = false;  ///< feed and dwell per revolution
+  bool probing = false;
+  bool feed_override = false, rapid_override = false, spindle_override = false;
+  bool single_block = false;
+  bool handwheel = false;  ///< moves the program forward by `turn_handwheel`
+  bool simulated_time =
+      false;                 ///< `poll` lets machine time pass: another speed than 1x is possible
+  bool places_axes = false;  ///< `begin` puts the axes where it is asked to
+};
+
+/// What moves the axes: takes what the program does, executes it in order and reports what was
+/// executed. The gateway knows this interface only.
+///
+/// The owner's loop:
+///   while (backend.has_room() && the interpreter returns Ran) interpreter.step(1);
+///   backend.poll(elapsed);
+///   NeedsAnswer, a probe:   begin_probe once, then poll until ExecutionSink::on_probed; answer.
+///   NeedsAnswer, others:    poll until drained(), then ask and answer.
+///
+/// One owner, one thread. A back end with threads of its own queues what they report, and delivers
+/// it inside of `poll`. The *executed* counter is ExecutionSink::on_block_executed: a device's
+/// acknowledgement of a text line is not enough for it, the motion must have ended.
+class MotionBackend {
+ public:
+  virtual ~MotionBackend() = default;
+
+  virtual const MotionCapabilities& capabilities() const = 0;
+
+  /// Whether a program can begin with the axes at `at`. Errors: Conflict (they are elsewhere, and
+  /// this back end cannot place them), Busy (an alarm, no link).
+  virtual Result<void> check_begin(const interpreter::Position& at) const = 0;
+  /// A new program that begins at `at`: clears queue, stops, alarm, hold and spindle; keeps the
+  /// panel.
+  virtual void begin(const interpreter::Position& at) = 0;
+
+  // -- what the interpreter does --------------------------------------------------------------
+  /// Hand this to the interpreter. Events after an alarm or abort are dropped until `begin`.
+  virtual interpreter::EventSink& events() = 0;
+  /// One more block fits: the limit of the read-ahead. Step one block, then ask again.
+  virtual bool has_room() const = 0;
+  /// Queues the probe move of an open ProbeQuestion. Its end comes as ExecutionSink::on_probed.
+  virtual void begin_probe(const interpreter::Probe& probe) = 0;
+  /// The state of an input pin, to answer an InputQuestion.
+  virtual bool input(int pin) const = 0;
+  /// Nothing is queued or moving.
+  virtual bool drained() const = 0;
+  /// Queued motion and dwells at 100 % override: what the feed sizes itself by.
+  virtual Seconds buffered() const = 0;
+
+  // -- time -----------------------------------------------------------------------------------
+  static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+  /// Executes, or takes what the device has executed, since the last call. `elapsed`: how much
+  /// machine time passes (infinite is allowed), ignored without `simulated_time`. At most
+  /// `max_actions` actions begin; slowing down continues beyond them. Returns the machine time
+  /// used.
+  virtual Seconds poll(Seconds elapsed, std::size_t max_actions) = 0;
+
+  // -- the operator ---------------------------------------------------------------------------
+  virtual const OperatorPanel& panel() const = 0;
+  /// Takes effect at once. Values are clamped. The emergency stop brakes every move, stops spindle
+  /// and coolant, and ends the program: on_aborted at standstill with the switch released. Nothing
+  /// starts or continues while it is pressed, a program of `begin` included.
+  virtual void set_panel(const OperatorPanel& panel) = 0;
+  /// Feed hold: slows down along the path to standstill. A thread is finished first, and what the
+  /// program has locked against a hold (OverrideInhibit).
+  virtual void hold() = 0;
+  /// Cycle start: ends a hold, a stop or a single-block stop. False when there was none.
+  virtual bool resume() = 0;
+  /// The handwheel was turned, in handwheel mode: lets `program_time` pass, no faster than by
+  /// itself and only forward.
+  virtual void turn_handwheel(Seconds program_time) = 0;
+  /// Slows down along the path, then discards everything: on_aborted, possibly during this call.
+  virtual void abort() = 0;
+
+  // -- what it does now -----------------------------------------------------------------------
+  virtual MachineState state() const = 0;
+  /// Distinguishes slowing down from standstill in Held, or after `abort`.
+  virtual bool is_moving() const = 0;
+  virtual MachineStatus status() const = 0;
+};
+
+/// Makes a back end that reports to `sink`, which outlives it. A device was opened before.
+using MotionFactory = std::function<std::unique_ptr<MotionBackend>(ExecutionSink& sink)>;
+
+}  // namespace dripline::machine

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/toy_motion.hpp"
+
+/// The gateway on a back end that is not the simulated machine and can do less.
+namespace dripline::gateway {
+namespace {
+
+using dds::CommandAction;
+using dds::RunOutcome;
+
+class MotionBackendTest : public testing::Test {
+ protected:
+  MotionBackendTest() {
+    shop.motion = [](machine::ExecutionSink& sink) { return std::make_unique<ToyMotion>(sink); };
+    shop.restart_gateway();
+  }
+  dds::RunEndText run(const std::string& text) {
+    shop.push("O1", text);
+    const auto started = shop.start("O1");
+    EXPECT_TRUE(started.accepted) << started.reason;
+    return shop.ended();
+  }
+  std::string refusal_of(CommandAction action, const std::string& argument, double value) {
+    dds::Command command = shop.command(action);
+    command.argument = argument;
+    command.value = value;
+    return shop.send(command).reason;
+  }
+  Shop shop{"1x"};  // a machine in real time
+};
+
+TEST_F(MotionBackendTest, RunsAProgramAndCountsWhatTheBackEndHasExecuted) {
+  const auto end = run("X1\nOUT A\nX4\nOUT B\nEND\n");
+  EXPECT_EQ(end.outcome, RunOutcome::Completed);
+  EXPECT_EQ(end.executed, 5U);
+  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(shop.run_until([&] { return shop.status->position[0] == 4; }));
+  EXPECT_EQ(shop.status->axes, 1U) << "X alone";
+}
+
+TEST_F(MotionBackendTest, EndsARunAtABlockThatTheBackEndCannotExecute) {
+  const auto probed = run("X1\nPROBE\nEND\n");
+  EXPECT_EQ(probed.outcome, RunOutcome::Alarmed);
+  EXPECT_EQ(probed.reason, "MCH0008 this machine cannot probe");
+  EXPECT_EQ(probed.executed, 1U) << "everything before it";
+}
+
+TEST_F(MotionBackendTest, EndsARunAtAnArcAFeedOrAThreadThatTheBackEndCannotExecute) {
+  EXPECT_EQ(run("ARC\nEND\n").reason, "MCH0008 this machine cannot move on arcs");
+  EXPECT_EQ(run("THREAD\nEND\n").reason, "MCH0008 this machine cannot cut threads");
+  EXPECT_EQ(run("X1 PER REVOLUTION\nEND\n").reason,
+            "MCH0008 this machine cannot feed per revolution");
+}
+
+TEST_F(MotionBackendTest, AnswersTheProgramsQuestionsForAnInput) {
+  EXPECT_EQ(run("PIN 3\nEND\n").outcome, RunOutcome::Completed);
+  EXPECT_EQ(shop.lines(), std::vector<std::string>{"high"});
+}
+
+TEST_F(MotionBackendTest, RefusesASetupThatDisagreesWithTheMachine) {
+  ASSERT_EQ(run("X7\nEND\n").outcome, RunOutcome::Completed);
+  const auto second = shop.start("O1");
+  EXPECT_FALSE(second.accepted);
+  EXPECT_EQ(second.reason, "X is at 7 mm, the setup begins at 0 mm");
+}
+
+TEST_F(MotionBackendTest, RefusesCommandsThatTheBackEndCannotCarryOut) {
+  EXPECT_EQ(refusal_of(CommandAction::FeedOverride, "", 0.5), "this machine has no feed_override");
+  EXPECT_EQ(refusal_of(CommandAction::RapidOverride, "", 0.5),
+            "this machine has no rapid_override");
+  EXPECT_EQ(refusal_of(CommandAction::SpindleOverride, "", 1.1),
+            "this machine has no spindle_override");
+  EXPECT_EQ(refusal_of(CommandAction::Switch, "single_block", 1),
+            "this machine has no single_block");
+  EXPECT_EQ(refusal_of(CommandAction::Switch, "optional_stop", 1), "");
+}
+
+TEST_F(MotionBackendTest, HoldsResumesAndAborts) {
+  shop.serves_text = false;
+  shop.push("O1", "X1\nEND\n");
+  ASSERT_TRUE(shop.start("O1").accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Hold)).accepted);
+  EXPECT_TRUE(shop.run_until([&] { return shop.status->execution == dds::Execution::FeedHold; }));
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
+  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
+  EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+}
+
+TEST(MotionChoice, NamesTheBackEndsItKnows) {
+  EXPECT_TRUE(check_motion("simulated"));
+  EXPECT_EQ(check_motion("real").error().what, "motion 'real' is not known: simulated");
+}
+
+TEST(MotionChoice, RefusesAnotherSpeedForAMachineInRealTime) {
+  machine::MotionCapabilities real;
+  EXPECT_TRUE(check_speed(real, Speed{1}));
+  EXPECT_FALSE(check_speed(real, Speed{100}));
+  EXPECT_FALSE(check_speed(real, Speed{std::nullopt}));
+  real.simulated_time = true;
+  EXPECT_TRUE(check_speed(real, Speed{100}));
+}
+
+}  // namespace
+}  // namespace dripline::gateway
