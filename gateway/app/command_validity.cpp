@@ -10,16 +10,16 @@ std::optional<std::string> CommandValidity::refusal(const dds::Command& command,
   using std::chrono::microseconds;
   if (command.deadline == microseconds{0} || command.server == 0 || command.session != session_) {
     return fmt::format(
-        "the order names no session and deadline: the server is older than protocol {}",
+        "the command names no session and deadline: the server is older than protocol {}",
         dds::kProtocolVersion);
   }
   const auto time = std::chrono::duration_cast<microseconds>(now.time_since_epoch());
   if (time > command.deadline) {
-    return fmt::format("the order came {:.1f} s after its deadline",
+    return fmt::format("the command came {:.1f} s after its deadline",
                        std::chrono::duration<double>(time - command.deadline).count());
   }
   if (command.server == server_ && command.number < last_stop_)
-    return "a later order has stopped the machine meanwhile";
+    return "a later command has stopped the machine meanwhile";
   return std::nullopt;
 }
 

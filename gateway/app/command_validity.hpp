@@ -9,18 +9,18 @@
 
 namespace dripline::gateway {
 
-/// May an order that moves something still be carried out? Judged by this gateway's steady clock
-/// and by the order's number alone: the time of day of two machines differs by whatever it likes.
-/// What stops is never asked about. One thread.
+/// Decides whether a command that moves something may still be carried out: by this gateway's
+/// steady clock and the command's number alone, because the time of day of two machines differs.
+/// Stops are always valid. One thread.
 class CommandValidity {
  public:
   /// `session`: of this gateway.
   explicit CommandValidity(std::uint64_t session) : session_(session) {}
 
-  /// Why it is refused; nothing when it holds.
+  /// Why it is refused; nothing when it is valid.
   std::optional<std::string> refusal(const dds::Command& command, SteadyTime now) const;
-  /// Orders that were given before this one and come after it move nothing any more: a repeated
-  /// resume must not undo a hold.
+  /// A command that was given before this one and arrives after it moves nothing any more: a
+  /// repeated resume must not undo a hold.
   void note_stop(const dds::Command& command);
 
  private:

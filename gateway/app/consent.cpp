@@ -5,7 +5,7 @@
 namespace dripline::gateway {
 namespace {
 
-/// Switching these off lets a machine run on where it would have stood.
+/// Switching these off lets a machine continue where it would have stopped.
 bool lets_run_on(const dds::Command& command, const machine::OperatorPanel& panel) {
   if (command.value != 0) return false;
   if (command.argument == "emergency_stop") return panel.emergency_stop;
@@ -23,7 +23,7 @@ bool needs_consent(const dds::Command& command, const machine::OperatorPanel& pa
     case CommandAction::Start:
     case CommandAction::Hold:
     case CommandAction::Abort:
-    case CommandAction::Refuse:  // is no order
+    case CommandAction::Refuse:  // not a command to the machine
       return false;
     case CommandAction::Switch:
       return lets_run_on(command, panel);

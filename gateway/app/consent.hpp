@@ -9,12 +9,12 @@
 
 namespace dripline::gateway {
 
-/// Whether an order from the network can let the machine move, move on or move faster, with the
-/// panel as it is. What stops or slows down needs nobody's consent; a start is not asked here: it
-/// is accepted and waits (Consent::await).
+/// Whether a command from the network can let the machine move, continue or move faster, with the
+/// panel as it is. A stop or a lower speed needs no consent. A start needs none here: it is
+/// accepted and waits (Consent::await).
 bool needs_consent(const dds::Command& command, const machine::OperatorPanel& panel);
 
-/// What the machine's side has agreed to. At an unattended machine everything; at any other the
+/// The consent of the operator at the machine. An unattended machine needs none; at any other the
 /// remote enable must have been given at its panel, else a run waits there for cycle start.
 class Consent {
  public:

@@ -9,7 +9,7 @@
 namespace dripline::gateway {
 namespace {
 
-constexpr std::size_t kMaxCells = dds::kMaxRecordText - 64;  ///< bytes of them in one text
+constexpr std::size_t kMaxCells = dds::kMaxRecordText - 64;  ///< bytes of cells in one text
 
 std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "null";
@@ -17,9 +17,8 @@ std::string number_text(double value) {
 
 }  // namespace
 
-ControlMemory::ControlMemory(report::Outbox& outbox) : outbox_(outbox) {
-  for (const auto& [name, kept] : outbox.memory())
-    cells_[name] = {kept, interpreter::Keeps::Always};
+ControlMemory::ControlMemory(report::KeptMemory& memory) : memory_(memory) {
+  for (const auto& [name, kept] : memory.cells()) cells_[name] = {kept, interpreter::Keeps::Always};
 }
 
 bool ControlMemory::is_in_force(const std::string& name, const report::KeptCell& kept) const {
@@ -33,7 +32,7 @@ Result<std::vector<interpreter::VariableRecord>> ControlMemory::begin(
     const interpreter::Setup& setup) {
   if (!fault().empty()) {
     return fail(Errc::Corrupt,
-                "{}: nothing begins with numbers that nobody knows. `dncgw panel ... "
+                "{}: nothing begins with unknown numbers. `dncgw panel ... "
                 "discard-memory` at the machine begins with what the setup gives, `dnc memory "
                 "restore` gives back what a run had left",
                 fault());
@@ -65,7 +64,7 @@ Result<std::vector<interpreter::VariableRecord>> ControlMemory::begin(
 
 Result<std::vector<interpreter::VariableRecord>> ControlMemory::at_beginning(
     const std::string& revision) const {
-  const report::Outbox::Beginning& beginning = outbox_.beginning();
+  const report::KeptMemory::Beginning& beginning = memory_.beginning();
   if (revision.empty() || beginning.revision != revision) {
     return fail(Errc::NotFound,
                 "memory as it was when the program began: the last run that began at its first "
@@ -81,16 +80,16 @@ Result<std::vector<interpreter::VariableRecord>> ControlMemory::at_beginning(
 }
 
 void ControlMemory::stage_beginning(const std::string& revision) {
-  report::Outbox::Beginning beginning{revision, {}};
+  report::KeptMemory::Beginning beginning{revision, {}};
   for (const auto& [name, cell] : cells_) {
     if (cell.keeps == interpreter::Keeps::Always) beginning.cells[name] = cell.kept;
   }
-  if (outbox_.beginning() != beginning) outbox_.stage_beginning(std::move(beginning));
+  if (memory_.beginning() != beginning) memory_.stage_beginning(std::move(beginning));
 }
 
 void ControlMemory::discard() {
   cells_.clear();
-  outbox_.stage_no_memory();
+  memory_.stage_none();
   has_unstaged_ = false;
   has_changed_ = true;
 }
@@ -103,14 +102,14 @@ void ControlMemory::note(std::size_t place, double value) {
 
 void ControlMemory::stage() {
   has_unstaged_ = false;
-  const auto& stored = outbox_.memory();
+  const auto& stored = memory_.cells();
   for (const auto& [name, cell] : cells_) {
     if (cell.keeps != interpreter::Keeps::Always) continue;
     const auto found = stored.find(name);
-    if (found == stored.end() || found->second != cell.kept) outbox_.stage_cell(name, cell.kept);
+    if (found == stored.end() || found->second != cell.kept) memory_.stage_cell(name, cell.kept);
   }
   for (const auto& [name, kept] : stored) {
-    if (!cells_.contains(name)) outbox_.stage_cell(name, std::nullopt);
+    if (!cells_.contains(name)) memory_.stage_cell(name, std::nullopt);
   }
 }
 
@@ -123,7 +122,7 @@ std::vector<std::string> ControlMemory::report() const {
     if (parts.empty() || parts.back().size() + entry.size() > kMaxCells) parts.emplace_back();
     parts.back() += (parts.back().empty() ? "" : ",") + entry;
   }
-  if (parts.empty()) parts.emplace_back();  // nothing any more is worth telling too
+  if (parts.empty()) parts.emplace_back();  // an empty memory is reported too
   for (std::size_t i = 0; i < parts.size(); ++i) {
     parts[i] =
         fmt::format("{{\"part\":{},\"parts\":{},\"cells\":{{{}}}}}", i + 1, parts.size(), parts[i]);

@@ -7,18 +7,18 @@
 
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/core/setup.hpp"
-#include "gateway/report/outbox.hpp"
+#include "gateway/report/kept_memory.hpp"
 
 namespace dripline::gateway {
 
-/// What the control of this machine keeps from one program to the next (retained_memory.hpp): the
-/// cells that programs have changed, each with what the setup gave it then. At a start the kept
+/// The memory that this machine's control keeps from one program to the next (retained_memory.hpp):
+/// the cells that programs have changed, each with what the setup gave it then. At a start the kept
 /// number wins, unless the setup now gives the cell something else, or names it as a variable and
-/// did not before: then whoever changed the setup meant it, and the cell begins as the setup says.
+/// did not before: that change of the setup was intended, and the cell begins with its value.
 /// What the control keeps for good is in the outbox and outlives the process. One thread.
 class ControlMemory {
  public:
-  explicit ControlMemory(report::Outbox& outbox);
+  explicit ControlMemory(report::KeptMemory& memory);
 
   /// A program begins under `setup`, which alone gives `cells` the numbers `base`. Returns what it
   /// is to be given besides. Errors: Corrupt (what was kept is damaged or lost).
@@ -30,11 +30,12 @@ class ControlMemory {
   Result<std::vector<interpreter::VariableRecord>> at_beginning(const std::string& revision) const;
   /// After `begin`: stages what a start in the middle of this revision may ask for later.
   void stage_beginning(const std::string& revision);
-  /// Stages that nothing is kept any more, and that this is well.
+  /// Stages an empty memory without a fault.
   void discard();
   /// Why nothing can begin; empty: it can.
-  const std::string& fault() const { return outbox_.memory_fault(); }
-  /// The machine has executed a block that changed a cell (its place among those of `begin`).
+  const std::string& fault() const { return memory_.fault(); }
+  /// The machine has executed a block that changed a cell (`cell`: its index among those of
+  /// `begin`).
   void note(std::size_t cell, double value);
 
   /// Stages what the outbox does not have yet, to go to disk with its next commit.
@@ -54,12 +55,12 @@ class ControlMemory {
   /// Whether the setup, as it is now, leaves the cell as it was kept.
   bool is_in_force(const std::string& name, const report::KeptCell& kept) const;
 
-  report::Outbox& outbox_;
+  report::KeptMemory& memory_;
   std::map<std::string, Cell> cells_;
-  std::vector<interpreter::MemoryCell> known_;  ///< of the program that runs, or the last one
-  std::unordered_map<std::string, std::size_t> places_;  ///< of their names
+  std::vector<interpreter::MemoryCell> known_;  ///< of the present program, or the last one
+  std::unordered_map<std::string, std::size_t> places_;  ///< index by name
   std::vector<double> base_;
-  std::map<std::string, bool> named_;  ///< variables of its setup
+  std::map<std::string, bool> named_;  ///< variables of the program's setup
   bool has_unstaged_ = false, has_changed_ = false;
 };
 

@@ -8,9 +8,10 @@ namespace dripline::gateway {
 
 using dds::RecordKind;
 
-void ExecutionRecorder::begin(const report::ActiveRun& run, std::function<Supply()> supply) {
+void ExecutionRecorder::begin(const report::ActiveRun& run,
+                              std::function<FeedProgress()> feed_progress) {
   run_ = run.run;
-  supply_ = std::move(supply);
+  feed_progress_ = std::move(feed_progress);
   reached_ = counted_ = {};
   outputs_ = 0;
   is_between_blocks_ = true;
@@ -26,20 +27,41 @@ void ExecutionRecorder::begin(const report::ActiveRun& run, std::function<Supply
 }
 
 void ExecutionRecorder::end(dds::RunEndText end) {
-  const Supply supply = supply_();
-  reached_.sent = supply.sent;
-  reached_.accepted = supply.accepted;
+  const FeedProgress now = feed_progress_();
+  reached_.sent = now.sent;
+  reached_.accepted = now.accepted;
+  append_end(std::move(end));
+}
+
+void ExecutionRecorder::end_interrupted(const std::string& run, const report::Progress& progress,
+                                        const std::vector<std::string>& memory) {
+  run_ = run;
+  reached_ = progress;
+  for (const std::string& text : memory) note_memory(text);
+  dds::RunEndText end;
+  end.outcome = dds::RunOutcome::Interrupted;
+  end.reason = "the gateway was cut off";
+  append_end(std::move(end));
+  run_.clear();
+}
+
+/// The counters and the place are those that were reached.
+void ExecutionRecorder::append_end(dds::RunEndText end) {
   end.sent = reached_.sent;
   end.accepted = reached_.accepted;
   end.executed = reached_.executed;
   end.line = reached_.line;
   end.sequence = reached_.sequence;
+  append(reached_origin(), {RecordKind::RunEnded, {}, dds::encode(end)});
+  parts_.outbox.end_run();
+}
+
+interpreter::Origin ExecutionRecorder::reached_origin() const {
   interpreter::Origin origin;
   origin.block = reached_.executed;
   origin.line = reached_.line;
   origin.sequence = reached_.sequence;
-  append(origin, {RecordKind::RunEnded, {}, dds::encode(end)});
-  parts_.outbox.end_run();
+  return origin;
 }
 
 void ExecutionRecorder::finish() {
@@ -64,15 +86,15 @@ void ExecutionRecorder::count() {
 }
 
 void ExecutionRecorder::on_block_executed(const interpreter::Origin& origin) {
-  const Supply supply = supply_();
-  reached_ = {supply.sent, supply.accepted, origin.block,
-              origin.line, origin.sequence, origin.offset};
+  const FeedProgress feed_progress = feed_progress_();
+  reached_ = {feed_progress.sent, feed_progress.accepted, origin.block,
+              origin.line,        origin.sequence,        origin.offset};
   is_between_blocks_ = true;
   if (!parts_.outbox.has_staged_records()) {
     parts_.execution_probe.begin(reached_.executed, outputs_);
     count();
   } else if (parts_.outbox.staged_records() >= kMaxBatch && fault_.empty()) {
-    (void)commit();  // a failure is kept in trouble()
+    (void)commit();  // a failure is kept in fault()
   }
 }
 
@@ -129,7 +151,7 @@ void ExecutionRecorder::on_probed(const interpreter::Probe& probe) {
 
 void ExecutionRecorder::on_stop(const interpreter::Stop& stop) {
   const std::string_view text = to_text(stop.kind);
-  // Of the latest stop: an earlier one, such as a tool change that did not wait, is over.
+  // Only the latest stop applies: an earlier one, such as a tool change without a wait, is over.
   notice_ = std::string(text);
   if (!message_.empty()) notice_ += ": " + message_;
   append(stop.origin, {RecordKind::Stop, {}, std::string(text)});
@@ -153,11 +175,7 @@ void ExecutionRecorder::note_emergency_stop(const interpreter::Origin& origin) {
 }
 
 void ExecutionRecorder::note_memory(const std::string& text) {
-  interpreter::Origin origin;
-  origin.block = reached_.executed;
-  origin.line = reached_.line;
-  origin.sequence = reached_.sequence;
-  append(origin, {RecordKind::Message, kMemoryDevice, text});
+  append(reached_origin(), {RecordKind::Message, kMemoryDevice, text});
 }
 
 void ExecutionRecorder::note_at_panel(const interpreter::Origin& origin, const std::string& text) {

@@ -13,10 +13,10 @@
 
 namespace dripline::gateway {
 
-/// Writes down what the machine has done, in the order that makes the executed counter exact:
-/// a block that reported something counts as executed only when its records are committed. Reports
+/// Records what the machine has done, in the sequence that makes the executed counter exact:
+/// a block that reported something is executed only when its records are committed. Reports
 /// without motion between them share one commit; before the next motion they are on disk.
-/// While a commit fails (a full disk) nothing counts, and nothing is lost: `commit` tries again.
+/// While a commit fails (a full disk) the counter waits, and nothing is lost: `commit` tries again.
 /// One thread: the machine's owner.
 class ExecutionRecorder final : public machine::ExecutionSink {
  public:
@@ -26,31 +26,34 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     report::RunJournal& journal;
     ExecutionProbe& execution_probe;
     const Clock& clock;
-    /// What is printed at a device, besides being recorded; may be empty.
+    /// Receives what is printed at a device, besides the record; may be empty.
     std::function<void(const interpreter::Output&)> on_output = {};
   };
   explicit ExecutionRecorder(const Parts& parts) : parts_(parts) {}
 
-  /// The other two counters, asked for when a block counts as executed.
-  struct Supply {
+  /// The other two counters, read when a block is executed.
+  struct FeedProgress {
     std::uint64_t sent = 0, accepted = 0;
   };
   /// A new run; its RunStarted record is staged, not committed.
-  void begin(const report::ActiveRun& run, std::function<Supply()> supply);
+  void begin(const report::ActiveRun& run, std::function<FeedProgress()> feed_progress);
   /// Stages the run's end; its counters and place are filled in here. To be followed by `commit`
   /// until that succeeds; then `finish`.
   void end(dds::RunEndText end);
   void finish();
+  /// Stages the end of a run that a former process was executing, after what the control had kept.
+  void end_interrupted(const std::string& run, const report::Progress& progress,
+                       const std::vector<std::string>& memory);
 
-  /// Commits what is staged, and counts it. Errors: those of the outbox.
+  /// Commits what is staged, and advances the counter. Errors: those of the outbox.
   Result<void> commit();
   /// Why the last commit failed; empty when it did not.
-  const std::string& trouble() const { return fault_; }
+  const std::string& fault() const { return fault_; }
   /// At a block's end (records of half a block are not yet committed).
   bool is_between_blocks() const { return is_between_blocks_; }
   const report::Progress& executed() const { return counted_; }
 
-  /// What happened since the last call of `take_...`.
+  /// The probe that has ended since the last call.
   std::optional<interpreter::Probe> take_probed() { return std::exchange(probed_, std::nullopt); }
   const std::optional<interpreter::Diagnostic>& alarm() const { return alarm_; }
   bool has_ended() const { return has_ended_; }
@@ -74,12 +77,12 @@ class ExecutionRecorder final : public machine::ExecutionSink {
   void on_alarm(const interpreter::Alarm& alarm) override;
   void on_end(const interpreter::End& end) override;
   void on_aborted() override;
-  /// The operator pressed it while the block of `origin` was executed.
+  /// The operator pressed the emergency stop while the block of `origin` was executed.
   void note_emergency_stop(const interpreter::Origin& origin);
-  /// Done at the machine's panel, with a run or without.
+  /// Something was done at the machine's panel, with a run or without.
   void note_at_panel(const interpreter::Origin& origin, const std::string& text);
 
-  /// What the control keeps: a message of a device of its own, JSON.
+  /// The memory of the control, JSON: a message with a device name of its own.
   void note_memory(const std::string& text);
   static constexpr const char* kMemoryDevice = "memory";
 
@@ -91,11 +94,13 @@ class ExecutionRecorder final : public machine::ExecutionSink {
     std::string device, text;
   };
   void append(const interpreter::Origin& origin, Report report);
+  void append_end(dds::RunEndText end);
+  interpreter::Origin reached_origin() const;
   void count();
 
   Parts parts_;
   std::string run_;
-  std::function<Supply()> supply_;
+  std::function<FeedProgress()> feed_progress_;
   report::Progress reached_;  ///< by the machine
   report::Progress counted_;  ///< in journal and outbox
   std::uint64_t outputs_ = 0;

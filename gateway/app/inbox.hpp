@@ -17,19 +17,19 @@ struct ServerSeen {
 struct StopRequested {
   int signal = 0;
 };
-/// The line has something to be taken.
+/// The line has items for `take`.
 struct LineChanged {};
 using Incoming = std::variant<dds::Command, dds::RecordAck, dds::BlockData, ServerSeen,
                               StopRequested, LineChanged, PanelRequest>;
 
-/// Where other threads leave what the gateway's own thread does. Bounded: program text and orders
-/// beyond the bound are dropped, and both are sent again by whoever misses the answer. Requests of
+/// Messages from other threads to the gateway's own thread. Bounded: program text and commands
+/// beyond the bound are dropped; their sender repeats them when the answer is missing. Requests of
 /// the machine's panel are never dropped; the panel bounds them itself.
 class Inbox {
  public:
-  /// Any thread; never waits.
+  /// Called from any thread; never waits.
   void post(Incoming incoming);
-  /// The owner: everything posted so far; waits until there is something, or `deadline`.
+  /// For the owner: everything posted so far; waits until there is something, or until `deadline`.
   std::vector<Incoming> take(SteadyTime deadline);
 
   static constexpr std::size_t kMaxBlocks = 160;  ///< of at most 32 KiB each

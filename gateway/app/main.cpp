@@ -10,14 +10,13 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/motion_choice.hpp"
-#include "gateway/app/no_server.hpp"
 #include "gateway/app/panel_socket.hpp"
-#include "gateway/app/setup_line.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
 #include "protocol/process/open_files.hpp"
+#include "protocol/process/settings_reader.hpp"
 #include "protocol/process/stop_signals.hpp"
 
 namespace dripline::gateway {
@@ -26,21 +25,34 @@ namespace {
 constexpr int kExitUsage = 2;
 constexpr std::chrono::seconds kFarewell{2};  ///< for the last records to be acknowledged
 
-/// Turns SIGTERM and SIGINT into a message, SIGHUP into a log file opened anew. All threads have
-/// them blocked, so only this one gets them.
+/// The endpoint of a gateway with a line alone: its outbox keeps what a server would get.
+class NoServer final : public dds::GatewayEndpoint {
+ public:
+  Result<void> write(const dds::Announce&) override { return {}; }
+  Result<void> write(const dds::Status&) override { return {}; }
+  Result<void> write(const dds::Record&) override { return {}; }
+  Result<void> write(const dds::CommandResult&) override { return {}; }
+  Result<void> write(const dds::BlockRequest&) override { return {}; }
+  bool is_connected() const override { return false; }
+  dds::Rejected rejected() const override { return {}; }
+};
+
+/// Turns SIGTERM and SIGINT into a message, SIGHUP into a reopened log file. All threads block
+/// them, so only this one gets them.
 class SignalWatch {
  public:
   SignalWatch(Inbox& inbox, const sigset_t& signals)
       : thread_([&inbox, signals] {
           int signal = 0;
-          // Without a log file a hang-up is the end, as of any program whose terminal is gone.
+          // Without a log file a hang-up ends the process, as it ends any program without a
+          // terminal.
           do {
             if (::sigwait(&signals, &signal) != 0) return;
           } while (signal == SIGHUP && process::reopen_log());
           inbox.post(StopRequested{signal});
         }) {}
   ~SignalWatch() {
-    ::pthread_kill(thread_.native_handle(), SIGTERM);  // ends the wait; nobody reads it any more
+    ::pthread_kill(thread_.native_handle(), SIGTERM);  // ends the wait; the message is not read
     thread_.join();
   }
   SignalWatch(const SignalWatch&) = delete;
@@ -73,13 +85,12 @@ std::uint64_t new_session() {
   return random_number() | 1;  // never zero
 }
 
-/// Runs until a stop is asked for; then gives the records some time to be acknowledged.
+/// Runs until a stop is requested; then gives the records some time to be acknowledged.
 Result<void> serve(Gateway& gateway, Inbox& inbox, const Clock& clock, bool has_server) {
   std::optional<SteadyTime> farewell;
   SteadyTime next = clock.steady_now();
   for (;;) {
-    for (Incoming& incoming : inbox.take(next))
-      gateway.receive(std::move(incoming), clock.steady_now());
+    for (const Incoming& incoming : inbox.take(next)) gateway.receive(incoming, clock.steady_now());
     if (gateway.stop_requested() && !farewell) {
       farewell = clock.steady_now() + kFarewell;
       if (const auto done = gateway.interrupt_run("the gateway was stopped"); !done) return done;
@@ -114,16 +125,17 @@ Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& optio
                                    .wake = [&inbox] { inbox.post(LineChanged{}); }});
 }
 
-/// A folder that has a journal had an outbox too, and in it what the control has kept.
+/// A folder with a journal had an outbox too, and in it the memory of the control.
 Result<report::Outbox> open_outbox(const StateFolder& folder) {
   std::error_code error;
   const bool is_lost = !std::filesystem::exists(folder.outbox(), error) &&
                        std::filesystem::exists(folder.journal(), error);
   auto outbox = report::Outbox::open(folder.outbox());
   if (!outbox || !is_lost) return outbox;
-  spdlog::error("{} is gone, and with it what was not delivered yet", folder.outbox().string());
-  outbox->stage_memory_fault("what the control has kept is lost with the file " +
-                             folder.outbox().filename().string());
+  spdlog::error("{} is gone, and with it the records that were not delivered",
+                folder.outbox().string());
+  outbox->memory().stage_fault("what the control has kept is lost with the file " +
+                               folder.outbox().filename().string());
   if (const auto done = outbox->commit(); !done) return fail(done.error());
   return outbox;
 }
@@ -162,8 +174,17 @@ Result<void> run(const GatewayOptions& options) {
       options.state, [&](PanelRequest request) { inbox.post(std::move(request)); });
   if (!panel) return fail(panel.error());
   const SignalWatch watch(inbox, signals);
-  Gateway gateway({options, **dialect, std::move(*setup), **endpoint, *outbox, *journal,
-                   *execution_probe, clock, *std::move(motion), new_session(), line->get()});
+  Gateway gateway({.options = options,
+                   .dialect = **dialect,
+                   .setup = std::move(*setup),
+                   .endpoint = **endpoint,
+                   .outbox = *outbox,
+                   .journal = *journal,
+                   .execution_probe = *execution_probe,
+                   .clock = clock,
+                   .make_motion = *std::move(motion),
+                   .session = new_session(),
+                   .line = line->get()});
   if (const auto done = gateway.recover(); !done) return done;
   spdlog::info(
       "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",
@@ -174,44 +195,24 @@ Result<void> run(const GatewayOptions& options) {
   return done;
 }
 
-/// Declares the table's rows; what was given on the command line is put into `given`.
-void declare(CLI::App& app, std::vector<std::pair<const OptionRow*, std::string>>& given) {
-  for (const OptionRow& row : option_rows()) {
-    auto* option = app.add_option_function<std::string>(
-        "--" + std::string(row.key),
-        [&given, &row](const std::string& value) { given.emplace_back(&row, value); },
-        fmt::format("{} [{}]", row.text, row.fallback));
-    option->type_name(std::string(row.type));
-    if (row.may_repeat) option->join('\n');
-  }
-}
-
-Result<void> configure(const std::string& file,
-                       const std::vector<std::pair<const OptionRow*, std::string>>& given,
+Result<void> configure(const process::SettingsReader& reader, const std::string& file,
                        GatewayOptions& options) {
   if (!file.empty()) {
-    const auto text = read_text(file);
-    if (!text) return fail(text.error());
-    if (const auto done = apply_config(*text, options); !done)
-      return fail(done.error().code, "{}: {}", file, done.error().what);
+    if (const auto done = reader.read_file(file); !done) return done;
   }
-  for (const auto& [row, value] : given) {
-    if (const auto done = row->set(options, value); !done)
-      return fail(done.error().code, "--{}: {}", row->key, done.error().what);
-  }
+  if (const auto done = reader.apply_command_line(); !done) return done;
   return complete(options);
 }
 
-/// dncgw panel [--machine NAME | --state FOLDER] VERB [ARGUMENT]: what is done at the machine.
+/// dncgw panel [--machine NAME | --state FOLDER] VERB [ARGUMENT].
 int panel_main(int argc, char** argv) {
-  CLI::App app(
-      "What is done at a machine's own panel: by hand, or by a button box wired to this computer.",
-      "dncgw panel");
+  CLI::App app("Operate a machine's own panel: by hand, or by a button box wired to this computer.",
+               "dncgw panel");
   std::string machine, state;
   std::vector<std::string> words;
   app.add_option("--machine", machine, "The machine whose gateway runs here");
   app.add_option("--state", state, "Its gateway's state folder [STATE/gateways/MACHINE]");
-  app.add_option("VERB", words, "What is done, with its argument")->required();
+  app.add_option("VERB", words, "Action at the panel, with its argument")->required();
   app.footer("Verbs:\n" + panel_verbs() +
              "\nThe same lines are understood at the socket `panel` in the state folder, one "
              "answer line each.\nExit status: 0 done, 1 refused or no gateway there, 2 wrong "
@@ -251,28 +252,27 @@ int panel_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "panel") return panel_main(argc - 1, argv + 1);
-  CLI::App app("The gateway of one machine: runs the programs that a Dripline server feeds it.",
-               "dncgw");
+  CLI::App app("Run the programs that a Dripline server feeds to one machine.", "dncgw");
   app.set_version_flag("--version", "dncgw " DRIPLINE_VERSION);
   std::string file;
-  std::vector<std::pair<const OptionRow*, std::string>> given;
-  app.add_option("--config", file, "TOML file with the same keys; the command line goes first")
+  GatewayOptions options;
+  process::SettingsReader reader(option_rows(), options);
+  app.add_option("--config", file, "TOML file with the same keys; the command line wins")
       ->type_name("file");
-  declare(app, given);
+  reader.declare(app);
   app.footer(
-      "dncgw panel --help: what is done at the machine itself.\n"
-      "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not go on, 2 wrong usage.");
+      "dncgw panel --help: actions at the machine itself.\n"
+      "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not continue, 2 wrong usage.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kExitUsage;
   }
-  GatewayOptions options;
-  if (const auto done = configure(file, given, options); !done) {
+  if (const auto done = configure(reader, file, options); !done) {
     std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return kExitUsage;
   }
-  ::umask(S_IRWXG | S_IRWXO);  // reports, programs and the log are the owner's alone
+  ::umask(S_IRWXG | S_IRWXO);  // only the owner reads reports, programs and the log
   const process::LogOptions log{.file = options.log ? options.log->string() : "",
                                 .level = options.log_level,
                                 .max_mb = options.log_mb,

@@ -1,37 +1,19 @@
 #include "gateway/app/options.hpp"
 
-#include <toml++/toml.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 
+#include "gateway/app/motion_choice.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/control_version.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/state_location.hpp"
+#include "protocol/process/settings_reader.hpp"
 #include "protocol/wire/tnc_parameters.hpp"
 
 namespace dripline::gateway {
 namespace {
-
-template <class Number>
-Result<Number> number(std::string_view text, Number low, Number high) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    return fail(Errc::Syntax, "'{}' is not a number from {} to {}", text, low, high);
-  if (value < low || value > high)
-    return fail(Errc::LimitExceeded, "{} is not from {} to {}", text, low, high);
-  return value;
-}
-
-Result<void> set_number(std::uint32_t& to, std::string_view text, std::uint32_t low,
-                        std::uint32_t high) {
-  const auto value = number<std::uint32_t>(text, low, high);
-  if (!value) return fail(value.error());
-  to = *value;
-  return {};
-}
 
 using Options = GatewayOptions;
 
@@ -40,182 +22,181 @@ LineOptions& line_of(Options& options) {
   return *options.line;
 }
 
+Result<void> set_machine(Options& options, std::string_view name) {
+  options.machine = name;
+  return check_machine_name(name);
+}
+
+Result<void> set_server(Options& options, std::string_view address) {
+  options.network.server = address;
+  options.has_server = address != "none";
+  return {};
+}
+
+Result<void> set_motion(Options& options, std::string_view name) {
+  options.motion = name;
+  return check_motion(name);
+}
+
+Result<void> set_speed(Options& options, std::string_view text) {
+  const auto speed = parse_speed(text);
+  if (!speed) return fail(speed.error());
+  options.speed = *speed;
+  return {};
+}
+
+Result<void> set_description(Options& options, std::string_view text) {
+  options.description = text.substr(0, 256);
+  return {};
+}
+
+Result<void> set_log_level(Options& options, std::string_view level) {
+  constexpr std::array<std::string_view, 5> kLevels{"trace", "debug", "info", "warn", "error"};
+  if (std::ranges::find(kLevels, level) == kLevels.end())
+    return fail(Errc::Syntax, "'{}' is not one of trace, debug, info, warn, error", level);
+  options.log_level = level;
+  return {};
+}
+
+template <std::string LineOptions::*member>
+Result<void> set_line(Options& options, std::string_view text) {
+  line_of(options).*member = text;
+  return {};
+}
+
+Result<void> set_line_buffer(Options& options, std::string_view text) {
+  const auto bytes = process::parse_number(text, 256, 16 * 1024 * 1024);
+  if (!bytes) return fail(bytes.error());
+  line_of(options).buffer_bytes = *bytes;
+  return {};
+}
+
+Result<void> set_cycle_start_wait(Options& options, std::string_view text) {
+  const auto seconds = process::parse_number(text, 1, 86'400);
+  if (!seconds) return fail(seconds.error());
+  options.cycle_start_wait = std::chrono::seconds(*seconds);
+  return {};
+}
+
+using process::number_value;
+using process::text_value;
+using process::Written;
+using process::yes_no_value;
+using Network = dds::NetworkOptions;
+constexpr auto kNetwork = &Options::network;
+
 constexpr std::array kRows{
-    OptionRow{"machine", "name", "", "(required)", "name of the machine, as orders call it",
-              [](Options& o, std::string_view v) {
-                o.machine = v;
-                return check_machine_name(v);
-              }},
-    OptionRow{"control", "name", "", "(required)", "control family whose programs it runs",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.control = v;
-                return {};
-              }},
+    OptionRow{"machine",
+              "name",
+              "",
+              "(required)",
+              "Name of the machine, as commands use it",
+              {Written::Text, set_machine}},
+    OptionRow{"control", "name", "", "(required)", "Control family whose programs it runs",
+              text_value<&Options::control>()},
     OptionRow{"state", "folder", "", "STATE/gateways/MACHINE",
-              "where records and counters are kept; one gateway at a time",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.state = v;
-                return {};
-              }},
-    OptionRow{"server", "host[:port]", "", "127.0.0.1",
-              "where the server listens for gateways; none: without a server, on a line alone",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.network.server = v;
-                o.has_server = v != "none";
-                return {};
-              }},
-    OptionRow{
-        "dds-domain", "number", "", "0", "DDS domain, 0 to 230, the same as the server's",
-        [](Options& o, std::string_view v) { return set_number(o.network.domain, v, 0, 230); }},
-    OptionRow{"dds-tag", "text", "", "(none)", "systems with different tags do not see each other",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.network.tag = v;
-                return {};
-              }},
-    OptionRow{"dds-interface", "name", "", "lo", "network interface, by name or address",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.network.interface = v;
-                return {};
-              }},
-    OptionRow{
-        "dds-open-network", "yes|no", "", "no",
-        "yes: DDS beyond this machine although it has no authentication; only on a network of "
-        "its own",
-        [](Options& o, std::string_view v) -> Result<void> {
-          if (v != "yes" && v != "no") return fail(Errc::Syntax, "'{}' is not yes or no", v);
-          o.network.is_open_network_allowed = v == "yes";
-          return {};
-        }},
-    OptionRow{"discovery-interval-ms", "number", "ms", "250", "between two looks for the server",
-              [](Options& o, std::string_view v) {
-                return set_number(o.network.discovery_interval_ms, v, 10, 60'000);
-              }},
-    OptionRow{"lease-ms", "number", "ms", "2000", "a server silent for so long is gone",
-              [](Options& o, std::string_view v) {
-                return set_number(o.network.lease_ms, v, 100, 600'000);
-              }},
-    OptionRow{"speed", "factor", "", "1x", "of the simulated machine: 1x, 100x, max",
-              [](Options& o, std::string_view v) -> Result<void> {
-                const auto speed = parse_speed(v);
-                if (!speed) return fail(speed.error());
-                o.speed = *speed;
-                return {};
-              }},
+              "Folder of records and counters; one gateway at a time",
+              text_value<&Options::state>()},
+    OptionRow{"server",
+              "host[:port]",
+              "",
+              "127.0.0.1",
+              "Address where the server listens for gateways; none: no server, a line alone",
+              {Written::Text, set_server}},
+    OptionRow{"dds-domain", "number", "", "", "DDS domain, 0 to 230, the same as the server's",
+              number_value<0, 230, kNetwork, &Network::domain>()},
+    OptionRow{"dds-tag", "text", "", "(none)", "Systems with different tags do not see each other",
+              text_value<kNetwork, &Network::tag>()},
+    OptionRow{"dds-interface", "name", "", "lo", "Network interface, by name or address",
+              text_value<kNetwork, &Network::interface>()},
+    OptionRow{"dds-open-network", "yes|no", "", "",
+              "yes: allow DDS beyond this machine although it has no authentication; only on a "
+              "network of its own",
+              yes_no_value<kNetwork, &Network::is_open_network_allowed>()},
+    OptionRow{"discovery-interval-ms", "number", "ms", "",
+              "Interval between two searches for the server",
+              number_value<10, 60'000, kNetwork, &Network::discovery_interval_ms>()},
+    OptionRow{"lease-ms", "number", "ms", "", "A server that is silent for longer is gone",
+              number_value<100, 600'000, kNetwork, &Network::lease_ms>()},
+    OptionRow{"motion",
+              "name",
+              "",
+              "simulated",
+              "Back end that moves the machine: simulated",
+              {Written::Text, set_motion}},
+    OptionRow{"speed",
+              "factor",
+              "",
+              "1x",
+              "Speed of the simulated machine: 1x, 100x, max",
+              {Written::TextOrNumber, set_speed}},
     OptionRow{"setup", "file", "", "(none)",
-              "what the control knows: offsets, tools, answers, the part a probe meets (TOML)",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.setup = v;
-                return {};
-              }},
-    OptionRow{"description", "text", "", "(none)", "for people, shown with the machine",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.description = std::string(v.substr(0, 256));
-                return {};
-              }},
-    OptionRow{"log", "file", "", "(standard error)", "log file",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.log = v;
-                return {};
-              }},
-    OptionRow{"log-mb", "number", "", "10",
-              "MB of the log file; then it is numbered and a new one begun",
-              [](Options& o, std::string_view v) { return set_number(o.log_mb, v, 1, 10'000); }},
-    OptionRow{"log-files", "number", "", "5", "numbered log files that are kept",
-              [](Options& o, std::string_view v) { return set_number(o.log_files, v, 0, 1000); }},
-    OptionRow{"log-level", "level", "", "info", "trace, debug, info, warn or error",
-              [](Options& o, std::string_view v) -> Result<void> {
-                for (const std::string_view known : {"trace", "debug", "info", "warn", "error"}) {
-                  if (v != known) continue;
-                  o.log_level = v;
-                  return {};
-                }
-                return fail(Errc::Syntax, "'{}' is none of trace, debug, info, warn, error", v);
-              }},
+              "Setup of the control: offsets, tools, answers, the part that a probe meets (TOML)",
+              text_value<&Options::setup>()},
+    OptionRow{"description",
+              "text",
+              "",
+              "(none)",
+              "Text for people, shown with the machine",
+              {Written::Text, set_description}},
+    OptionRow{"log", "file", "", "(standard error)", "Log file", text_value<&Options::log>()},
+    OptionRow{"log-mb", "number", "MB", "",
+              "Size of the log file; then it is numbered and a new one begins",
+              number_value<1, 10'000, &Options::log_mb>()},
+    OptionRow{"log-files", "number", "", "", "Numbered log files that are kept",
+              number_value<0, 1000, &Options::log_files>()},
+    OptionRow{"log-level",
+              "level",
+              "",
+              "info",
+              "Least level that is logged: trace, debug, info, warn or error",
+              {Written::Text, set_log_level}},
+    OptionRow{"line",
+              "address",
+              "",
+              "(none)",
+              "Serial line at whose end this machine's control is: a device, tcp://host:port or "
+              "rfc2217://host:port; programs then come from there",
+              {Written::Text, set_line<&LineOptions::address>}},
+    OptionRow{"line-template",
+              "name",
+              "",
+              "(the control's)",
+              "Settings of the line, as listed by dnc port templates",
+              {Written::Text, set_line<&LineOptions::template_name>}},
+    OptionRow{"line-setting",
+              "key=value",
+              "",
+              "(none)",
+              "Change one of the template's settings; repeat for more",
+              {Written::List, set_line<&LineOptions::changes>}},
+    OptionRow{"line-buffer",
+              "number",
+              "bytes",
+              "65536",
+              "Memory of the control for a program being fed: when it is full the host is held",
+              {Written::Number, set_line_buffer}},
     OptionRow{
-        "line", "address", "", "(none)",
-        "serial line at whose end this machine's control stands: a device, tcp://host:port or "
-        "rfc2217://host:port; programs then come from there",
-        [](Options& o, std::string_view v) -> Result<void> {
-          line_of(o).address = v;
-          return {};
-        }},
-    OptionRow{"line-template", "name", "", "(the control's)",
-              "the line's settings, as listed by dnc port templates",
-              [](Options& o, std::string_view v) -> Result<void> {
-                line_of(o).template_name = v;
-                return {};
-              }},
-    OptionRow{"line-setting", "key=value", "", "(none)",
-              "changes one of the template's settings; more than once for more",
-              [](Options& o, std::string_view v) -> Result<void> {
-                line_of(o).changes = v;
-                return {};
-              },
-              true},
-    OptionRow{"line-buffer", "number", "byte", "65536",
-              "the control's memory for a program being fed: when it is full the host is held",
-              [](Options& o, std::string_view v) -> Result<void> {
-                const auto bytes = number<std::size_t>(v, 256, 16 * 1024 * 1024);
-                if (!bytes) return fail(bytes.error());
-                line_of(o).buffer_bytes = *bytes;
-                return {};
-              }},
-    OptionRow{
-        "line-request", "name", "", "(none)",
-        "program the control asks its host for; next: whichever is next, after each run, as on a "
-        "HEIDENHAIN line by itself",
-        [](Options& o, std::string_view v) -> Result<void> {
-          line_of(o).request = v;
-          return {};
-        }},
+        "line-request",
+        "name",
+        "",
+        "(none)",
+        "Program that the control asks its host for; next: the next one, after each run, as a "
+        "HEIDENHAIN line always does",
+        {Written::Text, set_line<&LineOptions::request>}},
     OptionRow{"unattended", "yes|no", "", "yes; with --line no",
-              "whether the network alone may start the machine; no: its operator gives the remote "
+              "Whether the network alone may start the machine; no: its operator gives the remote "
               "enable, or cycle start, at its panel (dncgw panel --help)",
-              [](Options& o, std::string_view v) -> Result<void> {
-                if (v != "yes" && v != "no")
-                  return fail(Errc::Syntax, "'{}' is neither yes nor no", v);
-                o.unattended = v == "yes";
-                return {};
-              }},
-    OptionRow{"cycle-start-wait-s", "number", "s", "1800",
-              "a run that waits so long for cycle start at the machine is ended",
-              [](Options& o, std::string_view v) -> Result<void> {
-                const auto seconds = number<std::uint32_t>(v, 1, 86'400);
-                if (!seconds) return fail(seconds.error());
-                o.cycle_start_wait = std::chrono::seconds(*seconds);
-                return {};
-              }},
-    OptionRow{"execution_probe", "file", "", "(none)", "for tests: counts what was truly executed",
-              [](Options& o, std::string_view v) -> Result<void> {
-                o.execution_probe = v;
-                return {};
-              }},
+              yes_no_value<&Options::unattended>()},
+    OptionRow{"cycle-start-wait-s",
+              "number",
+              "s",
+              "1800",
+              "End a run that has waited this long for cycle start at the machine",
+              {Written::Number, set_cycle_start_wait}},
+    OptionRow{"execution_probe", "file", "", "(none)", "For tests: count what was executed",
+              text_value<&Options::execution_probe>()},
 };
-
-/// ["baud=9600", "parity=even"]: one a line.
-Result<std::string> lines_of(const toml::array& list) {
-  std::string lines;
-  for (const toml::node& entry : list) {
-    const auto* text = entry.as_string();
-    if (text == nullptr) return fail(Errc::Syntax, "expected a list of texts");
-    lines += text->get() + "\n";
-  }
-  return lines;
-}
-
-Result<std::string> text_of(const toml::node& node) {
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
-  if (const auto* list = node.as_array()) return lines_of(*list);
-  return fail(Errc::Syntax, "expected a text or a whole number");
-}
-
-const OptionRow* find_row(std::string_view key) {
-  for (const OptionRow& row : kRows) {
-    if (row.key == key) return &row;
-  }
-  return nullptr;
-}
 
 /// Without a name, the first made for this control; there may be none.
 Result<const wire::LineTemplate*> template_of(const LineOptions& line, std::string_view control) {
@@ -274,7 +255,7 @@ Result<Speed> parse_speed(std::string_view text) {
   const auto [end, error] = std::from_chars(factor.data(), factor.data() + factor.size(), value,
                                             std::chars_format::fixed);
   if (error != std::errc() || end != factor.data() + factor.size())
-    return fail(Errc::Syntax, "'{}' is no speed: 1x, 100x or max", text);
+    return fail(Errc::Syntax, "'{}' is not a speed: 1x, 100x or max", text);
   if (!(value > 0 && value <= 1e6))
     return fail(Errc::LimitExceeded, "speed {} is not above 0 and at most 1000000x", text);
   return Speed{value};
@@ -286,23 +267,7 @@ Result<void> check_speed(const machine::MotionCapabilities& machine, const Speed
 }
 
 Result<void> apply_config(std::string_view toml, GatewayOptions& options) {
-  toml::table table;
-  try {
-    table = toml::parse(toml);
-  } catch (const toml::parse_error& error) {
-    return fail(Errc::Syntax, "line {}: {}", error.source().begin.line, error.description());
-  }
-  for (const auto& [key, node] : table) {
-    const OptionRow* row = find_row(key.str());
-    if (row == nullptr) return fail(Errc::Syntax, "unknown key '{}'", key.str());
-    const auto text = text_of(node);
-    if (node.is_array() && !row->may_repeat)
-      return fail(Errc::Syntax, "{}: expected one value, not a list", key.str());
-    if (!text) return fail(Errc::Syntax, "{}: {}", key.str(), text.error().what);
-    if (const auto done = row->set(options, *text); !done)
-      return fail(done.error().code, "{}: {}", key.str(), done.error().what);
-  }
-  return {};
+  return process::SettingsReader(option_rows(), options).read_toml(toml);
 }
 
 Result<void> complete(GatewayOptions& options) {
@@ -337,6 +302,20 @@ Result<void> check_line(const GatewayOptions& options, const interpreter::Setup&
               "--line {} speaks heidenhain_bcc: {}; flow heidenhain (template tnc155) is its "
               "interface",
               options.line->address, version->lacks(tnc155::Feature::BlockwiseTransfer));
+}
+
+Result<wire::LineSettings> line_settings_of(const LineOptions& line,
+                                            const interpreter::Options& control) {
+  wire::LineSettings settings = line.settings;
+  const bool is_named = line.changes.find("tnc_heading=") != std::string::npos;
+  if (settings.flow != wire::Flow::HeidenhainBcc || is_named ||
+      control.find("heading_letter") == nullptr) {
+    return settings;
+  }
+  const auto letter = control.choice("heading_letter", {"%", "H"}, 0);
+  if (!letter) return fail(letter.error());
+  settings.heidenhain.heading = *letter == 0 ? '%' : 'H';
+  return settings;
 }
 
 }  // namespace dripline::gateway

@@ -11,6 +11,7 @@
 #include "gateway/machine/motion_backend.hpp"
 #include "protocol/base/result.hpp"
 #include "protocol/dds/endpoint.hpp"
+#include "protocol/process/settings_table.hpp"
 #include "protocol/wire/line_settings.hpp"
 
 namespace dripline::gateway {
@@ -30,7 +31,7 @@ struct LineOptions {
   std::string address;
   std::string template_name;    ///< empty: the first for this control, or "plain"
   std::string changes;          ///< key=value, one a line
-  wire::LineSettings settings;  ///< what the two above come to; made by `complete`
+  wire::LineSettings settings;  ///< the result of the two above; made by `complete`
   std::size_t buffer_bytes = 64 * 1024;
   std::string request;  ///< a program's name, or "next"; empty: the host begins
 };
@@ -48,36 +49,31 @@ struct GatewayOptions {
   std::uint32_t log_files = 5;
   std::string description;
   std::optional<LineOptions> line;
-  bool has_server = true;  ///< without one the gateway lives on its line alone
-  /// Nobody is at the machine: the network may start it. Left open: a simulated machine is, one
-  /// with a line is not; made by `complete`.
+  bool has_server = true;  ///< without one, programs come from the line alone
+  /// Whether the network alone may start the machine. `complete` makes the default: yes for a
+  /// simulated machine, no for one with a line.
   std::optional<bool> unattended;
   bool is_unattended = true;
-  std::chrono::seconds cycle_start_wait{1800};  ///< a run that nobody begins at the machine
+  std::chrono::seconds cycle_start_wait{1800};  ///< then a run without cycle start ends
 };
 
-/// One key of the configuration: the command line (--key), the TOML file and the help all read this
-/// table.
-struct OptionRow {
-  std::string_view key;
-  std::string_view type;
-  std::string_view unit;
-  std::string_view fallback;  ///< for people; the values themselves stand in GatewayOptions
-  std::string_view text;
-  Result<void> (*set)(GatewayOptions&, std::string_view value);
-  bool may_repeat = false;  ///< values are joined, one a line
-};
+using OptionRow = process::SettingRow<GatewayOptions>;
 std::span<const OptionRow> option_rows();
 
 /// Sets every key of a TOML text. Errors: Syntax (not TOML, an unknown key, a value that does not
 /// fit), naming the key.
 Result<void> apply_config(std::string_view toml, GatewayOptions& options);
 
-/// What is left out gets its default; what is required is checked. Errors: Syntax, NotFound (no
-/// home folder to put the state in, no such line template or setting), LimitExceeded.
+/// Makes the defaults that depend on other options, and checks what is required. Errors: Syntax,
+/// NotFound (no home folder to put the state in, no such line template or setting), LimitExceeded.
 Result<void> complete(GatewayOptions& options);
 /// Whether the control that the setup describes speaks the line's protocol: a TNC 151/155 E or V
 /// has no transfer blockwise. Errors: Unsupported; Syntax (the setup's).
 Result<void> check_line(const GatewayOptions& options, const interpreter::Setup& setup);
+
+/// The settings of the gateway's line where it is the control: the setup supplies what the line's
+/// own options leave open, such as a TNC's `heading_letter`. Errors: Syntax, naming the option.
+Result<wire::LineSettings> line_settings_of(const LineOptions& line,
+                                            const interpreter::Options& control);
 
 }  // namespace dripline::gateway

@@ -9,13 +9,13 @@
 
 namespace dripline::gateway {
 
-/// What an operator does at the machine's own panel. One line of the panel's protocol (README.md,
-/// "The panel").
+/// An action of the operator at the machine's own panel. One line of the panel's protocol
+/// (README.md, "The panel").
 struct PanelCommand {
   enum class Verb : std::uint8_t {
     Status,
     CycleStart,
-    RemoteEnable,  ///< value: 1 given, 0 taken back
+    RemoteEnable,  ///< value: 1 given, 0 withdrawn
     Hold,
     Abort,
     EmergencyStop,  ///< value: 1 pressed, 0 released
@@ -39,7 +39,7 @@ inline constexpr std::size_t kMaxPanelLine = 256;  ///< bytes, without its end
 /// printable UTF-8), LimitExceeded (too long).
 Result<PanelCommand> parse_panel_command(std::string_view line);
 
-/// As it came from the panel; `answer` is called once, from the gateway's thread, with one line
+/// A command of the panel; `answer` is called once, from the gateway's thread, with one line
 /// that begins with "ok" or "refused".
 struct PanelRequest {
   PanelCommand command;

@@ -70,7 +70,7 @@ struct Connection {
   std::uint64_t last_heard = 0;
 };
 
-/// Answers on their way from the gateway's thread; outlives the socket in requests still open.
+/// Answers from the gateway's thread that are not sent yet; requests keep it alive.
 struct Answers {
   std::mutex mutex;
   std::vector<std::pair<std::uint64_t, std::string>> waiting;
@@ -98,7 +98,8 @@ Result<Descriptor> listen_at(const std::filesystem::path& folder) {
   if (!address) return fail(address.error());
   Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket) return refused("socket");
-  ::unlinkat(*place, PanelSocket::kName, 0);  // a former process's; the folder is locked for us
+  ::unlinkat(*place, PanelSocket::kName,
+             0);  // left by a former process; this one has locked the folder
   if (::fchmod(*socket, S_IRUSR | S_IWUSR) != 0) return refused("mode");  // in force when bound
   if (::bind(*socket, generic(*address), sizeof *address) != 0) return refused("bind");
   if (::fchmodat(*place, PanelSocket::kName, S_IRUSR | S_IWUSR, 0) != 0) return refused("mode");
@@ -193,7 +194,7 @@ void PanelSocket::Server::take_answers() {
   }
   for (const auto& [id, line] : answers) {
     const auto found = connections_.find(id);
-    if (found == connections_.end()) continue;  // it went away
+    if (found == connections_.end()) continue;  // it was closed
     found->second.is_asking = false;
     reply(found->second, line);
     ask(id, found->second);  // its next line may be here already

@@ -9,11 +9,12 @@
 
 namespace dripline::gateway {
 
-/// The place where the machine's own panel is plugged in: a Unix socket `panel` in the gateway's
+/// The connection of the machine's own panel: a Unix socket `panel` in the gateway's
 /// state folder, open to its owner only (0600), never on the network. Lines of text in, one answer
 /// line for each (README.md, "The panel"). A thread of its own does the reading and writing.
-/// Bounded: kMaxConnections at a time, and the one that has been silent longest gives way to a new
-/// one, so that a stop is always heard; one open request each; kMaxPanelLine bytes a line.
+/// Bounded: kMaxConnections at a time, and a new one closes the one that has
+/// been silent longest, so that a stop is always heard; one open request each; kMaxPanelLine bytes
+/// a line.
 class PanelSocket {
  public:
   static constexpr std::size_t kMaxConnections = 8;

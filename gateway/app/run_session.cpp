@@ -41,7 +41,7 @@ Result<std::unique_ptr<RunSession>> RunSession::make(Parts parts,
   return session;
 }
 
-/// What the setup alone gives decides which of what was kept is given besides.
+/// The values of the setup alone decide which kept values are given in addition.
 Result<void> RunSession::give_memory(const Make& make, const interpreter::Setup& setup) {
   retained_ = dynamic_cast<interpreter::RetainedMemory*>(interpreter_.get());
   if (retained_ == nullptr) return {};
@@ -80,8 +80,8 @@ RunSession::RunSession(Parts parts, const interpreter::Setup& setup)
 std::size_t RunSession::fill(std::size_t max_blocks) {
   waits_ = Waits::ForMachine;
   if (is_over_) return 0;
-  if (has_question_ && !settle_question()) return 0;
-  forget_modes();
+  if (has_question_ && !resolve_question()) return 0;
+  drop_modes();
   std::size_t blocks = 0;
   while (blocks < max_blocks && parts_.machine.has_room()) {
     switch (interpreter_->step(1)) {
@@ -95,7 +95,7 @@ std::size_t RunSession::fill(std::size_t max_blocks) {
         return blocks;
       case StepState::NeedsAnswer:
         has_question_ = true;
-        if (!settle_question()) return blocks;
+        if (!resolve_question()) return blocks;
         break;
       case StepState::Ended:
       case StepState::Alarmed:
@@ -138,7 +138,7 @@ void RunSession::note_memory() {
     note_changes(interpreter_->origin().block);
 }
 
-/// They count when `block` has been executed.
+/// The changes take effect when `block` has been executed.
 void RunSession::note_changes(std::uint64_t block) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (is_unchanged(known_[i], cells_[i])) continue;
@@ -152,7 +152,7 @@ void RunSession::keep_memory(std::uint64_t executed) {
     parts_.memory.note(changes_.front().cell, changes_.front().value);
 }
 
-void RunSession::forget_modes() {
+void RunSession::drop_modes() {
   const std::uint64_t executing = parts_.machine.status().origin.block;
   while (modes_.size() > 1 && modes_[1].block <= executing) modes_.pop_front();
   while (frames_.size() > 1 && frames_[1].block <= executing) frames_.pop_front();
@@ -170,12 +170,12 @@ const std::optional<interpreter::CoordinateFrame>& RunSession::frame_at(std::uin
   return frames_[last].frame;
 }
 
-bool RunSession::settle_question() {
+bool RunSession::resolve_question() {
   const interpreter::Question question = interpreter_->question();
-  return std::visit([this](const auto& asked) { return settle(asked); }, question);
+  return std::visit([this](const auto& asked) { return resolve(asked); }, question);
 }
 
-bool RunSession::settle(const interpreter::ProbeQuestion& question) {
+bool RunSession::resolve(const interpreter::ProbeQuestion& question) {
   waits_ = Waits::ForMachine;
   if (!parts_.machine.capabilities().probing) {
     events_.refuse(question.probe.origin, "probe");
@@ -192,7 +192,7 @@ bool RunSession::settle(const interpreter::ProbeQuestion& question) {
   return give(*probed->result);
 }
 
-bool RunSession::settle(const interpreter::PromptQuestion&) {
+bool RunSession::resolve(const interpreter::PromptQuestion&) {
   if (!machine_rests()) return false;
   if (next_answer_ < setup_.answers.size()) {
     return give(interpreter::PromptAnswer{setup_.answers[next_answer_++]});
@@ -201,11 +201,11 @@ bool RunSession::settle(const interpreter::PromptQuestion&) {
   return false;
 }
 
-bool RunSession::settle(const interpreter::InputQuestion& question) {
+bool RunSession::resolve(const interpreter::InputQuestion& question) {
   return machine_rests() && give(parts_.machine.input(question.pin));
 }
 
-bool RunSession::settle(const interpreter::TimeQuestion&) {
+bool RunSession::resolve(const interpreter::TimeQuestion&) {
   return machine_rests() && give(setup_.date_time.value_or(local_time(parts_.clock.now())));
 }
 
@@ -240,7 +240,7 @@ void RunSession::size_feed(std::optional<double> speed_factor) {
   const interpreter::Origin& ahead = interpreter_->origin();
   const interpreter::Origin at = parts_.machine.status().origin;
   if (ahead.block == 0) return feed().set_consumption(0);
-  // Across a call or a jump back the distance in bytes says nothing; the last size stays.
+  // Across a call or a jump back the distance in bytes is no measure; the last size stays.
   if (ahead.program != at.program || ahead.offset <= at.offset || seconds <= 0) return;
   feed().set_consumption(static_cast<double>(ahead.offset - at.offset) / seconds);
 }

@@ -27,20 +27,20 @@ class RunSession {
     ExecutionRecorder& recorder;
     const Clock& clock;
     ControlMemory& memory;
-    /// The control's memory is given as it was when the run's revision began; what differs from now
-    /// counts when the first block is executed.
+    /// The program gets the control's memory of the last beginning of its revision; a difference
+    /// takes effect when the first block is executed.
     bool begins_with_former_memory = false;
   };
-  /// Errors: those of Dialect::make. Nothing has happened to the machine then.
+  /// Errors: those of Dialect::make. The machine is unchanged then.
   static Result<std::unique_ptr<RunSession>> make(Parts parts, const interpreter::Dialect& dialect,
                                                   const interpreter::Setup& setup);
 
-  /// Interprets while the machine has room and nothing is waited for; at most `max_blocks`.
-  /// Returns how many blocks that were.
+  /// Interprets up to `max_blocks` while the machine has room and no answer is awaited. Returns the
+  /// number of blocks.
   std::size_t fill(std::size_t max_blocks);
 
   enum class Waits { ForNothing, ForText, ForMachine, ForOperator };
-  /// What the interpreter waits for since the last `fill`.
+  /// The reason why the last `fill` ended.
   Waits waits() const { return waits_; }
   /// The operator's open question; only while ForOperator.
   std::string prompt() const;
@@ -51,13 +51,13 @@ class RunSession {
   feed::ProgramFeed& feed() { return *parts_.feed; }
   const feed::ProgramFeed& feed() const { return *parts_.feed; }
   std::uint64_t accepted() const { return interpreter_->blocks(); }
-  /// What `block` runs under.
+  /// The modes of `block`.
   const interpreter::ActiveModes& modes_at(std::uint64_t block) const;
-  /// How program coordinates lie while it runs; nothing when the control does not say.
+  /// The program's coordinate frame at that block; nothing when the control does not report it.
   const std::optional<interpreter::CoordinateFrame>& frame_at(std::uint64_t block) const;
-  /// Tells the control's memory what the blocks up to `executed` have changed.
+  /// Passes the changes of the blocks up to `executed` to the control's memory.
   void keep_memory(std::uint64_t executed);
-  /// Tells the feed how fast the program's bytes are used up, as far as that is known yet.
+  /// Sizes the feed by the rate at which the program's bytes are used up, as far as it is known.
   void size_feed(std::optional<double> speed_factor);
 
  private:
@@ -65,25 +65,26 @@ class RunSession {
   using Make =
       std::function<Result<std::unique_ptr<interpreter::Interpreter>>(const interpreter::Setup&)>;
   Result<void> give_memory(const Make& make, const interpreter::Setup& setup);
-  /// True: the interpreter can go on.
-  bool settle_question();
-  bool settle(const interpreter::ProbeQuestion& question);
-  bool settle(const interpreter::PromptQuestion& question);
-  bool settle(const interpreter::InputQuestion& question);
-  bool settle(const interpreter::TimeQuestion& question);
+  /// True: the interpreter can continue.
+  bool resolve_question();
+  bool resolve(const interpreter::ProbeQuestion& question);
+  bool resolve(const interpreter::PromptQuestion& question);
+  bool resolve(const interpreter::InputQuestion& question);
+  bool resolve(const interpreter::TimeQuestion& question);
   bool give(const interpreter::Answer& answer);
   bool machine_rests() const;
   void note_modes();
   void note_memory();
   void note_changes(std::uint64_t block);
-  void forget_modes();
+  void drop_modes();
 
   Parts parts_;
-  interpreter::Setup setup_;  ///< the answers in it are given here, not by the interpreter
+  interpreter::Setup setup_;  ///< its answers are given here, not by the interpreter
   std::size_t next_answer_ = 0;
   machine::CapabilityFilter events_;  ///< from the interpreter to the machine
   std::unique_ptr<interpreter::Interpreter> interpreter_;
-  interpreter::RetainedMemory* retained_ = nullptr;  ///< of it; null: its control keeps nothing
+  interpreter::RetainedMemory* retained_ =
+      nullptr;  ///< of the interpreter; null: its control keeps nothing
   struct Change {
     std::uint64_t block = 0;
     std::size_t cell = 0;

@@ -6,7 +6,7 @@
 #include "gateway/interpreter/core/event.hpp"
 #include "protocol/dds/record_text.hpp"
 
-/// What the interpreter's and machine's words are in records.
+/// The interpreter's and the machine's terms as records write them.
 namespace dripline::gateway {
 
 dds::ProbeText probe_text(const interpreter::Probe& probe);

@@ -9,15 +9,15 @@
 
 namespace dripline::gateway {
 
-/// With which memory of the control the part before a start in the middle is gone through, where
-/// that part changes what it has read before.
+/// The memory of the control under which the blocks before a start in the middle are read, where
+/// they change what they have read before.
 enum class StartMemory : std::uint8_t {
   Ask,    ///< an alarm, which names what would be lost
   Begin,  ///< as it was when the last run of the revision began at its first block
   Now,    ///< as it is
 };
 
-/// Where a run begins, as the order to start it says: "N120", "N120 pass=3 memory=begin"; empty:
+/// Where a run begins, as its start command states: "N120", "N120 pass=3 memory=begin"; empty:
 /// at the first block.
 struct StartArgument {
   std::string place;  ///< for the dialect to read
@@ -25,7 +25,7 @@ struct StartArgument {
   StartMemory memory = StartMemory::Ask;
   friend bool operator==(const StartArgument&, const StartArgument&) = default;
 };
-/// Errors: Syntax (something that is not known here: nothing is started then).
+/// Errors: Syntax (an unknown word; nothing is started then).
 Result<StartArgument> parse_start_argument(std::string_view text);
 
 }  // namespace dripline::gateway

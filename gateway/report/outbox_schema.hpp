@@ -55,7 +55,7 @@ CREATE TABLE memory (
 )sql"},
                                               storage::sqlite::Migration{3, "memory_seal", R"sql(
 -- The same as it was when the last run began at its program's first block: what a start in the
--- middle of that program rests on.
+-- middle of that program begins with.
 CREATE TABLE memory_beginning (
   name     TEXT PRIMARY KEY,
   value    TEXT,

@@ -5,7 +5,7 @@
 
 namespace dripline::report {
 
-/// How far a run has come: the three counters, and where the block executed last is.
+/// The progress of a run: the three counters, and the place of the block executed last.
 struct Progress {
   std::uint64_t sent = 0;      ///< bytes of the program received
   std::uint64_t accepted = 0;  ///< blocks interpreted
@@ -16,7 +16,7 @@ struct Progress {
   friend bool operator==(const Progress&, const Progress&) = default;
 };
 
-/// The run this gateway is busy with, as it was ordered.
+/// The active run, as it was started.
 struct ActiveRun {
   std::string run, program, revision, control;
   std::uint64_t size = 0;

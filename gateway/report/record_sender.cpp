@@ -25,9 +25,9 @@ void RecordSender::on_ack(const dds::RecordAck& ack, SteadyTime now) {
   const bool is_decided = foreign_acks_ >= options_.foreign_acks;  // poll begins a new epoch
   if (ack.epoch != outbox_.epoch() || is_decided) return;
   const std::uint64_t before = outbox_.acknowledged();
-  // A server that names, again and again, less than another one confirmed has another past than we
-  // have. One that names a number we never gave even has records of ours that we have lost: waiting
-  // until our numbers reach it would make it confirm records it never saw.
+  // A server that repeatedly names less than another one confirmed has another history than ours.
+  // One that names a number we never gave has records of ours that we have lost: waiting until our
+  // numbers reach it would make it confirm records it never received.
   const bool is_ahead = ack.number > outbox_.last_number();
   const bool is_foreign = is_ahead || ack.number < before;
   foreign_acks_ = is_ahead ? options_.foreign_acks : is_foreign ? foreign_acks_ + 1 : 0;

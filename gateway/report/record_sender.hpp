@@ -12,12 +12,12 @@
 namespace dripline::report {
 
 struct SenderOptions {
-  /// Records sent and not acknowledged, at most; well below what the network holds for a live peer.
+  /// Records sent and not acknowledged; well below what the network holds for a live peer.
   std::uint64_t window = 128;
   std::chrono::milliseconds retry{
       500};  ///< silence after which all of them are sent again; doubles
   std::chrono::milliseconds max_retry{5000};
-  std::chrono::milliseconds busy{5};  ///< before trying again what the network did not take
+  std::chrono::milliseconds busy{5};  ///< before a repetition of what the network did not take
   std::chrono::milliseconds flush{1000};
   int foreign_acks = 3;  ///< in a row that name less than was acknowledged before: a new epoch
 };

@@ -13,7 +13,7 @@
 namespace dripline::report {
 namespace {
 
-/// Where things are in a slot, in words of 8 bytes.
+/// The layout of a slot, in words of 8 bytes.
 enum Place : std::size_t {
   kRun = 0,
   kSent = 5,
@@ -26,7 +26,7 @@ enum Place : std::size_t {
   kChecksum,
 };
 
-/// Not against malice: against words of two different generations in one slot.
+/// Detects words of two different generations in one slot, not malice.
 template <class Slot>
 std::uint64_t checksum_of(const Slot& slot) {
   std::uint64_t sum = 0x9e3779b97f4a7c15ULL;
@@ -125,7 +125,7 @@ void RunJournal::store() {
   next[kOffset] = progress_.offset;
   next[kGeneration] = ++generation_;
   next[kChecksum] = checksum_of(next);
-  // The other slot holds the entry before; nothing of this one may move ahead of it or after.
+  // The other slot holds the entry before; no store of this one may be reordered across it.
   std::atomic_signal_fence(std::memory_order_seq_cst);
   std::memcpy((*pages_)[generation_ % 2].data(), next.data(), sizeof(Slot));
   std::atomic_signal_fence(std::memory_order_seq_cst);

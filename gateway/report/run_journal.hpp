@@ -11,14 +11,14 @@
 
 namespace dripline::report {
 
-/// The counters of the run at work, written at every executed block into a memory-mapped file: a
+/// The counters of the active run, written at every executed block into a memory-mapped file: a
 /// few stores, no system call, and yet what was written survives the end of the process at any
 /// instruction, because the pages belong to the kernel. Two slots are written in turn, each with a
-/// checksum over itself, so a torn one is known and the one before still stands. After a power cut
-/// the last `sync` is what counts. One thread, one process.
+/// checksum over itself, so a torn one is detected and the one before is valid. After a power cut
+/// the last `sync` is valid. One thread, one process.
 class RunJournal {
  public:
-  /// Creates the file when there is none; one that makes no sense counts as empty. Errors: Io.
+  /// Creates the file when there is none; an invalid one is taken as empty. Errors: Io.
   static Result<RunJournal> open(const std::filesystem::path& file);
   RunJournal(RunJournal&& other) noexcept;
   RunJournal& operator=(RunJournal&&) = delete;

@@ -5,7 +5,7 @@
 namespace dripline::report {
 namespace {
 
-/// Everything but the machine's name and the time.
+/// Compares everything but the machine's name and the time.
 auto content(const dds::Status& s) {
   return std::tie(s.execution, s.mode, s.run, s.program, s.sent, s.accepted, s.executed,
                   s.total_bytes, s.offset, s.line, s.sequence, s.position, s.feed_mm_per_min,

@@ -66,7 +66,7 @@ TEST_F(Orders, ThatMoveSomethingNeedASessionAndADeadline) {
   dds::Command start = shop.start_command("O1");
   start.deadline = {};
   EXPECT_EQ(shop.send(start).reason,
-            "the order names no session and deadline: the server is older than protocol 2");
+            "the command names no session and deadline: the server is older than protocol 2");
   start = shop.start_command("O1");
   start.session = 0;
   EXPECT_FALSE(shop.send(start).accepted);
@@ -79,9 +79,9 @@ TEST_F(Orders, ThatWereOvertakenByAStopMoveNothing) {
   run_long_program();
   ASSERT_TRUE(shop.send(make(CommandAction::Hold)).accepted);
   ASSERT_TRUE(comes_to(Execution::FeedHold));
-  const dds::Command resume = make(CommandAction::Resume);  // lost on its way, and repeated below
+  const dds::Command resume = make(CommandAction::Resume);  // lost in transit, and repeated below
   ASSERT_TRUE(shop.send(make(CommandAction::Hold)).accepted);
-  EXPECT_EQ(shop.send(resume).reason, "a later order has stopped the machine meanwhile");
+  EXPECT_EQ(shop.send(resume).reason, "a later command has stopped the machine meanwhile");
   EXPECT_TRUE(shop.send(make(CommandAction::Resume)).accepted);
 }
 

@@ -208,7 +208,7 @@ TEST(UnattendedMachine, IsStartedFromAfarAndSaysSo) {
   EXPECT_TRUE(shop.panel("remote-enable on").starts_with("refused this machine is unattended"));
 }
 
-/// Pressed by somebody who stands there.
+/// Pressed at the machine.
 TEST(UnattendedMachine, KeepsAnEmergencyStopOfItsPanelUntilItIsReleasedThere) {
   Shop shop;
   EXPECT_EQ(shop.panel("emergency-stop"), "ok");

@@ -93,13 +93,13 @@ TEST(CenturionMemory, IsReportedBeforeTheEndOfTheRun) {
             R"("PB50":[2,1]}})");
   ASSERT_GE(shop.records.size(), 2U);
   EXPECT_EQ(shop.records.back().kind, dds::RecordKind::RunEnded);
-  const auto told = [&] {
+  const auto reports = [&] {
     return std::count_if(shop.records.begin(), shop.records.end(),
                          [](const dds::Record& record) { return record.device == "memory"; });
   };
-  ASSERT_EQ(told(), 1);
+  ASSERT_EQ(reports(), 1);
   shop.run("O0003\nG0 X1\nM30\n");
-  EXPECT_EQ(told(), 1) << "nothing new is said";
+  EXPECT_EQ(reports(), 1) << "there is nothing new";
 }
 
 constexpr const char* kSlow = "O0001\nP10=1\nG0 X40\nX0\nX40\nX0\nP10=2\nM30\n";
@@ -136,7 +136,7 @@ TEST(CenturionMemory, IsKeptInTheUnitOfTheSetup) {
   EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P500":[1,0]}})");
 }
 
-/// What somebody changes in the setup is meant; all else stays as the control has it.
+/// A change of the setup is intended; all else stays as the control has it.
 TEST(CenturionMemory, GivesWayToASetupThatWasChanged) {
   MemoryShop shop(interpreter::kCenturionDialect);
   const std::string setup = "[[variable]]\nname = \"P10\"\nvalue = 3\n";
@@ -358,8 +358,8 @@ TEST(TncMemory, BeginsEveryProgramWithoutQParameters) {
   EXPECT_EQ(shop.reported().find("Q1"), std::string::npos) << shop.reported();
 }
 
-/// M94 moves the datum of the rotary axis by whole turns: what is C+730 when its block begins is
-/// C+10 then.
+/// M94 moves the datum of the rotary axis by whole revolutions: what is C+730 when its block begins
+/// is C+10 then.
 TEST(TncMemory, KeepsTheDatumThatM94Moves) {
   MemoryShop shop(interpreter::kTnc155Dialect);
   const std::string turn =

@@ -98,7 +98,7 @@ TEST(EmergencyStop, OfAnAbortedRunLeavesTheNextOnesReasonAlone) {
   shop.ended();
   ASSERT_TRUE(shop.start("O1").accepted);
   ASSERT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
-  EXPECT_EQ(shop.ended().reason, "aborted by order");
+  EXPECT_EQ(shop.ended().reason, "aborted by command");
 }
 
 TEST(EmergencyStop, TurnsSpindleAndCoolantOfATncOff) {

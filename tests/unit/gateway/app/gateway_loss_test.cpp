@@ -41,21 +41,21 @@ TEST(Gateway, WithoutAServerItGoesOnAndReportsLater) {
 }
 
 TEST(Gateway, ARunCutOffEndsOnceAsInterruptedAtTheRightBlock) {
-  for (int turns : {1, 2, 3, 5, 8, 13, 40}) {
+  for (int steps : {1, 2, 3, 5, 8, 13, 40}) {
     Shop shop("2x");
     shop.push("O1", with_reports(50, 2));
     ASSERT_TRUE(shop.start("O1").accepted);
     int turn = 0;
-    shop.run_until([&] { return ++turn > turns; });
+    shop.run_until([&] { return ++turn > steps; });
     shop.restart_gateway();
     const auto truth = shop.execution_probe();
     const auto end = shop.ended();
-    EXPECT_EQ(end.outcome, RunOutcome::Interrupted) << turns;
-    EXPECT_EQ(end.executed, truth.blocks_done) << turns;
-    EXPECT_EQ(shop.lines().size(), truth.outputs_done) << turns;
+    EXPECT_EQ(end.outcome, RunOutcome::Interrupted) << steps;
+    EXPECT_EQ(end.executed, truth.blocks_done) << steps;
+    EXPECT_EQ(shop.lines().size(), truth.outputs_done) << steps;
     shop.restart_gateway();
     shop.run_until([&] { return false; }, milliseconds(1000));
-    EXPECT_EQ(shop.count(RecordKind::RunEnded), 1u) << turns;
+    EXPECT_EQ(shop.count(RecordKind::RunEnded), 1u) << steps;
   }
 }
 

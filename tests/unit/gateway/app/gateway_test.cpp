@@ -96,7 +96,7 @@ TEST(Gateway, RefusesWhatItCannotRun) {
   EXPECT_NE(refusal([](auto& o) { o.program = "../O1"; }).find("../O1"), std::string::npos);
   EXPECT_NE(refusal([](auto& o) { o.revision = "abc"; }).find("revision"), std::string::npos);
   EXPECT_EQ(refusal([&](auto& o) { o.deadline = shop.steady_time() - milliseconds(500); }),
-            "the order came 0.5 s after its deadline");
+            "the command came 0.5 s after its deadline");
   ASSERT_TRUE(shop.start("O1").accepted);
   EXPECT_NE(refusal([](auto&) {}).find("busy"), std::string::npos);
   EXPECT_EQ(shop.count(RecordKind::RunStarted), 1u);
@@ -112,7 +112,7 @@ TEST(Gateway, TheSameOrderGetsTheSameAnswerEvenAfterARestart) {
   shop.clock.steady += std::chrono::seconds(10);  // expired by now, and still known
   EXPECT_TRUE(shop.send(start).accepted);
   shop.restart_gateway();
-  dds::Command again = shop.command(CommandAction::Start);  // another order for the same run
+  dds::Command again = shop.command(CommandAction::Start);  // another command for the same run
   dds::Command repeated = start;
   repeated.session = again.session;
   EXPECT_TRUE(shop.send(repeated).accepted);

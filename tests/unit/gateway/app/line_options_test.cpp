@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "gateway/app/options.hpp"
-#include "gateway/app/setup_line.hpp"
 #include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/wire/line_settings.hpp"
@@ -45,11 +44,11 @@ TEST(LineOptions, ASettingOfTheCommandLineMayBeGivenMoreThanOnce) {
   GatewayOptions options = base();
   for (const OptionRow& row : option_rows()) {
     if (row.key == "line") {
-      ASSERT_TRUE(row.set(options, "tcp://moxa:4001"));
+      ASSERT_TRUE(row.value.set(options, "tcp://moxa:4001"));
     }
     if (row.key != "line-setting") continue;
-    EXPECT_TRUE(row.may_repeat);
-    ASSERT_TRUE(row.set(options, "flow=rtscts\nbaud=19200"));
+    EXPECT_EQ(row.value.written, process::Written::List);
+    ASSERT_TRUE(row.value.set(options, "flow=rtscts\nbaud=19200"));
   }
   ASSERT_TRUE(complete(options));
   EXPECT_EQ(options.line->settings.flow, wire::Flow::RtsCts);
@@ -63,7 +62,7 @@ TEST(LineOptions, ATncAlwaysAsks) {
   EXPECT_EQ(options.line->request, "next");
 }
 
-// HD-235: the control that the gateway stands for has no transfer blockwise.
+// HD-235: the control that the gateway is in the place of has no transfer blockwise.
 TEST(LineOptions, SpeakNothingBlockwiseForATncWithoutIt) {
   const auto refusal = [](const std::string& line_template, const std::string& model) {
     GatewayOptions options = base();

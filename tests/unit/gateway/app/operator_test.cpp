@@ -107,7 +107,7 @@ TEST(Handwheel, IsRefusedWhereItDrivesNothing) {
   EXPECT_EQ(toy.send(command).reason, "a handwheel drives no program of control toy");
 }
 
-/// CEN-137: the lamp is lit in the hole, the machine stands after the way out of it.
+/// CEN-137: the lamp is lit in the hole, the machine stops after the retraction.
 TEST(Hold, WaitsForATapToBeOutOfItsHole) {
   LatheShop shop;
   shop.push("O1", "O1\nG20 G97 G99 S600 M3\nG0 Z1\nG84 F.1 R.5 Z-.5 G38\nG1 F.1 Z0\nM30\n");
@@ -134,7 +134,7 @@ TEST(Hold, HasNoEffectInTappingModeUntilItEnds) {
   EXPECT_NEAR(shop.z(), -1, 0.01);
 }
 
-/// CEN-225: halted while it faces at Z -1. Z leaves to the clearance .1 from where the tool stands,
+/// CEN-225: halted while it faces at Z -1. Z leaves to the clearance .1 from the tool's position,
 /// X goes over to where the block begins, the operator looks, Z feeds back, the block is made.
 TEST(Resume, BeginsWhereTheToolStands) {
   LatheShop shop("start = { X = 4.0, Z = 2.0 }\n");
@@ -168,7 +168,7 @@ TEST(Resume, BeginsWhereTheToolStands) {
   EXPECT_NEAR(shop.x(), 3, 1e-9);
 }
 
-/// A start at the first block begins where the setup says, as after homing.
+/// A start at the first block begins at the setup's position, as after homing.
 TEST(Resume, IsOnlyForAStartInTheMiddle) {
   LatheShop shop("start = { X = 4.0, Z = 2.0 }\n", "max");
   shop.push("O1", "O1\nG20\nG0 X2\nM30\n");

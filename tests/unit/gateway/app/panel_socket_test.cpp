@@ -21,7 +21,7 @@ class OpenPanel : public testing::Test {
     ASSERT_TRUE(opened) << opened.error().what;
     socket_ = *std::move(opened);
   }
-  /// A connection that says nothing yet.
+  /// A connection that sends nothing yet.
   int connect() const {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

@@ -42,7 +42,7 @@ class Shop : public dds::GatewayEndpoint {
   void make_attended();
   /// At the machine's panel; the answer.
   std::string panel(const std::string& line);
-  /// Turns of `step` until `done` says so, or a (simulated) minute has passed.
+  /// Turns of `step` until `done` is true, or a (simulated) minute has passed.
   bool run_until(const std::function<bool()>& done,
                  std::chrono::milliseconds step = std::chrono::milliseconds(10));
 
@@ -53,7 +53,7 @@ class Shop : public dds::GatewayEndpoint {
   /// Sends it and returns its result.
   dds::CommandResult send(const dds::Command& command);
   dds::CommandResult start(const std::string& program) { return send(start_command(program)); }
-  /// Runs until the run has ended, and says how.
+  /// Runs until the run has ended, and returns its end.
   dds::RunEndText ended();
   std::vector<std::string> lines() const;
   std::size_t count(dds::RecordKind kind) const;

@@ -6,7 +6,7 @@
 #include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "tests/unit/gateway/app/shop.hpp"
 
-/// Where tools are changed by hand the machine waits, and the operator is told which tool.
+/// Where tools are changed by hand the machine waits, and the operator is shown which tool.
 namespace dripline::gateway {
 namespace {
 

@@ -31,7 +31,7 @@ class ToyInterpreter final : public Interpreter {
   }
   std::uint64_t blocks() const override { return blocks_; }
   const Origin& origin() const override { return origin_; }
-  /// A radius that tells which block it was said of.
+  /// A radius that names the block it belongs to.
   ActiveModes modes() const override {
     ActiveModes modes;
     modes.tool_radius = Length::mm(static_cast<double>(blocks_));

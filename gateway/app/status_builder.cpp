@@ -1,6 +1,7 @@
-#include "gateway/app/gateway.hpp"
+#include "gateway/app/status_builder.hpp"
 
-/// The part of the gateway that tells how it is.
+#include "protocol/base/one_line.hpp"
+
 namespace dripline::gateway {
 
 using dds::Execution;
@@ -58,7 +59,7 @@ std::string work_system_text(const interpreter::ActiveModes& modes) {
   return text;
 }
 
-/// What the interpreter knows of the block that is executed.
+/// The interpreter's modes of the block that is executed.
 void show_program(dds::ActiveModes& shown, const interpreter::ActiveModes& modes) {
   shown.compensation = static_cast<dds::CompensationSide>(modes.compensation);
   shown.is_inch = modes.units == interpreter::Units::Inch;
@@ -95,7 +96,7 @@ CoordinateFrame::Values values_of(const interpreter::Position& position) {
   return values;
 }
 
-/// What the interpreter knew of the block that is executed, with the places the machine is at now.
+/// The interpreter's frame of the block that is executed, with the present position of the machine.
 dds::ProgramFrame shown_frame(const CoordinateFrame& frame, const machine::MachineStatus& now) {
   dds::ProgramFrame shown;
   shown.position = frame.to_program(values_of(now.position));
@@ -114,7 +115,7 @@ dds::ProgramFrame shown_frame(const CoordinateFrame& frame, const machine::Machi
 
 }  // namespace
 
-dds::ActiveModes Gateway::modes(const machine::MachineStatus& now) const {
+dds::ActiveModes StatusBuilder::modes(const machine::MachineStatus& now) const {
   dds::ActiveModes shown;
   shown.motion = static_cast<dds::MotionKind>(now.motion);
   shown.is_feed_limited = now.is_feed_limited;
@@ -128,107 +129,148 @@ dds::ActiveModes Gateway::modes(const machine::MachineStatus& now) const {
   shown.spindle = spindle_of(now.spindle.state);
   shown.flood = now.flood;
   shown.mist = now.mist;
-  if (session_) show_program(shown, session_->modes_at(now.origin.block));
+  if (parts_.run.session) show_program(shown, parts_.run.session->modes_at(now.origin.block));
   return shown;
 }
 
-/// The simulated axes follow without a trailing error.
-dds::Coordinates Gateway::coordinates(const machine::MachineStatus& now) const {
+/// The axes are reported without a following error.
+dds::Coordinates StatusBuilder::coordinates(const machine::MachineStatus& now) const {
   dds::Coordinates shown;
   shown.target = values_of(now.target);
   shown.lag.emplace();
-  if (!session_) return shown;
-  const auto& frame = session_->frame_at(now.origin.block);
+  if (!parts_.run.session) return shown;
+  const auto& frame = parts_.run.session->frame_at(now.origin.block);
   if (frame) shown.program = shown_frame(*frame, now);
   return shown;
 }
 
-dds::Status Gateway::status() const {
+dds::Status StatusBuilder::build(const LinkState& links) const {
   dds::Status status;
-  status.machine = parts_.options.machine;
-  status.session = parts_.session;
+  status.machine = parts_.run.machine;
+  status.session = parts_.gateway_session;
   status.time = parts_.clock.now();
   status.steady = std::chrono::duration_cast<std::chrono::microseconds>(
       parts_.clock.steady_now().time_since_epoch());
-  const machine::MachineStatus now = machine_.status();
-  for (std::size_t i = 0; i < status.position.size(); ++i) {
-    const auto axis = static_cast<interpreter::Axis>(i);
-    status.position[i] = now.position.raw(axis);
-    if (machine_.capabilities().axes.test(i)) status.axes |= static_cast<std::uint16_t>(1U << i);
-  }
-  status.feed_mm_per_min = now.feed_per_minute;
-  status.spindle_rpm = now.spindle_rpm;
-  status.feed_override = machine_.panel().feed_override;
-  status.rapid_override = machine_.panel().rapid_override;
-  status.spindle_override = machine_.panel().spindle_override;
-  status.single_block = machine_.panel().single_block;
-  status.outbox =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(outbox_.unacknowledged(), UINT32_MAX));
-  status.modes = modes(now);
-  status.coordinates = coordinates(now);
-  status.emergency_stop = machine_.panel().emergency_stop;
-  if (session_) {
-    status.run = session_->run().run;
-    status.program = session_->run().program;
-    status.total_bytes = session_->run().size;
-    status.sent = session_->feed().sent();
-    status.accepted = session_->accepted();
-    status.executed = recorder_.executed().executed;
-    status.offset = now.origin.offset;
-    status.line = now.origin.line;
-    status.sequence = now.origin.sequence;
-    status.buffered_seconds = now.buffered.count();
-  }
-  fill_execution(status);
+  status.outbox = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(parts_.outbox.unacknowledged(), UINT32_MAX));
+  const machine::MachineStatus now = parts_.machine.status();
+  fill_machine(status, now);
+  if (parts_.run.session) fill_run(status, now);
+  fill_execution(status, links);
   status.remote_enable = remote_enable();
-  status.waits_for = waits_for(status);
+  status.waits_for = waits_for(status.execution);
   return status;
 }
 
-void Gateway::fill_execution(dds::Status& status) const {
-  std::string message = last_message_;
-  status.execution = session_ && !is_ending_ ? execution_of_run(message) : last_execution_;
-  if (machine_.panel().emergency_stop) {
+void StatusBuilder::fill_machine(dds::Status& status, const machine::MachineStatus& now) const {
+  status.position = values_of(now.position);
+  status.axes = static_cast<std::uint16_t>(parts_.machine.capabilities().axes.to_ulong());
+  status.feed_mm_per_min = now.feed_per_minute;
+  status.spindle_rpm = now.spindle_rpm;
+  const machine::OperatorPanel& panel = parts_.machine.panel();
+  status.feed_override = panel.feed_override;
+  status.rapid_override = panel.rapid_override;
+  status.spindle_override = panel.spindle_override;
+  status.single_block = panel.single_block;
+  status.emergency_stop = panel.emergency_stop;
+  status.modes = modes(now);
+  status.coordinates = coordinates(now);
+}
+
+void StatusBuilder::fill_run(dds::Status& status, const machine::MachineStatus& now) const {
+  const RunSession& session = *parts_.run.session;
+  status.run = session.run().run;
+  status.program = session.run().program;
+  status.total_bytes = session.run().size;
+  status.sent = session.feed().sent();
+  status.accepted = session.accepted();
+  status.executed = parts_.recorder.executed().executed;
+  status.offset = now.origin.offset;
+  status.line = now.origin.line;
+  status.sequence = now.origin.sequence;
+  status.buffered_seconds = now.buffered.count();
+}
+
+void StatusBuilder::fill_execution(dds::Status& status, const LinkState& links) const {
+  std::string message = parts_.run.last_message;
+  status.execution =
+      parts_.run.is_active() ? execution_of_run(message, links) : parts_.run.last_execution;
+  if (status.emergency_stop) {
     status.execution = Execution::Stopped;
     message = "EMERGENCY STOP";
-  } else if (!recorder_.trouble().empty()) {
+  } else if (!parts_.recorder.fault().empty()) {
     status.execution = Execution::Waiting;
-    message = fmt::format("reports cannot be kept: {}", recorder_.trouble());
+    message = fmt::format("reports cannot be kept: {}", parts_.recorder.fault());
   } else if (message.empty()) {
-    message = refused_by_server_.empty()
-                  ? line_fault_
-                  : fmt::format("the server does not command this gateway: {}", refused_by_server_);
+    message =
+        links.refused_by_server.empty()
+            ? links.line_fault
+            : fmt::format("the server does not command this gateway: {}", links.refused_by_server);
   }
   status.message = valid_text(message, kMaxReason);
 }
 
-Execution Gateway::execution_of_run(std::string& message) const {
-  const MachineState state = machine_.state();
+Execution StatusBuilder::execution_of_run(std::string& message, const LinkState& links) const {
+  const MachineState state = parts_.machine.state();
+  const RunSession& session = *parts_.run.session;
   message.clear();
-  if (consent_.is_awaited()) {
+  if (parts_.consent.is_awaited()) {
     message = kAwaitsCycleStart;
     return Execution::Waiting;
   }
-  if (state == MachineState::Idle) {
-    if (session_->waits() == RunSession::Waits::ForOperator) {
-      message = "asks: " + session_->prompt();
-      return Execution::Waiting;
+  if (state == MachineState::Idle && session.waits() == RunSession::Waits::ForOperator) {
+    message = "asks: " + session.prompt();
+    return Execution::Waiting;
+  }
+  if (state == MachineState::Idle && session.waits() == RunSession::Waits::ForText) {
+    if (!links.line_fault.empty()) {
+      message = links.line_fault;
+    } else if (links.has_line) {
+      message = "waiting for text from the line";
+    } else {
+      message =
+          links.is_connected ? "waiting for program text" : "waiting for program text: no server";
     }
-    if (session_->waits() == RunSession::Waits::ForText) {
-      if (parts_.line != nullptr) {
-        message = line_fault_.empty() ? "waiting for text from the line" : line_fault_;
-        return Execution::Waiting;
-      }
-      message = is_connected_ ? "waiting for program text" : "waiting for program text: no server";
-      return Execution::Waiting;
-    }
+    return Execution::Waiting;
   }
   if (state == MachineState::ProgramStop || state == MachineState::OptionalStop)
-    message = recorder_.notice();
+    message = parts_.recorder.notice();
   if (state == MachineState::SingleBlock) message = "single block";
-  if (state == MachineState::Running && machine_.panel().handwheel)
+  if (state == MachineState::Running && parts_.machine.panel().handwheel)
     message = "driven by the handwheel";
   return execution_of(state);
+}
+
+dds::RemoteEnable StatusBuilder::remote_enable() const {
+  if (parts_.consent.is_unattended()) return dds::RemoteEnable::Unattended;
+  return parts_.consent.is_given() ? dds::RemoteEnable::Given : dds::RemoteEnable::NotGiven;
+}
+
+dds::WaitsFor StatusBuilder::waits_for(Execution execution) const {
+  using dds::WaitsFor;
+  if (!parts_.recorder.fault().empty()) return WaitsFor::Disk;
+  if (!parts_.run.is_active() || parts_.machine.panel().emergency_stop) return WaitsFor::Nothing;
+  if (parts_.consent.is_awaited()) return WaitsFor::CycleStart;
+  switch (parts_.machine.state()) {
+    case MachineState::Held:
+    case MachineState::ProgramStop:
+    case MachineState::OptionalStop:
+    case MachineState::SingleBlock:
+      return WaitsFor::CycleStart;
+    default:
+      break;
+  }
+  if (execution != Execution::Waiting) return WaitsFor::Nothing;
+  return parts_.run.session->waits() == RunSession::Waits::ForOperator ? WaitsFor::Answer
+                                                                       : WaitsFor::Text;
+}
+
+std::string panel_status(const dds::Status& status) {
+  return fmt::format("{} remote_enable={} waits_for={} emergency_stop={}{}{}",
+                     dds::to_string(status.execution), dds::to_string(status.remote_enable),
+                     dds::to_string(status.waits_for),
+                     status.emergency_stop ? "pressed" : "released",
+                     status.message.empty() ? "" : " message=", one_line(status.message));
 }
 
 }  // namespace dripline::gateway

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "gateway/report/outbox.hpp"
+#include "protocol/dds/endpoint.hpp"
+
+namespace dripline::gateway {
+
+/// How a command is answered.
+struct Reply {
+  bool is_accepted = true;
+  std::string reason;
+};
+inline Reply refuse(std::string reason) {
+  return {false, std::move(reason)};
+}
+
+/// The answers to commands: kept in the outbox under the command's id, so that a command that
+/// arrives again gets the same answer, and sent to the server. One thread.
+class CommandLog {
+ public:
+  /// Both references must outlive it.
+  CommandLog(std::string machine, report::Outbox& outbox, dds::GatewayEndpoint& endpoint)
+      : machine_(std::move(machine)), outbox_(outbox), endpoint_(endpoint) {}
+
+  /// The answer that was kept; none: the command is new. Errors: those of the outbox.
+  Result<std::optional<Reply>> find(const std::string& command) const;
+  /// The answer to any command that started the run.
+  std::optional<Reply> find_start(const std::string& run) const;
+
+  /// Stages an answer, for the next commit of the outbox.
+  void stage(const std::string& command, const Reply& reply);
+  /// Stages the acceptance of a start, under its run and, unless empty, its command.
+  void stage_start(const std::string& run, const std::string& command);
+
+  /// Queues an answer to be sent. A full queue drops the oldest: its sender asks again.
+  void answer(const std::string& command, const Reply& reply);
+  void send();
+  bool is_sent() const { return waiting_.empty(); }
+
+ private:
+  std::string machine_;
+  report::Outbox& outbox_;
+  dds::GatewayEndpoint& endpoint_;
+  std::deque<dds::CommandResult> waiting_;
+};
+
+}  // namespace dripline::gateway

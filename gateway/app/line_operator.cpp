@@ -1,0 +1,209 @@
+#include "gateway/app/line_operator.hpp"
+
+#include <spdlog/spdlog.h>
+#include <utility>
+
+#include "gateway/report/status_publisher.hpp"
+#include "protocol/base/names.hpp"
+#include "protocol/base/random.hpp"
+
+namespace dripline::gateway {
+
+using feed::LineItem;
+using What = feed::LineItem::What;
+
+namespace {
+
+constexpr std::chrono::seconds kListenAgain{1};
+constexpr std::string_view kNext = "next";
+
+/// On such a line silence is no end: a program that is drip-fed ends with its own last block.
+bool is_open_ended(const wire::LineSettings& settings) {
+  const bool is_plain = settings.flow == wire::Flow::None || settings.flow == wire::Flow::XonXoff ||
+                        settings.flow == wire::Flow::RtsCts;
+  return is_plain && !settings.end_character && !settings.wait_for_xon;
+}
+
+/// On such a line nothing arrives unless the control's operator asks.
+bool must_ask(const wire::LineSettings& settings) {
+  return settings.flow == wire::Flow::Heidenhain || settings.flow == wire::Flow::HeidenhainBcc;
+}
+
+bool is_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+}  // namespace
+
+void LineOperator::poll(SteadyTime now) {
+  const bool is_stopped = parts_.machine.panel().emergency_stop;
+  if (state_ == State::Closed && !is_stopped) listen(true);
+  if (!is_stopped) {
+    for (LineItem& item : std::exchange(held_, {})) take(item);
+  }
+  for (LineItem& item : parts_.line.take()) {
+    if (is_stopped && belongs_to_next_run(item)) {
+      held_.push_back(std::move(item));
+    } else {
+      take(item);
+    }
+  }
+  release();
+  if (state_ == State::Draining && !parts_.run.session && parts_.line.is_quiet()) listen_at_ = now;
+  if (!listen_at_ || now < *listen_at_) return;
+  if (is_stopped) {
+    listen_at_ = now + kListenAgain;
+  } else {
+    listen(true);
+  }
+}
+
+std::optional<SteadyTime> LineOperator::next_poll(SteadyTime now) const {
+  std::optional<SteadyTime> next = listen_at_;
+  if (state_ != State::Draining) return next;
+  const SteadyTime look = now + report::StatusPublisher::kShortest;
+  return next ? std::min(*next, look) : look;
+}
+
+/// Under an emergency stop no run begins: its text waits where it is, and the line's window holds
+/// the host.
+bool LineOperator::belongs_to_next_run(const LineItem& item) const {
+  return state_ == State::Listening && !parts_.run.session &&
+         (item.what == What::Began || item.what == What::Text || item.what == What::Ended ||
+          item.what == What::Failed);
+}
+
+void LineOperator::take(LineItem& item) {
+  switch (item.what) {
+    case What::Began:
+      if (state_ == State::Listening) program_ = std::move(item.text);
+      return;
+    case What::Text:
+      return take_text(item.text);
+    case What::Ended:
+      return end_text();
+    case What::Failed:
+      return fail_text(item.text);
+    case What::Offered:
+      return parts_.run.session ? parts_.line.refuse("a program is running") : listen(false);
+    case What::Asked:
+      return parts_.line.refuse("no program is to be sent from here");
+    case What::Fault:
+      set_fault(item.text);
+      // What was asked for could not begin, on a busy line for instance.
+      if (state_ == State::Listening) listen_at_ = parts_.clock.steady_now() + kListenAgain;
+      return;
+    case What::Channel:
+      spdlog::info("line {} {} {}", address(), item.text.empty() ? "is open" : item.text,
+                   parts_.run.label());
+      fault_ = item.text.empty() ? "" : fmt::format("line: {}", item.text);
+      return;
+  }
+}
+
+/// A fault that lasts is logged once.
+void LineOperator::set_fault(std::string_view reason) {
+  const auto text = fmt::format("line: {}", reason);
+  if (std::exchange(fault_, text) != text) spdlog::warn("{} {}", text, parts_.run.label());
+}
+
+void LineOperator::take_text(std::string_view text) {
+  if (state_ == State::Listening && !is_blank(text) && !parts_.run.session && !begin_run()) {
+    state_ = State::Draining;
+    parts_.line.abort();
+  }
+  if (state_ != State::Feeding) return parts_.line.release(text.size());
+  fault_.clear();
+  feed_->append(text);
+}
+
+void LineOperator::end_text() {
+  if (state_ == State::Feeding && is_open_ended(parts_.line.settings()))
+    return parts_.line.expect();  // silence only: the run continues when more arrives
+  if (state_ == State::Feeding) {
+    feed_->end();
+    state_ = State::Complete;
+  } else if (state_ == State::Listening) {
+    listen(false);
+  } else if (state_ == State::Draining && !parts_.run.session) {
+    listen(true);
+  }
+}
+
+void LineOperator::fail_text(const std::string& reason) {
+  set_fault(reason);
+  if (state_ == State::Feeding) {
+    feed_->break_off(fault_);
+    state_ = State::Complete;
+  } else if (state_ == State::Listening || (state_ == State::Draining && !parts_.run.session)) {
+    listen_at_ = parts_.clock.steady_now() + kListenAgain;
+  }
+}
+
+bool LineOperator::begin_run() {
+  const bool is_named = check_program_name(program_).has_value();
+  const report::ActiveRun run{.run = "line-" + random_hex(8),
+                              .program = is_named ? program_ : "line",
+                              .revision = "",
+                              .control = parts_.control};
+  auto feed = std::make_unique<feed::LineFeed>();
+  auto* raw = feed.get();
+  if (const auto done = parts_.begin_run(run, std::move(feed)); !done) {
+    spdlog::error("program {} from line {} not begun: {} {}", run.program, address(),
+                  done.error().what, parts_.run.label());
+    parts_.run.last_message = valid_text(done.error().what, kMaxReason);
+    return false;
+  }
+  if (request_ != kNext) request_.clear();  // asked for until it has arrived
+  feed_ = raw;
+  released_ = 0;
+  state_ = State::Feeding;
+  spdlog::info("run begins with text from line {} {}", address(), parts_.run.label());
+  return true;
+}
+
+/// Asks the host for a program where this control does so, or waits for one.
+void LineOperator::listen(bool may_ask) {
+  listen_at_.reset();
+  state_ = State::Listening;
+  program_.clear();
+  if (!may_ask || request_.empty()) {
+    if (must_ask(parts_.line.settings())) return;
+    return parts_.line.expect();
+  }
+  wire::TransferRequest request;
+  if (request_ != kNext) request.name = request_;
+  parts_.line.expect(&request);
+}
+
+/// What is left of the run's text must not become the next run.
+void LineOperator::on_run_over() {
+  feed_ = nullptr;
+  const bool is_complete = state_ == State::Complete;
+  if (!is_complete && parts_.run.last_execution != dds::Execution::ProgramCompleted)
+    parts_.line.abort();
+  state_ = is_complete ? State::Closed : State::Draining;
+  listen_at_.reset();
+  if (is_complete) listen_at_ = parts_.clock.steady_now();
+  parts_.line.release(static_cast<std::size_t>(-1));
+}
+
+void LineOperator::release() {
+  if (feed_ == nullptr || feed_->consumed() <= released_) return;
+  parts_.line.release(static_cast<std::size_t>(feed_->consumed() - released_));
+  released_ = feed_->consumed();
+}
+
+/// A file of the control stays in the control.
+void LineOperator::print(const interpreter::Output& output) {
+  using interpreter::OutputDevice;
+  const bool leaves = output.device == OutputDevice::Port1 ||
+                      output.device == OutputDevice::Port2 ||
+                      output.device == OutputDevice::Printer;
+  if (!leaves) return;
+  if (!parts_.line.send(std::string(output.text) + "\n"))
+    spdlog::error("line {} takes no more output; the records have it {}", address(),
+                  parts_.run.label());
+}
+
+}  // namespace dripline::gateway

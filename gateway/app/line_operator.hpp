@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/app/current_run.hpp"
+#include "gateway/feed/control_line.hpp"
+#include "gateway/feed/line_feed.hpp"
+
+namespace dripline::gateway {
+
+/// The operator of a control at the end of a serial line: asks the host for programs or waits for
+/// them, begins a run with the first text, and sends back what the program prints. One thread.
+class LineOperator {
+ public:
+  struct Parts {
+    feed::ControlLine& line;
+    std::string control;
+    std::string request;  ///< see LineOptions::request
+    const machine::MotionBackend& machine;
+    CurrentRun& run;
+    const Clock& clock;
+    std::function<Result<void>(const report::ActiveRun&, std::unique_ptr<feed::ProgramFeed>)>
+        begin_run;
+  };
+  /// All references must outlive it.
+  explicit LineOperator(Parts parts) : parts_(std::move(parts)), request_(parts_.request) {}
+
+  void poll(SteadyTime now);
+  /// When to be called again at the latest; none: when the line has something.
+  std::optional<SteadyTime> next_poll(SteadyTime now) const;
+  /// The run's session is gone.
+  void on_run_over();
+  void print(const interpreter::Output& output);
+
+  /// What is wrong with the line; empty: nothing.
+  const std::string& fault() const { return fault_; }
+  const std::string& address() const { return parts_.line.address(); }
+
+ private:
+  /// What happens to text that arrives.
+  enum class State : std::uint8_t {
+    Closed,     ///< the host was not asked yet
+    Listening,  ///< it begins a run
+    Feeding,    ///< it belongs to the run
+    Complete,   ///< none is expected: the run's text is complete, or broke off
+    Draining,   ///< it was in transit when its run ended, and is dropped
+  };
+  void take(feed::LineItem& item);
+  bool belongs_to_next_run(const feed::LineItem& item) const;
+  void take_text(std::string_view text);
+  void end_text();
+  void fail_text(const std::string& reason);
+  bool begin_run();
+  void listen(bool may_ask);
+  void release();
+  void set_fault(std::string_view reason);
+
+  Parts parts_;
+  State state_ = State::Closed;
+  feed::LineFeed* feed_ = nullptr;  ///< of the session
+  std::uint64_t released_ = 0;      ///< bytes of its text
+  std::string program_, fault_;
+  std::string request_;  ///< still to be asked for; "next": always
+  std::optional<SteadyTime> listen_at_;
+  std::vector<feed::LineItem> held_;  ///< of the next run: the emergency stop is pressed
+};
+
+}  // namespace dripline::gateway

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/app/command_log.hpp"
+#include "gateway/app/consent.hpp"
+#include "gateway/app/current_run.hpp"
+#include "gateway/interpreter/core/dialect.hpp"
+#include "gateway/interpreter/core/panel_tables.hpp"
+
+namespace dripline::gateway {
+
+/// The operator's panel: switches, overrides, the handwheel, the emergency stop and the remote
+/// enable, whether they are set over the network or at the machine. One thread.
+class PanelController {
+ public:
+  struct Parts {
+    const interpreter::Dialect& dialect;
+    machine::MotionBackend& machine;
+    ExecutionRecorder& recorder;
+    CurrentRun& run;
+    Consent& consent;
+  };
+  /// All references must outlive it.
+  explicit PanelController(const Parts& parts) : parts_(parts) {}
+
+  /// Positions of the control's switches, as the setup describes them.
+  void take_tables(const interpreter::Setup& setup);
+
+  Reply set_switch(const dds::Command& command);
+  Reply set_override(const dds::Command& command);
+  Reply turn_handwheel(const dds::Command& command);
+
+  /// Every machine has one, whatever its control.
+  Reply set_emergency_stop(bool is_pressed);
+  /// One that was pressed at the machine is released there only.
+  Reply set_emergency_stop_at_panel(bool is_pressed);
+  /// Moves nothing by itself: a run that waits continues to wait for a cycle start, at the machine
+  /// or, now, over the network.
+  Reply set_remote_enable(bool is_enabled);
+  /// Why a command from the network is refused for now.
+  std::optional<Reply> refusal_without_consent(const dds::Command& command) const;
+
+ private:
+  std::optional<std::string> refusal_of_feed(double factor) const;
+  std::optional<std::string> refusal_of_spindle(double factor) const;
+
+  Parts parts_;
+  interpreter::PanelTables tables_;
+  bool is_stopped_at_panel_ = false;
+};
+
+inline constexpr std::string_view kEmergencyStopIsPressed =
+    "the emergency stop is pressed: release it first";
+
+}  // namespace dripline::gateway

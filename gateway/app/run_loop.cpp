@@ -1,0 +1,309 @@
+#include "gateway/app/run_loop.hpp"
+
+#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace dripline::gateway {
+
+using machine::MachineState;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr std::size_t kBlocksPerRound = 256;
+constexpr std::size_t kActionsPerRound = 512;
+constexpr int kMaxRounds = 4096;  ///< bounds a slice even if the clock does not advance
+constexpr milliseconds kCommitRetry{500};
+constexpr milliseconds kSyncInterval{1000};
+
+}  // namespace
+
+/// The setup of this gateway with the server's tools, offsets and variables in their place.
+Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
+  interpreter::Setup setup = parts_.setup;
+  if (!origin.setup.empty()) {
+    auto data = interpreter::parse_control_data(origin.setup, parts_.dialect.units);
+    if (!data) return fail(data.error().code, "the server's setup: {}", data.error().what);
+    interpreter::use_control_data(*std::move(data), setup);
+  }
+  setup.switches.block_skip = parts_.machine.panel().block_skip;
+  const StartArgument& from = origin.from;
+  if (from.place.empty()) return setup;
+  setup.control.set("start_at", {from.place, 0});
+  if (from.pass) setup.control.set("start_pass", {std::int64_t{*from.pass}, 0});
+  if (from.memory != StartMemory::Ask) {
+    const bool is_former = from.memory == StartMemory::Begin;
+    setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
+  }
+  setup.stands = parts_.machine.status().position;
+  return setup;
+}
+
+Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
+                            const StartOrigin& origin) {
+  if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
+  const auto setup = setup_of(origin);
+  if (!setup) return fail(setup.error());
+  const interpreter::Position at = setup->stands.value_or(setup->start);
+  if (auto done = parts_.machine.check_begin(at); !done) return done;
+  auto session =
+      RunSession::make({.run = run,
+                        .feed = std::move(feed),
+                        .machine = parts_.machine,
+                        .recorder = parts_.recorder,
+                        .clock = parts_.clock,
+                        .memory = parts_.memory,
+                        .begins_with_former_memory = origin.from.memory == StartMemory::Begin},
+                       parts_.dialect, *setup);
+  if (!session) {
+    const bool is_memory =
+        session.error().code == Errc::Corrupt || session.error().code == Errc::NotFound;
+    return fail(session.error().code, "{}{}", is_memory ? "" : "setup: ", session.error().what);
+  }
+  if (auto done = stage_start(run, origin, **session); !done) return done;
+
+  parts_.journal.begin(run.run);
+  parts_.on_begin(*setup);
+  parts_.machine.begin(at);
+  parts_.run.session = std::move(*session);
+  parts_.run.session->size_feed(parts_.options.speed.factor);
+  parts_.run.last_message.clear();
+  parts_.run.was_emergency_stopped = false;
+  last_step_ = parts_.clock.steady_now();
+  parts_.consent.await(last_step_ + parts_.options.cycle_start_wait);
+  return {};
+}
+
+/// Puts the start on disk: from here on the run exists, and ends exactly once.
+Result<void> RunLoop::stage_start(const report::ActiveRun& run, const StartOrigin& origin,
+                                  RunSession& session) {
+  parts_.outbox.discard();
+  parts_.memory.stage();
+  if (origin.from.place.empty()) parts_.memory.stage_beginning(run.revision);
+  parts_.recorder.begin(run, [&session] {
+    return ExecutionRecorder::FeedProgress{session.feed().sent(), session.accepted()};
+  });
+  parts_.commands.stage_start(run.run, origin.command);
+  const auto done = parts_.outbox.commit();
+  if (done) return {};
+  parts_.outbox.discard();
+  return fail(done.error().code, "the start cannot be kept: {}", done.error().what);
+}
+
+void RunLoop::step(SteadyTime now) {
+  if (!parts_.run.session) return;
+  parts_.run.session->feed().poll(now);
+  if (parts_.run.is_ending) {
+    try_to_finish(now);
+  } else {
+    run_slice(now);
+  }
+}
+
+void RunLoop::run_slice(SteadyTime now) {
+  const auto elapsed = std::clamp<SteadyTime::duration>(now - last_step_, {}, kLongestStep);
+  last_step_ = now;
+  const auto& factor = parts_.options.speed.factor;
+  double seconds = factor ? std::chrono::duration<double>(elapsed).count() * *factor
+                          : std::numeric_limits<double>::infinity();
+  if (wait_for_cycle_start(now)) return;
+  if (wait_out_fault(now)) {
+    (void)parts_.machine.poll(machine::Seconds{seconds}, 0);  // comes to rest, begins nothing
+    return;
+  }
+  for (int round = 0; round < kMaxRounds; ++round) {
+    if (!run_round(seconds, now + kSlice)) break;
+  }
+  commit_reports();
+  check_end();
+  if (now < next_sync_) return;
+  next_sync_ = now + kSyncInterval;
+  keep_memory();
+  if (const auto done = parts_.journal.sync(); !done)
+    spdlog::warn("{} {}", done.error().what, parts_.run.label());
+}
+
+/// Some blocks in, some actions out. False: nothing more can be done in this slice.
+bool RunLoop::run_round(double& machine_seconds, SteadyTime deadline) {
+  if (parts_.recorder.alarm() || parts_.recorder.was_aborted()) return false;
+  const std::size_t blocks = parts_.run.session->fill(kBlocksPerRound);
+  const std::size_t queued = parts_.machine.status().queued;
+  const double used =
+      parts_.machine.poll(machine::Seconds{machine_seconds}, kActionsPerRound).count();
+  machine_seconds -= used;
+  const bool has_advanced = used > 0 || parts_.machine.status().queued != queued;
+  const bool can_continue = (blocks > 0 || has_advanced) && machine_seconds > 0;
+  return can_continue && parts_.recorder.fault().empty() && parts_.clock.steady_now() < deadline;
+}
+
+/// True: the run was not begun at the machine yet. Nothing of it is interpreted; an abort works.
+bool RunLoop::wait_for_cycle_start(SteadyTime now) {
+  if (!parts_.consent.is_awaited()) return false;
+  (void)parts_.machine.poll(machine::Seconds{0}, 0);
+  commit_reports();
+  if (parts_.consent.is_overdue(now)) {
+    end(dds::RunOutcome::Aborted, fmt::format("no cycle start at the machine within {} s",
+                                              parts_.options.cycle_start_wait.count()));
+  } else {
+    check_end();
+  }
+  return true;
+}
+
+void RunLoop::cycle_start() {
+  parts_.consent.end_wait();
+  spdlog::info("cycle start {}", parts_.run.label());
+  last_step_ = parts_.clock.steady_now();
+  (void)parts_.machine.resume();  // from a hold that was commanded meanwhile
+}
+
+/// What executed blocks have changed in the control's memory is written with the next reports, or
+/// by itself: a kill loses the changes of the last kSyncInterval.
+void RunLoop::keep_memory() {
+  if (!parts_.run.is_active()) return;
+  parts_.run.session->keep_memory(parts_.machine.status().executed);
+  if (!parts_.memory.has_unstaged()) return;
+  parts_.memory.stage();
+  const bool may_commit = !parts_.outbox.has_staged_records() &&
+                          parts_.recorder.is_between_blocks() && parts_.recorder.fault().empty();
+  if (may_commit) (void)parts_.recorder.commit();
+}
+
+/// Before the record of the run's end, and in the same transaction.
+void RunLoop::report_memory() {
+  parts_.run.session->keep_memory(parts_.machine.status().executed);
+  parts_.memory.stage();
+  if (!parts_.memory.take_change()) return;
+  for (const std::string& text : parts_.memory.report()) parts_.recorder.note_memory(text);
+}
+
+/// Reports are written as soon as the block they belong to is finished, or the machine is at rest.
+void RunLoop::commit_reports() {
+  ExecutionRecorder& recorder = parts_.recorder;
+  const bool may_commit =
+      recorder.is_between_blocks() || parts_.machine.state() != MachineState::Running;
+  if (!parts_.outbox.has_staged_records() || !may_commit || !recorder.fault().empty()) return;
+  (void)recorder.commit();
+  if (recorder.fault().empty()) return;
+  spdlog::error("reports cannot be kept, the machine is held: {} {}", recorder.fault(),
+                parts_.run.label());
+}
+
+/// True: records cannot be written. The machine is held until they can.
+bool RunLoop::wait_out_fault(SteadyTime now) {
+  if (parts_.recorder.fault().empty()) return false;
+  if (!is_held_by_fault_ && parts_.machine.state() == MachineState::Running) {
+    parts_.machine.hold();
+    is_held_by_fault_ = true;
+  }
+  if (now < next_commit_) return true;
+  next_commit_ = now + kCommitRetry;
+  if (!parts_.recorder.commit()) return true;
+  spdlog::info("reports are kept again {}", parts_.run.label());
+  if (std::exchange(is_held_by_fault_, false) && parts_.consent.is_given()) parts_.machine.resume();
+  return false;
+}
+
+void RunLoop::check_end() {
+  const ExecutionRecorder& recorder = parts_.recorder;
+  if (const auto& alarm = recorder.alarm()) {
+    const std::string text = valid_text(alarm->text, kMaxReason);
+    end(dds::RunOutcome::Alarmed, fmt::format("{} {}", alarm->id, text));
+  } else if (recorder.was_aborted()) {
+    end(dds::RunOutcome::Aborted,
+        parts_.run.was_emergency_stopped ? "EMERGENCY STOP" : "aborted by command");
+  } else if (recorder.has_ended() && parts_.machine.drained()) {
+    end(dds::RunOutcome::Completed, "");
+  }
+}
+
+void RunLoop::end(dds::RunOutcome outcome, const std::string& reason) {
+  dds::RunEndText text;
+  text.outcome = outcome;
+  text.reason = valid_text(reason, kMaxReason);
+  const feed::ProgramFeed& feed = parts_.run.session->feed();
+  if (feed.content_length() > 0) {
+    text.content_sha256 = feed.content_digest().hex();
+    text.content_length = feed.content_length();
+  }
+  const bool is_completed = outcome == dds::RunOutcome::Completed;
+  parts_.run.last_execution =
+      is_completed ? dds::Execution::ProgramCompleted : dds::Execution::Stopped;
+  parts_.run.last_message = text.reason;
+  report_memory();
+  parts_.recorder.end(std::move(text));
+  parts_.consent.end_wait();
+  parts_.run.is_ending = true;
+  is_held_by_fault_ = false;
+  try_to_finish(parts_.clock.steady_now());
+}
+
+void RunLoop::try_to_finish(SteadyTime now) {
+  ExecutionRecorder& recorder = parts_.recorder;
+  if (!recorder.fault().empty() && now < next_commit_) return;
+  next_commit_ = now + kCommitRetry;
+  if (const auto done = recorder.commit(); !done) {
+    spdlog::error("the end of the run cannot be kept yet: {} {}", done.error().what,
+                  parts_.run.label());
+    return;
+  }
+  const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
+  spdlog::info("run ended {}{} executed={} accepted={} sent={} {}",
+               is_completed ? "completed" : "cut off: ", parts_.run.last_message,
+               recorder.executed().executed, recorder.executed().accepted, recorder.executed().sent,
+               parts_.run.label());
+  recorder.finish();
+  parts_.run.is_ending = false;
+  parts_.run.session.reset();
+  parts_.on_over();
+}
+
+Result<void> RunLoop::interrupt(const std::string& reason) {
+  if (!parts_.run.session) return {};
+  if (!parts_.run.is_ending) end(dds::RunOutcome::Interrupted, reason);
+  if (!parts_.run.session) return {};
+  return fail(Errc::Io, "{}", parts_.recorder.fault());
+}
+
+bool RunLoop::is_moving() const {
+  if (!parts_.run.is_active()) return false;
+  if (parts_.machine.is_moving()) return true;
+  // With the handwheel on, the program's time passes only by a command.
+  return parts_.machine.state() == MachineState::Running && !parts_.machine.panel().handwheel;
+}
+
+bool RunLoop::waits_for_machine() const {
+  if (!parts_.run.is_active() || parts_.consent.is_awaited()) return false;
+  const auto waits = parts_.run.session->waits();
+  return parts_.machine.state() == MachineState::Idle && waits != RunSession::Waits::ForText &&
+         waits != RunSession::Waits::ForOperator;
+}
+
+Result<void> RunLoop::recover() {
+  const auto& run = parts_.outbox.active_run();
+  if (!run) {
+    parts_.journal.clear();
+    return {};
+  }
+  // A block that reported something is executed when its record is committed, all others when the
+  // journal has them.
+  report::Progress progress = parts_.outbox.committed_progress();
+  const auto entry = parts_.journal.read();
+  if (entry && entry->run == run->run && entry->progress.executed >= progress.executed)
+    progress = entry->progress;
+  spdlog::warn("run interrupted at block {} machine={} run={} program={}", progress.executed,
+               parts_.options.machine, run->run, run->program);
+  parts_.run.last_execution = dds::Execution::Stopped;
+  parts_.run.last_message =
+      fmt::format("run {} was interrupted at block {}", run->run, progress.executed);
+  const bool has_memory = !parts_.outbox.memory().cells().empty() && parts_.memory.fault().empty();
+  parts_.recorder.end_interrupted(run->run, progress,
+                                  has_memory ? parts_.memory.report() : std::vector<std::string>());
+  const auto done = parts_.outbox.commit();
+  if (done) parts_.journal.clear();
+  return done;
+}
+
+}  // namespace dripline::gateway

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gateway/app/command_log.hpp"
+#include "gateway/app/consent.hpp"
+#include "gateway/app/control_memory.hpp"
+#include "gateway/app/current_run.hpp"
+#include "gateway/app/options.hpp"
+#include "gateway/app/start_argument.hpp"
+
+namespace dripline::gateway {
+
+/// What a start brings besides the program.
+struct StartOrigin {
+  std::string command;      ///< its command, to be answered; empty: none
+  std::string setup;        ///< what the server knows of tools, offsets and variables, TOML
+  StartArgument from = {};  ///< where it begins; without a place at the beginning
+};
+
+/// A run from its beginning to its end: steps the interpreter, lets the machine move, puts reports
+/// on disk, and ends the run when the machine has ended. One thread.
+class RunLoop {
+ public:
+  struct Parts {
+    const GatewayOptions& options;
+    const interpreter::Dialect& dialect;
+    const interpreter::Setup& setup;
+    const Clock& clock;
+    report::Outbox& outbox;
+    report::RunJournal& journal;
+    machine::MotionBackend& machine;
+    ExecutionRecorder& recorder;
+    ControlMemory& memory;
+    CommandLog& commands;
+    Consent& consent;
+    CurrentRun& run;
+    std::function<void(const interpreter::Setup&)> on_begin;  ///< with the setup that is used
+    std::function<void()> on_over;                            ///< the session is gone
+  };
+  /// All references must outlive it.
+  explicit RunLoop(Parts parts) : parts_(std::move(parts)) {}
+
+  /// Before anything else: ends the run that a former process was executing as interrupted at the
+  /// block it executed last. Errors: those of the outbox.
+  Result<void> recover();
+
+  /// Errors: Busy (the emergency stop), those of the setup, of the machine and of the outbox; no
+  /// run has begun then.
+  Result<void> begin(const report::ActiveRun& run, std::unique_ptr<feed::ProgramFeed> feed,
+                     const StartOrigin& origin);
+  /// Does what is due for the run, for at most about `kSlice`.
+  void step(SteadyTime now);
+  /// Begins a run that waits for cycle start at the machine.
+  void cycle_start();
+  /// A hold is the operator's from here on: records on disk again do not end it.
+  void keep_hold() { is_held_by_fault_ = false; }
+  /// Ends the run, if any, as interrupted. Errors: those of the outbox; then the next start does
+  /// it.
+  Result<void> interrupt(const std::string& reason);
+
+  /// The machine moves, or is about to.
+  bool is_moving() const;
+  /// The next step waits for the machine alone, a probe's answer for instance.
+  bool waits_for_machine() const;
+
+  static constexpr std::chrono::milliseconds kSlice{8};  ///< of work between two looks at the inbox
+  static constexpr std::chrono::milliseconds kLongestStep{100};  ///< real time never jumps by more
+
+ private:
+  Result<interpreter::Setup> setup_of(const StartOrigin& origin) const;
+  Result<void> stage_start(const report::ActiveRun& run, const StartOrigin& origin,
+                           RunSession& session);
+  void run_slice(SteadyTime now);
+  bool run_round(double& machine_seconds, SteadyTime deadline);
+  bool wait_for_cycle_start(SteadyTime now);
+  bool wait_out_fault(SteadyTime now);
+  void commit_reports();
+  void keep_memory();
+  void report_memory();
+  void check_end();
+  void end(dds::RunOutcome outcome, const std::string& reason);
+  void try_to_finish(SteadyTime now);
+
+  Parts parts_;
+  bool is_held_by_fault_ = false;
+  SteadyTime last_step_{}, next_commit_{}, next_sync_{};
+};
+
+inline constexpr std::string_view kEmergencyStop =
+    "the emergency stop is pressed: release it first (switch emergency_stop off)";
+
+}  // namespace dripline::gateway
