@@ -28,12 +28,12 @@ class ChunkCache {
   /// The contiguous bytes held from `offset` to the end of its chunk; empty when there are none.
   /// Valid until the chunk is dropped; the chunk looked at last is never dropped.
   std::string_view view(interpreter::ProgramIndex program, std::uint64_t offset);
-  /// The same without counting as a use.
+  /// The same without being a use.
   std::string_view peek(interpreter::ProgramIndex program, std::uint64_t offset) const;
   /// Takes what fits: bytes that begin beyond the filled part of a chunk, or lie within it, are
-  /// left out. Returns how many were new.
+  /// left out. Returns the number of new ones.
   std::size_t store(interpreter::ProgramIndex program, std::uint64_t offset, std::string_view text);
-  /// How many bytes of this chunk are held, from its beginning.
+  /// Bytes of this chunk that are held, from its beginning.
   std::size_t filled(Key key) const;
   std::size_t bytes() const { return chunks_.size() * kChunkBytes; }
 

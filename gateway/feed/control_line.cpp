@@ -47,18 +47,18 @@ void ControlLine::on_event(wire::Event& event) {
       const std::lock_guard lock(mutex_);
       sending_ = Sending::Nothing;
     }
-    go_on();
+    resume_line();
   } else if (auto* failed = std::get_if<wire::TransferFailed>(&event)) {
     {
       const std::lock_guard lock(mutex_);
-      // A broken piece of it has left: the rest means nothing.
+      // A broken piece was sent: the rest is useless.
       if (sending_ != Sending::Nothing) output_.clear();
       sending_ = Sending::Nothing;
     }
     put(What::Failed, std::move(failed->error.what));
-    go_on();
-  } else if (auto* trouble = std::get_if<wire::LineError>(&event)) {
-    put(What::Fault, std::move(trouble->error.what));
+    resume_line();
+  } else if (auto* fault = std::get_if<wire::LineError>(&event)) {
+    put(What::Fault, std::move(fault->error.what));
   } else if (auto* asked = std::get_if<wire::TransferRequest>(&event)) {
     const bool is_offer = asked->kind == wire::TransferRequest::Kind::TakeProgram;
     put(is_offer ? What::Offered : What::Asked, std::move(asked->name));
@@ -80,9 +80,10 @@ void ControlLine::on_text(std::string&& text) {
   if (is_full)
     driver_->post([](wire::Discipline& end, wire::LineTime now) { end.set_ready(false, now); });
   if (is_overrun)
-    return put(What::Failed, fmt::format("the host sends on although it is held: {} bytes beyond "
-                                         "a full memory",
-                                         kMaxOverrun));
+    return put(What::Failed,
+               fmt::format("the host continues to send although it is held: {} bytes beyond "
+                           "a full memory",
+                           kMaxOverrun));
   {
     const std::lock_guard lock(mutex_);
     if (is_overrun_) return;
@@ -95,9 +96,9 @@ void ControlLine::put(What what, std::string text) {
     const std::lock_guard lock(mutex_);
     if (what == What::Text && !items_.empty() && items_.back().what == What::Text) {
       items_.back().text += text;
-      return;  // whoever is to take it has been told
+      return;  // the owner was notified already
     }
-    // Only trouble comes without bound (text is held off), and only when nobody takes it.
+    // Only faults are unbounded (text is held off), and only while `take` is not called.
     if (items_.size() >= kMaxItems && what == What::Fault) return;
     items_.push_back({what, std::move(text)});
   }
@@ -130,9 +131,8 @@ void ControlLine::expect(const wire::TransferRequest* request) {
   });
 }
 
-/// What was printed goes first. The wish to listen may have overtaken the end of the transfer
-/// before it: an XMODEM that then asked its host for a program would wait for a host that asks for
-/// the output.
+/// Output goes first. The request to listen may have overtaken the end of the transfer before it:
+/// an XMODEM that then asked its host for a program would wait for a host that asks for the output.
 void ControlLine::listen(wire::Discipline& end, wire::LineTime now) {
   if (!is_expecting_) return;
   pump(end, now);
@@ -151,7 +151,7 @@ void ControlLine::refuse(std::string reason) {
 
 void ControlLine::abort() {
   driver_->post([this](wire::Discipline& end, wire::LineTime now) {
-    // A line that sends and receives at once has no way to say so; what is printed goes on.
+    // A line that sends and receives at once cannot report an abort; its output continues.
     const std::lock_guard lock(mutex_);
     if (sending_ == Sending::Nothing) end.abort(now);
   });
@@ -172,14 +172,14 @@ void ControlLine::post_pump() {
 }
 
 /// The line is free, or freer than before.
-void ControlLine::go_on() {
+void ControlLine::resume_line() {
   driver_->post([this](wire::Discipline& end, wire::LineTime now) {
     pump(end, now);
     listen(end, now);
   });
 }
 
-/// What is there now goes as one transfer; more that comes meanwhile is the next one.
+/// The present output is one transfer; text that is queued meanwhile is the next one.
 void ControlLine::pump(wire::Discipline& end, wire::LineTime now) {
   const std::lock_guard lock(mutex_);
   if (output_.empty() || sending_ == Sending::End) return;
@@ -187,14 +187,14 @@ void ControlLine::pump(wire::Discipline& end, wire::LineTime now) {
     if (!end.begin_send("", now)) return;  // busy: tried again at the end of what is in progress
     sending_ = Sending::Text;
   }
-  // A TNC asks its device first, and goes on when that has agreed.
+  // A TNC asks its device first, and continues when the device has agreed.
   if (end.state().phase != wire::Phase::Sending) return;
   const std::size_t size = std::min(output_.size(), end.room());
   if (size == 0) return;
   const std::string piece = output_.substr(0, size);
   output_.erase(0, size);
   if (output_.empty()) sending_ = Sending::End;
-  (void)end.offer(piece, output_.empty(), now);  // a failure comes as an event
+  (void)end.offer(piece, output_.empty(), now);  // a failure arrives as an event
 }
 
 bool ControlLine::is_quiet() const {

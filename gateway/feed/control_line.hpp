@@ -12,16 +12,16 @@
 
 namespace dripline::feed {
 
-/// What came over a line, in order.
+/// One item from a line; they arrive in sequence.
 struct LineItem {
   enum class What : std::uint8_t {
     Began,    ///< a program; `text` is its name, may be empty
     Text,     ///< of the program
-    Ended,    ///< all of it came
-    Failed,   ///< no more of it comes; `text` says why
+    Ended,    ///< it is complete
+    Failed,   ///< it broke off; `text` is the reason
     Offered,  ///< the host wants to send one, `text` is its name: answer with `expect`
     Asked,    ///< the host wants one, `text` is its name
-    Fault,    ///< something else was wrong; `text` says what
+    Fault,    ///< any other fault; `text` describes it
     Channel,  ///< the line is open (empty text), or why it is not
   };
   What what = What::Text;
@@ -38,31 +38,31 @@ class ControlLine {
     std::string address;
     wire::LineSettings settings;
     std::size_t buffer_bytes = 64 * 1024;  ///< the control's memory for a program being fed
-    /// Something is there for `take`; called on the line's thread.
+    /// There are items for `take`; called on the line's thread.
     std::function<void()> wake;
     std::function<Result<std::unique_ptr<serial::Channel>>()> open = {};  ///< for tests
   };
-  /// The channel may come later. Errors: Unsupported (settings that exclude each other).
+  /// The channel may open later. Errors: Unsupported (settings that exclude each other).
   static Result<std::unique_ptr<ControlLine>> start(Parts parts);
   ControlLine(const ControlLine&) = delete;
   ControlLine& operator=(const ControlLine&) = delete;
 
   /// Everything since the last call.
   std::vector<LineItem> take();
-  /// So much of the text taken is used up: its memory is free.
+  /// This part of the taken text is used up: its memory is free.
   void release(std::size_t bytes);
 
   /// Listens for a program, or asks for one by `request`, as soon as the line is not busy sending.
-  /// What is wrong with that comes as Fault; on a line that is listening it means nothing.
+  /// A failure arrives as a Fault; on a line that is listening it is not significant.
   void expect(const wire::TransferRequest* request = nullptr);
   void refuse(std::string reason);
-  /// Gives up the program that is coming, and tells the host where the protocol can; output stays.
+  /// Aborts the program being received, and notifies the host where the protocol can; output stays.
   void abort();
-  /// Sends text when the line lets it, after everything sent before. False: no room for it.
+  /// Queues text to be sent. False: there is no room for it.
   bool send(std::string_view text);
-  /// Nothing has come for so long that what comes next is something new.
+  /// The line has been silent for so long that the next text is a new transfer.
   bool is_quiet() const;
-  /// Everything sent has left, or could not.
+  /// Everything queued was sent, or has failed.
   bool has_sent_all() const;
 
   bool is_open() const { return driver_->is_open(); }
@@ -82,7 +82,7 @@ class ControlLine {
   void listen(wire::Discipline& end, wire::LineTime now);
   void pump(wire::Discipline& end, wire::LineTime now);
   void post_pump();
-  void go_on();
+  void resume_line();
   void put(LineItem::What what, std::string text);
 
   Parts parts_;
@@ -93,8 +93,8 @@ class ControlLine {
   std::string output_;
   enum class Sending : std::uint8_t { Nothing, Text, End } sending_ = Sending::Nothing;
   bool is_overrun_ = false;
-  bool is_expecting_ = false;                     ///< on the line's thread, like what follows
-  std::optional<wire::TransferRequest> request_;  ///< to be made; nothing: only listens
+  bool is_expecting_ = false;                     ///< on the line's thread, as the next ones
+  std::optional<wire::TransferRequest> request_;  ///< to be made; none: only listens
   std::atomic<std::int64_t> heard_{0};            ///< steady nanoseconds
   std::unique_ptr<serial::LineDriver> driver_;    ///< last: its thread ends first
 };

@@ -32,7 +32,7 @@ TextWindow LineFeed::fetch(interpreter::ProgramIndex program, std::uint64_t offs
   const bool is_enough = available >= min_bytes && available > 0;
   if (!is_enough && !has_ended_) {
     if (!reason_.empty()) return failed(reason_);
-    consumed_ = received_;  // what is there is a piece of a block: the rest needs room to come
+    consumed_ = received_;  // this is a part of a block: the rest needs room
     return {};
   }
   const std::size_t size = static_cast<std::size_t>(

@@ -7,22 +7,22 @@
 
 namespace dripline::feed {
 
-/// A run's text as it comes over a line: in order, once, until the sender ends. What was executed
-/// is kept as far as the cache holds, so that loops work; a jump back further than that fails, as
-/// does the text after a line that broke. Pure; one thread.
+/// A run's text from a line: in sequence, once, until the sender ends. Executed text is kept within
+/// the size of the cache, so that loops work; a jump back further than that fails, as does the text
+/// after a line that broke. Pure; one thread.
 class LineFeed final : public ProgramFeed {
  public:
   static constexpr std::size_t kKeptBytes = 8 * 1024 * 1024;
-  /// Given to the interpreter at a time, so that room in the control's memory is told in time.
+  /// Bytes given to the interpreter at a time, so that free memory of the control is known early.
   static constexpr std::size_t kPiece = 1024;
 
   explicit LineFeed(std::size_t kept_bytes = kKeptBytes) : cache_(kept_bytes) {}
 
   /// More text. Not after `end` or `break_off`.
   void append(std::string_view text);
-  /// That was all of it.
+  /// The text is complete.
   void end() { has_ended_ = true; }
-  /// No more will come, and the end is missing: the text that came is still given.
+  /// The text broke off before its end: the part that arrived is still given.
   void break_off(std::string reason) { reason_ = std::move(reason); }
 
   /// Bytes the interpreter has taken, or waits beyond: all before may be replaced by new ones.

@@ -10,8 +10,8 @@
 
 namespace dripline::feed {
 
-/// A run's text together with what its owner must know of its arrival. What a kind of feed has no
-/// use for does nothing. One thread, the one that steps the interpreter.
+/// A run's text, and what its owner must know of its arrival. Functions that a kind of feed does
+/// not need do nothing. One thread, the one that steps the interpreter.
 class ProgramFeed : public interpreter::ProgramSource {
  public:
   /// An answer from the server. Anything that is not of this run and session is ignored.
@@ -20,9 +20,9 @@ class ProgramFeed : public interpreter::ProgramSource {
   virtual void poll(SteadyTime /*now*/) {}
   /// When poll has something to do without anything else happening; nullopt: never.
   virtual std::optional<SteadyTime> next_poll() const { return std::nullopt; }
-  /// A server has (re)appeared: everything missing is asked for at once.
+  /// A server has (re)appeared: everything missing is requested at once.
   virtual void ask_again() {}
-  /// How fast the text is used up; nullopt: as fast as possible.
+  /// The rate at which the text is used up; nullopt: as fast as possible.
   virtual void set_consumption(std::optional<double> /*bytes_per_second*/) {}
 
   /// The *sent* counter: bytes of the main program received without a gap from its beginning.

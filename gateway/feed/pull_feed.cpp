@@ -110,7 +110,7 @@ void PullFeed::on_data(const dds::BlockData& data, SteadyTime now) {
   program.received_to = std::max(program.received_to, data.offset + data.bytes.size());
   last_data_ = now;
   cache_.store(*index, data.offset, as_text(data.bytes));
-  forget_asked(*index, data.offset, data.offset + data.bytes.size());
+  drop_asked(*index, data.offset, data.offset + data.bytes.size());
   if (*index == interpreter::kMainProgram) extend_hash();
 }
 
@@ -123,7 +123,7 @@ std::optional<interpreter::ProgramIndex> PullFeed::program_of(const dds::BlockDa
 
 bool PullFeed::is_consistent(const Program& program, const dds::BlockData& data) {
   if (program.size && *program.size != data.total_bytes) {
-    failure_ = fmt::format("the server says program \"{}\" has {} bytes, it began with {}",
+    failure_ = fmt::format("the server reports that program \"{}\" has {} bytes, it began with {}",
                            program.name, data.total_bytes, *program.size);
     return false;
   }
@@ -136,14 +136,13 @@ void PullFeed::on_error(Program& program, const dds::BlockData& data) {
     program.is_missing = !program.size;
     return;
   }
-  // "Failed" is the server's own trouble and may pass: the deadline asks again.
+  // "Failed" is a fault of the server and may pass: the deadline asks again.
   if (data.status == dds::BlockStatus::Failed && ++program.failures < options_.max_failures) return;
   failure_ = fmt::format("program text at byte {}: {}{}{}", data.offset, meaning_of(data.status),
                          data.reason.empty() ? "" : ": ", data.reason);
 }
 
-void PullFeed::forget_asked(interpreter::ProgramIndex program, std::uint64_t from,
-                            std::uint64_t to) {
+void PullFeed::drop_asked(interpreter::ProgramIndex program, std::uint64_t from, std::uint64_t to) {
   const std::uint64_t size = *programs_[program].size;
   for (std::uint64_t index = from / kChunk; index * kChunk < to; ++index) {
     const std::uint64_t full = std::min(kChunk, size - index * kChunk);
@@ -215,7 +214,7 @@ std::size_t PullFeed::in_flight(interpreter::ProgramIndex index, Range window, S
 bool PullFeed::is_due(ChunkCache::Key key, SteadyTime now) {
   const auto asked = asked_.find(key);
   if (asked == asked_.end()) return true;
-  // While answers come in, those further on are not late; one that was overtaken is.
+  // While answers arrive, later pieces are not overdue; a piece that was overtaken is.
   const bool is_overtaken = programs_[key.program].received_to > (key.index + 1) * kChunk;
   const SteadyTime quiet = last_data_ + options_.retry;
   const SteadyTime deadline =

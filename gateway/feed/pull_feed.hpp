@@ -15,16 +15,16 @@ namespace dripline::feed {
 
 struct PullFeedOptions {
   std::size_t cache_bytes = 8 * 1024 * 1024;
-  std::size_t min_window = 64 * 1024;  ///< asked for ahead of the cursor, at least
+  std::size_t min_window = 64 * 1024;  ///< requested ahead of the cursor
   std::size_t max_window = 4 * 1024 * 1024;
-  double target_seconds = 10;  ///< of motion to be asked for ahead
+  double target_seconds = 10;  ///< of motion, requested ahead
   std::uint32_t request_bytes = 128 * 1024;
-  /// Asked for and not answered, at most: below what the network holds for a live peer
-  /// (dds::kBlockWindow pieces).
+  /// Requested and not answered: below what the network holds for a live peer (dds::kBlockWindow
+  /// pieces).
   std::size_t max_in_flight = 40 * ChunkCache::kChunkBytes;
-  std::chrono::milliseconds retry{300};  ///< silence after which is asked again; doubles
+  std::chrono::milliseconds retry{300};  ///< silence before a request is repeated; doubles
   std::chrono::milliseconds max_retry{3000};
-  int max_failures = 10;  ///< answers "failed" in a row until the program counts as lost
+  int max_failures = 10;  ///< answers "failed" in a row until the program is lost
   std::size_t max_called_programs = 64;
 };
 
@@ -59,7 +59,7 @@ class PullFeed final : public ProgramFeed {
   /// Sizes the window to `target_seconds`; nullopt: as fast as possible, the whole window.
   void set_consumption(std::optional<double> bytes_per_second) override;
 
-  /// Why the program cannot be had any more; empty: it can.
+  /// Why the program is not available any more; empty: it is.
   const std::string& failure() const { return failure_; }
   std::uint64_t sent() const override { return hashed_; }
   /// Equals the revision's once sent() is the program's size.
@@ -89,7 +89,7 @@ class PullFeed final : public ProgramFeed {
   std::optional<interpreter::ProgramIndex> program_of(const dds::BlockData& data) const;
   bool is_consistent(const Program& program, const dds::BlockData& data);
   void on_error(Program& program, const dds::BlockData& data);
-  void forget_asked(interpreter::ProgramIndex program, std::uint64_t from, std::uint64_t to);
+  void drop_asked(interpreter::ProgramIndex program, std::uint64_t from, std::uint64_t to);
   void extend_hash();
   Range window_of(const Program& program) const;
   void ask_window(interpreter::ProgramIndex index, SteadyTime now);

@@ -4,14 +4,14 @@
 
 namespace dripline::machine {
 
-/// Learns what the machine has done, in execution order, each thing at the moment when all motion
-/// before it is finished. Called only from inside Machine's functions, on the owner's thread; must
-/// not call back into the machine. string_views live until the function returns.
+/// Receives what the machine has done, in the sequence of execution, each event when all motion
+/// before it has finished. Called only from inside the back end's functions, on the owner's thread;
+/// must not call back into it. string_views live until the function returns.
 class ExecutionSink {
  public:
   virtual ~ExecutionSink() = default;
-  /// A move, a dwell or a probe is about to begin: the last moment to put on disk what was told
-  /// before it.
+  /// A move, a dwell or a probe is about to begin: the last moment to write to disk what was
+  /// reported before it.
   virtual void on_motion_starts(const interpreter::Origin&) {}
   /// The block is done: all its moves have ended. This is the *executed* counter.
   virtual void on_block_executed(const interpreter::Origin&) {}
@@ -26,11 +26,12 @@ class ExecutionSink {
   virtual void on_miscellaneous(const interpreter::Miscellaneous&) {}
   virtual void on_pin(const interpreter::PinChange&) {}
   /// The probe move of `begin_probe` is over; `result` is present. Answer the interpreter with it
-  /// after the machine's function has returned.
+  /// after the back end's function has returned.
   virtual void on_probed(const interpreter::Probe&) {}
   /// A stop was reached. An optional stop with its switch off is not reported.
   virtual void on_stop(const interpreter::Stop&) {}
-  /// The program's alarm, or the machine's own (MCH...): nothing queued after it happens.
+  /// The program's alarm, or the machine's own (MCH...): nothing that is queued after it is
+  /// executed.
   virtual void on_alarm(const interpreter::Alarm&) {}
   virtual void on_end(const interpreter::End&) {}
   /// `abort` has brought the axes to rest; what was queued is discarded.

@@ -14,13 +14,13 @@ struct AxisLimits {
   double min = -std::numeric_limits<double>::infinity();  ///< travel, both ends allowed
   double max = std::numeric_limits<double>::infinity();
   double rapid_per_minute = 10'000;
-  double feed_per_minute = 5'000;  ///< the fastest feed, whatever is programmed
+  double feed_per_minute = 5'000;  ///< the highest feed, also when more is programmed
   double acceleration = 1'000;     ///< per second squared
 };
 
 struct SpindleLimits {
   double max_rpm = 6'000;
-  /// Used for feed per revolution and threads while the spindle stands still; 0: that is an alarm.
+  /// Used for feed per revolution and threads while the spindle is stopped; 0: that is an alarm.
   double assumed_rpm = 0;
 };
 
@@ -28,10 +28,10 @@ struct SpindleLimits {
 struct MachineLimits {
   std::array<std::optional<AxisLimits>, interpreter::kAxisCount> axes;  ///< absent: no such axis
   SpindleLimits spindle;
-  /// How far a corner may be cut in thought to find the speed it is passed at: a corner is taken at
-  /// the speed of the circle that leaves it by this much (mm). 0: full stop at every corner.
+  /// A corner is passed at the speed of the circle that deviates from it by this distance (mm); the
+  /// path itself stays exact. 0: full stop at every corner.
   double corner_deviation = 0.02;
-  /// Path feed per minute that no override goes beyond, where the control says so.
+  /// Path feed per minute that no override exceeds, where the control has such a limit.
   double fastest_feed_per_minute = std::numeric_limits<double>::infinity();
   bool waits_at_tool_change = false;  ///< a tool change stop waits for resume, as a program stop
 

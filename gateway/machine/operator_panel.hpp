@@ -2,8 +2,8 @@
 
 namespace dripline::machine {
 
-/// The switches and knobs in front of the operator, as plain state. The application maps orders to
-/// it. Block skip is the interpreter's to obey; it is kept here so that one place knows them all.
+/// The switches and knobs of the operator, as plain state; the application maps commands to it. The
+/// interpreter obeys block skip, it is kept here with the others.
 struct OperatorPanel {
   bool single_block = false;   ///< stop after every block
   bool optional_stop = false;  ///< an optional stop (M1) stops
@@ -11,12 +11,12 @@ struct OperatorPanel {
   double feed_override = 1;     ///< 0 .. 2; threads ignore it
   double rapid_override = 1;    ///< 0 .. 1
   double spindle_override = 1;  ///< 0 .. 2.55
-  bool handwheel = false;       ///< the program's time passes only as the handwheel is turned
+  bool handwheel = false;       ///< the program advances only as the handwheel is turned
   bool emergency_stop = false;  ///< pressed in: see MotionBackend::set_panel
 
   static constexpr double kMaxFeedOverride = 2, kMaxRapidOverride = 1, kMaxSpindleOverride = 2.55;
 
-  /// The nearest panel a hand could set; a NaN counts as 1.
+  /// The nearest panel within the limits; a NaN becomes 1.
   OperatorPanel clamped() const;
   friend bool operator==(const OperatorPanel&, const OperatorPanel&) = default;
 };

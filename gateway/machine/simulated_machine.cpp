@@ -6,7 +6,7 @@ namespace dripline::machine {
 
 using impl::ActionQueue;
 using impl::Executor;
-using impl::Intake;
+using impl::MotionQueueBuilder;
 
 /// Everything refers to everything above it, so it stays in one place.
 struct SimulatedMachine::Parts {
@@ -14,11 +14,11 @@ struct SimulatedMachine::Parts {
       : limits(its_limits),
         workpiece(std::move(its_workpiece)),
         queue(kQueuedActions + kBlockReserve, kQueuedText + kTextReserve),
-        intake(limits, queue),
+        queue_builder(limits, queue),
         executor({.limits = limits,
                   .workpiece = workpiece,
                   .queue = queue,
-                  .intake = intake,
+                  .queue_builder = queue_builder,
                   .sink = sink}) {
     for (std::size_t i = 0; i < limits.axes.size(); ++i)
       capabilities.axes.set(i, limits.axes[i].has_value());
@@ -39,7 +39,7 @@ struct SimulatedMachine::Parts {
   const MachineLimits limits;
   const interpreter::Workpiece workpiece;
   ActionQueue queue;
-  Intake intake;
+  MotionQueueBuilder queue_builder;
   Executor executor;
 };
 
@@ -64,7 +64,7 @@ void SimulatedMachine::begin(const interpreter::Position& at) {
 }
 
 interpreter::EventSink& SimulatedMachine::events() {
-  return parts_->intake;
+  return parts_->queue_builder;
 }
 
 bool SimulatedMachine::has_room() const {
@@ -72,7 +72,7 @@ bool SimulatedMachine::has_room() const {
 }
 
 void SimulatedMachine::begin_probe(const interpreter::Probe& probe) {
-  parts_->intake.begin_probe(probe);
+  parts_->queue_builder.begin_probe(probe);
 }
 
 bool SimulatedMachine::input(int) const {

@@ -5,7 +5,7 @@
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
 
-/// A real gateway at the end of a line, as it is unless told otherwise: people may be at the
+/// A real gateway at the end of a line, as it is unless stated otherwise: people may be at the
 /// machine.
 namespace dripline::integration {
 namespace {

@@ -62,7 +62,7 @@ class BackgroundEditing : public testing::Test {
   bool stands_at(double z) {
     return eventually([&] { return status()["position"].value("Z", 0.0) == z; });
   }
-  /// Lets the run go on after its stop, and gives it when it has ended.
+  /// Resumes the run after its stop, and returns it when it has ended.
   nlohmann::json resume(const std::string& id) {
     dnc({"run", "resume", id});
     return system.wait_ended(id);

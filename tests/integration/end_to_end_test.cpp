@@ -138,7 +138,7 @@ TEST_F(EndToEnd, AMachineThatTwoGatewaysClaimIsNotStarted) {
     const std::string id = reply.json().value("id", "");
     return system->wait_ended(id).value("state", "") == "completed" &&
            system->report_lines(id).size() == 20;
-  })) << "the one that is left goes on";
+  })) << "the other one continues";
 }
 
 TEST_F(EndToEnd, BothEndOrderlyOnSigterm) {

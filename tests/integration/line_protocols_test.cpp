@@ -19,7 +19,7 @@ struct Protocol {
   const char* name;
   std::vector<std::string> settings;
   const char* request = "";   ///< what the control asks for; nothing: the host begins
-  bool host_expects = false;  ///< the host must say that it takes what is printed
+  bool host_expects = false;  ///< the host must announce that it takes the output
 };
 
 class LineProtocol : public testing::TestWithParam<Protocol> {};

@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Protocol{"heidenhain_bcc", {"flow=heidenhain_bcc", "control=plain"}, "77"}),
     [](const auto& i) { return std::string(i.param.name); });
 
-/// A control that asks when it is switched on, before anybody has ordered anything.
+/// A control that asks when it is switched on, before any command.
 TEST(LineSystemCommands, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
   const std::vector<std::vector<std::string>> lines{
       {"flow=dc_codes", "start_char=%", "end_char=%", "control=plain"},
@@ -161,7 +161,7 @@ TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
   EXPECT_NE(reason.find("block"), std::string::npos) << reason;
   EXPECT_FALSE(line.port_view().value("open", true));
 
-  // What the server says has left, and what the control has: apart by what was on the way.
+  // The server's sent counter and the control's text differ by what is in transit.
   const auto endings = line.shop->endings();
   ASSERT_EQ(endings.size(), 1U);
   const auto& ending = endings[0];
@@ -175,7 +175,8 @@ TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
   // The lathe looks one block ahead: the last one is executed when the next has come.
   EXPECT_LE(ending.executed, ending.accepted);
   EXPECT_GE(ending.executed + 1, ending.accepted);
-  EXPECT_EQ(run.value("executed", std::uint64_t{9}), 0U) << "a line does not tell what is executed";
+  EXPECT_EQ(run.value("executed", std::uint64_t{9}), 0U)
+      << "a line does not report what is executed";
 }
 
 TEST(LineSystemLoss, ResumesACheckedProtocolWhenTheCableIsBack) {

@@ -107,8 +107,8 @@ TEST(DamagedDatabase, ACorruptedChunkIsRefusedAndNeverExecuted) {
       system.rest().post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0300"}});
   const auto run = reply.status == 201 ? system.wait_ended(reply.json().value("id", ""))
                                        : nlohmann::json::object();
-  const std::string said = reply.status == 201 ? run.value("reason", "") : reply.body;
-  EXPECT_NE(said.find("orrupt"), std::string::npos) << reply.body << run.dump();
+  const std::string reason = reply.status == 201 ? run.value("reason", "") : reply.body;
+  EXPECT_NE(reason.find("orrupt"), std::string::npos) << reply.body << run.dump();
   EXPECT_NE(run.value("state", ""), "completed");
   EXPECT_EQ(run.value("executed", 0u), 0u);
   EXPECT_NE(system.rest().get("/api/v1/programs/O0300/content").body.size(),

@@ -73,7 +73,7 @@ class System {
   test_support::TemporaryFolder folder_;
   Options options_;
   int domain_ = 0;
-  std::optional<FileLock> domain_lock_;  ///< nobody else takes the domain while servers restart
+  std::optional<FileLock> domain_lock_;  ///< no other test takes the domain while servers restart
   std::string tag_;
   std::optional<test_support::ChildProcess> server_, gateway_;
 };

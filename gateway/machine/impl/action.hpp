@@ -11,7 +11,7 @@
 
 namespace dripline::machine::impl {
 
-/// What a move's speed hangs on.
+/// What the speed of a move depends on.
 enum class Pace : std::uint8_t { Rapid, Feed, FeedPerRevolution, Thread };
 
 /// One move, with what the planner needs. Speeds: mm (or degrees) per second.
@@ -35,16 +35,16 @@ struct Move {
 
  private:
   double asked_speed(const OperatorPanel& panel) const {
-    const double turns = std::min(panel.spindle_override, spindle_headroom);
+    const double spindle = std::min(panel.spindle_override, spindle_headroom);
     switch (pace) {
       case Pace::Rapid:
         return speed * panel.rapid_override;
       case Pace::Feed:
         return speed * panel.feed_override;
       case Pace::FeedPerRevolution:
-        return speed * panel.feed_override * turns;
+        return speed * panel.feed_override * spindle;
       case Pace::Thread:
-        return speed * turns;
+        return speed * spindle;
     }
     return 0;
   }
@@ -87,7 +87,7 @@ struct Action {
   double seconds = 0;  ///< about what it takes at 100 %
   Body body;
 
-  /// The axes stand still before it begins.
+  /// The axes are at standstill before it begins.
   bool needs_standstill() const {
     if (const auto* tool = std::get_if<interpreter::ToolChange>(&body))
       return !tool->is_preselection;

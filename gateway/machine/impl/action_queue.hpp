@@ -8,8 +8,8 @@
 
 namespace dripline::machine::impl {
 
-/// What is to be done, in order: a ring of fixed size. Every action has a number that never comes
-/// again, so that a plan can say how far it reaches.
+/// The queued actions in sequence: a ring of fixed size. Every action has a unique number, so that
+/// a plan can name the actions it covers.
 class ActionQueue {
  public:
   ActionQueue(std::size_t actions, std::size_t text_bytes) : ring_(actions), texts_(text_bytes) {}
@@ -50,7 +50,7 @@ class ActionQueue {
     seconds_ -= front().seconds;
     if (++head_ == ring_.size()) head_ = 0;
     ++first_;
-    if (--size_ == 0) seconds_ = 0;  // rounding does not pile up
+    if (--size_ == 0) seconds_ = 0;  // rounding errors do not add up
   }
   void clear() {
     first_ += size_;

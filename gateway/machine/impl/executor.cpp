@@ -9,7 +9,7 @@ Executor::Executor(const Parts& parts)
     : limits_(parts.limits),
       workpiece_(parts.workpiece),
       queue_(parts.queue),
-      intake_(parts.intake),
+      queue_builder_(parts.queue_builder),
       sink_(parts.sink),
       spindle_(parts.limits.spindle) {}
 
@@ -23,7 +23,7 @@ void Executor::begin(const interpreter::Position& at) {
   for (std::size_t i = 0; i < interpreter::kAxisCount; ++i)
     if (limits_.axes[i]) axes_.mark(static_cast<interpreter::Axis>(i));
   take_over(at_, at);
-  intake_.begin(at_);
+  queue_builder_.begin(at_);
   planner_.invalidate();
   spindle_.stop();
   stop_ = MachineState::Idle;
@@ -54,7 +54,7 @@ double Executor::pass(double by, std::size_t max_actions) {
       finish_move();
     } else if (is_dwelling_) {
       if (!pass_dwell(by, used)) return used;
-    } else if ((max_actions > 0 || goes_on_regardless()) && may_start()) {
+    } else if ((max_actions > 0 || continues_regardless()) && may_start()) {
       if (max_actions > 0) --max_actions;
       start_front();
     } else {
@@ -71,7 +71,7 @@ bool Executor::is_over() const {
 
 bool Executor::may_start() const {
   if (queue_.empty()) return false;
-  // The last block's end may come after the program's.
+  // The end of the last block may follow the end of the program.
   if (stop_ == MachineState::Completed)
     return std::holds_alternative<BlockEnd>(queue_.front().body);
   if (stop_ != MachineState::Idle) return false;
@@ -79,14 +79,14 @@ bool Executor::may_start() const {
   return !is_aborting_ && (!is_held_ || delays_hold(queue_.front().lock));
 }
 
-/// Axes that have to come to rest cross into the next moves, and moves that cannot be held are
-/// made to their end, whatever the budget.
-bool Executor::goes_on_regardless() const {
+/// Axes that must come to rest continue into the next moves, and moves that cannot be held are
+/// executed to their end, beyond the budget.
+bool Executor::continues_regardless() const {
   if (speed_ > 0) return is_held_ || is_aborting_;
   return is_held_ && !queue_.empty() && delays_hold(queue_.front().lock);
 }
 
-/// False: it goes on later. `used` takes what passed of `by`.
+/// False: the dwell continues later. `used` gets the part of `by` that passed.
 bool Executor::pass_dwell(double by, double& used) {
   if (is_aborting_ || (is_held_ && !delays_hold(lock_))) return false;
   const double rate = dwell_follows_spindle_ ? lock_.seen(panel_).spindle_override : 1;
@@ -162,7 +162,7 @@ void Executor::discard() {
   is_dwelling_ = false;
   speed_ = 0;
   queue_.clear();
-  intake_.close();
+  queue_builder_.close();
   if (!is_aborting_) return;
   is_aborting_ = is_held_ = false;
   stop_ = MachineState::Aborted;
@@ -173,7 +173,7 @@ void Executor::discard() {
 
 void Executor::start_probe() {
   interpreter::Probe& probe = *queue_.probe;
-  // The interpreter's own idea of where it goes, so that a trace without a machine says the same.
+  // The interpreter's own end point, so that a trace without a machine is the same.
   probe.result = workpiece_.probe(probe.from, probe.to, probe.until);
   Coordinates target = at_;
   take_over(target, probe.result->at);
@@ -191,7 +191,7 @@ void Executor::start_probe() {
 }
 
 void Executor::finish_probe() {
-  intake_.end_probe(at_);
+  queue_builder_.end_probe(at_);
   const interpreter::Probe probe = *queue_.probe;
   queue_.probe.reset();
   finish_action();
@@ -200,7 +200,7 @@ void Executor::finish_probe() {
 
 // -- the plan ---------------------------------------------------------------------------------
 
-/// More was queued: the move being made may leave faster than it had to when nothing was after it.
+/// More was queued: the present move may end faster than when it was the last one.
 void Executor::look_ahead_again() {
   if (!motion_.is_active() || &motion_.move() == &probe_move_) return;
   const double before = motion_.move().exit_square;
@@ -255,10 +255,10 @@ void Executor::show(const Move& move) {
 
 MachineStatus Executor::status() const {
   const Coordinates now = position();
-  // a rapid move already turns for the diameter it leads to
+  // during a rapid move the spindle already has the speed of the diameter at its end
   const bool is_rapid = motion_.is_active() && motion_.move().pace == Pace::Rapid;
-  const Path* way = is_rapid ? &motion_.move().path : nullptr;
-  const double x = way != nullptr ? way->at(way->length)[0] : now[0];
+  const Path* path = is_rapid ? &motion_.move().path : nullptr;
+  const double x = path != nullptr ? path->at(path->length)[0] : now[0];
   const OperatorPanel in_force = lock_.seen(panel_);
   const double turn = spindle_.rpm(x, in_force.spindle_override);
   MachineStatus status = shown_;

@@ -2,9 +2,9 @@
 
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
 #include "gateway/machine/execution_sink.hpp"
-#include "gateway/machine/impl/intake.hpp"
 #include "gateway/machine/impl/motion.hpp"
 #include "gateway/machine/impl/planner.hpp"
+#include "gateway/machine/impl/motion_queue_builder.hpp"
 #include "gateway/machine/machine_limits.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/operator_panel.hpp"
@@ -19,7 +19,7 @@ class Executor {
     const MachineLimits& limits;
     const interpreter::Workpiece& workpiece;
     ActionQueue& queue;
-    Intake& intake;
+    MotionQueueBuilder& queue_builder;
     ExecutionSink& sink;
   };
   explicit Executor(const Parts& parts);
@@ -44,7 +44,7 @@ class Executor {
   bool is_driven_by_hand() const;
   bool pass_dwell(double by, double& used);
   bool may_start() const;
-  bool goes_on_regardless() const;
+  bool continues_regardless() const;
   bool delays_hold(const Lock& lock) const;
   bool is_over() const;
   void start_front();
@@ -63,7 +63,8 @@ class Executor {
   void show(const interpreter::ToolChange& tool);
   void discard();
   void press_emergency_stop();
-  /// What an abort leaves is dropped, and told, only when nobody presses the emergency stop.
+  /// The rest of an aborted program is dropped, and the abort reported, only with the emergency
+  /// stop released.
   bool may_discard() const { return is_aborting_ && !panel_.emergency_stop; }
 
   MotionGoal goal(const Move& move) const;
@@ -75,30 +76,30 @@ class Executor {
   const MachineLimits& limits_;
   const interpreter::Workpiece& workpiece_;
   ActionQueue& queue_;
-  Intake& intake_;
+  MotionQueueBuilder& queue_builder_;
   ExecutionSink& sink_;
   Planner planner_;
   OperatorPanel panel_;
   SpindleModel spindle_;
 
-  Motion motion_;  ///< the move being made, if any
+  Motion motion_;  ///< the present move, if any
   Move probe_move_;
   bool is_dwelling_ = false;  ///< the front of the queue is a wait that has begun
   bool dwell_follows_spindle_ = false;
   double dwell_left_ = 0;       ///< at 100 % spindle, where it follows that
   double speed_ = 0;            ///< between two moves
   Coordinates at_{};            ///< between two moves
-  interpreter::Position axes_;  ///< says which axes were ever given
+  interpreter::Position axes_;  ///< marks the axes that a program has named
 
   bool is_held_ = false, is_aborting_ = false;
-  bool is_emergency_ = false;               ///< the abort is an emergency stop's: nothing turns on
-  Lock lock_;                               ///< of the action begun last
-  bool hold_waits_ = false;                 ///< for the end of moves that cannot be held
-  bool skips_tap_ = false;                  ///< this tapping cycle is not done by handwheel
-  double handwheel_seconds_ = 0;            ///< that its turns have still to pass
-  MachineState stop_ = MachineState::Idle;  ///< Idle: no reason to stand
+  bool is_emergency_ = false;     ///< the abort is an emergency stop: nothing is switched on
+  Lock lock_;                     ///< of the action begun last
+  bool hold_waits_ = false;       ///< for the end of moves that cannot be held
+  bool skips_tap_ = false;        ///< this tapping cycle is not done by handwheel
+  double handwheel_seconds_ = 0;  ///< turned, but not passed yet
+  MachineState stop_ = MachineState::Idle;  ///< Idle: no stop
   interpreter::StopKind stopped_at_{};
-  MachineStatus shown_;  ///< motion, tool and coolant as executed last; nothing else of it is used
+  MachineStatus shown_;  ///< only motion, tool and coolant, as executed last
   interpreter::Origin origin_;
   std::uint64_t executed_ = 0;
 };

@@ -5,7 +5,7 @@
 
 namespace dripline::machine::impl {
 
-/// What of the panel an action takes no notice of: the program's OverrideInhibit before it.
+/// The part of the panel that does not apply to an action: the program's OverrideInhibit before it.
 struct Lock {
   interpreter::FeedHoldInhibit hold = interpreter::FeedHoldInhibit::AtOnce;
   bool feed_override = false, spindle_override = false, single_block = false;

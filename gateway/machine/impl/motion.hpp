@@ -5,14 +5,14 @@
 
 namespace dripline::machine::impl {
 
-/// What a move is to reach from now on; speeds in mm (or degrees) per second.
+/// The goal of a move from now on; speeds in mm (or degrees) per second.
 struct MotionGoal {
   double cruise = 0;  ///< 0: come to rest
   double exit = 0;
 };
 
-/// One move while it is being made. Time is kept from the last change of goal, so the place after a
-/// time does not depend on the steps it was reached in.
+/// One move in progress. Time is kept from the last change of goal, so the position at a
+/// time does not depend on the steps to it.
 class Motion {
  public:
   bool is_active() const { return move_ != nullptr; }
@@ -25,7 +25,7 @@ class Motion {
   double left() const { return profile_.duration() - time_; }
   void pass(double seconds) { time_ += seconds; }
   void pass_all() { time_ = profile_.duration(); }
-  /// After all time has passed: at the end of the move, or at rest on the way.
+  /// After all time has passed: at the end of the move, or at rest before it.
   bool reaches_end() const { return profile_.reaches_end(); }
   double exit_speed() const { return profile_.exit_speed(); }
 

@@ -52,7 +52,7 @@ std::optional<Refusal> MoveBuilder::check_travel(const Path& path) const {
     const auto& axis = limits_.axes[i];
     if (!axis) return Refusal{"MCH0002", fmt::format("this machine has no axis {}", kAxisNames[i])};
     const Range range = path.range(i);
-    // Coming back from outside is allowed, so only where the move leads to counts on a line.
+    // A return from outside is allowed, so on a line only the end point is significant.
     const double low = path.is_arc() ? range.low : path.to[i];
     const double high = path.is_arc() ? range.high : path.to[i];
     if (low < axis->min - kTravelTolerance) return beyond(i, low, axis->min);
@@ -104,8 +104,7 @@ std::optional<Refusal> MoveBuilder::set_speed(const MoveTask& task, const Spindl
     return Refusal{"MCH0003", "the feed is zero, the move would never end"};
   }
   const double rpm = spindle.mean_rpm(task.path.from[0], task.path.to[0]);
-  if (!(rpm > 0))
-    return Refusal{"MCH0004", "a feed per revolution with the spindle standing still"};
+  if (!(rpm > 0)) return Refusal{"MCH0004", "a feed per revolution with the spindle stopped"};
   if (!(per_revolution > 0)) return Refusal{"MCH0003", "the feed per revolution is zero"};
   move.speed = per_revolution * rpm / 60;
   move.spindle_headroom = std::max(1.0, spindle.ceiling() / rpm);
@@ -125,7 +124,8 @@ void MoveBuilder::set_corner(Move& move) {
     const double acceleration = std::min(acceleration_, move.acceleration);
     move.corner_square = kUnlimited;
     if (along < 1 - 1e-12) {
-      // The circle that touches both moves and leaves the corner by the deviation.
+      // The circle that is tangent to both moves and deviates from the corner by the allowed
+      // distance.
       const double half = std::sqrt(std::max(0.0, (1 + along) / 2));
       move.corner_square = acceleration * limits_.corner_deviation * half / (1 - half);
       // Many short moves make a curve: its radius is length over change of direction.

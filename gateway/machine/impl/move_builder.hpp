@@ -9,7 +9,7 @@
 
 namespace dripline::machine::impl {
 
-/// What a program asks of one move.
+/// The program's demands on one move.
 struct MoveTask {
   Path path;
   Pace pace = Pace::Rapid;
@@ -23,16 +23,16 @@ struct Refusal {
   std::string text;
 };
 
-/// Turns paths into moves of this machine: travel limits, speeds, acceleration, and the speed of
+/// Makes moves of this machine from paths: travel limits, speeds, acceleration, and the speed of
 /// the corner between one move and the next. Pure.
 class MoveBuilder {
  public:
   explicit MoveBuilder(const MachineLimits& limits) : limits_(limits) {}
 
-  /// Fills `move`; or says why it cannot be made. `path.length` must be above 0.
+  /// Fills `move`, or returns why it is impossible. `path.length` must be above 0.
   std::optional<Refusal> build(const MoveTask& task, const SpindleModel& spindle, Move& move);
-  /// Whatever comes next starts from standstill.
-  void forget_direction() { has_direction_ = false; }
+  /// The next move starts from standstill.
+  void drop_direction() { has_direction_ = false; }
 
  private:
   std::optional<Refusal> check_travel(const Path& path) const;

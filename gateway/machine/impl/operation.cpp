@@ -3,15 +3,15 @@
 
 #include "gateway/machine/impl/executor.hpp"
 
-/// The part of the executor that the operator's hands are on: hold, overrides, handwheel, and where
-/// the program keeps them off.
+/// The part of the executor that the operator acts on: hold, overrides, handwheel, and where the
+/// program inhibits them.
 namespace dripline::machine::impl {
 
 using interpreter::FeedHoldInhibit;
 
 namespace {
 
-/// What turns that wait can amount to: nobody turns further ahead of a machine.
+/// The limit of handwheel turns that wait: no operator turns further ahead of a machine.
 constexpr double kMaxHandwheelSeconds = 600;
 constexpr std::string_view kTapByHandwheel =
     "tapping cycles are not done in handwheel mode: this one is left out";
@@ -22,12 +22,12 @@ double Executor::advance(double by, std::size_t max_actions) {
   if (!is_driven_by_hand()) return pass(by, max_actions);
   const double used = pass(std::min(by, handwheel_seconds_), max_actions);
   handwheel_seconds_ = std::max(0.0, handwheel_seconds_ - used);
-  // Turned while nothing can move, it turns in vain.
+  // Turns while nothing can move are dropped.
   if (!motion_.is_active() && !is_dwelling_ && !may_start()) handwheel_seconds_ = 0;
   return used;
 }
 
-/// What has begun to slow down, and a tap, is made in the machine's own time.
+/// A move that slows down, and a tap, are executed in the machine's own time.
 bool Executor::is_driven_by_hand() const {
   return panel_.handwheel && !is_held_ && !is_aborting_ && (!lock_.is_tapping || skips_tap_);
 }
@@ -41,7 +41,7 @@ bool Executor::is_moving() const {
   return speed() > 0 && !(is_driven_by_hand() && handwheel_seconds_ == 0);
 }
 
-/// With a hold asked for: whether an action under `lock` is made all the same.
+/// During a requested hold: whether an action under `lock` is executed nevertheless.
 bool Executor::delays_hold(const Lock& lock) const {
   return hold_waits_ && lock.hold != FeedHoldInhibit::AtOnce;
 }
@@ -60,7 +60,7 @@ void Executor::enter(const Action& action) {
   if (skips_tap_) sink_.on_message({origin_, kTapByHandwheel});
 }
 
-/// A tapping cycle ends where it began, so without its moves the way goes on from there.
+/// A tapping cycle ends where it began, so without its moves the path continues from there.
 bool Executor::skips(const Action& action) const {
   return skips_tap_ &&
          (std::holds_alternative<Move>(action.body) || std::holds_alternative<Wait>(action.body) ||
@@ -85,7 +85,7 @@ void Executor::set_panel(const OperatorPanel& panel) {
   if (may_discard() && speed() == 0) discard();
 }
 
-/// Also of a program that is over: its spindle may still turn.
+/// Also for a program that is over: its spindle may still turn.
 void Executor::press_emergency_stop() {
   if (spindle_.is_turning()) {
     spindle_.stop();

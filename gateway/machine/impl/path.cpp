@@ -19,21 +19,21 @@ bool is_rotary_axis(std::size_t axis) {
   return interpreter::is_rotary(static_cast<Axis>(axis));
 }
 
-/// Length of the linear axes' way; without one, that of the rotary axes.
-double way(const Coordinates& from, const Coordinates& to) {
+/// Path length of the linear axes; without linear motion, of the rotary axes.
+double travel(const Coordinates& from, const Coordinates& to) {
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     const double change = to[i] - from[i];
     (is_rotary_axis(i) ? rotary : linear) += change * change;
   }
-  return std::sqrt(linear != 0 ? linear : rotary);  // not-a-number stays what it is
+  return std::sqrt(linear != 0 ? linear : rotary);  // NaN stays NaN
 }
 
 double arc_length_in_plane(const Circle& circle) {
   return std::fabs(circle.sweep) * (circle.radius + circle.radius_change / 2);
 }
 
-/// How far from the programmed end the turn would end, as a share of the circle.
+/// Distance between the end of this turn and the programmed end, as a share of the circle.
 double miss(double start, double sweep, double end) {
   return std::fabs(std::remainder(start + sweep - end, 2 * kPi));
 }
@@ -109,7 +109,7 @@ double Path::share(std::size_t axis) const {
 Range Path::range(std::size_t axis) const {
   Range range{std::min(from[axis], to[axis]), std::max(from[axis], to[axis])};
   if (!is_arc() || (axis != circle.first && axis != circle.second)) return range;
-  // Extremes lie where the axis' direction is crossed: angle k * 180 degrees from its own.
+  // The extremes are at angles k * 180 degrees from the axis' own direction.
   const double own = axis == circle.first ? 0 : kPi / 2;
   const double center = axis == circle.first ? circle.center_first : circle.center_second;
   const double low = std::min(circle.start, circle.start + circle.sweep);
@@ -128,7 +128,7 @@ Path straight_path(const Coordinates& from, const Coordinates& to) {
   Path path;
   path.from = from;
   path.to = to;
-  path.length = way(from, to);
+  path.length = travel(from, to);
   return path;
 }
 
@@ -155,11 +155,11 @@ Path arc_path(const Coordinates& from, const interpreter::Arc& arc) {
   circle.start = start;
   const double sweep = arc.sweep.radians();
   const double as_said = arc.turn == interpreter::Turn::Counterclockwise ? sweep : -sweep;
-  // Some lathe manuals draw X downwards and so name the turns the other way round.
+  // Some lathe manuals draw X downwards, which exchanges the two directions.
   const bool other = miss(start, -as_said, end) + 1e-6 < miss(start, as_said, end);
   circle.sweep = other ? -as_said : as_said;
 
-  Coordinates beside = path.to;  // the way of the axes that are not in the plane
+  Coordinates beside = path.to;  // the travel of the axes that are not in the plane
   beside[circle.first] = path.from[circle.first];
   beside[circle.second] = path.from[circle.second];
   path.length = arc_length_in_plane(circle);

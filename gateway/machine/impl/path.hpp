@@ -14,22 +14,22 @@ void take_over(Coordinates& point, const interpreter::Position& position);
 interpreter::Position to_position(const Coordinates& point, const interpreter::Position& axes_of);
 
 /// The part of a path that is no straight line: a circle in the plane of two axes, seen as polar
-/// coordinates around its center. The radius may change evenly along the way (rounded programs end
-/// a hair off the circle); all other axes move evenly with the angle.
+/// coordinates around its center. The radius may change evenly along the path (rounded programs end
+/// slightly off the circle); all other axes move evenly with the angle.
 struct Circle {
   std::size_t first = 0, second = 1;  ///< axis numbers
   double center_first = 0, center_second = 0;
   double radius = 0;         ///< at the start; 0: the path is straight
   double radius_change = 0;  ///< from start to end
   double start = 0;          ///< radians
-  double sweep = 0;          ///< radians, counter-clockwise positive
+  double sweep = 0;          ///< radians, counterclockwise positive
 };
 
 struct Range {
   double low, high;
 };
 
-/// The geometry of one move: from, to, and what lies between. `length` is in millimetres; of a move
+/// The geometry of one move: from, to, and the path between. `length` is in millimetres; of a move
 /// of rotary axes only, in degrees. Value type; pure.
 struct Path {
   Coordinates from{}, to{};
@@ -41,9 +41,9 @@ struct Path {
   /// Change of the axes by one unit of length, at either end.
   Coordinates direction_at_start() const;
   Coordinates direction_at_end() const;
-  /// The most this axis moves by one unit of length, anywhere on the path.
+  /// The largest movement of this axis for one unit of length, anywhere on the path.
   double share(std::size_t axis) const;
-  /// Everywhere this axis goes.
+  /// The range of this axis on the path.
   Range range(std::size_t axis) const;
 };
 

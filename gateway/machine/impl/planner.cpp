@@ -43,7 +43,7 @@ void Planner::plan(ActionQueue& queue, const OperatorPanel& panel) {
       decided_before(i);
     }
   }
-  // A window too short to stop in: what its first half says is near enough, and always safe.
+  // The window is too short to stop in: its first half is accurate enough, and always safe.
   if (window == kWindow) final_until_ = std::max(final_until_, queue.first() + kWindow / 2);
 }
 

@@ -7,12 +7,13 @@ namespace dripline::machine::impl {
 /// Look-ahead: the highest speed at the end of each queued move from which everything after it can
 /// still be obeyed (corners, slower moves, standstills, the end of what is queued).
 ///
-/// One pass from the back of a window to the front. An exit speed that some corner or feed decides,
-/// and not the window's end, is final: more moves cannot change it. So a move is looked at a few
-/// times at most however long the queue is, and the result does not depend on when it was planned.
+/// One pass from the back of a window to the front. An exit speed that a corner or feed decides,
+/// and not the window's end, is final: more moves cannot change it. So a move is planned a few
+/// times at most, for any length of the queue, and the result does not depend on when it was
+/// planned.
 class Planner {
  public:
-  /// The front of the queue is about to start, or moves already: makes its exit speed right.
+  /// The front of the queue is about to start, or moves already: corrects its exit speed.
   void ensure(ActionQueue& queue, const OperatorPanel& panel);
   /// Overrides or switches have changed.
   void invalidate() { final_until_ = 0, planned_next_ = 0; }

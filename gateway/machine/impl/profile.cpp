@@ -8,7 +8,7 @@ namespace dripline::machine::impl {
 namespace {
 
 /// Squares of speeds that differ by less are the same: so much may be lost where a move is planned
-/// anew halfway, and an exit at 0 must stay exactly 0.
+/// again halfway, and an exit at 0 must stay exactly 0.
 constexpr double kSameSquare = 1e-9;
 
 double square(double x) {

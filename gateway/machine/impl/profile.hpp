@@ -2,7 +2,7 @@
 
 namespace dripline::machine::impl {
 
-/// What a velocity profile has to reach. Units: mm (or degrees) and seconds.
+/// The task of a velocity profile. Units: mm (or degrees) and seconds.
 struct ProfileTask {
   double length = 0;
   double entry = 0;   ///< speed now

@@ -17,7 +17,7 @@ Overloaded(Functions...) -> Overloaded<Functions...>;
 
 }  // namespace
 
-/// A zero-time action: done as soon as it is told.
+/// A zero-time action: done as soon as it is reported.
 void Executor::report(const Action& action) {
   const Origin origin = action.origin;
   bool is_finished = false;
@@ -47,7 +47,7 @@ void Executor::report(const Action& action) {
                  [&](const interpreter::End& end) {
                    stop_ = MachineState::Completed;
                    const interpreter::End copy = end;
-                   finish_action();  // the counter is complete when the end is told
+                   finish_action();  // the counter is complete when the end is reported
                    sink_.on_end(copy);
                    is_finished = true;
                  },
@@ -84,7 +84,7 @@ void Executor::report_text(const Origin& origin, const Text& text) {
   }
 }
 
-/// Ends everything: nothing queued after it happens.
+/// Ends everything: nothing that is queued after it is executed.
 void Executor::report_alarm(const Origin& origin) {
   const interpreter::Alarm alarm{origin, std::move(*queue_.alarm)};
   is_held_ = false;

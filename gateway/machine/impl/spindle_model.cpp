@@ -34,8 +34,8 @@ double SpindleModel::mean_rpm(double x0, double x1) const {
     return speed > 0 ? speed : limits_.assumed_rpm;
   }
   if (!(spindle_.surface_speed->mm() > 0) || ceiling() <= 0) return limits_.assumed_rpm;
-  // Minutes a revolution takes: proportional to the radius, but not below the shortest. Their mean
-  // over the way, by the integral from the center to either end.
+  // Minutes per revolution: proportional to the radius, but not below the shortest. Their mean
+  // over the path, by the integral from the center to either end.
   const double slope = 2 * Angle::kPi / spindle_.surface_speed->mm();
   const double shortest = 1 / ceiling();
   const double bend = shortest / slope;

@@ -5,7 +5,7 @@
 
 namespace dripline::machine::impl {
 
-/// How fast the spindle turns. It reaches its speed at once. Constant surface speed follows X (the
+/// The speed of the spindle. It reaches its speed at once. Constant surface speed follows X (the
 /// radius, mm) up to the program's and the machine's highest speed.
 class SpindleModel {
  public:
@@ -17,10 +17,10 @@ class SpindleModel {
 
   /// Revolutions per minute, 0 or more, with the tool at radius `x`.
   double rpm(double x, double override) const;
-  /// The even speed that makes as many turns on the way from `x0` to `x1` as the changing one.
-  /// Standing still: the machine's assumed speed.
+  /// The constant speed that makes as many revolutions from `x0` to `x1` as the changing one. With
+  /// the spindle stopped: the machine's assumed speed.
   double mean_rpm(double x0, double x1) const;
-  /// The highest speed there can be now, any override.
+  /// The highest possible speed now, at any override.
   double ceiling() const;
   bool is_counterclockwise() const {
     return spindle_.state == interpreter::SpindleState::Counterclockwise;

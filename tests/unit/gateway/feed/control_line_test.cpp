@@ -23,8 +23,8 @@ wire::LineSettings fast() {
   return settings;
 }
 
-/// Everything a control's line told, in one place.
-struct Told {
+/// Everything that a control's line delivered.
+struct Delivered {
   std::string text;
   int ended = 0;
   std::vector<std::string> failures;
@@ -59,23 +59,23 @@ TEST(ControlLine, HoldsTheHostWhileItsMemoryIsFull) {
   control->expect();
   const std::string text = program(6000);
   host.send(text);
-  Told told;
+  Delivered delivered;
   ASSERT_TRUE(eventually([&] { return host.is_stopped(); }, 5s));
-  told.take(*control);
-  EXPECT_GE(told.text.size(), 1024U);
-  EXPECT_LT(told.text.size(), 1024U + 256U) << "the host did not stop";
-  const std::size_t held = told.text.size();
+  delivered.take(*control);
+  EXPECT_GE(delivered.text.size(), 1024U);
+  EXPECT_LT(delivered.text.size(), 1024U + 256U) << "the host did not stop";
+  const std::size_t held = delivered.text.size();
   std::size_t released = 0;
   ASSERT_TRUE(eventually(
       [&] {
-        told.take(*control);
-        control->release(told.text.size() - released);
-        released = told.text.size();
-        return told.text.size() == text.size() && told.ended == 1;
+        delivered.take(*control);
+        control->release(delivered.text.size() - released);
+        released = delivered.text.size();
+        return delivered.text.size() == text.size() && delivered.ended == 1;
       },
       10s));
-  EXPECT_GT(told.text.size(), held);
-  EXPECT_EQ(told.text, text);
+  EXPECT_GT(delivered.text.size(), held);
+  EXPECT_EQ(delivered.text, text);
 }
 
 TEST(ControlLine, SendsTextBackWhileItIsFed) {
@@ -90,7 +90,7 @@ TEST(ControlLine, SendsTextBackWhileItIsFed) {
   EXPECT_TRUE(eventually([&] { return control->has_sent_all(); }, 5s));
 }
 
-/// The wish for the next program comes with the news of the end, before the line goes on by itself:
+/// The request for the next program arrives with the end, before the line continues by itself:
 /// as a gateway's does whose run was over before the host's last EOT. A control that asks and a
 /// host that asks for what was printed would ask each other for ever.
 TEST(ControlLine, SendsWhatWasPrintedBeforeItAsksForTheNextProgram) {
@@ -108,14 +108,14 @@ TEST(ControlLine, SendsWhatWasPrintedBeforeItAsksForTheNextProgram) {
   woken = control->get();
   HostLine host(cable.host(), settings);
   host.send(program(2000));
-  Told told;
+  Delivered delivered;
   ASSERT_TRUE(eventually(
       [&] {
-        told.take(**control);
-        return !told.text.empty();
+        delivered.take(**control);
+        return !delivered.text.empty();
       },
       5s));
-  ASSERT_EQ(told.ended, 0);
+  ASSERT_EQ(delivered.ended, 0);
   ASSERT_TRUE((*control)->send("X1.25\n"));
   ASSERT_TRUE(eventually([&] { return host.is_idle(); }, 10s));
   host.receive();
@@ -149,18 +149,18 @@ TEST(ControlLine, FailsTheProgramWhenTheLineIsLost) {
   control->expect();
   HostLine host(cable.host(), fast());
   host.send(program(30'000));
-  Told told;
+  Delivered delivered;
   ASSERT_TRUE(eventually(
       [&] {
-        told.take(*control);
-        return told.text.size() > 100;
+        delivered.take(*control);
+        return delivered.text.size() > 100;
       },
       5s));
   cable.unplug_control();
   ASSERT_TRUE(eventually(
       [&] {
-        told.take(*control);
-        return !told.failures.empty();
+        delivered.take(*control);
+        return !delivered.failures.empty();
       },
       5s));
   EXPECT_FALSE(control->is_open());
@@ -175,14 +175,14 @@ TEST(ControlLine, FailsAProgramWhoseHostCannotBeHeld) {
   control->expect();
   HostLine host(cable.host(), deaf);
   host.send(program(ControlLine::kMaxOverrun + 4096));
-  Told told;
+  Delivered delivered;
   ASSERT_TRUE(eventually(
       [&] {
-        told.take(*control);
-        return !told.failures.empty();
+        delivered.take(*control);
+        return !delivered.failures.empty();
       },
       50s));
-  EXPECT_LE(told.text.size(), 256 + ControlLine::kMaxOverrun + 4096);
+  EXPECT_LE(delivered.text.size(), 256 + ControlLine::kMaxOverrun + 4096);
 }
 
 }  // namespace

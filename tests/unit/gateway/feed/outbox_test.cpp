@@ -147,7 +147,7 @@ TEST_F(OutboxTest, RemembersHowOrdersWereAnswered) {
   {
     Outbox outbox = open();
     outbox.add_command_result("order-1", false, "busy");
-    outbox.add_command_result("order-1", true, "");  // the first answer stands
+    outbox.add_command_result("order-1", true, "");  // the first answer is kept
     ASSERT_TRUE(outbox.commit());
   }
   Outbox outbox = open();

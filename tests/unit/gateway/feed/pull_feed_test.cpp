@@ -23,7 +23,7 @@ std::vector<std::byte> bytes_of(std::string_view text) {
   return {begin, begin + text.size()};
 }
 
-/// A server in a test's hands: keeps what was asked, and answers when told to.
+/// A server in a test's hands: keeps what was asked, and answers on request.
 class FakeServer {
  public:
   std::map<std::string, std::string> programs;  ///< "" is the run's own
@@ -256,7 +256,7 @@ TEST_F(PullFeedTest, AServersOwnTroubleIsWaitedOut) {
   EXPECT_EQ(feed.fetch(0, 0, 1).state, TextWindow::State::Failed);
 }
 
-/// Whatever is lost, doubled, late or out of order: the reader sees exactly the program.
+/// With text lost, doubled, late or out of order: the reader sees exactly the program.
 class AnyFaults : public testing::TestWithParam<unsigned> {};
 
 TEST_P(AnyFaults, DeliverExactlyTheProgram) {

@@ -90,8 +90,8 @@ TEST_F(RunJournalTest, NonsenseCountsAsEmpty) {
   EXPECT_FALSE(open().read().has_value());
 }
 
-/// A child counts as fast as it can until it is killed. A word beside the journal, stored before
-/// and after each write, says which entries may stand.
+/// A child increments as fast as it can until it is killed. A word beside the journal, stored
+/// before and after each write, states which entries are valid.
 TEST_F(RunJournalTest, SurvivesKillsAtAnyInstant) {
   struct Truth {
     std::atomic<std::uint64_t> begun, done;

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                     moves({1, 2})},
         ProgramCase{"mode_until_g63", "fanuc", "G61 G01 X10. F1200\nG63 X20.\nX30.\nM30\n",
                     moves({1, 2})},
-        // A quarter of radius 10 between two lines that touch it.
+        // A quarter of radius 10 between two lines that are tangent to it.
         ProgramCase{"arc_in_passing", "fanuc",
                     "G18 G01 Z10. F1200\nG03 Z20. X10. I10.\nG01 X20.\nM30\n",
                     trapezoid(20 + 5 * Angle::kPi, 20, 1000)},

@@ -83,7 +83,7 @@ TEST(Handwheel, DrivesNothingInAnotherMode) {
   EXPECT_EQ(test.z(), 0);
   test.machine.set_panel({});
   test.run_all();
-  EXPECT_EQ(test.z(), 100) << "the program goes on by itself";
+  EXPECT_EQ(test.z(), 100) << "the program continues by itself";
 }
 
 TEST(Handwheel, AtRestStillLetsAHoldAndAnAbortEnd) {

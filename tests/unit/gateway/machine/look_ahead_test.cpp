@@ -45,7 +45,7 @@ TEST(LookAhead, SharperCornersAreSlower) {
     const double angle = degrees * Angle::kPi / 180;
     test.program.line(0, 10, 1200);
     test.program.line(10 * std::sin(angle), 10 + 10 * std::cos(angle), 1200);
-    test.machine.poll_all(1);  // stands in thought exactly at the corner
+    test.machine.poll_all(1);  // is exactly at the corner
     const double at_corner = test.machine.status().feed_per_minute;
     EXPECT_LE(at_corner, last) << degrees;
     last = at_corner;

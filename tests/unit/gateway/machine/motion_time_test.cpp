@@ -98,7 +98,7 @@ TEST(DwellMove, CountsTurnsOfTheSpindle) {
 
 TEST(FeedPerRevolution, FollowsTheSpindle) {
   TestMachine test;
-  test.program.spindle(600);  // 10 turns a second
+  test.program.spindle(600);  // 10 revolutions a second
   test.program.line(0, 10, Feed::per_revolution(Length::mm(0.5)));
   EXPECT_NEAR(test.run_all(), trapezoid(10, 5, 1000), kExact);
 }
@@ -128,7 +128,7 @@ TEST(SurfaceSpeed, TurnsFasterTowardsTheCenterUpToItsLimit) {
   test.run_all();
   EXPECT_NEAR(test.machine.status().spindle_rpm, 100'000 / (100 * Angle::kPi), 1e-9);
   test.program.line(5, 0, Feed::per_revolution(Length::mm(0.2)));
-  // Turns on the way, by integrating 1 / rpm: below r = 100000 / (2000 pi) it turns at 1000.
+  // Revolutions of the move, by integrating 1 / rpm: below r = 100000 / (2000 pi) at 1000 rpm.
   const double bend = 100'000 / (2'000 * Angle::kPi);
   const double minutes = ((bend - 5) / 1000 + Angle::kPi / 100'000 * (2500 - bend * bend)) / 0.2;
   const double even_speed = 45 / (minutes * 60);
@@ -136,7 +136,7 @@ TEST(SurfaceSpeed, TurnsFasterTowardsTheCenterUpToItsLimit) {
   EXPECT_NEAR(test.machine.status().spindle_rpm, 1000, 1e-9);
 }
 
-// CEN-092: a rapid turns for where it leads, not for where it is
+// CEN-092: the spindle speed of a rapid is that of its end, not of its position
 TEST(SurfaceSpeed, OfARapidIsThatOfItsEnd) {
   TestMachine test;
   test.machine.begin(Program::at(50, 0));

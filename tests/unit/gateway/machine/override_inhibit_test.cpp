@@ -78,7 +78,7 @@ TEST(OverrideInhibit, DelaysAHoldAskedForInTheHoleAfterTheWayOut) {
 TEST(OverrideInhibit, LetsAHoldActAtOnceOnTheWayOut) {
   TestMachine test;
   tap_a_hole(test);
-  test.machine.poll(Seconds{2.3});  // the way out takes half a second
+  test.machine.poll(Seconds{2.3});  // the retraction takes half a second
   ASSERT_GT(test.z(), 0);
   test.machine.hold();
   test.run_all();

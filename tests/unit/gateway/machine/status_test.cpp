@@ -2,7 +2,7 @@
 
 #include "tests/unit/gateway/machine/test_machine.hpp"
 
-/// What the machine says of itself besides place and speed: CEN-228.
+/// The machine's status besides position and speed: CEN-228.
 namespace dripline::machine::test {
 namespace {
 
@@ -38,7 +38,7 @@ TEST(MachineStatus, SaysThatAnAxisLimitsTheFeed) {
   EXPECT_FALSE(test.machine.status().is_feed_limited);
 }
 
-/// HD-082: distance to go is what lies between.
+/// HD-082: distance to go is the difference.
 TEST(MachineStatus, KnowsWhereTheMoveEnds) {
   TestMachine test;
   test.program.line(0, 100, 1200);

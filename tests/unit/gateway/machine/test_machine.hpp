@@ -63,7 +63,7 @@ class Recorder final : public ExecutionSink {
   }
 };
 
-/// Plays the interpreter: every call is one block unless it says otherwise.
+/// Plays the interpreter: every call is one block unless stated otherwise.
 class Program {
  public:
   explicit Program(interpreter::EventSink& sink) : sink_(sink) {}

@@ -6,7 +6,7 @@
 namespace dripline::machine::test {
 namespace {
 
-/// A program of everything that takes time or is told, different for each seed.
+/// A program of everything that takes time or is reported, different for each seed.
 class RandomProgram {
  public:
   explicit RandomProgram(unsigned seed) : random_(seed) {}

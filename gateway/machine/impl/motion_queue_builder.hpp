@@ -5,12 +5,11 @@
 
 namespace dripline::machine::impl {
 
-/// Turns the interpreter's events into queued actions. Everything that makes a move impossible is
-/// found here and queued as an alarm in the move's place, so it is reached in order. After an alarm
-/// nothing more is taken.
-class Intake final : public interpreter::EventSink {
+/// Makes queued actions of the interpreter's events. An impossible move is found here and queued as
+/// an alarm in its place, so it is reached in sequence. After an alarm no event is taken.
+class MotionQueueBuilder final : public interpreter::EventSink {
  public:
-  Intake(const MachineLimits& limits, ActionQueue& queue);
+  MotionQueueBuilder(const MachineLimits& limits, ActionQueue& queue);
 
   void begin(const Coordinates& at);
   void begin_probe(const interpreter::Probe& probe);

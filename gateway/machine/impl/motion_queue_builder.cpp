@@ -1,4 +1,4 @@
-#include "gateway/machine/impl/intake.hpp"
+#include "gateway/machine/impl/motion_queue_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +13,18 @@ constexpr std::size_t kLongestWarning = 4096;
 
 }  // namespace
 
-Intake::Intake(const MachineLimits& limits, ActionQueue& queue)
+MotionQueueBuilder::MotionQueueBuilder(const MachineLimits& limits, ActionQueue& queue)
     : limits_(limits), queue_(queue), builder_(limits), spindle_(limits.spindle) {}
 
-void Intake::begin(const Coordinates& at) {
+void MotionQueueBuilder::begin(const Coordinates& at) {
   end_ = at;
   lock_ = {};
   spindle_.stop();
-  builder_.forget_direction();
+  builder_.drop_direction();
   is_closed_ = false;
 }
 
-Action* Intake::add(const Origin& origin) {
+Action* MotionQueueBuilder::add(const Origin& origin) {
   if (is_closed_) return nullptr;
   if (queue_.size() + 1 < queue_.capacity()) {
     Action& action = queue_.push(origin);
@@ -35,11 +35,11 @@ Action* Intake::add(const Origin& origin) {
   return nullptr;
 }
 
-void Intake::alarm(const Origin& origin, std::string_view id, std::string text) {
+void MotionQueueBuilder::alarm(const Origin& origin, std::string_view id, std::string text) {
   add_alarm(origin, {.id = id, .text = std::move(text), .line = origin.line});
 }
 
-void Intake::add_alarm(const Origin& origin, interpreter::Diagnostic diagnostic) {
+void MotionQueueBuilder::add_alarm(const Origin& origin, interpreter::Diagnostic diagnostic) {
   if (is_closed_) return;
   queue_.push(origin).body.emplace<AlarmMarker>();  // the last place is kept free for this
   queue_.alarm = std::move(diagnostic);
@@ -47,11 +47,12 @@ void Intake::add_alarm(const Origin& origin, interpreter::Diagnostic diagnostic)
 }
 
 template <class Event>
-void Intake::add_as_is(const Event& event) {
+void MotionQueueBuilder::add_as_is(const Event& event) {
   if (Action* action = add(event.origin)) action->body.emplace<Event>(event);
 }
 
-void Intake::add_straight(const Origin& origin, const interpreter::Position& to, MoveTask task) {
+void MotionQueueBuilder::add_straight(const Origin& origin, const interpreter::Position& to,
+                                      MoveTask task) {
   Coordinates target = end_;
   take_over(target, to);
   if (target == end_) return;
@@ -60,7 +61,7 @@ void Intake::add_straight(const Origin& origin, const interpreter::Position& to,
   add_move(origin, task);
 }
 
-void Intake::add_move(const Origin& origin, const MoveTask& task) {
+void MotionQueueBuilder::add_move(const Origin& origin, const MoveTask& task) {
   Action* action = add(origin);
   if (!action) return;
   auto& move = action->body.emplace<Move>();
@@ -73,18 +74,18 @@ void Intake::add_move(const Origin& origin, const MoveTask& task) {
   end_ = task.path.to;
 }
 
-void Intake::on_rapid(const interpreter::Rapid& event) {
+void MotionQueueBuilder::on_rapid(const interpreter::Rapid& event) {
   add_straight(event.origin, event.to, {.path = {}, .pace = Pace::Rapid, .feed = {}, .lead = {}});
-  if (event.rests) builder_.forget_direction();
+  if (event.rests) builder_.drop_direction();
 }
 
-void Intake::on_line(const interpreter::Line& event) {
+void MotionQueueBuilder::on_line(const interpreter::Line& event) {
   add_straight(event.origin, event.to,
                {.path = {}, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
-  if (event.rests) builder_.forget_direction();
+  if (event.rests) builder_.drop_direction();
 }
 
-void Intake::on_thread(const interpreter::Thread& event) {
+void MotionQueueBuilder::on_thread(const interpreter::Thread& event) {
   MoveTask task{.path = {}, .pace = Pace::Thread, .feed = {}, .lead = {}};
   if (event.arc) {
     task.path = arc_path(end_, interpreter::arc_of(event));
@@ -100,20 +101,20 @@ void Intake::on_thread(const interpreter::Thread& event) {
   add_move(event.origin, task);
 }
 
-void Intake::on_arc(const interpreter::Arc& event) {
+void MotionQueueBuilder::on_arc(const interpreter::Arc& event) {
   const Path path = arc_path(end_, event);
   if (!path.is_arc() || !(path.length > 0))
     return alarm(event.origin, "MCH0006", "the arc has no radius or no length");
   add_move(event.origin, {.path = path, .pace = Pace::Feed, .feed = event.feed, .lead = {}});
-  if (event.rests) builder_.forget_direction();
+  if (event.rests) builder_.drop_direction();
 }
 
-void Intake::on_dwell(const interpreter::Dwell& event) {
+void MotionQueueBuilder::on_dwell(const interpreter::Dwell& event) {
   Wait wait{.seconds = event.seconds, .follows_spindle = event.revolutions.has_value()};
   if (event.revolutions) {
     const double rpm = spindle_.mean_rpm(end_[0], end_[0]);
     if (!(rpm > 0))
-      return alarm(event.origin, "MCH0004", "a dwell of turns with the spindle standing still");
+      return alarm(event.origin, "MCH0004", "a dwell of revolutions with the spindle stopped");
     wait.seconds = *event.revolutions / rpm * 60;
   }
   if (!std::isfinite(wait.seconds))
@@ -125,67 +126,67 @@ void Intake::on_dwell(const interpreter::Dwell& event) {
   queue_.set_seconds(*action, wait.seconds);
 }
 
-void Intake::on_spindle(const interpreter::Spindle& event) {
+void MotionQueueBuilder::on_spindle(const interpreter::Spindle& event) {
   add_as_is(event);
   spindle_.set(event);
 }
 
-void Intake::on_coolant(const interpreter::Coolant& event) {
+void MotionQueueBuilder::on_coolant(const interpreter::Coolant& event) {
   if (Action* action = add(event.origin))
     action->body = CoolantChange{.flood = event.flood, .mist = event.mist};
 }
 
-void Intake::on_tool(const interpreter::ToolChange& event) {
+void MotionQueueBuilder::on_tool(const interpreter::ToolChange& event) {
   add_as_is(event);
 }
-void Intake::on_miscellaneous(const interpreter::Miscellaneous& event) {
+void MotionQueueBuilder::on_miscellaneous(const interpreter::Miscellaneous& event) {
   add_as_is(event);
 }
-void Intake::on_pin(const interpreter::PinChange& event) {
+void MotionQueueBuilder::on_pin(const interpreter::PinChange& event) {
   add_as_is(event);
 }
-void Intake::on_stop(const interpreter::Stop& event) {
+void MotionQueueBuilder::on_stop(const interpreter::Stop& event) {
   add_as_is(event);
 }
-void Intake::on_end(const interpreter::End& event) {
+void MotionQueueBuilder::on_end(const interpreter::End& event) {
   add_as_is(event);
 }
 
-void Intake::add_text(const Origin& origin, Text text, std::string_view content) {
+void MotionQueueBuilder::add_text(const Origin& origin, Text text, std::string_view content) {
   if (is_closed_) return;
   const auto piece = queue_.texts().push(content);
   if (!piece)
     return alarm(origin, "MCH0005", "one block puts out more text than the machine can queue");
   Action* action = add(origin);
-  if (!action) return;  // the alarm's clearing of the queue gives the text back
+  if (!action) return;  // the alarm clears the queue and frees the text
   text.piece = *piece;
   action->body = text;
 }
 
-void Intake::on_output(const interpreter::Output& event) {
+void MotionQueueBuilder::on_output(const interpreter::Output& event) {
   Text text;
   text.device = event.device;
   add_text(event.origin, text, event.text);
 }
 
-void Intake::on_open(const interpreter::Open& event) {
+void MotionQueueBuilder::on_open(const interpreter::Open& event) {
   Text text;
   text.kind = event.name ? Text::Kind::OpenNamed : Text::Kind::Open;
   text.device = event.device;
   add_text(event.origin, text, event.name.value_or(""));
 }
 
-void Intake::on_close(const interpreter::Close& event) {
+void MotionQueueBuilder::on_close(const interpreter::Close& event) {
   if (Action* action = add(event.origin)) action->body = CloseDevice{event.device};
 }
 
-void Intake::on_message(const interpreter::Message& event) {
+void MotionQueueBuilder::on_message(const interpreter::Message& event) {
   Text text;
   text.kind = Text::Kind::Message;
   add_text(event.origin, text, event.text);
 }
 
-void Intake::on_warning(const interpreter::Warning& event) {
+void MotionQueueBuilder::on_warning(const interpreter::Warning& event) {
   Text text;
   text.kind = Text::Kind::Warning;
   text.id = event.diagnostic.id;
@@ -194,11 +195,11 @@ void Intake::on_warning(const interpreter::Warning& event) {
   add_text(event.origin, text, std::string_view{event.diagnostic.text}.substr(0, kLongestWarning));
 }
 
-void Intake::on_alarm(const interpreter::Alarm& event) {
+void MotionQueueBuilder::on_alarm(const interpreter::Alarm& event) {
   add_alarm(event.origin, event.diagnostic);
 }
 
-void Intake::on_block_end(const Origin& origin) {
+void MotionQueueBuilder::on_block_end(const Origin& origin) {
   if (is_closed_) return;
   if (!queue_.empty()) {
     Action& last = queue_.back();
@@ -215,7 +216,7 @@ void Intake::on_block_end(const Origin& origin) {
   }
 }
 
-void Intake::begin_probe(const interpreter::Probe& probe) {
+void MotionQueueBuilder::begin_probe(const interpreter::Probe& probe) {
   Action* action = add(probe.origin);
   if (!action) return;
   action->body.emplace<ProbeMarker>();
@@ -223,9 +224,9 @@ void Intake::begin_probe(const interpreter::Probe& probe) {
   queue_.probe->result.reset();
 }
 
-void Intake::end_probe(const Coordinates& at) {
+void MotionQueueBuilder::end_probe(const Coordinates& at) {
   end_ = at;
-  builder_.forget_direction();
+  builder_.drop_direction();
 }
 
 }  // namespace dripline::machine::impl
