@@ -1,4 +1,4 @@
-// The body of POST /runs/{id}/orders. Property: a value that is taken can be sent to a machine.
+// The body of POST /runs/{id}/commands. Property: a value that is taken can be sent to a machine.
 #include <cmath>
 #include <cstdlib>
 

@@ -28,7 +28,7 @@ TEST(PortText, WarnsOfAControlAtAnotherRate) {
   EXPECT_EQ(baud_warning(port, std::nullopt), "");
   EXPECT_EQ(baud_warning(port, 9600), "");
   EXPECT_EQ(baud_warning(port, 4800),
-            "The setup of mill-3 says 4800 baud at the control, and the line has 9600.");
+            "The setup of mill-3 has 4800 baud for the control, and the line has 9600.");
 }
 
 TEST(PortText, SaysWhatTheLineDoes) {

@@ -54,7 +54,7 @@ TEST_F(DncPortParameters, NameWhatNoLineHas) {
   dnc.write("mp.txt", "MP222: 168\r\nMP\r\n");
   EXPECT_NE(parameters("mp.txt").err.find("mp.txt: line 2"), std::string::npos);
   dnc.write("lathe.toml", "[control]\nm6_pin = 3\n");
-  EXPECT_NE(parameters("lathe.toml").err.find("lathe.toml: the setup says nothing of a TNC's"),
+  EXPECT_NE(parameters("lathe.toml").err.find("lathe.toml: the setup has nothing of a TNC's"),
             std::string::npos);
   EXPECT_EQ(parameters().status, 2);
 }

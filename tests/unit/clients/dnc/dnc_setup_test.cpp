@@ -162,7 +162,7 @@ TEST_F(DncSetup, ItsBaudRateIsComparedWithThatOfThePort) {
   port["effective"]["baud"] = "2400";
   server.set_answer("GET /api/v1/ports/line-3", port);
   const std::string warning =
-      "The setup of mill-3 says 4800 baud at the control, and the line has 2400.\n";
+      "The setup of mill-3 has 4800 baud for the control, and the line has 2400.\n";
   EXPECT_TRUE(dnc({"port", "show", "line-3"}).out.ends_with(warning));
   EXPECT_EQ(json::parse(dnc({"port", "show", "line-3", "--json"}).out).at("control_baud_rate"),
             4800);

@@ -293,7 +293,7 @@ class FakeServer::Impl {
       }
       answer_error(response, 404, "not_found");
     });
-    server_.Post(R"(/api/v1/(?:runs|machines)/([\w-]+)/orders)",
+    server_.Post(R"(/api/v1/(?:runs|machines)/([\w-]+)/commands)",
                  [this](const Request& request, Response& response) {
                    const std::lock_guard lock(mutex);
                    if (command_handler)
