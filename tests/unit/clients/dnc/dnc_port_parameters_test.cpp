@@ -94,7 +94,7 @@ TEST_F(DncPortAgainstParameters, NameTheMachineWhoseSetupSaysNothing) {
   serve_setup("[[tool]]\nnumber = 1\nlength = 5\n");
   const auto silent = parameters("--port", "line-1");
   EXPECT_EQ(silent.status, 2);
-  EXPECT_EQ(silent.err.find("dnc: setup of mill-3: the setup says nothing"), 0u) << silent.err;
+  EXPECT_EQ(silent.err.find("dnc: setup of mill-3: the setup has nothing"), 0u) << silent.err;
 }
 
 TEST_F(DncPortAgainstParameters, SayWhatThePortHasOtherwise) {

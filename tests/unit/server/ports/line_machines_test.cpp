@@ -150,8 +150,8 @@ TEST_F(PortServiceTest, BeginsInTheMiddleOnlyWithWhatTheRestReliesOn) {
   EXPECT_EQ(refused.error().what,
             "line 7 and what follows rely on G21 (line 2), G17 (line 2), G90 (line 2), T2 M6 (line "
             "3), S1000 (line 4), M3 (line 4), G1 (line 6), F200 (line 6), which would not be sent: "
-            "--send-head sends 'G21 G17 G90 / T2 M6 / S1000 M3 / G1 F200' first, --modes-set says "
-            "that all of it is in force at the control");
+            "--send-head sends 'G21 G17 G90 / T2 M6 / S1000 M3 / G1 F200' first, --modes-set "
+            "confirms that all of it is in force at the control");
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   machines::StartRequest request{
       .machine = "mill", .program = "O1", .revision = {}, .author = "cam", .from = at_sequence(6)};
