@@ -67,7 +67,7 @@ class Program {
         compensator.on_line({origin_, at_, feed_});
         break;
       case 3:
-        bytes[1] % 2 ? compensator.leave() : compensator.leave_in_parallel();
+        bytes[1] % 2 ? compensator.cancel() : compensator.cancel_in_parallel();
         break;
       case 4:
         arc({a, b}, bytes[0]);

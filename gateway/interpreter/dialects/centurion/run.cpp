@@ -24,7 +24,7 @@ bool Run::passes_compensator() const {
 
 void Run::restart_stages() {
   if (state.uses_compensator) {
-    compensator.leave();
+    compensator.cancel();
     compensator.place(present_position());
   }
   blender.place(present_position());
@@ -50,7 +50,7 @@ bool Run::guards_travel() {
   guard.set_maximum_feed({length(maximum.x).mm(), length(maximum.z).mm()});
   guard.set_limits(limits);
   guard.set_zone(zone);
-  guard.place(passes_compensator() ? compensator.tool() : blender.given());
+  guard.place(passes_compensator() ? compensator.sent() : blender.sent());
   const bool is_active = zone || maximum.x > 0 || maximum.z > 0 || limits.min_x < limits.max_x ||
                          limits.min_z < limits.max_z;
   guard.set_active(is_active);

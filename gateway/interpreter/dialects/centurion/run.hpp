@@ -19,6 +19,7 @@
 #include "gateway/interpreter/dialects/centurion/reading/text_cursor.hpp"
 #include "gateway/interpreter/dialects/centurion/start/start_notes.hpp"
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::centurion {
 

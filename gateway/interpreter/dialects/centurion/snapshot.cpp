@@ -241,7 +241,7 @@ void visit_name(Archive& archive, std::string& name, bool& is_settled) {
 template <class Archive>
 void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
   std::size_t count = bytes.size();
-  if (!archive.size(count, compensation::kMaxStateBytes)) return;
+  if (!archive.size(count, look_ahead::kMaxStateBytes)) return;
   bytes.resize(count);
   for (std::byte& byte : bytes) {
     auto value = std::to_integer<std::uint8_t>(byte);

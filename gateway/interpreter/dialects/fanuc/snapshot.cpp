@@ -163,7 +163,7 @@ void visit_memory(Archive& archive, Memory& memory) {
 template <class Archive>
 void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
   std::size_t count = bytes.size();
-  if (!archive.size(count, compensation::kMaxStateBytes)) return;
+  if (!archive.size(count, look_ahead::kMaxStateBytes)) return;
   bytes.resize(count);
   for (std::byte& byte : bytes) archive(byte);
 }

@@ -40,9 +40,9 @@ void Executor::begin() {
 Result<void> Executor::restore(ExecutionState state, const std::vector<std::byte>& path) {
   if (const auto done = path_.restore(path); !done) return done;
   state_ = std::move(state);
-  position_ = path_.tool();
+  position_ = path_.sent();
   for (const Axis axis : {Axis::X, Axis::Y}) {
-    if (!path_.tool().has(axis)) position_.unmark(axis);
+    if (!path_.sent().has(axis)) position_.unmark(axis);
   }
   return {};
 }
@@ -250,8 +250,8 @@ XY Executor::direction_of_chain(ProgramEvent cut) const {
 /// The tool stays beside the edge: a position that follows is one even where the edge ends.
 void Executor::end_chain() {
   path_.settle();
-  state_.at = {path_.tool().linear(Axis::X).mm(), path_.tool().linear(Axis::Y).mm()};
-  path_.leave({state_.at.x, state_.at.y});
+  state_.at = {path_.sent().linear(Axis::X).mm(), path_.sent().linear(Axis::Y).mm()};
+  path_.cancel({state_.at.x, state_.at.y});
   wait(StopKind::Operator);
 }
 

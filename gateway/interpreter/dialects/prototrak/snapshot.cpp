@@ -48,7 +48,7 @@ void visit_kept(Archive& archive, KeptState& state) {
   visit_all(archive, execution.blocks, execution.loaded_tool, execution.is_in_chain,
             execution.is_metric, execution.at.x, execution.at.y);
   std::size_t bytes = state.path.size();
-  if (!archive.size(bytes, compensation::kMaxStateBytes)) return;
+  if (!archive.size(bytes, look_ahead::kMaxStateBytes)) return;
   state.path.resize(bytes);
   for (std::byte& byte : state.path) archive(byte);
 }

@@ -1,22 +1,18 @@
 #include "gateway/interpreter/dialects/rs274ngc/snapshot.hpp"
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/compensation/snapshot_events.hpp"
+#include "gateway/interpreter/stages/look_ahead/state_bytes.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
 using language::StateReader;
 using language::StateWriter;
+using language::visit;
 using language::visit_all;
 using language::visit_text;
+using look_ahead::visit;
 
 constexpr std::string_view kDialect = "rs274ngc";
-
-template <class Archive>
-void visit(Archive& archive, TextPlace& place) {
-  visit_all(archive, place.program, place.offset, place.line);
-}
 
 template <class Archive>
 void visit(Archive& archive, Modes& modes) {
@@ -90,7 +86,7 @@ template <class Archive>
 void visit_coordinates(Archive& archive, State& state) {
   visit_all(archive, state.units, state.is_displaced);
   visit_axes(archive, state.position);
-  visit_position(archive, state.machine);
+  visit(archive, state.machine);
   visit_axes(archive, state.system_offset);
   visit_axes(archive, state.g92);
   visit_axes(archive, state.tool_length);
@@ -186,6 +182,45 @@ void visit_tools(Archive& archive, const std::vector<Tool>& from_setup, std::vec
   }
 }
 
+template <class Archive>
+void visit(Archive& archive, HeldEvents::Text& event) {
+  visit(archive, event.head);
+  visit_text(archive, event.text, look_ahead::kMaxHeldText);
+}
+
+template <std::size_t kIndex = 0>
+bool make_event(std::size_t index, HeldEvents::Event& event) {
+  if constexpr (kIndex < std::variant_size_v<HeldEvents::Event>) {
+    if (index != kIndex) return make_event<kIndex + 1>(index, event);
+    event.emplace<kIndex>();
+    return true;
+  }
+  return false;
+}
+
+template <class Archive>
+void visit_held(Archive& archive, HeldEvents& held) {
+  std::size_t count = held.size();
+  // A few events of the last lines may come on top.
+  if (!archive.size(count, 16 * HeldEvents::kMax)) return;
+  visit(archive, held.start());
+  if constexpr (Archive::kReads) held.events().resize(count);
+  for (HeldEvents::Event& event : held.events()) {
+    auto index = static_cast<std::uint8_t>(event.index());
+    archive(index);
+    if (Archive::kReads && !make_event(index, event)) return archive.damage();
+    std::visit([&](auto& each) { visit(archive, each); }, event);
+  }
+  if constexpr (Archive::kReads) {
+    if (archive.is_damaged() || held.empty()) return;
+    // The first event is always a move, because corners are made with it.
+    const HeldEvents::Event& first = held.events().front();
+    const bool is_move = std::holds_alternative<Rapid>(first) ||
+                         std::holds_alternative<Line>(first) || std::holds_alternative<Arc>(first);
+    if (!is_move) archive.damage();
+  }
+}
+
 /// Values that index tables, and labels that name a name, must be in range whatever the bytes say.
 bool is_plausible(const State& state) {
   const auto knows = [&](Label label) {
@@ -220,7 +255,7 @@ void visit_all_of(Archive& archive, State& state, Parameters& parameters, NamedP
   visit_parameters(archive, parameters);
   names.visit(archive);
   visit_held(archive, held);
-  visit_origin(archive, origin);
+  visit(archive, origin);
 }
 
 }  // namespace

@@ -257,8 +257,8 @@ Snapshot take_snapshot(const Run& run) {
   std::vector<std::byte> corner;
   if (state.uses_stages) path = run.compensator.state();
   if (state.joins) corner = run.blender.state();
-  visit_bytes(writer, path, compensation::kMaxStateBytes);
-  visit_bytes(writer, corner, blending::kMaxStateBytes);
+  visit_bytes(writer, path, look_ahead::kMaxStateBytes);
+  visit_bytes(writer, corner, look_ahead::kMaxStateBytes);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
@@ -274,8 +274,8 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   std::vector<std::byte> corner;
   visit_state(reader, state);
   visit(reader, origin);
-  visit_bytes(reader, path, compensation::kMaxStateBytes);
-  visit_bytes(reader, corner, blending::kMaxStateBytes);
+  visit_bytes(reader, path, look_ahead::kMaxStateBytes);
+  visit_bytes(reader, corner, look_ahead::kMaxStateBytes);
   if (!reader.is_complete() || !is_plausible(state)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
   }
@@ -294,7 +294,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
     run.blender.reset(state.machine);
   }
   state.transformation.update();
-  run.limits.place(state.uses_stages ? run.compensator.tool() : state.machine);
+  run.limits.place(state.uses_stages ? run.compensator.sent() : state.machine);
   run.limits.reset();
   run.state = std::move(state);
   run.origin = origin;

@@ -5,7 +5,6 @@
 
 #include "gateway/interpreter/stages/blending/impl/blend.hpp"
 #include "gateway/interpreter/stages/blending/impl/path_writer.hpp"
-#include "gateway/interpreter/stages/blending/impl/state_bytes.hpp"
 
 namespace dripline::interpreter::blending {
 
@@ -21,7 +20,7 @@ void give(EventSink& sink, const Line& move) {
 }
 
 /// Little is written: a move announces nothing as a rule.
-void forget(Announced& announced) {
+void drop(Announced& announced) {
   announced.corner.reset();
   announced.estimate.reset();
   announced.back.reset();
@@ -34,34 +33,28 @@ CornerShape::Kind kind_of(Chamfer measure) {
 }  // namespace
 
 CornerBlender::CornerBlender(const Policy& policy, EventSink& sink, const Position& start)
-    : policy_(policy), sink_(&sink) {
+    : LookAheadStage(sink), policy_(policy) {
   reset(start);
 }
 
-CornerBlender::CornerBlender(const Policy& policy, compensation::Compensator& after,
-                             const Position& start)
-    : policy_(policy), sink_(&after), compensator_(&after) {
+CornerBlender::CornerBlender(const Policy& policy, CompensationSink& sink, const Position& start)
+    : LookAheadStage(sink), policy_(policy), compensation_(&sink) {
   reset(start);
 }
 
 void CornerBlender::reset(const Position& start) {
   state_.has_element = false;
-  forget(state_.next);
+  drop(state_.next);
   state_.has_end = false;
   state_.held.clear();
   fault_.reset();
   follow(start);
 }
 
-void CornerBlender::place(const Position& at) {
-  settle();
-  follow(at);
-}
-
 /// The machine is where the program thinks it is.
 void CornerBlender::follow(const Position& to) {
   state_.programmed = to;
-  state_.given = to;
+  state_.sent = to;
 }
 
 void CornerBlender::set_plane(Plane plane) {
@@ -72,11 +65,10 @@ void CornerBlender::set_plane(Plane plane) {
 
 void CornerBlender::lead_to(EventSink& sink) {
   sink_ = &sink;
-  compensator_ = nullptr;
+  compensation_ = nullptr;
 }
-void CornerBlender::lead_to(compensation::Compensator& after) {
-  sink_ = &after;
-  compensator_ = &after;
+void CornerBlender::lead_to(CompensationSink& sink) {
+  sink_ = compensation_ = &sink;
 }
 
 void CornerBlender::announce(CornerShape::Kind kind, Length size, std::optional<Feed> feed) {
@@ -95,10 +87,13 @@ void CornerBlender::chamfer_next_corner(Length size, Chamfer measure, std::optio
 void CornerBlender::shape_waiting(CornerShape::Kind kind, const Origin& origin, Length size,
                                   std::optional<Feed> feed) {
   if (fault_) return;
-  if (!state_.has_element) return refuse(FaultKind::NoElement, origin, origin);
+  if (!state_.has_element) {
+    refuse({FaultKind::NoElement, origin, origin});
+    return;
+  }
   if (size.mm() == 0) return;
   state_.waiting().announced.corner = {kind, size.mm(), true, feed};
-  hold_or_pass(CornerPlace{origin});
+  hold_or_deliver(CornerPlace{origin});
 }
 
 void CornerBlender::round_corner(const Origin& origin, Length radius, std::optional<Feed> feed) {
@@ -123,20 +118,6 @@ void CornerBlender::back_solve_line(Angle slope, Back which) {
   state_.next.back = {{std::cos(radians), std::sin(radians)}, which};
 }
 
-std::vector<std::byte> CornerBlender::state() const {
-  return to_bytes(state_);
-}
-
-Result<void> CornerBlender::restore(const std::vector<std::byte>& state) {
-  auto restored = from_bytes(state_, state);
-  if (restored) fault_.reset();
-  return restored;
-}
-
-void CornerBlender::refuse(FaultKind kind, const Origin& origin, const Origin& next) {
-  fault_ = Fault{.kind = kind, .origin = origin, .next = next, .value = {}, .limit = {}};
-}
-
 template <class Move>
 void CornerBlender::on_linear(const Move& move, Feed feed, bool rests) {
   if (fault_) return;
@@ -144,7 +125,12 @@ void CornerBlender::on_linear(const Move& move, Feed feed, bool rests) {
   const PlaneAxes axes = axes_of(state_.plane);
   const PlaneVector from = in_plane(state_.programmed, axes);
   const PlaneVector end = in_plane(move.to, axes);
-  if (length(end - from) <= kNoLength && !state_.next.back) return off_plane_move(move);
+  if (length(end - from) <= kNoLength && !state_.next.back) {
+    drop(state_.next);
+    if (state_.has_element) return hold_off_plane(move);
+    follow(move.to);
+    return give(*sink_, move);
+  }
   Element& element = state_.spare();
   element.is_arc = false;
   element.is_rapid = kIsRapid;
@@ -155,26 +141,11 @@ void CornerBlender::on_linear(const Move& move, Feed feed, bool rests) {
   take(element);
 }
 
-/// A move of axes outside the plane. The programmed point in the plane stays, so that many moves
-/// too short to count add up to one that does.
-template <class Move>
-void CornerBlender::off_plane_move(const Move& move) {
-  forget(state_.next);
-  if (!state_.has_element) {
-    follow(move.to);
-    return blending::give(*sink_, move);
-  }
-  const PlaneVector from = in_plane(state_.programmed, axes_of(state_.plane));
-  state_.programmed = move.to;
-  set_in_plane(state_.programmed, axes_of(state_.plane), from);
-  hold_or_pass(move);
-}
-
 void CornerBlender::on_rapid(const Rapid& event) {
   if (policy_.blends_rapids) return on_linear(event, Feed{}, event.rests);
   settle();
   if (fault_) return;
-  forget(state_.next);
+  drop(state_.next);
   follow(event.to);
   sink_->on_rapid(event);
 }
@@ -211,11 +182,14 @@ void CornerBlender::on_line(const Line& event) {
 void CornerBlender::on_arc(const Arc& event) {
   if (fault_) return;
   if (event.plane != state_.plane) {
-    if (state_.has_element && state_.waiting().announced.corner)
-      return refuse(FaultKind::OtherPlane, state_.waiting().line.origin, event.origin);
-    if (state_.next.corner) return refuse(FaultKind::OtherPlane, event.origin, event.origin);
+    const bool shapes_corner = state_.has_element && state_.waiting().announced.corner;
+    if (shapes_corner || state_.next.corner) {
+      refuse({FaultKind::OtherPlane, shapes_corner ? state_.waiting().line.origin : event.origin,
+              event.origin});
+      return;
+    }
     settle();
-    forget(state_.next);
+    drop(state_.next);
     follow(event.to);
     return sink_->on_arc(event);
   }
@@ -242,9 +216,9 @@ bool CornerBlender::waits(const Element& element) const {
 void CornerBlender::take(Element& element) {
   element.is_moved = false;
   element.announced = state_.next;
-  forget(state_.next);
+  drop(state_.next);
   if (state_.has_element) {
-    join(element);
+    decide_corner(element);
   } else {
     begin_alone(element);
   }
@@ -255,24 +229,30 @@ void CornerBlender::take(Element& element) {
   if (!waits(element)) settle();
 }
 
-/// Nothing waits: the machine stands where this element begins.
-void CornerBlender::begin_alone(const Element& element) {
-  if (element.announced.back)
-    return refuse(FaultKind::NoElement, element.line.origin, element.line.origin);
-  const Blend blend = blend_on(element, element.from);
-  if (!blend.fault) return;
-  refuse(*blend.fault, element.line.origin, element.line.origin);
-  fault_->value = Length::mm(blend.off_by);
-  fault_->limit = Length::mm(blend.radius);
+/// Whether an arc that no blend corrects has its `end` on its circle; else refused.
+bool CornerBlender::ends_on_arc(const Element& element, PlaneVector end) {
+  const Blend blend = blend_on(element, end);
+  if (!blend.fault) return true;
+  const Origin& origin = element.line.origin;
+  return refuse({*blend.fault, origin, origin, Length::mm(blend.off_by), Length::mm(blend.radius)});
 }
 
-void CornerBlender::join(Element& next) {
+/// Nothing waits: the machine is where this element begins.
+void CornerBlender::begin_alone(const Element& element) {
+  if (element.announced.back) {
+    refuse({FaultKind::NoElement, element.line.origin, element.line.origin});
+  } else {
+    ends_on_arc(element, element.from);
+  }
+}
+
+/// The waiting element meets its successor.
+void CornerBlender::decide_corner(Element& next) {
   Element& first = state_.waiting();
   const Blend blend = blend_of(first, next);
   if (blend.fault) {
-    refuse(*blend.fault, first.line.origin, next.line.origin);
-    fault_->value = Length::mm(blend.off_by);
-    fault_->limit = Length::mm(blend.radius);
+    refuse({*blend.fault, first.line.origin, next.line.origin, Length::mm(blend.off_by),
+            Length::mm(blend.radius)});
     return;
   }
   next.from = first.end;
@@ -281,15 +261,15 @@ void CornerBlender::join(Element& next) {
   if (!first.announced.corner) return finish(nullptr);
   const Corner corner = shape_corner(*first.announced.corner, policy_, first, next);
   if (!corner.fault) return finish(corner.is_piece ? &corner : nullptr);
-  refuse(*corner.fault, first.line.origin, next.line.origin);
-  fault_->value = Length::mm(corner.value);
-  fault_->limit = Length::mm(corner.limit);
-  fault_->first_is_arc = first.is_arc;
-  fault_->next_is_arc = next.is_arc;
+  refuse({*corner.fault, first.line.origin, next.line.origin, Length::mm(corner.value),
+          Length::mm(corner.limit), first.is_arc, next.is_arc});
 }
 
 void CornerBlender::lead_back(const Thread& thread) {
-  if (!state_.has_element) return refuse(FaultKind::NoElement, thread.origin, thread.origin);
+  if (!state_.has_element) {
+    refuse({FaultKind::NoElement, thread.origin, thread.origin});
+    return;
+  }
   const PlaneAxes axes = axes_of(state_.plane);
   Element& element = state_.spare();
   element.is_arc = element.is_rapid = false;
@@ -298,10 +278,10 @@ void CornerBlender::lead_back(const Thread& thread) {
   element.end = in_plane(thread.to, axes);
   element.sweep = 0;
   element.announced = state_.next;
-  join(element);
+  decide_corner(element);
 }
 
-/// The end of the element that waits is decided.
+/// The end of the waiting element is decided.
 void CornerBlender::finish(const Corner* corner) {
   PathWriter writer(*sink_, state_);
   const Element& element = state_.waiting();
@@ -309,19 +289,80 @@ void CornerBlender::finish(const Corner* corner) {
   if (corner && !element.announced.corner->has_own_block)
     writer.put_out(*corner, element, element.line.origin);
   state_.has_element = false;
-  release_held(corner);
+  if (state_.has_end) {
+    state_.has_end = false;
+    sink_->on_block_end(state_.end);
+  }
+  if (state_.held.empty()) [[likely]]
+    return;
+  corner_ = corner;
+  deliver_held();
+  corner_ = nullptr;
 }
 
 void CornerBlender::settle() {
   if (!state_.has_element || fault_) return;
   const Element& element = state_.waiting();
-  if (element.announced.corner && policy_.refuses_open_corner)
-    return refuse(FaultKind::OpenCorner, element.line.origin, element.line.origin);
-  const Blend blend = blend_on(element, element.end);
-  if (!blend.fault) return finish(nullptr);
-  refuse(*blend.fault, element.line.origin, element.line.origin);
-  fault_->value = Length::mm(blend.off_by);
-  fault_->limit = Length::mm(blend.radius);
+  if (element.announced.corner && policy_.refuses_open_corner) {
+    refuse({FaultKind::OpenCorner, element.line.origin, element.line.origin});
+    return;
+  }
+  if (ends_on_arc(element, element.end)) finish(nullptr);
+}
+
+/// A corner needs all events that are held at it; a plain move is put out instead.
+bool CornerBlender::make_room(const Origin& origin) {
+  if (state_.waiting().announced.corner)
+    return refuse({FaultKind::TooMuchBetween, state_.waiting().line.origin, origin});
+  settle();
+  return !fault_;
+}
+
+void CornerBlender::keep_in_plane(Position& to) const {
+  const PlaneAxes axes = axes_of(state_.plane);
+  const PlaneVector at = in_plane(state_.sent, axes);
+  if (in_plane(to, axes) != at) set_in_plane(to, axes, at);
+}
+
+void CornerBlender::on_compensation(const compensation::Command& command) {
+  hold_or_deliver(command, Origin{});
+}
+void CornerBlender::deliver_own(const compensation::Command& command) {
+  if (compensation_) compensation_->on_compensation(command);
+}
+
+void CornerBlender::on_block_end(const Origin& event) {
+  if (state_.has_element && !state_.has_end && state_.held.empty() && !fault_) [[likely]] {
+    state_.has_end = true;
+    state_.end = event;
+    return;
+  }
+  hold_or_deliver(look_ahead::BlockEnd{event}, event);
+}
+
+void CornerBlender::on_uncounted_block_end(const Origin& event) {
+  hold_or_deliver(UncountedEnd{event}, event);
+}
+void CornerBlender::deliver_own(const UncountedEnd& end) {
+  if (compensation_) return compensation_->on_uncounted_block_end(end.origin);
+  sink_->on_block_end(end.origin);
+}
+
+void CornerBlender::deliver_own(const CornerPlace& place) {
+  if (corner_) PathWriter(*sink_, state_).put_out(*corner_, state_.waiting(), place.origin);
+}
+
+/// A thread is no element that waits, but as a line it may be solved back to one.
+void CornerBlender::on_thread(const Thread& event) {
+  if (state_.next.back && !fault_) {
+    lead_back(event);
+  } else {
+    settle();
+  }
+  if (fault_) return;
+  state_.next = {};
+  follow(event.to);
+  sink_->on_thread(event);
 }
 
 }  // namespace dripline::interpreter::blending

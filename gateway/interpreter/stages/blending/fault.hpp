@@ -4,6 +4,7 @@
 #include <string>
 
 #include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/stages/look_ahead/contour_fault.hpp"
 
 namespace dripline::interpreter::blending {
 
@@ -21,15 +22,9 @@ enum class FaultKind : std::uint8_t {
   TooMuchBetween,  ///< more events at a corner than wait (`look_ahead::kMaxHeldEvents`)
 };
 
-struct Fault {
-  FaultKind kind = FaultKind::NoIntersection;
-  Origin origin;  ///< the element that cannot be carried out
-  Origin next;    ///< the element that showed it; the same one where no other took part
-  /// OffArc: distance from the circle, its radius. DoesNotFit: what the corner takes, what there is
-  /// (negative where no size would do).
-  Length value, limit;
-  bool first_is_arc = false, next_is_arc = false;
-};
+/// Value and limit. OffArc: the distance from the circle and its radius. DoesNotFit: the length
+/// that the corner takes and that of the element (negative where no size would do).
+using Fault = look_ahead::ContourFault<FaultKind>;
 
 /// For a diagnostic: what is wrong, with value and limit in these units.
 std::string describe(const Fault& fault, Units units = Units::Millimetre);

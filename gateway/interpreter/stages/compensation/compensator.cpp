@@ -6,7 +6,6 @@
 
 #include "gateway/interpreter/stages/compensation/impl/corner.hpp"
 #include "gateway/interpreter/stages/compensation/impl/path_writer.hpp"
-#include "gateway/interpreter/stages/compensation/impl/state_bytes.hpp"
 
 namespace dripline::interpreter::compensation {
 
@@ -27,7 +26,7 @@ void give(EventSink& sink, const Line& move) {
 }  // namespace
 
 Compensator::Compensator(const Policy& policy, EventSink& sink, const Position& start)
-    : policy_(policy), sink_(sink) {
+    : LookAheadStage(sink), policy_(policy) {
   reset(start);
 }
 
@@ -44,131 +43,11 @@ void Compensator::reset(const Position& start) {
   follow(start);
 }
 
-void Compensator::place(const Position& at) {
-  settle();
-  follow(at);
-}
-
 /// The machine is where the program thinks it is.
 void Compensator::follow(const Position& to) {
   state_.programmed = to;
-  state_.tool = to;
+  state_.sent = to;
   state_.is_displaced = false;
-}
-
-bool Compensator::is_on() const {
-  return state_.phase == Phase::Starting || state_.phase == Phase::On;
-}
-
-void Compensator::turn_on(const Cutter& cutter) {
-  turn_on(cutter, policy_.start_up);
-}
-
-void Compensator::turn_on(const Cutter& cutter, StartUp start_up) {
-  if (cutter.plane != state_.plane) leave();
-  // a contour that waits goes on, even after a cancel without a move
-  if (state_.has_element) state_.phase = Phase::On;
-  if (state_.phase != Phase::On) state_.phase = Phase::Starting;
-  state_.start_up = start_up;
-  use(cutter);
-}
-
-void Compensator::use(const Cutter& cutter) {
-  state_.begins_contour = false;
-  state_.plane = cutter.plane;
-  state_.offset = (cutter.side == Side::Left ? 1 : -1) * cutter.radius.mm();
-  state_.tip = {cutter.tip_first.mm(), cutter.tip_second.mm()};
-}
-
-void Compensator::turn_off() {
-  if (state_.phase == Phase::On) {
-    state_.phase = Phase::Ending;
-    if (policy_.cancel == Cancel::OwnNormal) settle();
-  } else if (state_.phase == Phase::Starting) {
-    state_.phase = Phase::Off;
-  }
-}
-
-bool Compensator::approach_by_arc(const Origin& origin, Length radius) {
-  if (!state_.has_element || state_.waiting().role != Role::StartUp) return false;
-  state_.waiting().by_arc = ByArc{radius.mm(), origin};
-  return true;
-}
-
-void Compensator::turn_off_by_arc(const Origin& origin, Length radius) {
-  if (state_.phase != Phase::On) return turn_off();
-  state_.phase = Phase::Ending;
-  state_.next_arc = ByArc{radius.mm(), origin};
-}
-
-void Compensator::begin_contour(const Cutter& cutter) {
-  settle();
-  use(cutter);
-  state_.phase = Phase::On;
-  state_.is_displaced = true;
-}
-
-void Compensator::begin_contour(const Cutter& cutter, PlaneVector programmed) {
-  begin_contour(cutter);
-  set_in_plane(state_.programmed, axes_of(state_.plane), programmed);
-}
-
-void Compensator::turn_on_in_parallel(const Cutter& cutter) {
-  leave_in_parallel();
-  use(cutter);
-  state_.begins_contour = true;
-}
-
-void Compensator::start_again() {
-  if (!state_.has_element || state_.waiting().role != Role::StartUp || fault_) return;
-  finish(state_.waiting().end);
-  state_.phase = Phase::Starting;
-}
-
-void Compensator::shape_corner(OutsideCorner shape) {
-  if (state_.has_element) state_.waiting().outside = shape;
-}
-
-void Compensator::leave() {
-  settle();
-  state_.phase = Phase::Off;
-}
-
-void Compensator::leave(PlaneVector programmed) {
-  leave();
-  const PlaneAxes axes = axes_of(state_.plane);
-  set_in_plane(state_.programmed, axes, programmed);
-  state_.is_displaced = in_plane(state_.tool, axes) != programmed;
-}
-
-void Compensator::leave_in_parallel() {
-  settle();
-  state_.phase = Phase::Parallel;
-  state_.begins_contour = false;
-}
-
-void Compensator::shape_next_corner(OutsideCorner shape) {
-  state_.next_corner = shape;
-}
-
-void Compensator::settle() {
-  if (!state_.has_element || fault_) return;
-  finish(state_.waiting().own_end());
-}
-
-std::vector<std::byte> Compensator::state() const {
-  return to_bytes(state_);
-}
-
-Result<void> Compensator::restore(const std::vector<std::byte>& state) {
-  auto restored = from_bytes(state_, state);
-  if (restored) fault_.reset();
-  return restored;
-}
-
-bool Compensator::refuse(const Fault& fault) {
-  fault_ = fault;
-  return false;
 }
 
 /// The program goes on, the tool stays.
@@ -180,13 +59,13 @@ void Compensator::pass_over(const Position& to) {
 /// Off, with the tool on another point of the plane than the program.
 bool Compensator::is_off_plane() const {
   const PlaneAxes axes = axes_of(state_.plane);
-  const PlaneVector apart = in_plane(state_.tool, axes) - in_plane(state_.programmed, axes);
+  const PlaneVector apart = in_plane(state_.sent, axes) - in_plane(state_.programmed, axes);
   return state_.is_displaced && length(apart) > kNoLength;
 }
 
 /// Of the nose center; the tool's position is that of its tip.
 PlaneVector Compensator::nose() const {
-  return in_plane(state_.tool, axes_of(state_.plane)) - state_.tip;
+  return in_plane(state_.sent, axes_of(state_.plane)) - state_.tip;
 }
 
 template <class Move>
@@ -199,9 +78,9 @@ void Compensator::on_linear(const Move& move, Feed feed, bool rests) {
   if (state_.phase == Phase::Off && (is_in_plane || !state_.is_displaced)) {
     if (state_.is_output_suppressed) return pass_over(move.to);
     follow(move.to);
-    return give(sink_, move);
+    return give(*sink_, move);
   }
-  if (!is_in_plane) return off_plane_move(move);
+  if (!is_in_plane) return hold_off_plane(move);
   Element& element = state_.spare();
   element.is_arc = element.rounds_corner = false;
   element.rests = rests;
@@ -215,18 +94,28 @@ void Compensator::on_linear(const Move& move, Feed feed, bool rests) {
   take(element);
 }
 
-/// A move of axes outside the plane. The programmed point in the plane stays, so that many moves
-/// too short to count add up to one that does.
-template <class Move>
-void Compensator::off_plane_move(const Move& move) {
-  const PlaneVector from = in_plane(state_.programmed, axes_of(state_.plane));
-  state_.programmed = move.to;
-  set_in_plane(state_.programmed, axes_of(state_.plane), from);
-  if (state_.has_element) {
-    hold(move, move.origin);
-  } else {
-    deliver_aside(move);
-  }
+void Compensator::settle() {
+  if (!state_.has_element || fault_) return;
+  finish(state_.waiting().own_end());
+}
+
+bool Compensator::make_room(const Origin& origin) {
+  return refuse({FaultKind::TooMuchBetween, state_.waiting().origin, origin});
+}
+
+void Compensator::keep_in_plane(Position& to) const {
+  const PlaneAxes axes = axes_of(state_.plane);
+  set_in_plane(to, axes, in_plane(state_.sent, axes));
+}
+
+void Compensator::on_block_end(const Origin& event) {
+  hold_or_deliver(look_ahead::BlockEnd{event}, event);
+  if (!state_.has_element || event.block == state_.waiting().origin.block) return;
+  if (++state_.idle_blocks > policy_.blocks_without_motion) settle();
+}
+
+void Compensator::on_uncounted_block_end(const Origin& event) {
+  hold_or_deliver(look_ahead::BlockEnd{event}, event);
 }
 
 void Compensator::on_rapid(const Rapid& event) {
@@ -242,14 +131,14 @@ void Compensator::on_arc(const Arc& event) {
   if (state_.phase == Phase::Off) {
     if (state_.is_output_suppressed) return pass_over(event.to);
     if (is_off_plane()) {
-      refuse({FaultKind::CancelNotStraight, event.origin, event.origin, {}, {}});
+      refuse({FaultKind::CancelNotStraight, event.origin, event.origin});
       return;
     }
     follow(event.to);
-    return sink_.on_arc(event);
+    return sink_->on_arc(event);
   }
   if (event.plane != state_.plane) {
-    refuse({FaultKind::OtherPlane, event.origin, event.origin, {}, {}});
+    refuse({FaultKind::OtherPlane, event.origin, event.origin});
     return;
   }
   Element& element = state_.spare();
@@ -293,7 +182,7 @@ void Compensator::take(Element& element) {
   element.lead_in.count = 0;
   if (element.is_arc && !accepts_arc(element)) return;
   if (state_.has_element) {
-    join(element);
+    decide_corner(element);
   } else {
     begin_alone(element);
   }
@@ -310,10 +199,8 @@ void Compensator::take(Element& element) {
 
 bool Compensator::accepts_arc(const Element& arc) {
   const Origin& origin = arc.origin;
-  if (arc.role == Role::StartUp)
-    return refuse({FaultKind::StartUpNotStraight, origin, origin, {}, {}});
-  if (arc.role != Role::Contour)
-    return refuse({FaultKind::CancelNotStraight, origin, origin, {}, {}});
+  if (arc.role == Role::StartUp) return refuse({FaultKind::StartUpNotStraight, origin, origin});
+  if (arc.role != Role::Contour) return refuse({FaultKind::CancelNotStraight, origin, origin});
   const double radius = std::min(arc.arch.radius_in, arc.arch.radius_out);
   if (std::min(arc.offset_radius_in(), arc.offset_radius_out()) < -kFits)
     return refuse({FaultKind::ArcTooSmall, origin, origin, Length::mm(radius),
@@ -323,7 +210,7 @@ bool Compensator::accepts_arc(const Element& arc) {
 }
 
 /// The corner between what waits and `next` is known now.
-void Compensator::join(Element& next) {
+void Compensator::decide_corner(Element& next) {
   const Element& first = state_.waiting();
   if (first.rounds_corner && !end_corner(next)) return;
   const CornerEnd corner = round_corner(policy_, first, next, nose());
@@ -355,14 +242,14 @@ void Compensator::begin_alone(Element& element) {
 }
 
 void Compensator::finish(PlaneVector end) {
-  PathWriter writer(sink_, state_, policy_.arc_at_rapid);
+  PathWriter writer(*sink_, state_, policy_.arc_at_rapid);
   const Element& element = state_.waiting();
   if (!element.is_silent && !writer.put_out(element, end)) {
-    refuse({FaultKind::Reversed, element.origin, element.origin, {}, {}});
+    refuse({FaultKind::Reversed, element.origin, element.origin});
     return;
   }
   state_.has_element = false;
-  release_held();
+  deliver_held();
 }
 
 /// A move that ends compensation: where it ends is known.
@@ -374,8 +261,8 @@ void Compensator::end_compensation(const Element& element) {
   }
   PlaneVector tip = element.end;
   if (element.role == Role::Parallel)
-    tip = tip + in_plane(state_.tool, axes_of(state_.plane)) - element.from;
-  PathWriter(sink_, state_, policy_.arc_at_rapid).put_out_straight(element, tip);
+    tip = tip + in_plane(state_.sent, axes_of(state_.plane)) - element.from;
+  PathWriter(*sink_, state_, policy_.arc_at_rapid).put_out_straight(element, tip);
   state_.is_displaced = element.role == Role::Parallel;
   state_.phase = state_.begins_contour ? Phase::On : Phase::Off;
   state_.begins_contour = false;

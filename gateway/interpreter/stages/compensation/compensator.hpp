@@ -1,53 +1,32 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/stages/compensation/fault.hpp"
 #include "gateway/interpreter/stages/compensation/impl/state.hpp"
-#include "gateway/interpreter/stages/compensation/policy.hpp"
-#include "protocol/base/result.hpp"
+#include "gateway/interpreter/stages/look_ahead/look_ahead_stage.hpp"
 
 namespace dripline::interpreter::compensation {
-
-/// More than any state takes.
-inline constexpr std::size_t kMaxStateBytes = 64 * 1024;
 
 /// The last stage of a dialect before its sink: takes the programmed events, in machine
 /// coordinates, and gives out the same events with the tool's path offset by the cutter radius.
 ///
-/// While compensation is on, a move in the plane waits until the next one decides its end; all that
-/// comes between, block ends included, waits with it and keeps its place. Inserted pieces carry the
-/// origin, rapid or feed of the element they lead to (with a feed of inverse time all of them
-/// together take the programmed time). Axes outside the plane move on the element itself.
-///
-/// Bounded and without allocation, except for the bytes of a snapshot. Not thread-safe. After a
-/// fault nothing more is given out until `reset`.
-class Compensator final : public EventSink {
+/// While compensation is on, a move in the plane waits for the next one (`LookAheadStage`).
+/// Inserted pieces carry the origin, rapid or feed of the element they lead to (with a feed of
+/// inverse time all of them together take the programmed time). Axes outside the plane move on the
+/// element itself.
+class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::State, FaultKind> {
  public:
   /// The sink must outlive it. `start` is where the machine stands.
   Compensator(const Policy& policy, EventSink& sink, const Position& start = {});
 
-  /// The next move in the plane is the start-up move. While on: the elements from here on are
-  /// offset by the new cutter; another plane is left and started anew. On the same side a corner
-  /// between two radii is a corner as any other; between two sides the first element ends and the
-  /// second begins on its own normal, joined by a straight piece.
-  void turn_on(const Cutter& cutter);
-  /// As above, with another start-up than the policy's for this one time.
-  void turn_on(const Cutter& cutter, StartUp start_up);
-  /// The next move in the plane is the cancel move; until then the tool keeps its place in the
-  /// plane.
-  void turn_off();
-  /// Ends what waits on its own normal and is off: the next move in the plane goes straight from
-  /// where the tool is to its programmed end, whatever it is. What interrupts compensation does
-  /// this, then `turn_on` again.
-  void leave();
+  void on_compensation(const Command& command) override;
+  using CompensationSink::cancel;
   /// As above, with the program at this point of the plane, and the tool left where it is.
-  void leave(PlaneVector programmed);
-  /// As `leave`, but the next move in the plane, a straight one, keeps the distance the tool has
+  void cancel(PlaneVector programmed);
+  /// As `cancel`, but the next move in the plane, a straight one, keeps the distance the tool has
   /// from the programmed point now, at its end as well.
-  void leave_in_parallel();
+  void cancel_in_parallel();
   /// The start-up move that waits meets the contour by an arc of this radius, which comes from a
   /// block of its own: tangent to the contour's begin, straight to where it is tangent to the way
   /// from the tool, on the tool's side. False when no start-up move waits.
@@ -58,7 +37,7 @@ class Compensator final : public EventSink {
   /// goes straight there from where it is. `programmed`: where that move comes from.
   void begin_contour(const Cutter& cutter);
   void begin_contour(const Cutter& cutter, PlaneVector programmed);
-  /// As `leave_in_parallel`, and where that move ends a contour begins.
+  /// As `cancel_in_parallel`, and where that move ends a contour begins.
   void turn_on_in_parallel(const Cutter& cutter);
   /// The start-up move that waits goes to its programmed end, and the next move in the plane is the
   /// start-up move.
@@ -72,15 +51,10 @@ class Compensator final : public EventSink {
   /// the direction `along`, of length 1. Nothing where nothing is offset. False: no compensated
   /// move came before.
   bool round_outside_corner(const Origin& origin, Feed feed, std::optional<PlaneVector> along = {});
-  /// From here on (`still`), or no longer: moves lead the program on and decide corners, but the
-  /// tool does not carry them out. The next real move goes from where the tool stands.
-  void suppress_output(bool still) { state_.is_output_suppressed = still; }
   /// Ends what waits on its own normal. Compensation stays on.
   void settle();
   /// Off, nothing waiting, no fault, the machine at `start`: nothing is given out.
   void reset(const Position& start);
-  /// The machine stands elsewhere than the events say (a reference point, a restart).
-  void place(const Position& at);
 
   /// On or starting; false once `turn_off` has been called.
   bool is_on() const;
@@ -90,62 +64,30 @@ class Compensator final : public EventSink {
   bool is_start_waiting() const {
     return state_.has_element && state_.waiting().role == impl::Role::StartUp;
   }
-  /// A move waits for the next one.
-  bool is_waiting() const { return state_.has_element; }
-  /// Set by the event that broke a rule.
-  const std::optional<Fault>& fault() const { return fault_; }
-  /// Where the tool has been sent so far.
-  const Position& tool() const { return state_.tool; }
 
-  /// The state at a block boundary, for a snapshot: equal bytes mean equal states. At most
-  /// kMaxStateBytes.
-  std::vector<std::byte> state() const;
-  /// Errors: Corrupt; the state is then unchanged.
-  Result<void> restore(const std::vector<std::byte>& state);
-
-  void on_program(const ProgramHeader& event) override;
-  void on_units(const UnitsChange& event) override;
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;
   void on_arc(const Arc& event) override;
-  void on_dwell(const Dwell& event) override;
-  void on_spindle(const Spindle& event) override;
-  void on_coolant(const Coolant& event) override;
-  void on_tool(const ToolChange& event) override;
-  void on_miscellaneous(const Miscellaneous& event) override;
-  void on_pin(const PinChange& event) override;
-  void on_output(const Output& event) override;
-  void on_open(const Open& event) override;
-  void on_close(const Close& event) override;
-  void on_message(const Message& event) override;
-  void on_stop(const Stop& event) override;
-  void on_override_inhibit(const OverrideInhibit& event) override;
   void on_block_end(const Origin& event) override;
-  /// As on_block_end, of a block that `Policy::blocks_without_motion` does not count: it says
-  /// nothing to the machine (a macro statement, a call, a return).
-  void end_uncounted_block(const Origin& event);
-  /// These need the tool in its place: what waits is settled first.
-  void on_thread(const Thread& event) override;
-  void on_probe(const Probe& event) override;
-  void on_prompt(const Prompt& event) override;
-  void on_alarm(const Alarm& event) override;
-  void on_end(const End& event) override;
-  /// About the text, not the motion: delivered at once.
-  void on_blank(const Blank& event) override;
-  void on_warning(const Warning& event) override;
+  void on_uncounted_block_end(const Origin& event) override;
 
  private:
-  using HeldEvent = look_ahead::HeldEvents<>::Event;
+  friend LookAheadStage;
+
+  bool make_room(const Origin& origin);
+  void keep_in_plane(Position& to) const;
+  void follow(const Position& to);
+
+  void start(const Cutter& cutter, StartUp start_up);
+  void stop();
+  void use(const Cutter& cutter);
 
   template <class Move>
   void on_linear(const Move& move, Feed feed, bool rests);
-  template <class Move>
-  void off_plane_move(const Move& move);
   void take(impl::Element& element);
   impl::Role next_role() const;
-  void use(const Cutter& cutter);
   bool accepts_arc(const impl::Element& arc);
-  void join(impl::Element& next);
+  void decide_corner(impl::Element& next);
   std::optional<PlaneVector> last_direction() const;
   bool end_corner(const impl::Element& next);
   void begin_alone(impl::Element& element);
@@ -153,27 +95,16 @@ class Compensator final : public EventSink {
   void reach_begin(impl::Element& next);
   void end_compensation(const impl::Element& element);
 
-  template <class Event>
-  void hold_or_pass(const Event& event);
-  void hold_or_pass(look_ahead::HeldText text, std::string_view content);
-  template <class Event>
-  void hold(const Event& event, const Origin& origin);
-  void release_held();
-  void deliver(const HeldEvent& event);
-  template <class Move>
-  void deliver_aside(Move move);
-
   PlaneVector nose() const;
-  void follow(const Position& to);
   void pass_over(const Position& to);
   bool is_off_plane() const;
-  /// Always false.
-  bool refuse(const Fault& fault);
 
   Policy policy_;
-  EventSink& sink_;
-  std::optional<Fault> fault_;
-  impl::State state_;
 };
 
 }  // namespace dripline::interpreter::compensation
+
+namespace dripline::interpreter::look_ahead {
+extern template class LookAheadStage<compensation::Compensator, compensation::impl::State,
+                                     compensation::FaultKind>;
+}

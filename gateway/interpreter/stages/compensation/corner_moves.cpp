@@ -30,7 +30,7 @@ bool Compensator::round_outside_corner(const Origin& origin, Feed feed,
   element.offset = state_.offset;
   complete_corner(element, in_plane(state_.programmed, axes_of(state_.plane)), *direction);
   if (along && !turn_corner(element, *along)) {
-    refuse({FaultKind::ConcaveCorner, origin, origin, {}, {}});
+    refuse({FaultKind::ConcaveCorner, origin, origin});
     return true;
   }
   take(element);
@@ -41,7 +41,7 @@ bool Compensator::round_outside_corner(const Origin& origin, Feed feed,
 /// The corner that the element which waits goes round: now the next one is known.
 bool Compensator::end_corner(const Element& next) {
   if (turn_corner(state_.waiting(), next.direction_in)) return true;
-  return refuse({FaultKind::ConcaveCorner, state_.waiting().origin, next.origin, {}, {}});
+  return refuse({FaultKind::ConcaveCorner, state_.waiting().origin, next.origin});
 }
 
 }  // namespace dripline::interpreter::compensation

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/stages/look_ahead/contour_fault.hpp"
 
 namespace dripline::interpreter::compensation {
 
@@ -21,15 +21,8 @@ enum class FaultKind : std::uint8_t {
   TooMuchBetween,  ///< more events between two elements than kMaxHeldEvents or kMaxHeldText
 };
 
-struct Fault {
-  FaultKind kind = FaultKind::NoIntersection;
-  Origin origin;        ///< the element that cannot be carried out
-  Origin next;          ///< the element that showed it; the same one where no other took part
-  Length value, limit;  ///< ArcTooSmall: radii of arc and cutter; StartUpTooClose: distance, radius
-  bool follows_arc = false;   ///< the element before the corner is an arc; of ArcTooSmall and
-                              ///< NoIntersection
-  bool leads_to_arc = false;  ///< the one after it
-};
+/// Value and limit. ArcTooSmall: the radii of arc and cutter; StartUpTooClose: distance and radius.
+using Fault = look_ahead::ContourFault<FaultKind>;
 
 /// For a diagnostic: what is wrong, with value and limit.
 std::string describe(const Fault& fault);

@@ -38,10 +38,10 @@ NoseUse wanted_use(const Run& run) {
 ErrorCode code_of(const Fault& fault) {
   switch (fault.kind) {
     case FaultKind::NoIntersection:
-      return fault.follows_arc && fault.leads_to_arc ? ErrorCode::CompensatedArcsApart
+      return fault.first_is_arc && fault.next_is_arc ? ErrorCode::CompensatedArcsApart
                                                      : ErrorCode::CompensatedLineArcApart;
     case FaultKind::ArcTooSmall:
-      return fault.follows_arc ? ErrorCode::SecondArcTooSmall : ErrorCode::ArcTooSmall;
+      return fault.first_is_arc ? ErrorCode::SecondArcTooSmall : ErrorCode::ArcTooSmall;
     case FaultKind::TooMuchBetween:
       return ErrorCode::TooMuchBetween;
     case FaultKind::Reversed:
@@ -55,7 +55,7 @@ ErrorCode code_of(const Fault& fault) {
 void begin_use(Run& run) {
   if (run.state.uses_compensator) return;
   run.events();  // the header first
-  run.compensator.reset(run.blender.given());
+  run.compensator.reset(run.blender.sent());
   // the stage takes its plane from a cutter
   compensation::Cutter none;
   none.plane = Plane::ZX;
@@ -117,7 +117,7 @@ bool update_compensation(Run& run) {
 
 void cancel_compensation(Run& run) {
   if (run.state.nose.code == 0) return;
-  run.blender.leave();
+  run.blender.cancel();
 }
 
 void resume_compensation(Run& run) {

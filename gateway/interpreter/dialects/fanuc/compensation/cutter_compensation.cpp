@@ -151,9 +151,9 @@ bool round_corner(Run& run) {
 void interrupt_compensation(Run& run, bool first_keeps_distance) {
   if (!run.state.uses_compensator || !run.state.is_compensating()) return;
   if (first_keeps_distance) {
-    run.compensator.leave_in_parallel();
+    run.compensator.cancel_in_parallel();
   } else {
-    run.compensator.leave();
+    run.compensator.cancel();
   }
 }
 
@@ -166,7 +166,7 @@ void end_compensated_block(Run& run) {
   if (reaches_machine(run.block)) {
     run.compensator.on_block_end(run.origin);
   } else {
-    run.compensator.end_uncounted_block(run.origin);
+    run.compensator.on_uncounted_block_end(run.origin);
   }
 }
 

@@ -23,7 +23,7 @@ bool count_jump_back(Run& run) {
 
 void end_program(Run& run, std::uint64_t blocks, bool rewind) {
   all_off(run);
-  if (run.state.uses_compensator && run.state.is_compensating()) run.compensator.leave();
+  if (run.state.uses_compensator && run.state.is_compensating()) run.compensator.cancel();
   run.events().on_end({run.origin, blocks, rewind});
   run.state.phase = RunPhase::Ended;
 }

@@ -1,30 +1,26 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "gateway/interpreter/core/event.hpp"
+#include "gateway/interpreter/stages/look_ahead/held_events.hpp"
 
 /// Radius compensation of the later program knows the end of a move only when it has seen the next:
-/// the last move of the plane waits here with everything that came after it, in order.
+/// the last move of the plane waits here with all events that came after it, in order. In contrast
+/// to the stages' list, this one holds arcs and threads, up to this control's own limit.
 namespace dripline::interpreter::rs274ngc {
 
 class HeldEvents final : public EventSink {
  public:
   struct Text {
-    Origin origin;
-    enum class Kind : std::uint8_t { Message, Output, Open, Close } kind = Kind::Message;
-    OutputDevice device = OutputDevice::File;
+    look_ahead::HeldText head;
     std::string text;
   };
-  struct BlockEnd {
-    Origin origin;
-  };
-  using Event = std::variant<Rapid, Line, Arc, Dwell, Spindle, Coolant, ToolChange, Miscellaneous,
-                             Stop, UnitsChange, Text, BlockEnd, Thread, OverrideInhibit>;
+  using Event =
+      std::variant<Rapid, Line, Arc, Dwell, Spindle, Coolant, ToolChange, Miscellaneous, Stop,
+                   UnitsChange, Close, Text, look_ahead::BlockEnd, Thread, OverrideInhibit>;
   static constexpr std::size_t kMax = 1000;
 
   bool empty() const { return events_.empty(); }
@@ -52,24 +48,20 @@ class HeldEvents final : public EventSink {
   void on_stop(const Stop& event) override { events_.emplace_back(event); }
   void on_override_inhibit(const OverrideInhibit& event) override { events_.emplace_back(event); }
   void on_units(const UnitsChange& event) override { events_.emplace_back(event); }
-  void on_message(const Message& event) override {
-    events_.emplace_back(
-        Text{event.origin, Text::Kind::Message, OutputDevice::File, std::string(event.text)});
+  void on_close(const Close& event) override { events_.emplace_back(event); }
+  void on_message(const Message& event) override { hold(event, event.text); }
+  void on_output(const Output& event) override { hold(event, event.text); }
+  void on_open(const Open& event) override { hold(event, event.name.value_or("")); }
+  void on_block_end(const Origin& origin) override {
+    events_.emplace_back(look_ahead::BlockEnd{origin});
   }
-  void on_output(const Output& event) override {
-    events_.emplace_back(
-        Text{event.origin, Text::Kind::Output, event.device, std::string(event.text)});
-  }
-  void on_open(const Open& event) override {
-    events_.emplace_back(
-        Text{event.origin, Text::Kind::Open, event.device, std::string(event.name.value_or(""))});
-  }
-  void on_close(const Close& event) override {
-    events_.emplace_back(Text{event.origin, Text::Kind::Close, event.device, {}});
-  }
-  void on_block_end(const Origin& origin) override { events_.emplace_back(BlockEnd{origin}); }
 
  private:
+  template <class TextEvent>
+  void hold(const TextEvent& event, std::string_view text) {
+    events_.emplace_back(Text{look_ahead::held(event), std::string(text)});
+  }
+
   std::vector<Event> events_;
   Position start_;
 };

@@ -24,7 +24,7 @@ bool leaves_contour(const Run& run, CycleMotion::Way way) {
 void stand_where_the_tool_is(Run& run) {
   State& state = run.state;
   interrupt_contour(run);
-  state.machine = run.compensator.tool();
+  state.machine = run.compensator.sent();
   AxisValues machine{};
   for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = state.machine.raw(static_cast<Axis>(i));
   state.nominal = state.transformation.to_program(machine);

@@ -40,7 +40,7 @@ bool refuse_start(Run& run, std::string_view why) {
 bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutter& cutter) {
   const double offset =
       cutter.side == compensation::Side::Left ? cutter.radius.mm() : -cutter.radius.mm();
-  const PlaneVector tool = in_plane(run.compensator.tool(), axes_of(run.state.plane));
+  const PlaneVector tool = in_plane(run.compensator.sent(), axes_of(run.state.plane));
   const PlaneVector way = in_machine(run.state, move.to) - tool;
   const double distance = length(way);
   if (distance <= std::fabs(offset)) {
@@ -80,7 +80,7 @@ bool go_parallel(Run& run, const Block& block, const PlaneMove& move, Compensati
   State& state = run.state;
   release_corner(run);
   if (block.compensation == Compensation::Off) {
-    run.compensator.leave();
+    run.compensator.cancel();
     state.is_parallel = false;
     return true;
   }
@@ -334,9 +334,9 @@ void end_contour(Run& run, bool keeps_distance) {
   state.compensation = Compensation::Off;
   state.is_parallel = keeps_distance;
   if (keeps_distance) {
-    run.compensator.leave_in_parallel();
+    run.compensator.cancel_in_parallel();
   } else {
-    run.compensator.leave();
+    run.compensator.cancel();
   }
 }
 
@@ -345,7 +345,7 @@ void interrupt_contour(Run& run) {
   if (!state.uses_stages) return;
   release_corner(run);
   state.blend.is_lost = true;
-  run.compensator.leave();
+  run.compensator.cancel();
   state.is_parallel = false;
 }
 
@@ -358,7 +358,7 @@ void go_on_with_contour(Run& run, const Position& programmed) {
   const State& state = run.state;
   const PlaneVector at = in_plane(programmed, axes_of(state.plane));
   if (!state.is_compensating() || state.awaits_contour) {
-    run.compensator.leave(at);
+    run.compensator.cancel(at);
     return resume_contour(run);
   }
   run.compensator.begin_contour(cutter_of(state, state.compensation), at);

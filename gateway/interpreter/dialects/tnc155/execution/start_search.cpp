@@ -157,7 +157,7 @@ bool begin_at_block(Run& run, std::int32_t number, std::int32_t way_back) {
     return run.fail(ErrorCode::ProgramStartUndefined,
                     fmt::format("a start at block {} would lose {}", number, join(reasons)));
   }
-  state.start.expected = state.uses_stages ? run.compensator.tool() : state.machine;
+  state.start.expected = state.uses_stages ? run.compensator.sent() : state.machine;
   const std::string text = description(run, number, state.start.expected);
   stand_at_start(run);
   state.start.is_searching = false;

@@ -29,7 +29,7 @@ Turn turn_of(double side) {
 
 void PathWriter::straight(const Element& element, const Origin& origin, const Position& to,
                           Feed feed) {
-  state_.given = to;
+  state_.sent = to;
   if (element.is_rapid) {
     sink_.on_rapid({origin, to, element.line.rests});
   } else {
@@ -39,7 +39,7 @@ void PathWriter::straight(const Element& element, const Origin& origin, const Po
 
 void PathWriter::put_out(const Element& element) {
   if (!element.is_arc && !element.is_moved) {
-    state_.given = element.line.to;
+    state_.sent = element.line.to;
     if (!element.is_rapid) return sink_.on_line(element.line);
     return sink_.on_rapid({element.line.origin, element.line.to, element.line.rests});
   }
@@ -48,7 +48,7 @@ void PathWriter::put_out(const Element& element) {
   const bool is_point = element.is_moved && element.is_arc &&
                         element.sweep * length(element.end - element.center) <= kNoLength;
   if (!element.is_arc || is_point) {
-    if (!to.same_point(state_.given)) straight(element, element.line.origin, to, element.line.feed);
+    if (!to.same_point(state_.sent)) straight(element, element.line.origin, to, element.line.feed);
     return;
   }
   Arc arc = arc_event(element.line.origin, to, state_.plane, element.center);
@@ -56,7 +56,7 @@ void PathWriter::put_out(const Element& element) {
   arc.sweep = element.is_moved ? Angle::radians(element.sweep) : element.given_sweep;
   arc.feed = element.line.feed;
   arc.rests = element.line.rests;
-  state_.given = to;
+  state_.sent = to;
   sink_.on_arc(arc);
 }
 
@@ -64,11 +64,11 @@ void PathWriter::put_out(const Corner& corner, const Element& element, const Ori
   if (length(corner.arrive - corner.leave) <= kNoLength) return;
   const std::optional<Feed>& own = element.announced.corner->feed;
   const Feed feed = own.value_or(element.line.feed);
-  Position to = state_.given;
+  Position to = state_.sent;
   place(to, axes_of(state_.plane), corner.arrive);
   if (!corner.is_arc) {
     if (!own) return straight(element, origin, to, feed);
-    state_.given = to;
+    state_.sent = to;
     return sink_.on_line({origin, to, feed, element.line.rests});
   }
   Arc arc = arc_event(origin, to, state_.plane, corner.center);
@@ -76,7 +76,7 @@ void PathWriter::put_out(const Corner& corner, const Element& element, const Ori
   arc.sweep = Angle::radians(std::fabs(corner.sweep));
   arc.feed = feed;
   arc.rests = element.line.rests;
-  state_.given = to;
+  state_.sent = to;
   sink_.on_arc(arc);
 }
 

@@ -5,7 +5,7 @@
 
 namespace dripline::interpreter::blending::impl {
 
-/// Gives decided moves to the sink and keeps `State::given` where they lead. Lives for one call.
+/// Gives decided moves to the sink and keeps `State::sent` where they lead. Lives for one call.
 class PathWriter {
  public:
   PathWriter(EventSink& sink, State& state) : sink_(sink), state_(state) {}

@@ -4,18 +4,11 @@
 #include <optional>
 
 #include "gateway/interpreter/stages/blending/impl/element.hpp"
-#include "gateway/interpreter/stages/compensation/policy.hpp"
-#include "gateway/interpreter/stages/look_ahead/held_events.hpp"
+#include "gateway/interpreter/stages/look_ahead/look_ahead_stage.hpp"
 
 namespace dripline::interpreter::blending::impl {
 
-/// What the compensation stage after is told, in its place among the events.
-struct CompensationCall {
-  enum class Kind : std::uint8_t { TurnOn, TurnOnAs, TurnOff, Leave, SuppressOutput, Go };
-  Kind kind = Kind::TurnOff;
-  compensation::Cutter cutter;
-  compensation::StartUp start_up = compensation::StartUp::NextNormal;  ///< of TurnOnAs
-};
+/// The end of a block that compensation does not count.
 struct UncountedEnd {
   Origin origin;
 };
@@ -27,34 +20,23 @@ inline constexpr bool dripline::interpreter::look_ahead::kIsBlockEnd<
 
 namespace dripline::interpreter::blending::impl {
 
-/// Where the piece of a corner belongs that a block of its own told.
+/// The place of the piece of a corner that has a block of its own.
 struct CornerPlace {
   Origin origin;
 };
 
-using Held = look_ahead::HeldEvents<CompensationCall, UncountedEnd, CornerPlace>;
+using Held = look_ahead::HeldEvents<compensation::Command, UncountedEnd, CornerPlace>;
 
-/// Everything that decides what comes next; `visit_state` (state_bytes.cpp) lists every member:
-/// add new ones there too.
-struct State {
-  bool has_element = false;
-  Plane plane = Plane::XY;
-  Position programmed;  ///< where the program thinks the machine is
-  Position given;       ///< where it has been sent
+/// Everything that decides the rest of the path; `visit_state` (state_bytes.cpp) lists every
+/// member: add new ones there too.
+struct State : look_ahead::StageState<Element, Held> {
+  static constexpr std::string_view kName = "blending";
+
   Announced next;
-  /// An end of a block right after the element that waits, which most blocks have: kept apart from
-  /// what comes later since this is quicker.
+  /// The end of a block right after the waiting element, which most blocks have: kept apart from
+  /// the events that come later, because this is quicker.
   bool has_end = false;
   Origin end;
-  Held held;
-  std::array<Element, 2> elements;
-  std::uint8_t waiting_slot = 0;
-
-  /// The element that waits, when there is one; the other place is the next one's.
-  Element& waiting() { return elements[waiting_slot]; }
-  const Element& waiting() const { return elements[waiting_slot]; }
-  Element& spare() { return elements[1 - waiting_slot]; }
-  void swap_elements() { waiting_slot = static_cast<std::uint8_t>(1 - waiting_slot); }
 };
 
 }  // namespace dripline::interpreter::blending::impl

@@ -1,27 +1,37 @@
-#include "gateway/interpreter/stages/blending/impl/state_bytes.hpp"
+#include "gateway/interpreter/stages/look_ahead/state_bytes.hpp"
 
-#include "gateway/interpreter/stages/look_ahead/event_archive.hpp"
+#include "gateway/interpreter/stages/blending/corner_blender.hpp"
+
+namespace dripline::interpreter::compensation {
+
+using look_ahead::up_to;
+
+/// In the namespace of their types, where the look-up by argument finds them.
+template <class Archive>
+void visit(Archive& archive, StartUp& start_up) {
+  up_to(archive, start_up, StartUp::Tangent);
+}
+template <class Archive>
+void visit(Archive& archive, Command& command) {
+  up_to(archive, command.kind, Command::Kind::ResumeOutput);
+  up_to(archive, command.cutter.plane, Plane::YZ);
+  up_to(archive, command.cutter.side, Side::Right);
+  visit(archive, command.cutter.radius);
+  visit(archive, command.cutter.tip_first);
+  visit(archive, command.cutter.tip_second);
+  look_ahead::visit_optional(archive, command.start_up);
+}
+
+}  // namespace dripline::interpreter::compensation
 
 namespace dripline::interpreter::blending::impl {
 
-using look_ahead::StateReader;
-using look_ahead::StateWriter;
 using look_ahead::up_to;
 using look_ahead::visit;
 using look_ahead::visit_all;
 using look_ahead::visit_numbers;
 using look_ahead::visit_optional;
 
-template <class Archive>
-void visit(Archive& archive, CompensationCall& call) {
-  up_to(archive, call.kind, CompensationCall::Kind::Go);
-  up_to(archive, call.cutter.plane, Plane::YZ);
-  up_to(archive, call.cutter.side, compensation::Side::Right);
-  visit(archive, call.cutter.radius);
-  visit(archive, call.cutter.tip_first);
-  visit(archive, call.cutter.tip_second);
-  up_to(archive, call.start_up, compensation::StartUp::Tangent);
-}
 template <class Archive>
 void visit(Archive& archive, UncountedEnd& end) {
   visit(archive, end.origin);
@@ -65,41 +75,20 @@ void visit(Archive& archive, Element& element) {
   visit(archive, element.announced);
 }
 
-namespace {
-
 template <class Archive>
 void visit_state(Archive& archive, State& state) {
   archive(state.has_element);
   up_to(archive, state.plane, Plane::YZ);
   visit(archive, state.programmed);
-  visit(archive, state.given);
+  visit(archive, state.sent);
   visit(archive, state.next);
   if (state.has_element) visit(archive, state.waiting());
   archive(state.has_end);
   if (state.has_end) visit(archive, state.end);
 }
 
-}  // namespace
-
-std::vector<std::byte> to_bytes(const State& state) {
-  StateWriter archive;
-  State copy = state;
-  visit_state(archive, copy);
-  look_ahead::write_held(archive, state.held);
-  return archive.take();
-}
-
-Result<void> from_bytes(State& state, const std::vector<std::byte>& bytes) {
-  StateReader archive(bytes);
-  State read;
-  visit_state(archive, read);
-  look_ahead::read_held(archive, read.held);
-  if (!archive.is_complete()) {
-    return dripline::fail(Errc::Corrupt, "blending state of {} bytes does not read back",
-                          bytes.size());
-  }
-  state = read;
-  return {};
-}
-
 }  // namespace dripline::interpreter::blending::impl
+
+namespace dripline::interpreter::look_ahead {
+template class LookAheadStage<blending::CornerBlender, blending::impl::State, blending::FaultKind>;
+}

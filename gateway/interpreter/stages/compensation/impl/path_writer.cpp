@@ -22,14 +22,14 @@ bool shares_time(const Element& element) {
 }  // namespace
 
 PlaneVector PathWriter::nose() const {
-  return in_plane(state_.tool, axes_) - state_.tip;
+  return in_plane(state_.sent, axes_) - state_.tip;
 }
 
 /// Positions are made anew from settled ones wherever they are needed: a copy of one whose numbers
 /// have just been written has to wait for them.
 void PathWriter::move_tool(PlaneVector tip, const Position& others) {
-  if (&others != &state_.tool) state_.tool = others;
-  set_in_plane(state_.tool, axes_, tip);
+  if (&others != &state_.sent) state_.sent = others;
+  set_in_plane(state_.sent, axes_, tip);
 }
 
 /// Moves per minute and millimetre of an element that shares its time.
@@ -55,9 +55,9 @@ void PathWriter::lead_in(const Element& element, const Feed& feed) {
     if (is_paced) own = Feed::inverse_time(feed.moves_per_minute() / length_of(piece, nose()));
     const Feed& pace = leads_away ? state_.waiting().feed : is_paced ? own : feed;
     if (piece.is_arc) {
-      arc(element, piece, {state_.tool, pace.is_zero() ? arc_at_rapid_ : pace});
+      arc(element, piece, {state_.sent, pace.is_zero() ? arc_at_rapid_ : pace});
     } else {
-      straight(element, piece.to + state_.tip, {state_.tool, pace});
+      straight(element, piece.to + state_.tip, {state_.sent, pace});
     }
   }
 }
@@ -65,7 +65,7 @@ void PathWriter::lead_in(const Element& element, const Feed& feed) {
 void PathWriter::straight(const Element& element, PlaneVector tip, const Company& with) {
   Line move{element.origin, with.others, with.feed, with.rests};
   set_in_plane(move.to, axes_, tip);
-  if (move.to.same_point(state_.tool)) return;
+  if (move.to.same_point(state_.sent)) return;
   move_tool(tip, with.others);
   if (element.is_rapid) {
     sink_.on_rapid({element.origin, move.to, move.rests});

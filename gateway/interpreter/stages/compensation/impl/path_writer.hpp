@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::compensation::impl {
 
-/// Gives decided moves to the sink and keeps `State::tool` where they lead. Lives for one call.
+/// Gives decided moves to the sink and keeps `State::sent` where they lead. Lives for one call.
 class PathWriter {
  public:
   PathWriter(EventSink& sink, State& state, const Feed& arc_at_rapid)

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "gateway/interpreter/stages/compensation/impl/element.hpp"
-#include "gateway/interpreter/stages/look_ahead/held_events.hpp"
+#include "gateway/interpreter/stages/look_ahead/look_ahead_stage.hpp"
 
 namespace dripline::interpreter::compensation::impl {
 
@@ -15,34 +15,23 @@ enum class Phase : std::uint8_t {
   Parallel,  ///< the next move in the plane keeps the tool's distance, then off
 };
 
-/// Everything that decides what comes next, in a few fixed kilobytes; `visit_state`
+/// Everything that decides the rest of the path, in a few fixed kilobytes; `visit_state`
 /// (state_bytes.cpp) lists every member: add new ones there too.
-struct State {
+struct State : look_ahead::StageState<Element, look_ahead::HeldEvents<>> {
+  static constexpr std::string_view kName = "compensation";
+
   Phase phase = Phase::Off;
-  bool has_element = false;
   /// The tool is not on the programmed point of the plane, and stays where it is until the next
   /// move in the plane.
   bool is_displaced = false;
   bool is_output_suppressed = false;  ///< moves are silent elements
-  Plane plane = Plane::XY;
-  double offset = 0;  ///< to the left
-  PlaneVector tip;    ///< from the nose center to the positioned point
+  double offset = 0;                  ///< to the left
+  PlaneVector tip;                    ///< from the nose center to the positioned point
   StartUp start_up = StartUp::NextNormal;
   std::optional<OutsideCorner> next_corner;
   std::optional<ByArc> next_arc;  ///< of the cancel move
   bool begins_contour = false;    ///< Parallel: a contour begins where that move ends
-  int idle_blocks = 0;            ///< without motion in the plane, since the element that waits
-  Position programmed;            ///< where the program thinks the machine is
-  Position tool;                  ///< where it has been sent
-  look_ahead::HeldEvents<> held;
-  std::array<Element, 2> elements;
-  std::uint8_t waiting_slot = 0;
-
-  /// The element that waits, when there is one; the other place is the next one's.
-  Element& waiting() { return elements[waiting_slot]; }
-  const Element& waiting() const { return elements[waiting_slot]; }
-  Element& spare() { return elements[1 - waiting_slot]; }
-  void swap_elements() { waiting_slot = static_cast<std::uint8_t>(1 - waiting_slot); }
+  int idle_blocks = 0;            ///< without motion in the plane, since the waiting element
 };
 
 }  // namespace dripline::interpreter::compensation::impl

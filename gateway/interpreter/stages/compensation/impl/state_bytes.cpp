@@ -1,10 +1,10 @@
-#include "gateway/interpreter/stages/compensation/impl/state_bytes.hpp"
+#include "gateway/interpreter/stages/look_ahead/state_bytes.hpp"
 
-#include "gateway/interpreter/stages/look_ahead/event_archive.hpp"
+#include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::compensation {
 
-/// Where the look-up by argument finds it.
+/// In the namespace of its type, where the look-up by argument finds it.
 template <class Archive>
 void visit(Archive& archive, OutsideCorner& corner) {
   look_ahead::up_to(archive, corner, OutsideCorner::IntersectCurves);
@@ -20,11 +20,6 @@ void visit(Archive& archive, ByArc& by_arc) {
   look_ahead::visit(archive, by_arc.origin);
 }
 
-namespace {
-
-using look_ahead::fail;
-using look_ahead::StateReader;
-using look_ahead::StateWriter;
 using look_ahead::up_to;
 using look_ahead::visit;
 using look_ahead::visit_all;
@@ -34,7 +29,7 @@ using look_ahead::visit_optional;
 template <class Archive>
 void visit(Archive& archive, LeadIn& lead_in) {
   visit_all(archive, lead_in.count);
-  if (lead_in.count > lead_in.pieces.size()) lead_in.count = 0, fail(archive);
+  if (lead_in.count > lead_in.pieces.size()) lead_in.count = 0, archive.damage();
   for (std::uint8_t i = 0; i < lead_in.count; ++i) {
     Piece& piece = lead_in.pieces[i];
     archive(piece.is_arc);
@@ -78,31 +73,13 @@ void visit_state(Archive& archive, State& state) {
   visit_optional(archive, state.next_arc);
   archive(state.begins_contour);
   visit(archive, state.programmed);
-  visit(archive, state.tool);
+  visit(archive, state.sent);
   if (state.has_element) visit(archive, state.waiting());
 }
 
-}  // namespace
-
-std::vector<std::byte> to_bytes(const State& state) {
-  StateWriter archive;
-  State copy = state;
-  visit_state(archive, copy);
-  look_ahead::write_held(archive, state.held);
-  return archive.take();
-}
-
-Result<void> from_bytes(State& state, const std::vector<std::byte>& bytes) {
-  StateReader archive(bytes);
-  State read;
-  visit_state(archive, read);
-  look_ahead::read_held(archive, read.held);
-  if (!archive.is_complete()) {
-    return dripline::fail(Errc::Corrupt, "compensation state of {} bytes does not read back",
-                          bytes.size());
-  }
-  state = read;
-  return {};
-}
-
 }  // namespace dripline::interpreter::compensation::impl
+
+namespace dripline::interpreter::look_ahead {
+template class LookAheadStage<compensation::Compensator, compensation::impl::State,
+                              compensation::FaultKind>;
+}

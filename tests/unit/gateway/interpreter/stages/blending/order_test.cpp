@@ -95,7 +95,7 @@ std::vector<Step> script() {
           [](Path& p) {
             p.blender.turn_on(compensation::Cutter{});
             p.blender.turn_off();
-            p.blender.end_uncounted_block({});
+            p.blender.on_uncounted_block_end({});
           },
           [](Path& p) { p.aside(-4); },
           [](Path& p) {

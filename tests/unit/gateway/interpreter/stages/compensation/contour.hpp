@@ -129,7 +129,7 @@ class Contour {
   }
   /// A block that the look-ahead passes over.
   Contour& statement() {
-    compensator.end_uncounted_block(next());
+    compensator.on_uncounted_block_end(next());
     return *this;
   }
   std::optional<FaultKind> fault() const {

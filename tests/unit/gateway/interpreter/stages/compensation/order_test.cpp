@@ -177,7 +177,7 @@ TEST(Order, TheLargestStateKeepsItsBound) {
   for (int i = 0; i < 24; ++i) contour.aside(i + 1.0);
   EXPECT_EQ(contour.fault(), std::nullopt);
   EXPECT_GT(contour.compensator.state().size(), 11'000u);
-  EXPECT_LT(contour.compensator.state().size(), kMaxStateBytes);
+  EXPECT_LT(contour.compensator.state().size(), look_ahead::kMaxStateBytes);
 }
 
 }  // namespace

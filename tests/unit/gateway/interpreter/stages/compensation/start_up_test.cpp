@@ -120,7 +120,7 @@ TEST(StartUp, SwitchedOnAgainWithoutAMoveTheContourGoesOn) {
 TEST(StartUp, LeavingEndsOnTheNormalAndGoesStraight) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
-  contour.compensator.leave();
+  contour.compensator.cancel();
   contour.aside(30).line(20, 10).left(2).line(30, 10).line(40, 10).off().line(50, 0);
   expect_ends(contour.log, {{0, 2}, {10, 2}, {10, 2}, {20, 10}, {30, 12}, {40, 12}, {50, 0}});
 }
@@ -128,7 +128,7 @@ TEST(StartUp, LeavingEndsOnTheNormalAndGoesStraight) {
 TEST(StartUp, LeavingInParallelKeepsTheDistance) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
-  contour.compensator.leave_in_parallel();
+  contour.compensator.cancel_in_parallel();
   contour.line(10, 40).aside(-1).right(2).line(0, 40).line(-10, 40).off().line(-20, 0);
   expect_ends(contour.log, {{0, 2}, {10, 2}, {10, 42}, {10, 42}, {0, 42}, {-10, 42}, {-20, 0}});
 }

@@ -1,33 +1,27 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
+#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
+#include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/core/language/state_archive.hpp"
-#include "gateway/interpreter/stages/look_ahead/held_events.hpp"
 
-/// The bytes of events that wait, for the snapshots of stages that look ahead: `visit` for what
-/// their states are made of, written and read by the same lines (`state_archive.hpp`). Numbers that
-/// geometry cannot work with and enumerators that do not exist are damage.
-namespace dripline::interpreter::look_ahead {
-
-using language::StateReader;
-using language::StateWriter;
-using language::visit_all;
-
-template <class Archive>
-void fail(Archive& archive) {
-  if constexpr (Archive::kReads) archive.damage();
-}
+/// The bytes of events and of the values they consist of, for the snapshots of stages and dialects:
+/// `visit` lists the members once, for writing and for reading (`state_archive.hpp`). A number that
+/// is not finite and an enumerator that does not exist are damage. The functions are in the
+/// archives' namespace, so that argument-dependent look-up finds them from every dialect.
+namespace dripline::interpreter::language {
 
 /// A number that geometry can work with.
 template <class Archive>
 void visit(Archive& archive, double& number) {
   archive(number);
-  if (!std::isfinite(number)) fail(archive);
+  if (!std::isfinite(number)) archive.damage();
 }
 template <class Archive, class... Numbers>
 void visit_numbers(Archive& archive, Numbers&... numbers) {
@@ -38,7 +32,7 @@ template <class Archive, class Enum>
 void up_to(Archive& archive, Enum& value, Enum last) {
   auto number = static_cast<std::uint8_t>(value);
   archive(number);
-  if (number > static_cast<std::uint8_t>(last)) return fail(archive);
+  if (number > static_cast<std::uint8_t>(last)) return archive.damage();
   value = static_cast<Enum>(number);
 }
 
@@ -61,6 +55,10 @@ void visit(Archive& archive, Angle& angle) {
 template <class Archive>
 void visit(Archive& archive, Origin& origin) {
   visit_all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
+}
+template <class Archive>
+void visit(Archive& archive, TextPlace& place) {
+  visit_all(archive, place.program, place.offset, place.line);
 }
 template <class Archive>
 void visit(Archive& archive, Position& position) {
@@ -97,10 +95,15 @@ void visit_optional(Archive& archive, std::optional<Value>& optional) {
   visit(archive, *optional);
 }
 
+/// Bytes of a part that writes and reads itself; more than `most` are damage.
 template <class Archive>
-void visit(Archive& archive, BlockEnd& event) {
-  visit(archive, event.origin);
+void visit_bytes(Archive& archive, std::vector<std::byte>& bytes, std::size_t most) {
+  std::size_t count = bytes.size();
+  if (!archive.size(count, most)) return;
+  bytes.resize(count);
+  for (std::byte& byte : bytes) archive(byte);
 }
+
 template <class Archive>
 void visit(Archive& archive, Rapid& event) {
   visit(archive, event.origin);
@@ -113,6 +116,35 @@ void visit(Archive& archive, Line& event) {
   visit(archive, event.to);
   visit(archive, event.feed);
   archive(event.rests);
+}
+template <class Archive>
+void visit(Archive& archive, Arc& event) {
+  visit(archive, event.origin);
+  visit(archive, event.to);
+  visit(archive, event.center_first);
+  visit(archive, event.center_second);
+  up_to(archive, event.plane, Plane::YZ);
+  up_to(archive, event.turn, Turn::Counterclockwise);
+  visit(archive, event.sweep);
+  visit(archive, event.feed);
+  archive(event.rests);
+}
+template <class Archive>
+void visit(Archive& archive, ThreadArc& arc) {
+  visit(archive, arc.center_first);
+  visit(archive, arc.center_second);
+  up_to(archive, arc.plane, Plane::YZ);
+  up_to(archive, arc.turn, Turn::Counterclockwise);
+  visit(archive, arc.sweep);
+}
+template <class Archive>
+void visit(Archive& archive, Thread& event) {
+  visit(archive, event.origin);
+  visit(archive, event.to);
+  visit(archive, event.lead);
+  visit_optional(archive, event.start_angle);
+  visit_optional(archive, event.arc);
+  visit(archive, event.lead_change);
 }
 template <class Archive>
 void visit(Archive& archive, Dwell& event) {
@@ -176,64 +208,5 @@ void visit(Archive& archive, OverrideInhibit& event) {
   up_to(archive, event.hold, FeedHoldInhibit::LaterToo);
   archive(event.is_tapping);
 }
-template <class Archive>
-void visit(Archive& archive, HeldText& text) {
-  up_to(archive, text.kind, HeldText::Kind::Message);
-  up_to(archive, text.device, OutputDevice::Printer);
-  visit(archive, text.origin);
-  archive(text.size);
-}
 
-template <class Held>
-void write_held(StateWriter& archive, const Held& held) {
-  auto count = static_cast<std::uint16_t>(held.size());
-  archive(count);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    typename Held::Event event = held[i];
-    auto kind = static_cast<std::uint8_t>(event.index());
-    archive(kind);
-    std::visit([&](auto& one) { visit(archive, one); }, event);
-    if (const auto* text = std::get_if<HeldText>(&event)) {
-      for (char c : held.text(*text)) archive(c);
-    }
-  }
-}
-
-template <class Event, class Held>
-void read_event(StateReader& archive, Held& held) {
-  Event event{};
-  visit(archive, event);
-  if constexpr (std::is_same_v<Event, HeldText>) {
-    if (event.size > kMaxHeldText) fail(archive);
-    std::array<char, kMaxHeldText> content;
-    for (std::uint32_t i = 0; i < event.size && !archive.is_damaged(); ++i) archive(content[i]);
-    if (!archive.is_damaged() && !held.push(event, {content.data(), event.size})) fail(archive);
-  } else {
-    if (!archive.is_damaged() && !held.push(event)) fail(archive);
-  }
-}
-
-template <class Held, std::size_t... Kinds>
-void read_kind(StateReader& archive, Held& held, std::size_t kind, std::index_sequence<Kinds...>) {
-  using Event = typename Held::Event;
-  const bool is_known =
-      ((kind == Kinds ? (read_event<std::variant_alternative_t<Kinds, Event>>(archive, held), true)
-                      : false) ||
-       ...);
-  if (!is_known) fail(archive);
-}
-
-template <class Held>
-void read_held(StateReader& archive, Held& held) {
-  constexpr std::size_t kKinds = std::variant_size_v<typename Held::Event>;
-  std::uint16_t count = 0;
-  archive(count);
-  held.clear();
-  for (std::uint16_t i = 0; i < count && !archive.is_damaged(); ++i) {
-    std::uint8_t kind = 0;
-    archive(kind);
-    read_kind(archive, held, kind, std::make_index_sequence<kKinds>{});
-  }
-}
-
-}  // namespace dripline::interpreter::look_ahead
+}  // namespace dripline::interpreter::language
