@@ -6,7 +6,6 @@
 #include "gateway/interpreter/dialects/centurion/flow/flow.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/centurion/snapshot.hpp"
 #include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::centurion {
@@ -53,61 +52,26 @@ CenturionInterpreter::CenturionInterpreter(ControlOptions options, ModalState st
   }
 }
 
-StepState CenturionInterpreter::step(std::uint64_t max_blocks) {
-  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
-  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
-  if (is_asking_) return StepState::NeedsAnswer;
-  run_.text.invalidate();  // its text was good only until the owner used the source
-  for (std::uint64_t left = max_blocks; left > 0;) {
-    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
-      const JumpOutcome outcome = take_jump(run_, search_);
-      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
-      if (outcome == JumpOutcome::More) return StepState::Ran;
-      if (outcome == JumpOutcome::Failed) return paused();
-    }
-    if (has_pattern_pass(run_.state)) [[unlikely]] {
-      make_pattern_pass(run_);
-      run_.end_block();
-      if (run_.may_have_failed() && !check_path(run_)) return paused();
-      ++run_.state.blocks;
-      --left;
-      continue;
-    }
-    const BlockOutcome outcome = run_block();
-    if (outcome == BlockOutcome::Paused) [[unlikely]]
-      return paused();
-    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
-      if (!run_.state.is_searching) return StepState::Ended;
-      if (!begin_at_first()) return paused();
-    }
-    if (outcome == BlockOutcome::More) [[unlikely]]
-      return StepState::Ran;
-    if (outcome == BlockOutcome::Finished) --left;
-  }
-  return StepState::Ran;
+BlockOutcome CenturionInterpreter::run_block() {
+  const BlockOutcome outcome = next_block();
+  const bool has_missed_start = run_.state.phase == RunPhase::Ended && run_.state.is_searching;
+  if (has_missed_start && outcome != BlockOutcome::Paused && !begin_at_first()) [[unlikely]]
+    return BlockOutcome::Paused;
+  return outcome;
 }
 
-StepState CenturionInterpreter::paused() {
-  switch (run_.pause) {
-    case Pause::Text:
-      run_.pause = Pause::None;
-      return StepState::NeedsText;
-    case Pause::Question:
-      run_.pause = Pause::None;
-      if (run_.state.is_searching && settle_in_search()) return StepState::Ran;
-      if (run_.pause == Pause::Alarm) break;
-      is_asking_ = true;
-      return StepState::NeedsAnswer;
-    default:
-      break;
+BlockOutcome CenturionInterpreter::next_block() {
+  if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+    if (const BlockOutcome jump = take_jump(run_, search_); jump != BlockOutcome::NoBlock)
+      return jump;
   }
-  run_.pause = Pause::None;
-  run_.events().on_alarm({run_.origin, run_.alarm});
-  run_.state.phase = RunPhase::Alarmed;
-  return StepState::Alarmed;
-}
-
-CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
+  if (has_pattern_pass(run_.state)) [[unlikely]] {
+    make_pattern_pass(run_);
+    run_.end_block();
+    if (run_.may_have_failed() && !check_path(run_)) return BlockOutcome::Paused;
+    ++run_.state.blocks;
+    return BlockOutcome::Finished;
+  }
   if (is_looking_back_) [[unlikely]] {
     if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
   }
@@ -141,31 +105,21 @@ CenturionInterpreter::BlockOutcome CenturionInterpreter::run_block() {
 }
 
 /// No block to be seen: more text is needed, the program is over, or it cannot go on.
-CenturionInterpreter::BlockOutcome CenturionInterpreter::meet_line_state(TextCursor::State state) {
+BlockOutcome CenturionInterpreter::meet_line_state(TextCursor::State state) {
   switch (state) {
     case TextCursor::State::NotYet:
-      run_.pause = Pause::Text;
-      return BlockOutcome::Paused;
+      return BlockOutcome::NeedsText;
     case TextCursor::State::EndOfText:
       return end_without_code(run_) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
     case TextCursor::State::TooLong:
-      place_origin();
+      place_origin(run_.state.at);
       run_.fail(ErrorCode::BlockTooLong, 0, "more than 4096 characters");
       return BlockOutcome::Paused;
     default:
-      place_origin();
+      place_origin(run_.state.at);
       run_.fail(ErrorCode::TextFailed, 0, run_.text.failure());
       return BlockOutcome::Paused;
   }
-}
-
-void CenturionInterpreter::place_origin() {
-  Origin& origin = run_.origin;
-  origin.block = run_.state.blocks + 1;
-  origin.offset = run_.state.at.offset;
-  origin.line = run_.state.at.line;
-  origin.sequence = Origin::kNone;
-  origin.program = run_.state.at.program;
 }
 
 /// False at the O line of the next program in the file.
@@ -174,7 +128,7 @@ bool CenturionInterpreter::begin_block() {
   const bool is_plain = kind_of(*begin) == CharKind::Letter && upper(*begin) != 'O';
   if (!is_plain && is_end_of_segment()) [[unlikely]]
     return false;
-  place_origin();
+  place_origin(run_.state.at);
   run_.origin.offset = run_.text.offset();
   run_.block.words.clear();
   run_.block.parts = kFreshParts;
@@ -203,42 +157,30 @@ bool CenturionInterpreter::starts_here() const {
 /// At a block that is not begun yet.
 bool CenturionInterpreter::may_start_here() {
   if (run_.block.parts.stage != Stage::Start || !start_->needs_jump_back(run_)) return false;
-  place_origin();
+  place_origin(run_.state.at);
   run_.origin.offset = run_.text.offset();
   return starts_here();
 }
 
-CenturionInterpreter::BlockOutcome CenturionInterpreter::look_back() {
+BlockOutcome CenturionInterpreter::look_back() {
   is_looking_back_ = true;
   return BlockOutcome::NoBlock;
 }
 
 /// Finished: it is known now.
-CenturionInterpreter::BlockOutcome CenturionInterpreter::find_way_back() {
+BlockOutcome CenturionInterpreter::find_way_back() {
   std::uint64_t line = 0;
   const TextSearch::Outcome outcome = search_.find_jump_back(run_.state.at, line);
-  if (outcome == TextSearch::Outcome::More) return BlockOutcome::More;
-  if (outcome == TextSearch::Outcome::NotYet) {
-    run_.pause = Pause::Text;
-    return BlockOutcome::Paused;
-  }
+  if (outcome == TextSearch::Outcome::More) return BlockOutcome::MoreFollows;
+  if (outcome == TextSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
   if (outcome != TextSearch::Outcome::Found && outcome != TextSearch::Outcome::Missing) {
-    refuse_search(run_, outcome);
-    return BlockOutcome::Paused;
+    return refuse_search(run_, outcome);
   }
   const bool is_found = outcome == TextSearch::Outcome::Found;
   start_->note_jump_back(is_found ? std::optional(line) : std::nullopt);
   is_way_back_known_ = true;
   is_looking_back_ = false;
   return BlockOutcome::Finished;
-}
-
-/// Nobody is bothered for what happens before the start, unless the program's way hangs on it.
-/// False leaves the question to the owner, or an alarm.
-bool CenturionInterpreter::settle_in_search() {
-  if (!std::holds_alternative<ProbeQuestion>(run_.question)) return false;
-  run_.fail(ErrorCode::ProbeBeforeStart, 0, "a start after it cannot be looked for");
-  return false;
 }
 
 /// The start that was asked for is not in the program.
@@ -289,9 +231,7 @@ bool CenturionInterpreter::finish_block() {
   return true;
 }
 
-Result<void> CenturionInterpreter::answer(const Answer& answer) {
-  if (!is_asking_) return fail(Errc::Syntax, "no question is open");
-  if (!fits(run_.question, answer)) return fail(Errc::Syntax, "an answer to another question");
+Result<void> CenturionInterpreter::take_answer(const Answer& answer) {
   if (const auto* prompt = std::get_if<PromptAnswer>(&answer)) {
     if (prompt->text && !is_input_answer(*prompt->text)) {
       return fail(Errc::Syntax, "{}: \"{}\" is not a number",
@@ -299,25 +239,19 @@ Result<void> CenturionInterpreter::answer(const Answer& answer) {
     }
   }
   run_.answers.push_back(answer);
-  is_asking_ = false;
   run_.answers_used = 0;
   return {};
 }
 
-Snapshot CenturionInterpreter::snapshot() const {
-  invariant(run_.block.parts.stage == Stage::Start, "a snapshot is taken between blocks");
-  return take_snapshot(run_);
-}
-
-Result<void> CenturionInterpreter::restore(const Snapshot& snapshot) {
-  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+void CenturionInterpreter::after_restore() {
   run_.text.invalidate();
   run_.block.clear();
   run_.answers.clear();
   run_.answers_used = 0;
-  run_.pause = Pause::None;
-  is_asking_ = false;
-  return {};
 }
 
 }  // namespace dripline::interpreter::centurion
+
+namespace dripline::interpreter {
+template class BlockInterpreter<centurion::CenturionInterpreter>;
+}

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/pattern.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/transformation.hpp"
@@ -19,7 +20,6 @@ namespace dripline::interpreter::centurion {
 enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, Counterclockwise };
 /// How cutting moves end; tapping mode also inhibits overrides and feed hold (manual: G63).
 enum class PathMode : std::uint8_t { Cutting, ExactStop, Tapping };
-enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 inline constexpr std::size_t kMaxNesting = 50;  ///< calls, subroutines and loops, each
 inline constexpr int kOffsetCount = 24;

@@ -105,7 +105,7 @@ bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail)
 }
 
 bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view detail) {
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm.id = row.id;
   alarm.text = row.text;
   if (!detail.empty()) {
@@ -128,8 +128,10 @@ bool Run::ask(Question asked) {
   const bool meets_tool =
       std::holds_alternative<ProbeQuestion>(asked) || std::holds_alternative<PromptQuestion>(asked);
   if (meets_tool && !flush_path()) return false;
+  if (state.is_searching && std::holds_alternative<ProbeQuestion>(asked))
+    return fail(ErrorCode::ProbeBeforeStart, 0, "a start after it cannot be looked for");
   loops.note_progress();
-  pause = Pause::Question;
+  pause = Pause::ForQuestion;
   question = std::move(asked);
   if (block.parts.stage == Stage::Items) state.random = random_at_item;
   return false;

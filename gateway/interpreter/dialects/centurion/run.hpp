@@ -23,13 +23,10 @@
 
 namespace dripline::interpreter::centurion {
 
-/// Why a function returned false.
-enum class Pause : std::uint8_t { None, Alarm, Question, Text };
-
 /// One run: what the files of this folder work on. A function that cannot continue returns false
 /// and leaves the reason in `pause`. A question undoes the item that asked it; the item is read
 /// again from its start when the answer has come.
-struct Run {
+struct Run : BlockRun {
   Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
       : options(std::move(control_options)),
         source(program_source),
@@ -134,13 +131,9 @@ struct Run {
   Block block;
   language::LoopGuard loops;
   language::WordLedger ledger;  ///< the line words of this block
-  Origin origin;
   std::vector<Answer> answers;  ///< to the questions of this item, in order
   std::size_t answers_used = 0;
   std::uint64_t random_at_item = 0;  ///< `state.random` when this item began
-  Question question;
-  Diagnostic alarm;
-  Pause pause = Pause::None;
   std::string scratch;  ///< buffer for output text
 
   EventSink* front = nullptr;  ///< the first stage; none before the header

@@ -7,8 +7,6 @@
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/block_reader.hpp"
-#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
-#include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::fanuc {
 FanucInterpreter::FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
@@ -21,48 +19,11 @@ FanucInterpreter::FanucInterpreter(ControlOptions options, ModalState state, con
   run_.update_special();
 }
 
-StepState FanucInterpreter::step(std::uint64_t max_blocks) {
-  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
-  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
-  if (is_asking_) return StepState::NeedsAnswer;
-  run_.text.forget();  // its text was good only until the owner used the source
-  for (std::uint64_t left = max_blocks; left > 0;) {
-    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
-      const JumpOutcome outcome = take_jump(run_, search_);
-      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
-      if (outcome == JumpOutcome::More) return StepState::Ran;
-      if (outcome == JumpOutcome::Failed) return paused();
-    }
-    switch (run_block()) {
-      case BlockOutcome::Finished:
-        --left;
-        break;
-      case BlockOutcome::NoBlock:
-        break;
-      case BlockOutcome::NeedsText:
-        return StepState::NeedsText;
-      case BlockOutcome::Paused:
-        return paused();
-    }
-    if (run_.state.phase == RunPhase::Ended) [[unlikely]]
-      return StepState::Ended;
+BlockOutcome FanucInterpreter::run_block() {
+  if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+    if (const BlockOutcome jump = take_jump(run_, search_); jump != BlockOutcome::NoBlock)
+      return jump;
   }
-  return StepState::Ran;
-}
-
-StepState FanucInterpreter::paused() {
-  if (run_.pause == Pause::Question) {
-    run_.pause = Pause::None;
-    is_asking_ = true;
-    return StepState::NeedsAnswer;
-  }
-  run_.pause = Pause::None;
-  run_.events().on_alarm({run_.origin, run_.alarm});
-  run_.state.phase = RunPhase::Alarmed;
-  return StepState::Alarmed;
-}
-
-FanucInterpreter::BlockOutcome FanucInterpreter::run_block() {
   const bool is_new = run_.block.parts.stage == Stage::Start;
   const TextCursor::State loaded = run_.text.load(run_.state.at);
   if (loaded != TextCursor::State::Ready) [[unlikely]]
@@ -100,9 +61,9 @@ bool FanucInterpreter::is_plain() const {
   return motion <= 3 && (block.words.present() & ~(motion <= 1 ? kLineWords : kArcWords)) == 0;
 }
 
-FanucInterpreter::BlockOutcome FanucInterpreter::read() {
+BlockOutcome FanucInterpreter::read() {
   const char c = *run_.text.begin();
-  place_origin();
+  place_origin(run_.state.at);
   run_.block.words.clear();
   run_.block.parts = kFreshParts;
   run_.answers_used = 0;
@@ -146,9 +107,9 @@ bool FanucInterpreter::begin_other_block() {
 }
 
 /// No block to be seen: more text is needed, the record is over, or it cannot go on.
-FanucInterpreter::BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
+BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
   if (state == TextCursor::State::NotYet) return BlockOutcome::NeedsText;
-  if (run_.block.parts.stage == Stage::Start) place_origin();
+  if (run_.block.parts.stage == Stage::Start) place_origin(run_.state.at);
   switch (state) {
     case TextCursor::State::EndOfText:
       departure_end(run_);
@@ -161,15 +122,6 @@ FanucInterpreter::BlockOutcome FanucInterpreter::meet_line_state(TextCursor::Sta
       break;
   }
   return BlockOutcome::Paused;
-}
-
-void FanucInterpreter::place_origin() {
-  Origin& origin = run_.origin;
-  origin.block = run_.state.blocks + 1;
-  origin.offset = run_.state.at.offset;
-  origin.line = run_.state.at.line;
-  origin.sequence = Origin::kNone;
-  origin.program = run_.state.at.program;
 }
 
 /// Without an O number, the first block's N names the program.
@@ -204,13 +156,8 @@ bool FanucInterpreter::count_block() {
                                run_.options.max_blocks));
 }
 
-Result<void> FanucInterpreter::answer(const Answer& answer) {
-  if (!is_asking_) return dripline::fail(Errc::Syntax, "no question is open");
-  if (!fits(run_.question, answer)) {
-    return dripline::fail(Errc::Syntax, "an answer to another question");
-  }
+Result<void> FanucInterpreter::take_answer(const Answer& answer) {
   run_.answers.push_back(answer);
-  is_asking_ = false;
   return {};
 }
 
@@ -237,21 +184,15 @@ std::optional<CoordinateFrame> FanucInterpreter::frame() const {
   return frame_of(run_);
 }
 
-Snapshot FanucInterpreter::snapshot() const {
-  invariant(run_.block.parts.stage == Stage::Start, "a snapshot is taken between blocks");
-  return take_snapshot(run_);
-}
-
-Result<void> FanucInterpreter::restore(const Snapshot& snapshot) {
-  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+void FanucInterpreter::after_restore() {
   run_.text.forget();
   run_.block.clear();
   run_.answers.clear();
   run_.answers_used = 0;
-  run_.pause = Pause::None;
-  ++run_.frame_changes;
-  is_asking_ = false;
-  return {};
 }
 
 }  // namespace dripline::interpreter::fanuc
+
+namespace dripline::interpreter {
+template class BlockInterpreter<fanuc::FanucInterpreter>;
+}

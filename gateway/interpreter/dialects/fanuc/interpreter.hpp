@@ -3,31 +3,30 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
+#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
 
 namespace dripline::interpreter::fanuc {
 
 /// A Fanuc-class machining center control: text to events, one block at a time.
-class FanucInterpreter final : public Interpreter, public RetainedMemory {
+class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public RetainedMemory {
  public:
   FanucInterpreter(ControlOptions options, ModalState state, const Memory& memory,
                    ProgramSource& source, EventSink& sink);
 
-  StepState step(std::uint64_t max_blocks) override;
-  const Question& question() const override { return run_.question; }
-  Result<void> answer(const Answer& answer) override;
-  std::uint64_t blocks() const override { return run_.state.blocks; }
-  const Origin& origin() const override { return run_.origin; }
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
-  Snapshot snapshot() const override;
-  Result<void> restore(const Snapshot& snapshot) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 
  private:
-  enum class BlockOutcome : std::uint8_t { Finished, NoBlock, NeedsText, Paused };
+  friend BlockInterpreter;
 
   BlockOutcome run_block();
+  void drop_text() { run_.text.forget(); }
+  bool is_at_boundary() const { return run_.block.parts.stage == Stage::Start; }
+  Result<void> take_answer(const Answer& answer);
+  void after_restore();
+
   BlockOutcome meet_line_state(TextCursor::State state);
   BlockOutcome read();
   bool begin_other_block();
@@ -35,12 +34,9 @@ class FanucInterpreter final : public Interpreter, public RetainedMemory {
   void settle_name();
   bool finish_block();
   bool count_block();
-  StepState paused();
-  void place_origin();
 
   Run run_;
   TextSearch search_;
-  bool is_asking_ = false;
   bool is_leader_ = false;
   std::size_t answers_of_reading_ = 0;
   struct KnownMemory {
@@ -54,3 +50,7 @@ class FanucInterpreter final : public Interpreter, public RetainedMemory {
 };
 
 }  // namespace dripline::interpreter::fanuc
+
+namespace dripline::interpreter {
+extern template class BlockInterpreter<fanuc::FanucInterpreter>;
+}

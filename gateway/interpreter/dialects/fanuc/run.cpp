@@ -32,20 +32,20 @@ void Run::deliver_header() {
 
 bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
   const ErrorRow& row = error_row(code);
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm = diagnostic(row.id, row.text, detail, origin.line, at_column);
   return false;
 }
 
 bool Run::fail_as(std::string_view id, std::string_view alarm_text, std::uint32_t at_column) {
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm = diagnostic(id, alarm_text, {}, origin.line, at_column);
   return false;
 }
 
 bool Run::ask(Question asked) {
   state.limits = {};
-  pause = Pause::Question;
+  pause = Pause::ForQuestion;
   question = std::move(asked);
   return false;
 }

@@ -17,9 +17,6 @@
 
 namespace dripline::interpreter::fanuc {
 
-/// Why a function gave false.
-enum class Pause : std::uint8_t { None, Alarm, Question };
-
 /// What numbers without a decimal point count, and how fine lengths are, in the units in force.
 struct Increments {
   double mm_per_unit = 1;
@@ -31,7 +28,7 @@ struct Increments {
 
 /// One run: what the files of this folder work on. Functions that cannot go on give false and
 /// leave the reason in `pause`.
-struct Run {
+struct Run : BlockRun {
   Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
       : options(std::move(control_options)),
         source(program_source),
@@ -131,13 +128,8 @@ struct Run {
 
   Block block;
   language::WordLedger ledger;  ///< of the block in hand, unless it is a plain move
-  Origin origin;
   std::vector<Answer> answers;  ///< of the block in hand, in the order asked
   std::size_t answers_used = 0;
-  std::uint32_t frame_changes = 0;  ///< origin, scaling or rotation became others so often
-  Question question;
-  Diagnostic alarm;
-  Pause pause = Pause::None;
   std::string scratch;  ///< output text being made
 
  private:

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/g_codes.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
@@ -16,8 +17,6 @@ namespace dripline::interpreter::fanuc {
 
 /// One value for each axis of event.hpp, in its order.
 using AxisValues = std::array<double, kAxisCount>;
-
-enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 inline constexpr int kLocalCount = 33;
 inline constexpr std::size_t kMaxMacroLevels = 5;  ///< 0 is the main program's

@@ -9,8 +9,6 @@
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/snapshot.hpp"
-#include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -38,38 +36,11 @@ Rs274NgcInterpreter::Rs274NgcInterpreter(ControlOptions options, std::vector<Too
   run_.state.position = to_program(run_, machine);
 }
 
-StepState Rs274NgcInterpreter::step(std::uint64_t max_blocks) {
-  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
-  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
-  if (is_asking_) return StepState::NeedsAnswer;
-  run_.reader.drop_window();  // its text was good only until the owner used the source
-  std::uint64_t passed_over = 0;
-  for (std::uint64_t left = max_blocks; left > 0;) {
-    const Outcome outcome = run_line();
-    if (outcome == Outcome::Finished) [[likely]] {
-      if (run_.state.phase == RunPhase::Ended) [[unlikely]]
-        return StepState::Ended;
-      --left;
-      continue;
-    }
-    if (outcome == Outcome::Paused) return paused();
-    if (++passed_over == kMaxPassedOver) return StepState::Ran;
-  }
-  return StepState::Ran;
-}
-
-StepState Rs274NgcInterpreter::paused() {
-  const Pause why = std::exchange(run_.pause, Pause::None);
-  if (why == Pause::Text) return StepState::NeedsText;
-  if (why == Pause::Question) {
-    is_asking_ = true;
-    return StepState::NeedsAnswer;
-  }
-  run_.held.drop();  // a move whose end was never found is not made
-  run_.events();     // the header
-  run_.sink.on_alarm({run_.origin, run_.alarm});
-  run_.state.phase = RunPhase::Alarmed;
-  return StepState::Alarmed;
+BlockOutcome Rs274NgcInterpreter::run_block() {
+  const BlockOutcome outcome = run_line();
+  if (outcome == BlockOutcome::NoBlock && ++passed_over_ == kMaxPassedOver) [[unlikely]]
+    return BlockOutcome::MoreFollows;
+  return outcome;
 }
 
 /// Makes the next line visible, its end readable.
@@ -78,11 +49,7 @@ bool Rs274NgcInterpreter::load_line(LineState& outcome) {
   if (!(reader.place() == run_.state.at)) reader.seek(run_.state.at);
   SourceLine line;
   outcome = reader.next(line);
-  run_.origin.line = run_.state.at.line;
-  run_.origin.offset = run_.state.at.offset;
-  run_.origin.program = run_.state.at.program;
-  run_.origin.block = run_.state.blocks + 1;
-  run_.origin.sequence = Origin::kNone;
+  place_origin(run_.state.at);
   if (outcome != LineState::Ready) [[unlikely]]
     return false;
   run_.here = line.place;
@@ -100,48 +67,47 @@ bool Rs274NgcInterpreter::load_line(LineState& outcome) {
   return true;
 }
 
-Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::run_line() {
+BlockOutcome Rs274NgcInterpreter::run_line() {
   Block& block = run_.block;
   if (block.stage == Stage::Start) [[likely]] {
     LineState line{};
     if (flow_.wants_file()) [[unlikely]] {
-      if (!flow_.look_up_file()) return Outcome::Paused;
+      if (!flow_.look_up_file()) return BlockOutcome::Paused;
       run_.state.at = run_.next;
-      return Outcome::PassedOver;
+      return BlockOutcome::NoBlock;
     }
     if (!load_line(line)) [[unlikely]]
       return meet_no_line(line);
     if (run_.state.skip.until != SkipFor::Nothing) [[unlikely]] {
       block.clear();
-      if (!flow_.pass_over()) return Outcome::Paused;
+      if (!flow_.pass_over()) return BlockOutcome::Paused;
       run_.state.at = run_.next;
-      return Outcome::PassedOver;
+      return BlockOutcome::NoBlock;
     }
     block.clear();
     if (!execute()) [[unlikely]]
-      return Outcome::Paused;
+      return BlockOutcome::Paused;
   } else if (!finish_words()) {
-    return Outcome::Paused;
+    return BlockOutcome::Paused;
   }
   return finish_line();
 }
 
-Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::meet_no_line(LineState state) {
+BlockOutcome Rs274NgcInterpreter::meet_no_line(LineState state) {
   switch (state) {
     case LineState::NotYet:
-      run_.pause = Pause::Text;
-      return Outcome::Paused;
+      return BlockOutcome::NeedsText;
     case LineState::End:
       run_.next = run_.state.at;
-      if (!flow_.end_of_text()) return Outcome::Paused;
+      if (!flow_.end_of_text()) return BlockOutcome::Paused;
       run_.state.at = run_.next;
-      return Outcome::PassedOver;
+      return BlockOutcome::NoBlock;
     case LineState::TooLong:
       run_.fail(ErrorCode::CommandTooLong, 0);
-      return Outcome::Paused;
+      return BlockOutcome::Paused;
     default:
       run_.fail(ErrorCode::TextFailed, 0, run_.reader.reason());
-      return Outcome::Paused;
+      return BlockOutcome::Paused;
   }
 }
 
@@ -210,7 +176,7 @@ bool Rs274NgcInterpreter::finish_words() {
   return stop < 98 || flow_.execute_fanuc(stop);
 }
 
-Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::finish_line() {
+BlockOutcome Rs274NgcInterpreter::finish_line() {
   State& state = run_.state;
   if (state.phase == RunPhase::Ended) [[unlikely]] {
     run_.events().on_end({run_.origin, state.blocks + 1, run_.block.m(MGroup::Stop) == 30});
@@ -223,14 +189,11 @@ Rs274NgcInterpreter::Outcome Rs274NgcInterpreter::finish_line() {
   ++state.blocks;
   state.at = run_.next;
   run_.block.stage = Stage::Start;
-  return Outcome::Finished;
+  return BlockOutcome::Finished;
 }
 
-Result<void> Rs274NgcInterpreter::answer(const Answer& answer) {
-  if (!is_asking_) return fail(Errc::Syntax, "no question is open");
-  if (!fits(run_.question, answer)) return fail(Errc::Syntax, "an answer to another question");
+Result<void> Rs274NgcInterpreter::take_answer(const Answer& answer) {
   run_.answer = answer;
-  is_asking_ = false;
   return {};
 }
 
@@ -258,21 +221,15 @@ std::optional<CoordinateFrame> Rs274NgcInterpreter::frame() const {
   return frame_of(run_);
 }
 
-Snapshot Rs274NgcInterpreter::snapshot() const {
-  invariant(run_.block.stage == Stage::Start, "a snapshot is taken between blocks");
-  return take_snapshot(run_);
-}
-
-Result<void> Rs274NgcInterpreter::restore(const Snapshot& snapshot) {
-  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+void Rs274NgcInterpreter::after_restore() {
   run_.reader.drop_window();
   run_.block.clear();
   run_.answer.reset();
-  run_.pause = Pause::None;
   flow_.reset();
-  ++run_.frame_changes;
-  is_asking_ = false;
-  return {};
 }
 
 }  // namespace dripline::interpreter::rs274ngc
+
+namespace dripline::interpreter {
+template class BlockInterpreter<rs274ngc::Rs274NgcInterpreter>;
+}

@@ -29,7 +29,7 @@ void Run::deliver_header() {
 
 bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
   const ErrorRow& row = error_row(code);
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm.id = row.id;
   alarm.text = row.text;
   if (!detail.empty()) {
@@ -48,7 +48,7 @@ bool Run::fail_word(ErrorCode code, char capital, std::string_view detail) {
 bool Run::ask(Question asked) {
   state.passes = 0;
   events();  // the header comes before anything the question brings about
-  pause = Pause::Question;
+  pause = Pause::ForQuestion;
   question = std::move(asked);
   return false;
 }

@@ -17,14 +17,11 @@
 
 namespace dripline::interpreter::rs274ngc {
 
-/// Why a function gave false.
-enum class Pause : std::uint8_t { None, Alarm, Question, Text };
-
 inline constexpr std::size_t kMaxLine = 253;
 
 /// One run: what the files of this folder work on. Functions that cannot go on give false and
 /// leave the reason in `pause`.
-struct Run {
+struct Run : BlockRun {
   Run(ControlOptions control_options, std::vector<Tool> tool_table, ProgramSource& program_source,
       EventSink& event_sink);
 
@@ -71,12 +68,7 @@ struct Run {
   std::array<char, kMaxLine + 2> last_line{};  ///< a last line without end, with one
   Block block;
   language::WordLedger ledger;  ///< axis and polar words of the line
-  Origin origin;
   std::optional<Answer> answer;
-  std::uint32_t frame_changes = 0;  ///< system or G92 offsets became others so often
-  Question question;
-  Diagnostic alarm;
-  Pause pause = Pause::None;
   std::string scratch;
 
  private:

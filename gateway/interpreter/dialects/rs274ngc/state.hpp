@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
 
@@ -19,7 +20,6 @@ constexpr std::size_t index_of(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 /// How the program is marked off (2.1).
 enum class Demarcation : std::uint8_t { Unknown, Percent, None };
 enum class FeedMode : std::uint8_t { PerMinute, InverseTime, PerRevolution };

@@ -64,7 +64,7 @@ Counts arc_end(Run& run, const PlaneArc& arc) {
   for (const std::size_t axis : {arc.first, arc.second}) {
     const bool is_named = words.has(end_address(axis));
     if (!is_named) {
-      run.warn(Fault::MissingEnd, run.state.at, 0, std::string(1, letter(static_cast<Axis>(axis))));
+      run.warn(Fault::MissingEnd, run.origin, 0, std::string(1, letter(static_cast<Axis>(axis))));
     }
     const std::int64_t value = is_named ? words[end_address(axis)] : 0;
     end[axis] = run.state.is_incremental ? end[axis] + value : value;
@@ -83,7 +83,7 @@ bool is_in_one_quadrant(const PlaneArc& arc, double tolerance) {
 /// Where the manual leaves open what happens, only `arc_policy = "run"` goes on.
 bool object_to_arc(Run& run, Fault fault, std::string_view detail) {
   if (!run.options.runs_bad_arcs) return run.fail(fault, 0, detail);
-  run.warn(fault, run.state.at, 0, detail);
+  run.warn(fault, run.origin, 0, detail);
   return true;
 }
 
@@ -124,7 +124,7 @@ Direction tangent(const PlaneArc& arc, const PlanePoint& at) {
 void emit_arc(Run& run, const PlaneArc& arc, double feed) {
   State& state = run.state;
   Arc event;
-  event.origin = state.at;
+  event.origin = run.origin;
   event.plane = state.plane;
   const bool is_turned = run.options.mirror[arc.first] != run.options.mirror[arc.second];
   event.turn = arc.is_counterclockwise != is_turned ? Turn::Counterclockwise : Turn::Clockwise;
@@ -179,7 +179,7 @@ bool move_arc(Run& run) {
   arc.is_counterclockwise = state.motion == Motion::G03 || state.motion == Motion::G30;
   arc.end = arc_end(run, arc);
   if (arc.end == state.program) {
-    run.warn(Fault::NoArc, state.at);
+    run.warn(Fault::NoArc, run.origin);
     return true;
   }
   const auto seen_from_center = [&](const Counts& point) {

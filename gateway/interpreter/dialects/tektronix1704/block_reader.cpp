@@ -69,7 +69,7 @@ void LineInHand::tell(Fault fault, const char* at, std::string_view detail) {
   const std::uint64_t mark = std::uint64_t{1} << static_cast<unsigned>(fault);
   if ((block_.faults & mark) != 0) return;
   block_.faults |= mark;
-  run_.warn(fault, run_.state.at, column(at), detail);
+  run_.warn(fault, run_.origin, column(at), detail);
 }
 
 /// Z and what belongs to it are no letters of a two-axis control.

@@ -40,7 +40,7 @@ bool position_tool(Run& run) {
 
 void set_spindle(Run& run, SpindleState to) {
   Spindle event;
-  event.origin = run.state.at;
+  event.origin = run.origin;
   event.state = to;
   if (to != SpindleState::Off && run.options.has_spindle_speed) {
     event.revolutions_per_minute =
@@ -87,7 +87,7 @@ bool do_step(Run& run, CycleStep step) {
     case CycleStep::PeckIn:
       return peck(run);
     case CycleStep::Dwell:
-      run.events().on_dwell({run.state.at, run.options.dwell_seconds, std::nullopt});
+      run.events().on_dwell({run.origin, run.options.dwell_seconds, std::nullopt});
       return true;
     case CycleStep::SpindleStop:
       set_spindle(run, SpindleState::Off);
@@ -96,7 +96,7 @@ bool do_step(Run& run, CycleStep step) {
       set_spindle(run, reverse_of(run.state.spindle));
       return true;
     case CycleStep::ProgramStop:
-      run.events().on_stop({run.state.at, StopKind::Program});
+      run.events().on_stop({run.origin, StopKind::Program});
       return true;
     case CycleStep::FeedOut:
       return move_depth(run, clearance, Pace::Feed);

@@ -74,7 +74,7 @@ void preset(Run& run) {
     const auto address = static_cast<Address>(static_cast<std::size_t>(Address::X) + axis);
     if (names_axes && !words.has(address)) continue;
     if (names_axes && words[address] != 0) {
-      run.warn(Fault::PresetValue, state.at, 0, fmt::format("{}", words[address]));
+      run.warn(Fault::PresetValue, run.origin, 0, fmt::format("{}", words[address]));
     }
     state.origin[axis] += run.options.mirror[axis] ? -state.program[axis] : state.program[axis];
     state.program[axis] = 0;
@@ -93,7 +93,7 @@ bool dwell(Run& run) {
     return run.fail(Fault::DwellTooLong, 0, fmt::format("F{} is not 1 to {}", count, kLongest));
   }
   if (!check_stop(run)) return false;
-  run.events().on_dwell({run.state.at, count * kSecondsPerCount, std::nullopt});
+  run.events().on_dwell({run.origin, count * kSecondsPerCount, std::nullopt});
   return true;
 }
 
@@ -133,7 +133,7 @@ bool execute_motion(Run& run, OneShot one_shot) {
     return fmt::format("{}{}", kLetters[i], words[static_cast<Address>(i)]);
   });
   if ((run.ledger.left() & kEndWords) != 0) return run.fail(Fault::Unused, 0, text);
-  run.warn(Fault::Unused, run.state.at, 0, text);
+  run.warn(Fault::Unused, run.origin, 0, text);
   return true;
 }
 

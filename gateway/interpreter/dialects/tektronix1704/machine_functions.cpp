@@ -13,7 +13,7 @@ constexpr int kQuillDown = 51;
 void tell_spindle(Run& run) {
   const State& state = run.state;
   Spindle event;
-  event.origin = state.at;
+  event.origin = run.origin;
   event.state = state.spindle;
   if (state.spindle != SpindleState::Off && run.options.has_spindle_speed) {
     event.revolutions_per_minute =
@@ -30,7 +30,7 @@ void turn_spindle(Run& run, SpindleState to) {
 void set_coolant(Run& run, bool flood, bool mist) {
   run.state.flood = flood;
   run.state.mist = mist;
-  run.events().on_coolant({run.state.at, flood, mist});
+  run.events().on_coolant({run.origin, flood, mist});
 }
 
 void stop_coolant_if_on(Run& run) {
@@ -39,9 +39,9 @@ void stop_coolant_if_on(Run& run) {
 
 /// M10 to M29, M31 to M99: the machine builder's own.
 void do_user_function(Run& run, int code) {
-  run.events().on_miscellaneous({run.state.at, code});
+  run.events().on_miscellaneous({run.origin, code});
   const std::string& name = run.options.m_names[static_cast<std::size_t>(code)];
-  if (!name.empty()) run.events().on_message({run.state.at, name});
+  if (!name.empty()) run.events().on_message({run.origin, name});
 }
 
 void do_spindle_stop(Run& run) {
@@ -51,7 +51,7 @@ void do_spindle_stop(Run& run) {
 
 bool do_mist(Run& run) {
   if (!run.options.has_mist) {
-    run.warn(Fault::NotFitted, run.state.at, 0, "M07");
+    run.warn(Fault::NotFitted, run.origin, 0, "M07");
     return true;
   }
   set_coolant(run, run.state.flood, true);
@@ -60,18 +60,18 @@ bool do_mist(Run& run) {
 
 bool change_tool(Run& run) {
   if (run.options.has_tool_changer) {
-    run.events().on_tool({run.state.at, run.state.tool_code, false, std::nullopt});
+    run.events().on_tool({run.origin, run.state.tool_code, false, std::nullopt});
     return true;
   }
   if (!check_stop(run)) return false;
-  run.events().on_stop({run.state.at, StopKind::ToolChange});
+  run.events().on_stop({run.origin, StopKind::ToolChange});
   return true;
 }
 
 bool stop_program(Run& run, StopKind kind) {
   if (kind == StopKind::Optional && !run.options.optional_stop) return true;
   if (!check_stop(run)) return false;
-  run.events().on_stop({run.state.at, kind});
+  run.events().on_stop({run.origin, kind});
   return true;
 }
 
@@ -144,15 +144,15 @@ void load_codes(Run& run) {
           words.has(Address::M) && words[Address::M] >= 3 && words[Address::M] <= 4;
       if (state.spindle != SpindleState::Off && !turns_now) tell_spindle(run);
     } else {
-      run.warn(Fault::NotFitted, state.at, 0, "S");
+      run.warn(Fault::NotFitted, run.origin, 0, "S");
     }
   }
   if (words.has(Address::T)) {
     if (run.options.has_tool_codes) {
       state.tool_code = words[Address::T];
-      run.events().on_tool({state.at, state.tool_code, true, std::nullopt});
+      run.events().on_tool({run.origin, state.tool_code, true, std::nullopt});
     } else {
-      run.warn(Fault::NotFitted, state.at, 0, "T");
+      run.warn(Fault::NotFitted, run.origin, 0, "T");
     }
   }
 }
@@ -186,7 +186,7 @@ void end_run(Run& run, std::uint64_t blocks, bool rewind) {
   state.motion = Motion::G00;
   state.is_incremental = state.drills = false;
   state.phase = RunPhase::Ended;
-  run.events().on_end({state.at, blocks, rewind});
+  run.events().on_end({run.origin, blocks, rewind});
 }
 
 }  // namespace dripline::interpreter::tektronix1704

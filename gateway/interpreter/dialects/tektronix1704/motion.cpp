@@ -24,7 +24,7 @@ double feed_value(const ControlOptions& options, std::int32_t count) {
 /// Option 1 counts in steps of two; what lies between is rounded towards zero.
 std::int64_t whole_steps(Run& run, std::int64_t count) {
   if (run.options.units != UnitSet::Option1 || count % 2 == 0) return count;
-  run.warn(Fault::OddCount, run.state.at, 0, fmt::format("{}", count));
+  run.warn(Fault::OddCount, run.origin, 0, fmt::format("{}", count));
   return count - (count > 0 ? 1 : -1);
 }
 
@@ -37,9 +37,9 @@ void emit_line(Run& run, const Counts& to, Pace pace, double feed, bool rests) {
   }
   state.program = to;
   if (pace == Pace::Rapid) {
-    run.events().on_rapid({state.at, run.position});
+    run.events().on_rapid({run.origin, run.position});
   } else {
-    run.events().on_line({state.at, run.position, Feed::per_minute(Length::mm(feed)), rests});
+    run.events().on_line({run.origin, run.position, Feed::per_minute(Length::mm(feed)), rests});
   }
 }
 
@@ -113,9 +113,9 @@ bool move_depth(Run& run, double to, Pace pace) {
   run.position.set(Axis::Z, Length::mm(there));
   run.state.program[kZ] = std::llround(to);
   if (pace == Pace::Rapid) {
-    run.events().on_rapid({run.state.at, run.position});
+    run.events().on_rapid({run.origin, run.position});
   } else {
-    run.events().on_line({run.state.at, run.position, Feed::per_minute(Length::mm(feed)), true});
+    run.events().on_line({run.origin, run.position, Feed::per_minute(Length::mm(feed)), true});
   }
   return true;
 }

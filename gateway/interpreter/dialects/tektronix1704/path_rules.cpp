@@ -45,10 +45,10 @@ void check_turn(Run& run, const PlannedMove& move) {
   }
   if (is_long || !move.flows) {
     last.direction = move.end;
-    last.origin = run.state.at;
+    last.origin = run.origin;
   }
   last.flows = move.flows;
-  last.block = run.state.at.block;
+  last.block = run.origin.block;
   last.length = move.length;
   last.feed = move.feed;
 }
@@ -71,8 +71,8 @@ void check_quill(Run& run) {
 void check_m_word(Run& run, int code, bool moves) {
   const bool is_stop = code == 0 || code == 1;
   const LastMove& last = run.state.last;
-  if (!is_stop && (moves || (last.flows && last.block + 1 == run.state.at.block))) {
-    run.warn(Fault::MAfterMove, run.state.at, 0, fmt::format("M{:02}", code));
+  if (!is_stop && (moves || (last.flows && last.block + 1 == run.origin.block))) {
+    run.warn(Fault::MAfterMove, run.origin, 0, fmt::format("M{:02}", code));
   }
 }
 

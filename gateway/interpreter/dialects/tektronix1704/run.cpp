@@ -36,7 +36,8 @@ void Run::deliver_header() {
 
 bool Run::fail(Fault fault, std::uint32_t column, std::string_view detail) {
   const FaultRow& row = fault_row(fault);
-  alarm = diagnostic(row.id, row, state.at, column, detail);
+  pause = Pause::ForAlarm;
+  alarm = diagnostic(row.id, row, origin, column, detail);
   return false;
 }
 
@@ -47,7 +48,7 @@ void Run::warn(Fault fault, const Origin& at, std::uint32_t column, std::string_
 
 bool Run::object(Fault fault, std::uint32_t column, std::string_view detail) {
   if (options.is_strict) return fail(fault, column, detail);
-  warn(fault, state.at, column, detail);
+  warn(fault, origin, column, detail);
   return true;
 }
 

@@ -13,7 +13,7 @@ using Counts = std::array<std::int64_t, kAxes>;
 
 /// One run: what the files of this folder work on. Functions that cannot go on give false and
 /// leave the reason in `alarm`.
-struct Run {
+struct Run : BlockRun {
   Run(ControlOptions control_options, EventSink& event_sink);
 
   /// The sink, after the header has been delivered.
@@ -39,8 +39,7 @@ struct Run {
   const double mm_per_count;
   EventSink& sink;
   State state;
-  Position position;  ///< of the machine; axes that have moved are marked
-  Diagnostic alarm;
+  Position position;            ///< of the machine; axes that have moved are marked
   language::WordLedger ledger;  ///< of the block being executed
 
  private:

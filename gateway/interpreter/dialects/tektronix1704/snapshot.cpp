@@ -32,7 +32,7 @@ void visit(Archive& archive, LastMove& last) {
   visit(archive, last.origin);
 }
 template <class Archive>
-void visit(Archive& archive, State& state, Position& position) {
+void visit(Archive& archive, State& state, Position& position, Origin& origin) {
   visit_all(archive, state.phase, state.reader, state.has_header, state.blocks, state.mdi_done,
             state.place.program, state.place.offset, state.place.line, state.motion, state.cycle,
             state.is_incremental, state.drills);
@@ -50,7 +50,7 @@ void visit(Archive& archive, State& state, Position& position) {
             state.flood, state.mist);
   visit(archive, state.last);
   visit(archive, state.block);
-  visit(archive, state.at);
+  visit(archive, origin);
 }
 
 bool is_plausible(const State& state) {
@@ -70,7 +70,8 @@ Snapshot take_snapshot(const Run& run) {
   StateWriter writer;
   State state = run.state;
   Position position = run.position;
-  visit(writer, state, position);
+  Origin origin = run.origin;
+  visit(writer, state, position, origin);
   return {std::string(kDialect), kVersion, writer.take()};
 }
 
@@ -82,13 +83,15 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   StateReader reader(snapshot.bytes);
   State state;
   Position position;
-  visit(reader, state, position);
+  Origin origin;
+  visit(reader, state, position, origin);
   if (!reader.is_complete() || !is_plausible(state) || state.mdi_done > run.options.mdi.size() ||
       (state.reader == ReaderState::Search && !run.options.search)) {
     return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
   }
   run.state = state;
   run.position = position;
+  run.origin = origin;
   return {};
 }
 

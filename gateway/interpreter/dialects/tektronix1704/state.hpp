@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/options.hpp"
@@ -34,7 +35,6 @@ enum class ReaderState : std::uint8_t {
   Data,
   Search,  ///< reads forward to a sequence number, executing nothing
 };
-enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 /// A block as far as it has been read: a comment can hold ends of blocks, so a block can take
 /// several lines.
@@ -88,7 +88,6 @@ struct State {
   bool flood = false, mist = false;
   LastMove last;
   BlockInProgress block;
-  Origin at;  ///< of the block in progress or the last one
 };
 
 }  // namespace dripline::interpreter::tektronix1704

@@ -9,8 +9,6 @@
 #include "gateway/interpreter/dialects/tnc155/execution/status_window.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/blend_ahead.hpp"
-#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
-#include "protocol/base/invariant.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {
@@ -36,60 +34,26 @@ TncInterpreter::TncInterpreter(ControlOptions options, State state,
   run_.reset_stages();
 }
 
-StepState TncInterpreter::step(std::uint64_t max_blocks) {
-  if (run_.state.phase == RunPhase::Alarmed) return StepState::Alarmed;
-  if (run_.state.phase == RunPhase::Ended) return StepState::Ended;
-  if (is_asking_) return StepState::NeedsAnswer;
-  if (!run_.is_in_block) run_.reader.drop_window();  // the owner may have used the source
+BlockOutcome TncInterpreter::run_block() {
   if (!run_.state.are_calls_checked) [[unlikely]] {
     const BlockOutcome outcome = check_calls();
-    if (outcome == BlockOutcome::NeedsText) return StepState::NeedsText;
-    if (outcome == BlockOutcome::Paused) return paused();
+    if (outcome != BlockOutcome::Finished) return outcome;
   }
-  for (std::uint64_t left = max_blocks; left > 0; --left) {
-    if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
-      const JumpOutcome outcome = take_jump(run_, search_);
-      run_.reader.drop_window();
-      if (outcome == JumpOutcome::NeedsText) return StepState::NeedsText;
-      if (outcome == JumpOutcome::More) return StepState::Ran;
-      if (outcome == JumpOutcome::Failed) return paused();
-    }
-    switch (run_block()) {
-      case BlockOutcome::Finished:
-        break;
-      case BlockOutcome::NeedsText:
-        return StepState::NeedsText;
-      case BlockOutcome::More:
-        return StepState::Ran;
-      case BlockOutcome::Paused:
-        return paused();
-    }
-    if (run_.state.phase == RunPhase::Ended) [[unlikely]] {
-      if (!run_.state.start.is_searching) return StepState::Ended;
-      run_.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run_.state.start.block));
-      return paused();
-    }
+  if (run_.state.jump.kind != JumpKind::None) [[unlikely]] {
+    const BlockOutcome jump = take_jump(run_, search_);
+    run_.reader.drop_window();
+    if (jump != BlockOutcome::NoBlock) return jump;
   }
-  return StepState::Ran;
+  const BlockOutcome outcome = next_block();
+  const bool has_ended = outcome == BlockOutcome::Finished && run_.state.phase == RunPhase::Ended;
+  if (has_ended && run_.state.start.is_searching) [[unlikely]] {
+    run_.fail(ErrorCode::BlockNotAddressed, fmt::format("block {}", run_.state.start.block));
+    return BlockOutcome::Paused;
+  }
+  return outcome;
 }
 
-StepState TncInterpreter::paused() {
-  if (run_.pause == Pause::Question && run_.state.start.is_searching) {
-    run_.fail(ErrorCode::ProgramStartUndefined,
-              "a start after TCH PROBE would lose what the probe has measured");
-  }
-  if (run_.pause == Pause::Question) {
-    run_.pause = Pause::None;
-    is_asking_ = true;
-    return StepState::NeedsAnswer;
-  }
-  run_.pause = Pause::None;
-  run_.events().on_alarm({run_.origin, run_.alarm});
-  run_.state.phase = RunPhase::Alarmed;
-  return StepState::Alarmed;
-}
-
-TncInterpreter::BlockOutcome TncInterpreter::run_block() {
+BlockOutcome TncInterpreter::next_block() {
   if (!run_.is_in_block) {
     const BlockOutcome outcome = read();
     if (outcome != BlockOutcome::Finished || !run_.is_in_block) [[unlikely]]
@@ -101,7 +65,7 @@ TncInterpreter::BlockOutcome TncInterpreter::run_block() {
 }
 
 /// A program that is called and not there is complained of when the run begins.
-TncInterpreter::BlockOutcome TncInterpreter::check_calls() {
+BlockOutcome TncInterpreter::check_calls() {
   const bool is_wanted = run_.options.checks_calls && !run_.options.blockwise_restrictions;
   const auto outcome =
       is_wanted ? calls_ahead_.find_missing_program() : AheadSearch::Outcome::Missing;
@@ -118,14 +82,14 @@ TncInterpreter::BlockOutcome TncInterpreter::check_calls() {
 }
 
 /// A tool may be defined after its call.
-TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
+BlockOutcome TncInterpreter::find_definition() {
   for (const Block& part : run_.parts) {
     const std::uint64_t reach = reach_of_definition(run_, part);
     if (reach == 0) continue;
     const auto outcome = definitions_ahead_.find_tool(part.target, reach);
     run_.reader.drop_window();
     if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
-    if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+    if (outcome == AheadSearch::Outcome::More) return BlockOutcome::MoreFollows;
     if (outcome == AheadSearch::Outcome::Found) {
       run_.definition_ahead = {definitions_ahead_.definition(), definitions_ahead_.units()};
     }
@@ -134,7 +98,7 @@ TncInterpreter::BlockOutcome TncInterpreter::find_definition() {
 }
 
 /// What the block needs of the text that the run has not come to.
-TncInterpreter::BlockOutcome TncInterpreter::look_ahead() {
+BlockOutcome TncInterpreter::look_ahead() {
   peeked_blend_ = false;
   if (is_start()) {
     if (const BlockOutcome back = find_way_back(); back != BlockOutcome::Finished) return back;
@@ -164,7 +128,7 @@ bool TncInterpreter::is_blend_next(std::string_view text) {
 }
 
 /// A block whose successor has not arrived is kept, and the run stays in front of it.
-TncInterpreter::BlockOutcome TncInterpreter::read() {
+BlockOutcome TncInterpreter::read() {
   const ReadingState before = run_.state.reading;
   const bool was_kept = std::exchange(has_kept_block_, false);
   if (was_kept) run_.state.reading = after_kept_block_;
@@ -218,13 +182,13 @@ bool TncInterpreter::is_start() const {
 }
 
 /// Without a label before it the program comes to a block once.
-TncInterpreter::BlockOutcome TncInterpreter::find_way_back() {
+BlockOutcome TncInterpreter::find_way_back() {
   if (came_back_ || run_.state.known_labels.empty()) return BlockOutcome::Finished;
   const TextPlace place = run_.reader.block_place();
   const auto outcome = way_back_.find_way_back(place);
   run_.reader.drop_window();
   if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
-  if (outcome == AheadSearch::Outcome::More) return BlockOutcome::More;
+  if (outcome == AheadSearch::Outcome::More) return BlockOutcome::MoreFollows;
   came_back_ = outcome == AheadSearch::Outcome::Found ? way_back_.block_number() : -1;
   return BlockOutcome::Finished;
 }
@@ -243,19 +207,10 @@ bool TncInterpreter::check_number() {
 }
 
 /// The text ends without END PGM: as if it were there, with what the last moves meet.
-TncInterpreter::BlockOutcome TncInterpreter::meet_end() {
+BlockOutcome TncInterpreter::meet_end() {
   place_origin(run_.reader.place());
   end_program(run_, false);
   return check_moves() ? BlockOutcome::Finished : BlockOutcome::Paused;
-}
-
-void TncInterpreter::place_origin(const TextPlace& at) {
-  Origin& origin = run_.origin;
-  origin.block = run_.state.blocks + 1;
-  origin.offset = at.offset;
-  origin.line = at.line;
-  origin.sequence = Origin::kNone;
-  origin.program = at.program;
 }
 
 bool TncInterpreter::execute_parts() {
@@ -295,13 +250,8 @@ bool TncInterpreter::finish_block() {
   return !run_.state.uses_stages || check_stages(run_);
 }
 
-Result<void> TncInterpreter::answer(const Answer& answer) {
-  if (!is_asking_) return dripline::fail(Errc::Syntax, "no question is open");
-  if (!fits(run_.question, answer)) {
-    return dripline::fail(Errc::Syntax, "an answer to another question");
-  }
+Result<void> TncInterpreter::take_answer(const Answer& answer) {
   run_.answer = answer;
-  is_asking_ = false;
   return {};
 }
 
@@ -323,23 +273,17 @@ std::optional<CoordinateFrame> TncInterpreter::frame() const {
   return frame_of(run_.state);
 }
 
-Snapshot TncInterpreter::snapshot() const {
-  invariant(!run_.is_in_block, "a snapshot is taken between blocks");
-  return take_snapshot(run_);
-}
-
-Result<void> TncInterpreter::restore(const Snapshot& snapshot) {
-  if (auto restored = restore_snapshot(run_, snapshot); !restored) return restored;
+void TncInterpreter::after_restore() {
   run_.reader.drop_window();
   run_.reader.seek(run_.state.at);
   run_.is_in_block = false;
   has_kept_block_ = false;
   run_.definition_ahead.reset();
   run_.answer.reset();
-  run_.pause = Pause::None;
-  ++run_.frame_changes;
-  is_asking_ = false;
-  return {};
 }
 
 }  // namespace dripline::interpreter::tnc155
+
+namespace dripline::interpreter {
+template class BlockInterpreter<tnc155::TncInterpreter>;
+}

@@ -5,32 +5,34 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
+#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
 
 namespace dripline::interpreter::tnc155 {
 
 /// A TNC 151/155: text of either form to events, one block at a time.
-class TncInterpreter final : public Interpreter, public RetainedMemory {
+class TncInterpreter final : public BlockInterpreter<TncInterpreter>, public RetainedMemory {
  public:
   TncInterpreter(ControlOptions options, State state, std::vector<ToolDefinition> tools,
                  ProgramSource& source, EventSink& sink);
 
-  StepState step(std::uint64_t max_blocks) override;
-  const Question& question() const override { return run_.question; }
-  Result<void> answer(const Answer& answer) override;
-  std::uint64_t blocks() const override { return run_.state.blocks; }
-  const Origin& origin() const override { return run_.origin; }
   ActiveModes modes() const override;
   std::optional<CoordinateFrame> frame() const override;
-  Snapshot snapshot() const override;
-  Result<void> restore(const Snapshot& snapshot) override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 
  private:
-  enum class BlockOutcome : std::uint8_t { Finished, NeedsText, More, Paused };
+  friend BlockInterpreter;
+
+  BlockOutcome run_block();
+  void drop_text() {
+    if (!run_.is_in_block) run_.reader.drop_window();
+  }
+  bool is_at_boundary() const { return !run_.is_in_block; }
+  Result<void> take_answer(const Answer& answer);
+  void after_restore();
 
   BlockOutcome check_calls();
-  BlockOutcome run_block();
+  BlockOutcome next_block();
   BlockOutcome read();
   bool check_number();
   BlockOutcome look_ahead();
@@ -43,8 +45,6 @@ class TncInterpreter final : public Interpreter, public RetainedMemory {
   bool execute_parts();
   bool check_moves();
   bool finish_block();
-  StepState paused();
-  void place_origin(const TextPlace& at);
 
   std::unique_ptr<StartGate> gate_;  ///< while the start is looked for; before run_, which feeds it
   Run run_;
@@ -59,7 +59,10 @@ class TncInterpreter final : public Interpreter, public RetainedMemory {
   bool has_kept_block_ = false;       ///< read, but its successor has not arrived
   bool is_definition_known_ = false;  ///< of the kept block: the search ahead is done
   ReadingState after_kept_block_;
-  bool is_asking_ = false;
 };
 
 }  // namespace dripline::interpreter::tnc155
+
+namespace dripline::interpreter {
+extern template class BlockInterpreter<tnc155::TncInterpreter>;
+}

@@ -79,13 +79,13 @@ void Run::reset_stages() {
 
 bool Run::fail(ErrorCode code, std::string_view detail) {
   const ErrorRow& row = error_row(code);
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm = diagnostic(row.id, row.text, detail, origin.line);
   return false;
 }
 
 bool Run::fail_as(ErrorCode code, std::string_view text) {
-  pause = Pause::Alarm;
+  pause = Pause::ForAlarm;
   alarm = diagnostic(error_row(code).id, text, {}, origin.line);
   return false;
 }
@@ -100,8 +100,12 @@ bool Run::fail_at_limit() {
 
 bool Run::ask(Question asked) {
   if (limits.reached()) return fail_at_limit();
+  if (state.start.is_searching) {
+    return fail(ErrorCode::ProgramStartUndefined,
+                "a start after TCH PROBE would lose what the probe has measured");
+  }
   loops.note_progress();
-  pause = Pause::Question;
+  pause = Pause::ForQuestion;
   question = std::move(asked);
   return false;
 }

@@ -17,9 +17,6 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// Why a function gave false.
-enum class Pause : std::uint8_t { None, Alarm, Question };
-
 /// A TOOL DEF the run has not come to, and the units of its program.
 struct DefinitionAhead {
   Block block;
@@ -29,7 +26,7 @@ struct DefinitionAhead {
 /// One run: what the files of this folder work on. Functions that cannot go on give false and
 /// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
 /// that thing is done again once the answer is there.
-struct Run {
+struct Run : BlockRun {
   Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink);
 
   /// Where events go, after the header has been delivered.
@@ -88,17 +85,12 @@ struct Run {
 
   BlockParts parts;  ///< of the block in hand
   language::LoopGuard loops;
-  language::WordLedger ledger;  ///< of the part in hand: its coordinates, by their place
-  bool is_in_block = false;     ///< read, and not finished
-  bool is_measuring = false;    ///< moves are held against the limits and not made
-  bool blend_follows = false;   ///< RND or a chamfer stands after the part in hand
-  bool starts_contour = false;  ///< the part in hand is the first with RL or RR
-  Origin origin;
+  language::WordLedger ledger;   ///< of the part in hand: its coordinates, by their place
+  bool is_in_block = false;      ///< read, and not finished
+  bool is_measuring = false;     ///< moves are held against the limits and not made
+  bool blend_follows = false;    ///< RND or a chamfer stands after the part in hand
+  bool starts_contour = false;   ///< the part in hand is the first with RL or RR
   std::optional<Answer> answer;  ///< to the question of the part in hand
-  Question question;
-  std::uint32_t frame_changes = 0;  ///< datum, transformations or pole became others so often
-  Diagnostic alarm;
-  Pause pause = Pause::None;
 
  private:
   EventSink& stages() {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/dialects/tnc155/cycles/cycle_state.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
@@ -14,8 +15,6 @@
 /// Everything that stays from one block to the next. Lengths are millimetres, angles degrees.
 /// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
 namespace dripline::interpreter::tnc155 {
-
-enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 
 inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
 inline constexpr int kLastTool = 254;

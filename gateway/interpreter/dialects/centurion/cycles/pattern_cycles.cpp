@@ -18,10 +18,10 @@ bool refuse(Run& run, const Origin& at, const char* why) {
   return run.fail(ErrorCode::IllegalStatement, 0, why);
 }
 
-JumpOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t label) {
+BlockOutcome refuse_label(Run& run, TextSearch::Outcome outcome, std::uint32_t label) {
   if (outcome != TextSearch::Outcome::Missing) return refuse_search(run, outcome);
   run.fail(ErrorCode::UnresolvedLabel, 0, fmt::format("N{} of the pattern", label));
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
 bool begin_reading(Run& run) {
@@ -197,7 +197,7 @@ bool plan_pattern_cycle(Run& run) {
   return true;
 }
 
-JumpOutcome enter_pattern(Run& run, TextSearch& search) {
+BlockOutcome enter_pattern(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   PatternCycle& cycle = state.pattern;
   TextPosition first;
@@ -210,7 +210,7 @@ JumpOutcome enter_pattern(Run& run, TextSearch& search) {
   if (outcome != TextSearch::Outcome::Found) return refuse_label(run, outcome, cycle.last_label);
   if (last.offset < first.offset) {
     refuse(run, cycle.origin, "the pattern's last block is before its first");
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   cycle.program = last.program;
   cycle.end_offset = last.offset;
@@ -218,10 +218,10 @@ JumpOutcome enter_pattern(Run& run, TextSearch& search) {
   state.jump = Jump{};
   state.at = first;
   if (cycle.code != 70) {
-    return begin_reading(run) ? JumpOutcome::Taken : JumpOutcome::Failed;
+    return begin_reading(run) ? BlockOutcome::NoBlock : BlockOutcome::Paused;
   }
   cycle.phase = PatternPhase::Finishing;
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
 bool leave_pattern_block(Run& run) {

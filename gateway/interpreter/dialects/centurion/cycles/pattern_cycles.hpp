@@ -17,7 +17,7 @@ bool plan_pattern_cycle(Run& run);
 bool read_pattern_words(Run& run, PatternCycle& cycle, std::uint32_t& first_label);
 
 /// Takes the jump to the pattern: both its ends are found.
-JumpOutcome enter_pattern(Run& run, TextSearch& search);
+BlockOutcome enter_pattern(Run& run, TextSearch& search);
 
 /// After a block of a pattern: its last one ends the pattern.
 bool leave_pattern_block(Run& run);

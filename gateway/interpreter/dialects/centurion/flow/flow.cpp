@@ -187,21 +187,21 @@ void leave_loops(ModalState& state, const TextPosition& to) {
   }
 }
 
-JumpOutcome refuse_depth(Run& run) {
+BlockOutcome refuse_depth(Run& run) {
   run.fail(ErrorCode::NestedTooDeep, 0, fmt::format("more than {} levels", kMaxNesting));
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
-JumpOutcome enter_gosub(Run& run, const TextPosition& entry) {
+BlockOutcome enter_gosub(Run& run, const TextPosition& entry) {
   ModalState& state = run.state;
   if (state.gosubs.size() == kMaxNesting) return refuse_depth(run);
   state.gosubs.push_back({state.at, entry, state.floating_zero, state.jump.passes - 1,
                           static_cast<std::uint8_t>(state.loops.size())});
   state.at = entry;
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
-JumpOutcome enter_call(Run& run, const TextPosition& entry) {
+BlockOutcome enter_call(Run& run, const TextPosition& entry) {
   ModalState& state = run.state;
   if (state.calls.size() == kMaxNesting) return refuse_depth(run);
   state.calls.push_back({state.at, entry, state.floating_zero, state.jump.passes - 1,
@@ -209,30 +209,30 @@ JumpOutcome enter_call(Run& run, const TextPosition& entry) {
                          static_cast<std::uint8_t>(state.loops.size()), state.jump.custom,
                          state.jump.changes_tool});
   state.at = entry;
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
-JumpOutcome enter_loop(Run& run, const LoopFrame& loop) {
+BlockOutcome enter_loop(Run& run, const LoopFrame& loop) {
   ModalState& state = run.state;
   if (!state.jump.condition) {
     state.at = loop.next;
-    return JumpOutcome::Taken;
+    return BlockOutcome::NoBlock;
   }
   if (state.loops.size() == kMaxNesting) return refuse_depth(run);
   state.loops.push_back(loop);
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
 /// Asks the owner's library for a program that is not in the text that was started.
-JumpOutcome call_library(Run& run) {
+BlockOutcome call_library(Run& run) {
   const Jump& jump = run.state.jump;
   const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", jump.number));
   run.text.invalidate();
-  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
     run.fail(jump.is_call_word ? ErrorCode::UnresolvedCall : ErrorCode::NoSuchProgram, 0,
              fmt::format("O{:04}", jump.number));
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   TextPosition entry;
   entry.program = lookup.program;
@@ -241,7 +241,7 @@ JumpOutcome call_library(Run& run) {
 
 /// Of programs that codes of the machine call, those of the RAM directory come before all others
 /// (manual: custom G and M codes). True: it was found there, or the source does not know yet.
-bool call_ram(Run& run, JumpOutcome& outcome) {
+bool call_ram(Run& run, BlockOutcome& outcome) {
   Jump& jump = run.state.jump;
   const ProgramLookup lookup = run.source.find(fmt::format("RAM-O{:04}", jump.number));
   run.text.invalidate();
@@ -249,26 +249,26 @@ bool call_ram(Run& run, JumpOutcome& outcome) {
     jump.is_not_in_ram = true;
     return false;
   }
-  outcome = JumpOutcome::NeedsText;
+  outcome = BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotYet) return true;
   TextPosition entry;
   entry.program = lookup.program;
   outcome = enter_call(run, entry);
-  if (outcome == JumpOutcome::Taken) jump = Jump{};
+  if (outcome == BlockOutcome::NoBlock) jump = Jump{};
   return true;
 }
 
-JumpOutcome refuse_missing(Run& run) {
+BlockOutcome refuse_missing(Run& run) {
   const Jump& jump = run.state.jump;
   if (jump.kind == JumpKind::While) {
     run.fail(ErrorCode::MissingWend, 0);
   } else {
     run.fail(ErrorCode::UnresolvedLabel, 0, fmt::format("N{}", jump.number));
   }
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
-JumpOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop) {
+BlockOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop) {
   switch (run.state.jump.kind) {
     case JumpKind::Gosub:
       return enter_gosub(run, found);
@@ -279,7 +279,7 @@ JumpOutcome arrive_at(Run& run, const TextPosition& found, const LoopFrame& loop
     default:
       leave_loops(run.state, found);
       run.state.at = found;
-      return JumpOutcome::Taken;
+      return BlockOutcome::NoBlock;
   }
 }
 
@@ -329,12 +329,12 @@ bool leave_block(Run& run) {
   return request_jump(run, head);
 }
 
-JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome) {
+BlockOutcome refuse_search(Run& run, TextSearch::Outcome outcome) {
   switch (outcome) {
     case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
+      return BlockOutcome::NeedsText;
     case TextSearch::Outcome::More:
-      return JumpOutcome::More;
+      return BlockOutcome::MoreFollows;
     case TextSearch::Outcome::TooLong:
       run.fail(ErrorCode::BlockTooLong, 0, "in a search");
       break;
@@ -342,17 +342,17 @@ JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome) {
       run.fail(ErrorCode::TextFailed, 0, run.text.failure());
       break;
   }
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
-JumpOutcome take_jump(Run& run, TextSearch& search) {
+BlockOutcome take_jump(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   Jump& jump = state.jump;
   if (jump.kind == JumpKind::Pattern) return enter_pattern(run, search);
   TextPosition found;
   LoopFrame loop;
   TextSearch::Outcome outcome{};
-  JumpOutcome result = JumpOutcome::Failed;
+  BlockOutcome result = BlockOutcome::Paused;
   if (jump.kind == JumpKind::Call && !jump.is_not_in_ram && call_ram(run, result)) return result;
   if (jump.kind == JumpKind::While) {
     outcome = search.find_wend(jump.from, state.at, loop);
@@ -371,9 +371,9 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
     default:
       return refuse_search(run, outcome);
   }
-  if (result != JumpOutcome::Taken) return result;
+  if (result != BlockOutcome::NoBlock) return result;
   jump = Jump{};
-  return count_pass(run) ? result : JumpOutcome::Failed;
+  return count_pass(run) ? result : BlockOutcome::Paused;
 }
 
 bool end_without_code(Run& run) {

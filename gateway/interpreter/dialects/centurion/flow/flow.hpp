@@ -14,12 +14,11 @@ bool plan_flow(Run& run);
 /// left in `state.jump`.
 bool leave_block(Run& run);
 
-enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
 /// Takes the jump of `state.jump`.
-JumpOutcome take_jump(Run& run, TextSearch& search);
+BlockOutcome take_jump(Run& run, TextSearch& search);
 
 /// Why a search has not found its place. Not for Found and Missing, which each caller handles.
-JumpOutcome refuse_search(Run& run, TextSearch::Outcome outcome);
+BlockOutcome refuse_search(Run& run, TextSearch::Outcome outcome);
 
 /// The text of the program that is running has ended without an end code.
 bool end_without_code(Run& run);

@@ -124,9 +124,9 @@ bool check_depth(Run& run) {
                   fmt::format("O{:04} is called too deep", state.jump.number));
 }
 
-JumpOutcome enter_call(Run& run, const TextPosition& entry) {
+BlockOutcome enter_call(Run& run, const TextPosition& entry) {
   ModalState& state = run.state;
-  if (!check_depth(run)) return JumpOutcome::Failed;
+  if (!check_depth(run)) return BlockOutcome::Paused;
   const Jump& jump = state.jump;
   CallFrame frame;
   frame.kind = jump.call;
@@ -144,39 +144,39 @@ JumpOutcome enter_call(Run& run, const TextPosition& entry) {
   state.calls.push_back(frame);
   state.at = entry;
   run.update_special();
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
-JumpOutcome call_library(Run& run) {
+BlockOutcome call_library(Run& run) {
   const std::uint32_t number = run.state.jump.number;
   const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", number));
   run.text.forget();
-  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
     run.fail(ErrorCode::NumberNotFound, 0, fmt::format("O{:04}", number));
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   TextPosition entry;
   entry.program = lookup.program;
   return enter_call(run, entry);
 }
 
-JumpOutcome enter_loop(Run& run, const LoopFrame& loop) {
+BlockOutcome enter_loop(Run& run, const LoopFrame& loop) {
   ModalState& state = run.state;
   if (!state.jump.condition) {
     state.at = loop.next;
-    return JumpOutcome::Taken;
+    return BlockOutcome::NoBlock;
   }
   if (state.loops.size() - loop_base(state) >= OpenLoops::kMax) {
     run.fail(ErrorCode::LoopNumber, 0, "more than 3 loops within one another");
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   state.loops.push_back(loop);
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
 /// The loops around the target must be those that are running; the others are left.
-JumpOutcome go_to(Run& run, const TextPosition& found, const OpenLoops& open) {
+BlockOutcome go_to(Run& run, const TextPosition& found, const OpenLoops& open) {
   ModalState& state = run.state;
   const std::size_t base = loop_base(state);
   for (std::size_t i = 0; i < open.count; ++i) {
@@ -184,15 +184,15 @@ JumpOutcome go_to(Run& run, const TextPosition& found, const OpenLoops& open) {
       continue;
     }
     run.fail(ErrorCode::MissingEnd, 0, fmt::format("GOTO {} leads into a loop", state.jump.number));
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
-  if (found.offset <= state.jump.from.offset && !count_jump_back(run)) return JumpOutcome::Failed;
+  if (found.offset <= state.jump.from.offset && !count_jump_back(run)) return BlockOutcome::Paused;
   state.loops.resize(base + open.count);
   state.at = found;
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
-JumpOutcome refuse_missing(Run& run) {
+BlockOutcome refuse_missing(Run& run) {
   const Jump& jump = run.state.jump;
   if (jump.kind == JumpKind::Loop) {
     run.fail(ErrorCode::MissingEnd, 0, fmt::format("DO{}", jump.loop_number));
@@ -200,7 +200,7 @@ JumpOutcome refuse_missing(Run& run) {
     run.fail(jump.is_return ? ErrorCode::SequenceNotFound : ErrorCode::MacroSequence, 0,
              fmt::format("N{}", jump.number));
   }
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
 OpenLoops running_loops(const ModalState& state) {
@@ -230,7 +230,7 @@ bool leave_block(Run& run) {
   return true;
 }
 
-JumpOutcome take_jump(Run& run, TextSearch& search) {
+BlockOutcome take_jump(Run& run, TextSearch& search) {
   ModalState& state = run.state;
   Jump& jump = state.jump;
   TextPosition found;
@@ -246,12 +246,12 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
   } else {
     outcome = search.find_label(state.at, jump.number, open, found);
   }
-  JumpOutcome result = JumpOutcome::Failed;
+  BlockOutcome result = BlockOutcome::Paused;
   switch (outcome) {
     case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
+      return BlockOutcome::NeedsText;
     case TextSearch::Outcome::More:
-      return JumpOutcome::More;
+      return BlockOutcome::MoreFollows;
     case TextSearch::Outcome::TooLong:
       run.fail(ErrorCode::LineTooLong, 0, "met in a search");
       break;
@@ -270,7 +270,7 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
                                              : go_to(run, found, open);
       break;
   }
-  if (result == JumpOutcome::Taken) jump = Jump{};
+  if (result == BlockOutcome::NoBlock) jump = Jump{};
   return result;
 }
 

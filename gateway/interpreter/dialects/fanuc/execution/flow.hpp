@@ -9,9 +9,8 @@ namespace dripline::interpreter::fanuc {
 /// Moves the place in the text after the block, or back, or asks for a jump.
 bool leave_block(Run& run);
 
-enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
 /// Takes the jump that is open.
-JumpOutcome take_jump(Run& run, TextSearch& search);
+BlockOutcome take_jump(Run& run, TextSearch& search);
 
 /// No block is left: % or the next O, or the end of the text.
 bool departure_end(Run& run);

@@ -221,7 +221,7 @@ bool Flow::look_up_file() {
   const std::string name = label_text(run_, state.skip.label);
   const auto found = run_.reader.find(name);
   if (found.state == ProgramLookup::State::NotYet) {
-    run_.pause = Pause::Text;
+    run_.pause = Pause::ForText;
     return false;
   }
   if (found.state == ProgramLookup::State::NotFound) {

@@ -81,13 +81,13 @@ void return_from_label(Run& run) {
   state.labels.resize(level - 1);
 }
 
-JumpOutcome arrive_at_label(Run& run, const TextPlace& found) {
+BlockOutcome arrive_at_label(Run& run, const TextPlace& found) {
   State& state = run.state;
   const Jump& jump = state.jump;
   if (jump.kind != JumpKind::Label) {
     if (state.labels.size() >= kMaxLabelLevels) {
       refuse_depth(run, kMaxLabelLevels, "levels of labels");
-      return JumpOutcome::Failed;
+      return BlockOutcome::Paused;
     }
     LabelFrame frame;
     frame.is_repeat = jump.kind == JumpKind::Repeat;
@@ -99,10 +99,10 @@ JumpOutcome arrive_at_label(Run& run, const TextPlace& found) {
     state.labels.push_back(frame);
   }
   go_to(run, found);
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
-JumpOutcome find_label(Run& run, TextSearch& search) {
+BlockOutcome find_label(Run& run, TextSearch& search) {
   State& state = run.state;
   const std::uint32_t label = state.jump.number;
   const ProgramIndex program = state.jump.call.program;
@@ -114,9 +114,9 @@ JumpOutcome find_label(Run& run, TextSearch& search) {
     case TextSearch::Outcome::Found:
       return arrive_at_label(run, found);
     case TextSearch::Outcome::NotYet:
-      return JumpOutcome::NeedsText;
+      return BlockOutcome::NeedsText;
     case TextSearch::Outcome::More:
-      return JumpOutcome::More;
+      return BlockOutcome::MoreFollows;
     case TextSearch::Outcome::Failed:
       run.fail(ErrorCode::TextFailed, search.reason());
       break;
@@ -124,20 +124,20 @@ JumpOutcome find_label(Run& run, TextSearch& search) {
       run.fail(ErrorCode::LabelNotFound, fmt::format("LBL {}", label));
       break;
   }
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
-JumpOutcome find_program(Run& run) {
+BlockOutcome find_program(Run& run) {
   State& state = run.state;
   if (state.programs.size() >= kMaxProgramLevels) {
     refuse_depth(run, kMaxProgramLevels, "levels of programs");
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   const ProgramLookup lookup = run.reader.find(fmt::format("{}", state.jump.number));
-  if (lookup.state == ProgramLookup::State::NotYet) return JumpOutcome::NeedsText;
+  if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
     fail_unavailable(run, state.jump.number);
-    return JumpOutcome::Failed;
+    return BlockOutcome::Paused;
   }
   const bool is_cycle = state.jump.kind == JumpKind::CycleProgram;
   state.programs.push_back({state.at, state.reading, static_cast<std::uint8_t>(state.labels.size()),
@@ -151,7 +151,7 @@ JumpOutcome find_program(Run& run) {
   TextPlace entry;
   entry.program = lookup.program;
   go_to(run, entry);
-  return JumpOutcome::Taken;
+  return BlockOutcome::NoBlock;
 }
 
 }  // namespace
@@ -244,8 +244,8 @@ void end_program(Run& run, bool rewinds) {
   run.events().on_end({run.origin, state.blocks + (run.is_in_block ? 1 : 0), rewinds});
 }
 
-JumpOutcome take_jump(Run& run, TextSearch& search) {
-  JumpOutcome outcome = JumpOutcome::Taken;
+BlockOutcome take_jump(Run& run, TextSearch& search) {
+  BlockOutcome outcome = BlockOutcome::NoBlock;
   switch (run.state.jump.kind) {
     case JumpKind::None:
       break;
@@ -257,13 +257,13 @@ JumpOutcome take_jump(Run& run, TextSearch& search) {
       outcome = find_label(run, search);
       break;
   }
-  if (outcome != JumpOutcome::Taken) return outcome;
+  if (outcome != BlockOutcome::NoBlock) return outcome;
   run.state.jump = Jump{};
   if (run.loops.count_pass()) return outcome;
   run.fail(ErrorCode::LoopLimit, fmt::format("more than {} jumps and repeats without a move or a "
                                              "wait",
                                              language::LoopGuard::kMaxIdlePasses));
-  return JumpOutcome::Failed;
+  return BlockOutcome::Paused;
 }
 
 }  // namespace dripline::interpreter::tnc155

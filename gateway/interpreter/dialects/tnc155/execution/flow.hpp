@@ -20,8 +20,7 @@ bool fail_unavailable(Run& run, std::int64_t number);
 /// END PGM, M02, M30 and the end of the text: back to the caller, or the run is over.
 void end_program(Run& run, bool rewinds);
 
-enum class JumpOutcome : std::uint8_t { Taken, NeedsText, More, Failed };
 /// Takes `State::jump`; afterwards State::at is where the run goes on.
-JumpOutcome take_jump(Run& run, TextSearch& search);
+BlockOutcome take_jump(Run& run, TextSearch& search);
 
 }  // namespace dripline::interpreter::tnc155
