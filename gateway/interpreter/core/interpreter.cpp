@@ -38,4 +38,15 @@ Digest Snapshot::digest() const {
   return hash.digest();
 }
 
+Result<void> Snapshot::check_kind(std::string_view expected_dialect,
+                                  std::uint32_t expected_version) const {
+  if (dialect == expected_dialect && version == expected_version) return {};
+  return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}", dialect,
+              version, expected_dialect, expected_version);
+}
+
+tl::unexpected<Error> Snapshot::damage() const {
+  return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", bytes.size());
+}
+
 }  // namespace dripline::interpreter

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -15,8 +16,8 @@
 
 namespace dripline::interpreter {
 
-/// What the interpreter cannot know by itself. The step that asks returns NeedsAnswer; `answer`
-/// resumes it.
+/// A question about something that the interpreter cannot know by itself. The step that asks
+/// returns NeedsAnswer; `answer` resumes it.
 struct ProbeQuestion {
   Probe probe;
 };  ///< answered by ProbeResult
@@ -42,19 +43,25 @@ bool fits(const Question& question, const Answer& answer);
 
 enum class StepState {
   Ran,          ///< the budget is used up; more blocks follow
-  NeedsText,    ///< the source said NotYet; step again when it has more
+  NeedsText,    ///< the source gave NotYet; step again when it has more
   NeedsAnswer,  ///< see `question()`
   Ended,        ///< an End event was delivered
   Alarmed,      ///< an Alarm event was delivered; it is the last one
 };
 
-/// Everything that decides what the rest of the program does, at a block boundary.
-/// The bytes are private to a dialect and its version; equal digests mean equal states.
+/// The whole state that decides what the rest of the program does, at a block boundary. The bytes
+/// are private to a dialect and its version; equal digests mean equal states. README.md,
+/// "Snapshots", names the users.
 struct Snapshot {
   std::string dialect;
   std::uint32_t version = 0;
   std::vector<std::byte> bytes;
   Digest digest() const;
+
+  /// Errors: Unsupported (another dialect or version).
+  Result<void> check_kind(std::string_view expected_dialect, std::uint32_t expected_version) const;
+  /// The error of bytes that do not read back.
+  tl::unexpected<Error> damage() const;
 };
 
 /// One run of one program on one control. Pure: text, answers and setup come in, events go out; no
@@ -77,10 +84,10 @@ class Interpreter {
   virtual std::uint64_t blocks() const = 0;
   /// The block being executed, or the last one finished.
   virtual const Origin& origin() const = 0;
-  /// What the block finished last was executed under.
+  /// The modes under which the block finished last was executed.
   virtual ActiveModes modes() const { return {}; }
-  /// How program coordinates lie after that block; none from a control that does not say. Costs
-  /// more than modes(): to be asked for when modes().frame_changes has another value.
+  /// How program coordinates lie after that block; none where a control does not show it. Costs
+  /// more than modes(): ask for it when modes().frame_changes has another value.
   virtual std::optional<CoordinateFrame> frame() const { return std::nullopt; }
 
   /// Both only at a block boundary, that is, not while a question is open.

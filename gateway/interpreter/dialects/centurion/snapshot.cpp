@@ -1,6 +1,6 @@
 #include "gateway/interpreter/dialects/centurion/snapshot.hpp"
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/core/language/event_archive.hpp"
 
 namespace dripline::interpreter::centurion {
 namespace {
@@ -45,10 +45,6 @@ void visit(Archive& archive, LoopFrame& frame) {
   visit(archive, frame.head);
   visit(archive, frame.next);
   archive(frame.wend_offset);
-}
-template <class Archive>
-void visit(Archive& archive, Origin& origin) {
-  all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
 }
 
 template <class Archive>
@@ -184,7 +180,7 @@ void visit_states(Archive& archive, ModalState& state) {
   for (ModalState& before : state.before_pattern) visit_state(archive, before);
 }
 
-/// Only what is not 0: most are.
+/// Only the values that are not 0: most are.
 template <class Archive, class Value>
 void visit_sparse(Archive& archive, int count, Value value_at) {
   std::size_t used = 0;
@@ -211,7 +207,7 @@ void visit_parameters(Archive& archive, Parameters& parameters) {
   visit_sparse(archive, kByteCount, [&](int n) -> std::uint8_t& { return parameters.byte(n); });
 }
 
-/// Only while a start is looked for: nobody reads them afterwards.
+/// Only while a start is looked for: they are not read afterwards.
 template <class Archive>
 void visit_notes(Archive& archive, StartNotes& notes) {
   std::size_t cells = notes.uses.size();
@@ -238,19 +234,7 @@ void visit_name(Archive& archive, std::string& name, bool& is_settled) {
   archive(is_settled);
 }
 
-template <class Archive>
-void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
-  std::size_t count = bytes.size();
-  if (!archive.size(count, look_ahead::kMaxStateBytes)) return;
-  bytes.resize(count);
-  for (std::byte& byte : bytes) {
-    auto value = std::to_integer<std::uint8_t>(byte);
-    archive(value);
-    byte = std::byte{value};
-  }
-}
-
-/// A cycle that cuts has what it cuts.
+/// A cycle that cuts has moves.
 bool is_plausible(const PatternCycle& cycle, std::size_t states_before) {
   const bool is_reading = cycle.phase == PatternPhase::Reading;
   const bool cuts = cycle.phase >= PatternPhase::Levels;
@@ -286,16 +270,13 @@ Snapshot take_snapshot(const Run& run) {
   visit_parameters(writer, parameters);
   visit(writer, origin);
   visit_name(writer, name, is_settled);
-  visit_bytes(writer, joins);
-  visit_bytes(writer, path);
+  language::visit_bytes(writer, joins, look_ahead::kMaxStateBytes);
+  language::visit_bytes(writer, path, look_ahead::kMaxStateBytes);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kSnapshotVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kSnapshotVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kSnapshotVersion); !kind) return kind;
   Reader reader(snapshot.bytes);
   ModalState state;
   Parameters parameters;
@@ -309,11 +290,9 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit(reader, origin);
   visit_name(reader, name, is_settled);
   std::vector<std::byte> joins, path;
-  visit_bytes(reader, joins);
-  visit_bytes(reader, path);
-  if (!reader.is_complete() || !is_plausible(state)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+  language::visit_bytes(reader, joins, look_ahead::kMaxStateBytes);
+  language::visit_bytes(reader, path, look_ahead::kMaxStateBytes);
+  if (!reader.is_complete() || !is_plausible(state)) return snapshot.damage();
   if (auto restored = run.blender.restore(joins); !restored) return restored;
   if (!state.uses_compensator) {
     run.compensator.reset({});

@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::centurion {
 
-inline constexpr std::uint32_t kSnapshotVersion = 4;
+inline constexpr std::uint32_t kSnapshotVersion = 5;
 
 /// The run's state between two blocks.
 Snapshot take_snapshot(const Run& run);

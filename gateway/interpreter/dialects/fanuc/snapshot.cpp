@@ -1,6 +1,6 @@
 #include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/core/language/event_archive.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -21,23 +21,9 @@ void visit(Archive& archive, std::array<Value, kCount>& values) {
   for (Value& value : values) archive(value);
 }
 template <class Archive>
-void visit(Archive& archive, Position& position) {
-  for (const Axis axis : kAllAxes) {
-    double raw = position.raw(axis);
-    bool has = position.has(axis);
-    all(archive, raw, has);
-    position.set_raw(axis, raw);
-    if (!has) position.unmark(axis);
-  }
-}
-template <class Archive>
 void visit(Archive& archive, TextPosition& at) {
   all(archive, at.program, at.head_seen, at.code_seen, at.segment_offset, at.segment_line,
       at.offset, at.line);
-}
-template <class Archive>
-void visit(Archive& archive, Origin& origin) {
-  all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
 }
 template <class Archive>
 void visit(Archive& archive, CallFrame& frame) {
@@ -127,7 +113,7 @@ void visit_state(Archive& archive, ModalState& state) {
   visit_macros(archive, state);
 }
 
-/// Only what is not 0: most are.
+/// Only the values that are not 0: most are.
 template <class Archive, std::size_t kCount>
 void visit_sparse(Archive& archive, std::array<double, kCount>& values) {
   std::size_t used = 0;
@@ -158,14 +144,6 @@ void visit_memory(Archive& archive, Memory& memory) {
   visit(archive, memory.coordinates.shift);
   visit(archive, memory.coordinates.local);
   archive(memory.coordinates.more_work);
-}
-
-template <class Archive>
-void visit_bytes(Archive& archive, std::vector<std::byte>& bytes) {
-  std::size_t count = bytes.size();
-  if (!archive.size(count, look_ahead::kMaxStateBytes)) return;
-  bytes.resize(count);
-  for (std::byte& byte : bytes) archive(byte);
 }
 
 bool is_offset(int number) {
@@ -227,15 +205,12 @@ Snapshot take_snapshot(const Run& run) {
   visit(writer, origin);
   language::visit_text(writer, name, kMaxName);
   writer(is_settled);
-  visit_bytes(writer, path);
+  language::visit_bytes(writer, path, look_ahead::kMaxStateBytes);
   return {std::string(kDialect), kSnapshotVersion, writer.take()};
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kSnapshotVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kSnapshotVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kSnapshotVersion); !kind) return kind;
   StateReader reader(snapshot.bytes);
   ModalState state;
   Memory memory;
@@ -248,10 +223,8 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit(reader, origin);
   language::visit_text(reader, name, kMaxName);
   reader(is_settled);
-  visit_bytes(reader, path);
-  if (!reader.is_complete() || !is_plausible(state, memory)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+  language::visit_bytes(reader, path, look_ahead::kMaxStateBytes);
+  if (!reader.is_complete() || !is_plausible(state, memory)) return snapshot.damage();
   if (!state.uses_compensator) {
     run.compensator.reset(state.position);
   } else if (auto restored = run.compensator.restore(path); !restored) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/core/language/event_archive.hpp"
 
 namespace dripline::interpreter::prototrak {
 namespace {
@@ -12,7 +12,7 @@ using language::StateWriter;
 using language::visit_all;
 
 constexpr std::string_view kDialect = "prototrak-plus";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 template <class Archive>
 void visit(Archive& archive, ProgramEvent& event) {
@@ -47,10 +47,7 @@ void visit_kept(Archive& archive, KeptState& state) {
   visit_list(archive, execution.frames, kMaxNesting + 1);
   visit_all(archive, execution.blocks, execution.loaded_tool, execution.is_in_chain,
             execution.is_metric, execution.at.x, execution.at.y);
-  std::size_t bytes = state.path.size();
-  if (!archive.size(bytes, look_ahead::kMaxStateBytes)) return;
-  state.path.resize(bytes);
-  for (std::byte& byte : state.path) archive(byte);
+  language::visit_bytes(archive, state.path, look_ahead::kMaxStateBytes);
 }
 
 bool is_plausible(const ProgramEvent& event) {
@@ -89,16 +86,11 @@ Snapshot take_snapshot(KeptState state) {
 }
 
 Result<KeptState> read_snapshot(const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kVersion); !kind) return fail(kind.error());
   StateReader reader(snapshot.bytes);
   KeptState state;
   visit_kept(reader, state);
-  if (!reader.is_complete() || !is_plausible(state)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+  if (!reader.is_complete() || !is_plausible(state)) return snapshot.damage();
   return state;
 }
 

@@ -6,7 +6,7 @@
 namespace dripline::interpreter::prototrak {
 
 struct KeptState {
-  std::uint8_t phase = 0;  ///< 0: receiving, nothing else counts; 1 running, 2 ended, 3 alarmed
+  std::uint8_t phase = 0;  ///< 0: receiving, the rest is unused; 1 running, 2 ended, 3 alarmed
   StoredProgram program;
   ExecutionState execution;
   std::vector<std::byte> path;  ///< the compensator's

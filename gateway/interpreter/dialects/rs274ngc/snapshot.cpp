@@ -142,7 +142,7 @@ void visit_state(Archive& archive, State& state) {
   visit_flow(archive, state);
 }
 
-/// Only what is not 0: most are.
+/// Only the values that are not 0: most are.
 template <class Archive>
 void visit_parameters(Archive& archive, Parameters& parameters) {
   std::size_t used = 0;
@@ -273,10 +273,7 @@ Snapshot take_snapshot(const Run& run) {
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kSnapshotVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kSnapshotVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kSnapshotVersion); !kind) return kind;
   StateReader reader(snapshot.bytes);
   State state;
   Parameters parameters{};
@@ -285,9 +282,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   Origin origin;
   std::vector<Tool> tools = run.setup_tools;
   visit_all_of(reader, state, parameters, names, held, origin, run.setup_tools, tools);
-  if (!reader.is_complete() || !is_plausible(state)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+  if (!reader.is_complete() || !is_plausible(state)) return snapshot.damage();
   run.state = std::move(state);
   run.parameters = parameters;
   run.names = std::move(names);

@@ -5,7 +5,7 @@
 
 namespace dripline::interpreter::rs274ngc {
 
-inline constexpr std::uint32_t kSnapshotVersion = 3;
+inline constexpr std::uint32_t kSnapshotVersion = 4;
 
 Snapshot take_snapshot(const Run& run);
 /// Errors: Unsupported, Corrupt; the run is then unchanged.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/core/language/event_archive.hpp"
 
 namespace dripline::interpreter::tektronix1704 {
 namespace {
@@ -12,12 +12,8 @@ using language::StateWriter;
 using language::visit_all;
 
 constexpr std::string_view kDialect = "tektronix-1704";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
-template <class Archive>
-void visit(Archive& archive, Origin& origin) {
-  visit_all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
-}
 template <class Archive>
 void visit(Archive& archive, BlockInProgress& block) {
   block.words.visit(archive);
@@ -76,19 +72,15 @@ Snapshot take_snapshot(const Run& run) {
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kVersion); !kind) return kind;
   StateReader reader(snapshot.bytes);
   State state;
   Position position;
   Origin origin;
   visit(reader, state, position, origin);
   if (!reader.is_complete() || !is_plausible(state) || state.mdi_done > run.options.mdi.size() ||
-      (state.reader == ReaderState::Search && !run.options.search)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+      (state.reader == ReaderState::Search && !run.options.search))
+    return snapshot.damage();
   run.state = state;
   run.position = position;
   run.origin = origin;

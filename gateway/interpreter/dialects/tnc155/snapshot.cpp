@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/core/language/state_archive.hpp"
+#include "gateway/interpreter/core/language/event_archive.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 
 namespace dripline::interpreter::tnc155 {
@@ -15,22 +15,6 @@ using language::visit_all;
 
 constexpr std::string_view kDialect = "tnc155";
 
-/// An enum up to its last value.
-template <class Archive, class Enum>
-void up_to(Archive& archive, Enum& value, Enum last) {
-  auto number = static_cast<std::uint8_t>(value);
-  archive(number);
-  if (number > static_cast<std::uint8_t>(last)) {
-    archive.damage();
-    return;
-  }
-  value = static_cast<Enum>(number);
-}
-template <class Archive>
-void visit(Archive& archive, double& value) {
-  archive(value);
-  if (!std::isfinite(value)) archive.damage();
-}
 template <class Archive, class Value, std::size_t kCount>
 void visit_values(Archive& archive, std::array<Value, kCount>& values) {
   for (Value& value : values) archive(value);
@@ -42,30 +26,6 @@ void visit_optional(Archive& archive, std::optional<Value>& value, Value last) {
   Value held = value.value_or(Value{});
   if (has) up_to(archive, held, last);
   value = has ? std::optional(held) : std::nullopt;
-}
-template <class Archive>
-void visit(Archive& archive, PlaneVector& vector) {
-  visit(archive, vector.first);
-  visit(archive, vector.second);
-}
-template <class Archive>
-void visit(Archive& archive, Position& position) {
-  for (const Axis axis : kAllAxes) {
-    double raw = position.raw(axis);
-    bool has = position.has(axis);
-    visit(archive, raw);
-    archive(has);
-    position.set_raw(axis, raw);
-    if (!has) position.unmark(axis);
-  }
-}
-template <class Archive>
-void visit(Archive& archive, TextPlace& at) {
-  visit_all(archive, at.program, at.offset, at.line);
-}
-template <class Archive>
-void visit(Archive& archive, Origin& origin) {
-  visit_all(archive, origin.block, origin.offset, origin.line, origin.sequence, origin.program);
 }
 template <class Archive>
 void visit(Archive& archive, ProgramForm& form) {
@@ -230,14 +190,6 @@ void visit_state(Archive& archive, State& state) {
   visit_flow(archive, state);
 }
 
-template <class Archive>
-void visit_bytes(Archive& archive, std::vector<std::byte>& bytes, std::size_t most) {
-  std::size_t count = bytes.size();
-  if (!archive.size(count, most)) return;
-  bytes.resize(count);
-  for (std::byte& byte : bytes) archive(byte);
-}
-
 bool is_plausible(const State& state) {
   const bool are_levels_right = std::all_of(
       state.programs.begin(), state.programs.end(),
@@ -263,10 +215,7 @@ Snapshot take_snapshot(const Run& run) {
 }
 
 Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
-  if (snapshot.dialect != kDialect || snapshot.version != kSnapshotVersion) {
-    return fail(Errc::Unsupported, "snapshot of {} version {}; this is {} version {}",
-                snapshot.dialect, snapshot.version, kDialect, kSnapshotVersion);
-  }
+  if (auto kind = snapshot.check_kind(kDialect, kSnapshotVersion); !kind) return kind;
   StateReader reader(snapshot.bytes);
   State state;
   Origin origin;
@@ -276,9 +225,7 @@ Result<void> restore_snapshot(Run& run, const Snapshot& snapshot) {
   visit(reader, origin);
   visit_bytes(reader, path, look_ahead::kMaxStateBytes);
   visit_bytes(reader, corner, look_ahead::kMaxStateBytes);
-  if (!reader.is_complete() || !is_plausible(state)) {
-    return fail(Errc::Corrupt, "snapshot of {} bytes does not read back", snapshot.bytes.size());
-  }
+  if (!reader.is_complete() || !is_plausible(state)) return snapshot.damage();
   const auto before = run.compensator.state();
   if (state.uses_stages) {
     if (auto restored = run.compensator.restore(path); !restored) return restored;

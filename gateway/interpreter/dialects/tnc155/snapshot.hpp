@@ -5,7 +5,7 @@
 namespace dripline::interpreter::tnc155 {
 
 /// Changes whenever the bytes of a state do.
-inline constexpr std::uint32_t kSnapshotVersion = 5;
+inline constexpr std::uint32_t kSnapshotVersion = 6;
 
 Snapshot take_snapshot(const Run& run);
 /// Errors: Unsupported, Corrupt; the run is then unchanged.
