@@ -19,7 +19,7 @@ std::vector<std::string_view> entered_lines(std::string_view text) {
   return lines;
 }
 
-/// Collects what happens to each block, then says it in order.
+/// Collects the change of each block, then lists the steps in order.
 class Plan {
  public:
   explicit Plan(std::span<const std::int64_t> numbers)
@@ -59,7 +59,7 @@ class Plan {
  private:
   using Lines = std::vector<std::string_view>;
   struct Entered {
-    Lines in_place;  ///< of a block that is replaced
+    Lines in_place;  ///< the lines of a block that is replaced
     Lines after;
   };
 
@@ -128,7 +128,7 @@ Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64
   const auto found = std::ranges::find(numbers, number);
   if (number < 0 || found == numbers.end()) return no_block(numbers, number);
   if (std::find(found + 1, numbers.end(), number) != numbers.end()) {
-    return fail(Errc::Conflict, "block {} stands more than once: renumber first", number);
+    return fail(Errc::Conflict, "block {} occurs more than once: renumber first", number);
   }
   return static_cast<std::size_t>(found - numbers.begin());
 }

@@ -11,8 +11,8 @@ namespace dripline::interpreter {
 
 enum class CompensationSide : std::uint8_t { Off, Left, Right };
 
-/// What a control shows of the block it works on and no event tells: for the eye, not for a trace.
-/// Every dialect fills what it has; the rest stays as it is here.
+/// The modes that a control shows with the block in hand and that no event carries: for the
+/// display, not for a trace. Every dialect fills those it has; the rest keeps its default.
 struct ActiveModes {
   Units units = Units::Millimetre;
   bool is_incremental = false;
@@ -23,13 +23,13 @@ struct ActiveModes {
   Length tool_length_z;           ///< wear included
   Length tool_radius;
   Feed feed;                        ///< as programmed
-  std::string_view cycle;           ///< a name that lives for ever; empty: no cycle
+  std::string_view cycle;           ///< static storage; empty: no cycle
   std::optional<Axis> tool_axis;    ///< the spindle's, where programs choose it
-  std::uint32_t frame_changes = 0;  ///< another number: Interpreter::frame says something new
+  std::uint32_t frame_changes = 0;  ///< another number: Interpreter::frame has changed
   friend bool operator==(const ActiveModes&, const ActiveModes&) = default;
 };
 
-/// Of G73, G74, G76 and G81 to G89 on a mill; empty for any other code.
+/// The name of G73, G74, G76 and G81 to G89 on a mill; empty for any other code.
 std::string_view hole_cycle_name(int g_code);
 
 }  // namespace dripline::interpreter

@@ -13,7 +13,7 @@ enum class RunPhase : std::uint8_t { Running, Ended, Alarmed };
 /// Why a function of a control gave false.
 enum class Pause : std::uint8_t { None, ForAlarm, ForQuestion, ForText };
 
-/// What the members of every run are that `BlockInterpreter` works on.
+/// The members of every run that `BlockInterpreter` works on.
 struct BlockRun {
   Origin origin;      ///< of the block in hand, or the last one
   Question question;  ///< the open one, or the last one
@@ -22,12 +22,12 @@ struct BlockRun {
   std::uint32_t frame_changes = 0;  ///< how often the coordinate frame became another
 };
 
-/// What a control has done towards its next block.
+/// How far a control has come with its next block.
 enum class [[nodiscard]] BlockOutcome : std::uint8_t{
     Finished,     ///< a block, which takes one from the budget of the step
     NoBlock,      ///< text that is no block, or work between two blocks
     MoreFollows,  ///< so much work that the owner has its turn before the rest
-    NeedsText,    ///< the source said NotYet
+    NeedsText,    ///< the source gave NotYet
     Paused,       ///< for the reason in `BlockRun::pause`
 };
 

@@ -7,30 +7,30 @@
 
 namespace dripline::interpreter {
 
-/// How program coordinates lie on the machine when a block has been executed: what a control's
-/// screen shows as datum, shift, ROT, SCL, mirrored axes and CC. For the eye and for the position
-/// display, not for a trace. Millimetres and degrees; index as in kAllAxes. A control fills what it
-/// has, the rest stays as it is here.
+/// How program coordinates lie on the machine when a block has been executed: datum, shift, ROT,
+/// SCL, mirrored axes and CC of a control's screen. For the position display, not for a trace.
+/// Millimetres and degrees; index as in kAllAxes. A control fills the members it has, the rest
+/// keeps its default.
 struct CoordinateFrame {
   using Values = std::array<double, kAxisCount>;
 
   Values datum{};                        ///< machine coordinates: set by hand, or the work offset
-  Values shift{};                        ///< what the program added to it: cycle 7, G52, G92
-  double rotation = 0;                   ///< the program's or the work offset's
-  double basic_rotation = 0;             ///< of the workpiece, as probed; not in `rotation`
+  Values shift{};                        ///< added by the program: cycle 7, G52, G92
+  double rotation = 0;                   ///< by the program or the work offset
+  double basic_rotation = 0;             ///< that of the workpiece, as probed; not in `rotation`
   std::array<double, 3> scale{1, 1, 1};  ///< X, Y, Z; above 0
   std::array<bool, 3> mirrored{};
   std::array<double, 3> pole{};  ///< program coordinates of X, Y, Z
   std::uint8_t pole_axes = 0;    ///< which of them it has, bit 0 = X; 0: there is no pole
 
-  /// Program coordinates of a place given in machine coordinates, tool length left out of both.
+  /// The program coordinates of a machine position, both without tool length.
   Values to_program(const Values& machine) const;
 
-  /// Learns that from the control's own reckoning, which must be a linear one and leave all but X,
-  /// Y and Z as they lie. `program_of` gives the program coordinates of machine coordinates.
+  /// Derives the matrix from the control's own computation, which must be linear and leave all axes
+  /// but X, Y and Z unchanged. `program_of` gives the program coordinates of machine coordinates.
   template <class ProgramOf>
   void learn(ProgramOf program_of) {
-    constexpr double kFar = 1000;  // millimetres: what numbers lose cancelling counts less
+    constexpr double kFar = 1000;  // millimetres: far apart, cancellation costs fewer digits
     base_ = program_of(Values{});
     for (std::size_t column = 0; column < 3; ++column) {
       Values at{};
@@ -40,7 +40,7 @@ struct CoordinateFrame {
         turn_[3 * row + column] = (moved[row] - base_[row]) / kFar;
     }
   }
-  /// The same where program coordinates only lie elsewhere.
+  /// The same for coordinates that are only shifted.
   void learn_offset(const Values& zero) {
     for (std::size_t i = 0; i < kAxisCount; ++i) base_[i] = -zero[i];
   }

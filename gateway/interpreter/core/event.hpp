@@ -10,7 +10,7 @@
 #include "gateway/interpreter/core/origin.hpp"
 #include "protocol/base/units.hpp"
 
-/// What a program does, as plain structs, in execution order (spec: trace format).
+/// The actions of a program, as plain structs, in execution order.
 /// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's
 /// units; the writer of a trace converts back. string_views live until the sink's function returns.
 /// No event of an ordinary motion block allocates.
@@ -27,9 +27,9 @@ inline bool is_rotary(Axis axis) {
   return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
 
-/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; the typed functions
-/// say which. `axes` are those that have moved since the start of the program or are part of this
-/// move.
+/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; `linear` and `rotary`
+/// state the unit. An axis is marked when it has moved since the start of the program or takes part
+/// in this move.
 class Position {
  public:
   Length linear(Axis axis) const { return Length::mm(value_[index(axis)]); }
@@ -43,7 +43,7 @@ class Position {
     axes_.set(index(axis));
   }
   bool has(Axis axis) const { return axes_.test(index(axis)); }
-  /// Of a linear axis millimetres, of a rotary axis degrees: for loops over all axes.
+  /// Millimetres or degrees: for loops over all axes.
   double raw(Axis axis) const { return value_[index(axis)]; }
   void set_raw(Axis axis, double value) {
     value_[index(axis)] = value;
@@ -54,7 +54,7 @@ class Position {
   void mark(Axis axis) { axes_.set(index(axis)); }
   /// No axis has moved any more; values stay.
   void unmark_all() { axes_.reset(); }
-  /// Keeps the value, but the axis is not among `axes`: it has not moved.
+  /// Keeps the value, but the axis has not moved.
   void unmark(Axis axis) { axes_.reset(index(axis)); }
   bool same_point(const Position& other) const { return value_ == other.value_; }
   friend bool operator==(const Position&, const Position&) = default;
@@ -106,9 +106,9 @@ struct Arc {
   Length center_second;  ///< along its second axis (XY: Y, ZX: X, YZ: Z)
   Plane plane = Plane::XY;
   Turn turn = Turn::Clockwise;
-  Angle sweep;  ///< > 0; > 360 for several turns
+  Angle sweep;  ///< > 0; > 360 for several revolutions
   Feed feed;
-  bool rests = false;  ///< as of a line
+  bool rests = false;  ///< as for a line
 };
 
 /// The arc that a circular thread is cut on; members as in Arc.
@@ -119,24 +119,24 @@ struct ThreadArc {
   Turn turn = Turn::Clockwise;
   Angle sweep;
 };
-/// Feed synchronised to the spindle: the path advances by the lead with each turn.
+/// Feed synchronized to the spindle: the path advances by the lead with each revolution.
 struct Thread {
   Origin origin;
   Position to;
   Length lead;  ///< at the start of the move
   std::optional<Angle> start_angle;
   std::optional<ThreadArc> arc{};  ///< absent: a straight or tapered thread
-  Length lead_change{};            ///< added to the lead with each turn
+  Length lead_change{};            ///< added to the lead with each revolution
 };
-/// The way of a circular thread, fed its lead with each turn; only with `arc`.
+/// The path of a circular thread, fed by its lead with each revolution; only with `arc`.
 Arc arc_of(const Thread& thread);
-/// The constant lead that takes as many turns over `path`.
+/// The constant lead that takes as many revolutions over `path`.
 Length mean_lead(const Thread& thread, Length path);
 
 struct Dwell {
   Origin origin;
   double seconds = 0;
-  std::optional<double> revolutions;  ///< when given, counts instead of seconds
+  std::optional<double> revolutions;  ///< when given, replaces the seconds
 };
 
 struct Spindle {
@@ -152,7 +152,7 @@ struct Coolant {
   bool flood = false;
   bool mist = false;
 };
-/// What a control knows of a tool, where its programs or its memory say it.
+/// The shape of a tool, where programs or the control's memory have it.
 struct ToolShape {
   Length length;  ///< as the control compensates it
   Length radius;
@@ -165,7 +165,7 @@ struct ToolChange {
   std::optional<int> offset;
   std::optional<ToolShape> shape = {};  ///< for graphics; not part of a trace
 };
-/// The block of material that a program says it cuts, its sides along the axes.
+/// The block of material that a program declares, its sides along the axes.
 struct Blank {
   Origin origin;
   Axis spindle_axis = Axis::Z;
@@ -229,15 +229,15 @@ struct Stop {
 /// When a feed hold acts.
 enum class FeedHoldInhibit : std::uint8_t {
   AtOnce,
-  Later,     ///< after the moves it cannot stop, which are made first
-  LaterToo,  ///< one that was asked for before waits on; one asked for from here on acts at once
+  Later,     ///< after the moves that it cannot stop
+  LaterToo,  ///< an earlier hold still waits; one from here on acts at once
 };
-/// What of the operator's panel does not count from here on, until the next of these: while a
-/// thread is tapped, or where the program says so. A feed of a thread ignores feed override and
-/// feed hold without it. Not part of a trace.
+/// The controls of the operator's panel that have no effect from here on, until the next event of
+/// this kind: while a thread is tapped, or where the program inhibits them. The feed of a thread
+/// ignores feed override and feed hold without it. Not part of a trace.
 struct OverrideInhibit {
   Origin origin;
-  bool feed_override = false;  ///< as if it stood at 100 %; that of rapid moves is not meant
+  bool feed_override = false;  ///< as if at 100 %; the rapid override stays
   bool spindle_override = false;
   bool single_block = false;
   FeedHoldInhibit hold = FeedHoldInhibit::AtOnce;
@@ -257,8 +257,8 @@ struct End {
   bool rewind = false;
 };
 
-/// Receives what the program does. Called from the thread that steps the interpreter; must not call
-/// back into it.
+/// Receives the events of a program. Called from the thread that steps the interpreter; must not
+/// call back into it.
 class EventSink {
  public:
   virtual ~EventSink() = default;
@@ -286,7 +286,7 @@ class EventSink {
   virtual void on_warning(const Warning&) {}
   virtual void on_alarm(const Alarm&) {}
   virtual void on_end(const End&) {}
-  /// The block is finished: every event it caused has been delivered. `blocks` counts from 1.
+  /// The block is finished: every event it caused has been delivered.
   virtual void on_block_end(const Origin&) {}
 };
 

@@ -6,8 +6,8 @@
 
 namespace dripline::interpreter {
 
-/// The words of traces and records for what events carry. Outside tools read them: add, do not
-/// rename.
+/// The words of traces and records for the enumerators of events. Outside tools read them: add, do
+/// not rename.
 std::string_view word_of(Units units);
 std::string_view word_of(Turn turn);
 std::string_view word_of(ProbeUntil until);

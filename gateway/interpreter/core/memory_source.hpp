@@ -22,7 +22,7 @@ class MemorySource final : public ProgramSource {
 
   TextWindow fetch(ProgramIndex program, std::uint64_t offset, std::size_t min_bytes) override;
   ProgramLookup find(std::string_view name) override;
-  /// What a called program was looked up as; empty for the main program and one never opened.
+  /// The name under which a called program was opened; empty for the main program and for others.
   std::string_view name_of(ProgramIndex program) const;
 
  private:

@@ -10,9 +10,9 @@
 #include "gateway/interpreter/core/event.hpp"
 #include "protocol/base/result.hpp"
 
-/// The options of a control: the `[control]` table of a setup file. What an option means is its
-/// dialect's business; reading one in the right kind, with errors that name the key, the line and
-/// what was expected, is done here once for all of them.
+/// The options of a control: the `[control]` table of a setup file. The dialect decides
+/// what an option means; this file reads one in the right kind, with errors that name the key, the
+/// line and the expected value.
 namespace dripline::interpreter {
 
 struct OptionValue;
@@ -48,7 +48,7 @@ class Options {
 
   Result<bool> flag(std::string_view key, bool fallback) const;
   Result<std::int64_t> integer(std::string_view key, std::int64_t fallback) const;
-  /// Whole numbers count as numbers.
+  /// Whole numbers are numbers, too.
   Result<double> number(std::string_view key, double fallback) const;
   /// A number in the file's units.
   Result<Length> length(std::string_view key, Length fallback) const;

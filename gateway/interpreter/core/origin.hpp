@@ -6,10 +6,10 @@
 
 namespace dripline::interpreter {
 
-/// Where in the program an event comes from.
+/// The place in the program that an event comes from.
 struct Origin {
-  std::uint64_t block =
-      0;  ///< ordinal of the executed block, counted from 1; loops count every pass
+  /// Ordinal of the executed block, from 1; every pass of a loop has new ones.
+  std::uint64_t block = 0;
   std::uint64_t offset = 0;       ///< of the block's first byte in its program
   std::uint64_t line = 0;         ///< 1-based line of the source text
   std::int64_t sequence = kNone;  ///< the N or block number last seen on this block, or kNone

@@ -2,11 +2,11 @@
 
 #include "gateway/interpreter/core/event.hpp"
 
-/// The locks of a tapping cycle, on every control that cuts the thread in step with the spindle.
-/// `usual` is what the program locks anyway, where the control has codes for that.
+/// The override inhibits of a tapping cycle, on every control that cuts the thread in step with the
+/// spindle. `usual` are those that the program has set itself, where the control has codes for it.
 namespace dripline::interpreter {
 
-/// From the clearance down and back to it.
+/// It is in force from the clearance plane to the bottom and back.
 inline OverrideInhibit tapping_lock(const Origin& origin) {
   return {.origin = origin,
           .feed_override = true,
@@ -16,7 +16,7 @@ inline OverrideInhibit tapping_lock(const Origin& origin) {
           .is_tapping = true};
 }
 
-/// The rapid way out after it: a hold asked for in the hole waits for its end too.
+/// It is in force for the rapid retraction: a hold that came in the hole waits for its end too.
 inline OverrideInhibit lock_after_tap(OverrideInhibit usual) {
   if (usual.hold == FeedHoldInhibit::AtOnce) usual.hold = FeedHoldInhibit::LaterToo;
   return usual;

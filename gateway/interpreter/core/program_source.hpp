@@ -6,7 +6,7 @@
 
 namespace dripline::interpreter {
 
-/// Which text of a run: 0 is the program that was started, others were opened by `find`.
+/// A text of a run: 0 is the program that was started, others were opened by `find`.
 using ProgramIndex = std::uint32_t;
 inline constexpr ProgramIndex kMainProgram = 0;
 
@@ -14,8 +14,8 @@ inline constexpr ProgramIndex kMainProgram = 0;
 struct TextWindow {
   enum class State {
     Ready,   ///< `text` begins at the offset asked for
-    NotYet,  ///< on its way (a drip feed); ask again when the owner says so
-    Failed,  ///< will never come; `reason` says why
+    NotYet,  ///< not here yet (a drip feed); ask again in the next step
+    Failed,  ///< will never come; `reason` states why
   };
   State state = State::NotYet;
   std::string_view

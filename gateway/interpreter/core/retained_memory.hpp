@@ -9,13 +9,13 @@
 #include <type_traits>
 #include <vector>
 
-/// What a control keeps when a program is over: variables, work offsets, tool offsets. Each is a
-/// cell with a name of the control's own ("P10", "#500", "G54.X") and a number in the unit that the
-/// control's memory has at the start. At the next start the cells come back as variables of the
-/// setup, by these names, after all others.
+/// The values that a control keeps when a program is over: variables, work offsets, tool offsets.
+/// Each is a cell with the control's own name ("P10", "#500", "G54.X") and a number in the unit
+/// that the control's memory has at the start. At the next start the cells come back as variables
+/// of the setup, by these names, after all others.
 namespace dripline::interpreter {
 
-/// A cell that holds nothing.
+/// The number of an empty cell.
 inline constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
 
 enum class Keeps : std::uint8_t {
@@ -28,19 +28,18 @@ struct MemoryCell {
   Keeps keeps = Keeps::Always;
 };
 
-/// An interpreter whose control keeps something; found by dynamic_cast, since some keep nothing.
+/// An interpreter whose control keeps values; found by dynamic_cast, because some keep none.
 class RetainedMemory {
  public:
   virtual ~RetainedMemory() = default;
-  /// Always the same for one setup, whatever variables it gives back.
+  /// Always the same list for one setup, whatever variables it restores.
   virtual std::vector<MemoryCell> memory_cells() const = 0;
   /// The cells' numbers in that order, as the block finished last has left them. False, and
   /// `values` as they are: nothing has changed since the call before.
   virtual bool read_memory(std::vector<double>& values) = 0;
 };
 
-/// A name before it is put together: a dialect names thousands of cells for every one that is asked
-/// for.
+/// A name before it is composed: a dialect lists thousands of cells for every one that is read.
 struct CellName {
   std::string_view prefix;
   int number = -1;  ///< none
@@ -87,7 +86,7 @@ bool cell_holds(const CellName& name, double given) {
   return true;
 }
 
-/// Returns what is left over: names that are none, numbers that their cell cannot hold.
+/// Returns the rest: unknown names, and numbers that their cell cannot hold.
 template <class ForEach>
 std::map<std::string, double> write_cells(std::map<std::string, double> given, ForEach for_each) {
   if (given.empty()) return given;

@@ -28,7 +28,7 @@ struct ToolRecord {
   Length radius;
   Length radius_wear;
   int tip = 0;                ///< lathe tool type
-  std::optional<int> pocket;  ///< of the tool changer's magazine
+  std::optional<int> pocket;  ///< its pocket in the tool changer's magazine
   bool is_special = false;    ///< takes its neighbours' pockets too, and keeps its own
 };
 
@@ -41,11 +41,10 @@ struct VariableRecord {
   double value = 0;
 };
 
-/// What a control knows before a program starts. All of it has defaults (spec: trace format, "The
-/// setup file").
+/// The knowledge of a control before a program starts. All members have defaults.
 struct Setup {
   Position start;
-  /// Where the machine stands when a program is taken up in its middle, if not at `start`.
+  /// The place of the machine when a program is resumed in its middle, if not `start`.
   std::optional<Position> stands;
   std::optional<Units> units;
   Switches switches;
@@ -64,12 +63,12 @@ struct Setup {
 /// key is an error.
 Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimetre);
 
-/// What a control keeps in its memory, as the server stores it: `units`, `tool`, `offset`,
-/// `variable` and `control` of a setup file, and nothing else. What describes the machine (start,
-/// probe, answers ...) stays with its gateway. Errors: as parse_setup.
+/// The contents of a control's memory, as the server stores them: `units`, `tool`, `offset`,
+/// `variable` and `control` of a setup file, and nothing else. The description of the machine
+/// (start, probe, answers ...) stays with its gateway. Errors: as parse_setup.
 Result<Setup> parse_control_data(std::string_view toml, Units units = Units::Millimetre);
-/// `data` in the place of what `setup` has of it. Its options replace all of the options, when
-/// there are any.
+/// Replaces the same tables of `setup` by those of `data`. Its options, if any, replace all
+/// options.
 void use_control_data(Setup data, Setup& setup);
 
 }  // namespace dripline::interpreter

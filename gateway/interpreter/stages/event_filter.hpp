@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter {
 
-/// Passes every event on; a stage that derives from it changes some of them. The sink must outlive
+/// Forwards every event; a stage that derives from it changes some of them. The sink must outlive
 /// it.
 class EventFilter : public EventSink {
  public:
@@ -45,7 +45,7 @@ class EventFilter : public EventSink {
   EventSink& out_;
 };
 
-/// Passes events on while it is open.
+/// Forwards events while it is open.
 class EventGate : public EventFilter {
  public:
   using EventFilter::EventFilter;

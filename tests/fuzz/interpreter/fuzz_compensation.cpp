@@ -137,7 +137,7 @@ void run(std::span<const std::uint8_t> data) {
     const auto state = compensator.state();
     demand(compensator.restore(state).has_value() && compensator.state() == state);
   }
-  compensator.settle();
+  compensator.flush();
   if (!compensator.fault()) demand(sink.ended == blocks);
 }
 

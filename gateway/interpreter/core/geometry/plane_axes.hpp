@@ -6,8 +6,8 @@
 
 namespace dripline::interpreter {
 
-/// The axes of a plane in right-handed order: an arc turns from `first` to `second`; `normal` is
-/// the axis a helix rises along.
+/// The axes of a plane in right-handed order: a counterclockwise arc runs from `first` to `second`;
+/// `normal` is the axis a helix rises along.
 struct PlaneAxes {
   Axis first, second, normal;
 };

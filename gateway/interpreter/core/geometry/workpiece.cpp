@@ -67,7 +67,7 @@ bool has_material(const ProbeProfile& profile, double x, double z) {
   for (std::size_t i = 1; i < profile.points.size(); ++i) {
     const auto& a = profile.points[i - 1];
     const auto& b = profile.points[i];
-    if ((a.x.mm() <= x) == (b.x.mm() <= x)) continue;  // half open: a corner counts once
+    if ((a.x.mm() <= x) == (b.x.mm() <= x)) continue;  // half open: a corner is one crossing
     const double share = (x - a.x.mm()) / (b.x.mm() - a.x.mm());
     if (a.z.mm() + share * (b.z.mm() - a.z.mm()) > z) inside = !inside;
   }
@@ -120,7 +120,7 @@ std::optional<double> meet(const ProbeProfile& profile, const Move& move) {
     was_inside = has_material(profile, move.start(Axis::X), move.start(Axis::Z) - 2 * kOnSurface);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    // Just after the last place the move is thought to go on, so that a move that ends on the
+    // Just after the last place the move is extended, so that a move that ends on the
     // outline has met it.
     const bool last = i + 1 == places.size();
     const double next = last ? 1.0 + 1e4 * move.tolerance() : places[i + 1];

@@ -18,8 +18,8 @@ struct ProbePlane {
 struct ProbeCylinder {
   Length center_x, center_y, radius;
 };
-/// A turned part's outline in radius: points (X radius, Z) joined by straight lines; solid on the
-/// side of smaller Z, where it goes on without end. Nothing is solid beyond its smallest and
+/// A turned part's outline in radius: points (X radius, Z) connected by straight lines; solid on
+/// the side of smaller Z, without end. Nothing is solid beyond its smallest and
 /// largest X.
 struct ProbeProfile {
   struct Point {

@@ -77,7 +77,7 @@ Computed rounded(double value);       ///< halves away from zero
 /// and, where a dialect's arithmetic is not that of `rank` and `apply` above:
 ///   int rank(Operator op);
 ///   Computed apply(Operator op, double left, double right);
-/// False when `operand` or `fault` said so. Operators of a rank below `lowest` are left in the
+/// False when `operand` or `fault` gave false. Operators of a rank below `lowest` are left in the
 /// text.
 template <class Terms>
 bool evaluate(Terms& terms, int lowest, double& value) {

@@ -58,7 +58,7 @@ LineState LineReader::fetch_more() {
     reason_ = "the source gave less text than it was asked for";
     return LineState::Failed;
   }
-  // An empty view may have no data; the cursor tells "no window" from "nothing left".
+  // An empty view may have no data; the cursor distinguishes "no window" from "nothing left".
   begin_ = cursor_ = window.text.data() ? window.text.data() : "";
   end_ = begin_ + window.text.size();
   reaches_end_ = window.reaches_end;

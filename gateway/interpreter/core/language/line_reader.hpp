@@ -9,8 +9,8 @@
 
 namespace dripline::interpreter {
 
-/// Where the next line begins. All a dialect has to keep to come back: labels, loops, return
-/// addresses, snapshots.
+/// The place where a line begins. A dialect keeps it to come back: labels, loops, return addresses,
+/// snapshots.
 struct TextPlace {
   ProgramIndex program = kMainProgram;
   std::uint64_t offset = 0;  ///< bytes from the start of the program
@@ -19,9 +19,8 @@ struct TextPlace {
 };
 
 struct SourceLine {
-  std::string_view
-      text;         ///< without its end; valid until the next call on the reader or the source
-  TextPlace place;  ///< of its first byte
+  std::string_view text;  ///< without its end; valid until the next call on reader or source
+  TextPlace place;        ///< of its first byte
 };
 
 struct LineRules {
@@ -32,7 +31,7 @@ struct LineRules {
 enum class LineState : std::uint8_t {
   Ready,
   End,      ///< the program has no more lines
-  NotYet,   ///< the rest of this line is on its way; ask again later
+  NotYet,   ///< the rest of this line is not here yet; ask again later
   Failed,   ///< the source will never give it; see `reason()`
   TooLong,  ///< over LineRules::max_bytes; the place stays before the line
 };
@@ -40,8 +39,8 @@ enum class LineState : std::uint8_t {
 /// Cuts a program into lines, whatever the windows it comes in: the same text gives the same lines
 /// and places for every chunking. A line ends with LF, CR LF, CR or the end of the program. Only
 /// Ready moves the place. Memory: none of its own; a line always lies in one window of the source.
-/// The source must outlive the reader, and while a reader is used nobody else may call fetch or
-/// find on it without a `drop_window()` before the reader's next call.
+/// The source must outlive the reader; after any other call of fetch or find on it, the owner calls
+/// `drop_window()` before the reader's next call.
 class LineReader {
  public:
   explicit LineReader(ProgramSource& source, LineRules rules = {});
@@ -59,21 +58,22 @@ class LineReader {
 
   /// Where the next line begins.
   const TextPlace& place() const { return place_; }
-  /// Goes on from there: `place` must be the beginning of a line. Cheap within the window at hand.
+  /// Continues from there: `place` must be the beginning of a line. Cheap within the window at
+  /// hand.
   void seek(const TextPlace& place);
   /// Looks a program up in the same source; the last line's text is no longer valid.
   ProgramLookup find(std::string_view name);
   /// Drops the window, because the source may have been called by others; the place stays.
   void drop_window();
 
-  /// Why the last call said Failed.
+  /// Why the last call gave Failed.
   const std::string& reason() const { return reason_; }
 
  private:
   std::size_t available() const { return static_cast<std::size_t>(end_ - cursor_); }
 
   /// True when a line and its end lie in the window. A CR at the very end of the window may be half
-  /// of a CR LF, so it does not count unless the program ends there.
+  /// of a CR LF, so it ends no line unless the program ends there.
   bool find_line(std::size_t& length, std::size_t& consumed) const {
     const std::size_t room = available();
     if (room == 0) return false;

@@ -3,7 +3,7 @@
 namespace dripline::interpreter::language {
 
 /// Whatever is there: a slow line must not wait for bytes it need not have. A place that was met
-/// before with too little goes on from what it asked for then.
+/// before with too little continues from what it asked for then.
 std::size_t LineWindow::first_wish(ProgramIndex program, std::uint64_t offset) {
   const bool is_same = wanted_at_.program == program && wanted_at_.offset == offset;
   wanted_at_ = {program, offset};
@@ -13,7 +13,7 @@ std::size_t LineWindow::first_wish(ProgramIndex program, std::uint64_t offset) {
 LineWindow::State LineWindow::fetch(ProgramIndex program, std::uint64_t offset, std::size_t wanted,
                                     std::string_view& text, bool& reaches_end) {
   const TextWindow window = source_->fetch(program, offset, wanted);
-  forget();
+  invalidate();
   wanted_ = wanted;
   if (window.state == TextWindow::State::NotYet) return State::NotYet;
   if (window.state == TextWindow::State::Failed) {

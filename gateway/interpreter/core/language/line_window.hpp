@@ -9,11 +9,11 @@
 namespace dripline::interpreter::language {
 
 /// Shows the text from any offset of a program to the end of its line, through windows of the
-/// source, for dialects that read lines ended by a character they may look at (so that nothing
-/// below checks for the end of the text). What ends a line is the caller's: `FindEnd` gives the
-/// first place in [at, limit) that ends one, or `limit`. Memory is one line. Any other use of the
-/// source makes the window stale: call `forget`. A byte order mark in front of a program is passed
-/// over. `LineReader` is the plainer way to read lines.
+/// source, for dialects whose lines end with a character that they may read (so that no function
+/// below checks for the end of the text). The caller decides what ends a line: `FindEnd` gives the
+/// first place in [at, limit) that does, or `limit`. Memory is one line. Any other use of the
+/// source makes the window stale: call `invalidate`. A byte order mark before a program is skipped.
+/// `LineReader` is the simpler reader of lines.
 class LineWindow {
  public:
   enum class State : std::uint8_t { Ready, NotYet, EndOfText, TooLong, Failed };
@@ -38,13 +38,14 @@ class LineWindow {
   /// The line; `*end()` can be read and ends it.
   const char* begin() const { return begin_; }
   const char* end() const { return end_; }
-  /// Of the line's first byte in its program.
+  /// The offset of the line's first byte in its program.
   std::uint64_t offset() const { return offset_; }
-  /// False of a last line that the program ends instead of a character; `*end()` is a LF then.
+  /// False for a last line that ends with the program instead of a character; `*end()` is a LF
+  /// then.
   bool is_terminated() const { return is_terminated_; }
   const std::string& failure() const { return failure_; }
 
-  void forget() { limit_ = base_; }
+  void invalidate() { limit_ = base_; }
 
  private:
   void show(const char* at, const char* end, std::uint64_t offset) {

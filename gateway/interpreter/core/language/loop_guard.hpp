@@ -4,11 +4,11 @@
 
 namespace dripline::interpreter::language {
 
-/// Tells a program that repeats without end and without anything happening from one that makes part
-/// after part: only passes since the machine last moved, dwelt or waited for an answer count. (A
-/// loop with motion is bounded where programs are run offline; trace/offline_run.hpp.)
+/// Distinguishes a program that repeats without end and without effect from one that makes part
+/// after part: it counts the passes since the machine last moved, dwelt or waited for an answer. (A
+/// loop with motion is bounded where programs run offline: clients/tools/offline.)
 ///
-/// Not part of a snapshot: a run that is resumed counts from 0.
+/// Not part of a snapshot: a resumed run counts from 0.
 class LoopGuard {
  public:
   static constexpr std::uint64_t kMaxIdlePasses = 1'000'000;

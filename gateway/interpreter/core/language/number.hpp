@@ -39,7 +39,7 @@ inline constexpr int kMaxDigits = 18;
 inline constexpr int kMaxWritten = 255;  // of leading and of trailing, zeros included
 
 /// digits / 10^scale, correctly rounded: both are exact doubles up to 2^53 and 10^18, and one
-/// division rounds once. Longer numbers take the slow and exact way.
+/// division rounds once. Longer numbers take the slow and exact path.
 [[gnu::noinline, gnu::cold]] inline double long_to_double(std::uint64_t digits, int scale) {
   std::array<char, 32> text;
   char* at = std::to_chars(text.data(), text.data() + 20, digits).ptr;

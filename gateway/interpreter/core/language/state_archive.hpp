@@ -22,13 +22,13 @@ class StateWriter {
     const auto* bytes = reinterpret_cast<const std::byte*>(&value);
     out_.insert(out_.end(), bytes, bytes + sizeof value);
   }
-  /// A number of elements that follow; false when they cannot be read.
+  /// The number of elements that follow; false when they cannot be read.
   bool size(std::size_t& count, std::size_t) {
     auto stored = static_cast<std::uint32_t>(count);
     (*this)(stored);
     return true;
   }
-  /// What is written is never damaged; for code that serves both ways.
+  /// Written bytes are never damaged; for code that serves both directions.
   void damage() {}
   bool is_damaged() const { return false; }
   std::vector<std::byte> take() { return std::move(out_); }
@@ -37,8 +37,8 @@ class StateWriter {
   std::vector<std::byte> out_;
 };
 
-/// Never reads past the bytes and never gives a bool that is neither; what else a value may be is
-/// for the dialect to check once all is read.
+/// Never reads past the bytes and never gives a bool that is neither true nor false; the dialect
+/// checks the other values when all are read.
 class StateReader {
  public:
   static constexpr bool kReads = true;

@@ -4,20 +4,20 @@
 #include <cstdint>
 #include <string>
 
-/// No block with axis words vanishes: it moves, it changes a state that stays, or it says why not.
+/// No block with axis words vanishes: it moves, changes a state that stays, or reports why not.
 namespace dripline::interpreter::language {
 
 /// The words of the block in hand that have to lead to something. Every dialect opens it with the
 /// words it has read, takes each where it is used, and reports what is left at the end of the
-/// block: an axis word with an alarm, because the tool is then elsewhere than the program says,
-/// any other with a warning.
+/// block: an axis word with an alarm, because the tool is then not where the program
+/// has it; any other with a warning.
 ///
 /// A word is used by an event, by a state that stays (an offset, a datum, a cycle's level) or by a
 /// message that names it. A move to where the tool is already uses its words. A plain move, which
-/// by its form leaves nothing, does not need the account. No allocation; a word a bit.
+/// by its form leaves nothing, does not need the account. No allocation; one bit per word.
 class WordLedger {
  public:
-  /// A bit each, numbered as the dialect numbers its addresses.
+  /// One bit each, numbered as the dialect numbers its addresses.
   using Words = std::uint64_t;
 
   void open(Words owed) { left_ = owed; }

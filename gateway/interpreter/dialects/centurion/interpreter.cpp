@@ -11,8 +11,8 @@
 namespace dripline::interpreter::centurion {
 namespace {
 
-/// What a block begins as. Copied from here, because one put together on the spot for every block
-/// is copied before its parts have reached the memory, and waits for them.
+/// The parts of a block at its begin. Blocks copy this object, because one composed on the spot is
+/// copied before its parts have reached the memory, and waits for them.
 const Block::Parts kFreshParts{};
 
 std::unique_ptr<DryRun> dry_run_of(const ControlOptions& options, EventSink& sink) {
@@ -88,7 +88,7 @@ BlockOutcome CenturionInterpreter::next_block() {
     if (run_.pause != Pause::None) [[unlikely]]
       return BlockOutcome::Paused;
     if (!run_.state.has_header && !run_.is_name_final) [[unlikely]]
-      settle_name();
+      determine_name();
   }
   if (parts.stage == Stage::Items) {
     if (!read_items(run_) || !fits_mode()) [[unlikely]]
@@ -104,7 +104,7 @@ BlockOutcome CenturionInterpreter::next_block() {
   return BlockOutcome::Finished;
 }
 
-/// No block to be seen: more text is needed, the program is over, or it cannot go on.
+/// No block is visible: more text is needed, the program is over, or it cannot continue.
 BlockOutcome CenturionInterpreter::meet_line_state(TextCursor::State state) {
   switch (state) {
     case TextCursor::State::NotYet:
@@ -154,7 +154,7 @@ bool CenturionInterpreter::starts_here() const {
   return start_->is_here(run_, has_number ? std::optional(head.number) : std::nullopt);
 }
 
-/// At a block that is not begun yet.
+/// Whether the start may be at a block that has not been begun.
 bool CenturionInterpreter::may_start_here() {
   if (run_.block.parts.stage != Stage::Start || !start_->needs_jump_back(run_)) return false;
   place_origin(run_.state.at);
@@ -206,7 +206,7 @@ bool CenturionInterpreter::is_skipped() const {
 
 /// The program's name comes from its first block that is not empty: the O word (block_reader.cpp
 /// has it then) or else the comment; and before that block is executed (manual: program numbers).
-void CenturionInterpreter::settle_name() {
+void CenturionInterpreter::determine_name() {
   const char* at = skip_blanks(run_.text.begin());
   if (*at == '%' || is_end_of_block(*at)) return;
   const BlockHead head = read_head(at);

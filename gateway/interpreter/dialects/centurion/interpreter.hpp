@@ -26,7 +26,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   friend BlockInterpreter;
 
   BlockOutcome run_block();
-  void drop_text() { run_.text.forget(); }
+  void drop_text() { run_.text.invalidate(); }
   bool is_at_boundary() const { return run_.block.parts.stage == Stage::Start; }
   Result<void> take_answer(const Answer& answer);
   void after_restore();
@@ -36,7 +36,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   bool begin_block();
   bool is_end_of_segment() const;
   bool is_skipped() const;
-  void settle_name();
+  void determine_name();
   bool finish_block();
   bool fits_mode();
   bool starts_here() const;
@@ -45,7 +45,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   BlockOutcome find_way_back();
   bool begin_at_first();
 
-  // What the run's events pass on their way to the owner's sink; each only where it is asked for.
+  // The run's events pass these before the owner's sink; each exists only where it is asked for.
   std::unique_ptr<DryRun> dry_run_;
   std::unique_ptr<StartSearch> start_;
   std::optional<Snapshot> first_;  ///< the state at the first block, while a start is looked for

@@ -118,8 +118,8 @@ bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view
 }
 
 bool Run::flush_path() {
-  blender.settle();
-  if (state.uses_compensator) compensator.settle();
+  blender.flush();
+  if (state.uses_compensator) compensator.flush();
   return !may_have_failed() || check_path(*this);
 }
 

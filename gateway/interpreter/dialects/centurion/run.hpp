@@ -51,7 +51,7 @@ struct Run : BlockRun {
   void update_stages() {
     if (front == nullptr) return;
     // a move that waits is made under the rules it was read under
-    if (guard.has_zone() != state.modes.checks_zone) blender.settle();
+    if (guard.has_zone() != state.modes.checks_zone) blender.flush();
     connect_stages();
   }
   /// Whether a stage may have refused an event; `check_path` reports which and why.

@@ -78,7 +78,7 @@ BlockOutcome FanucInterpreter::read() {
   Block& block = run_.block;
   answers_of_reading_ = run_.answers_used;
   if (!run_.name_is_settled && block.parts.has_code) [[unlikely]]
-    settle_name();
+    determine_name();
   if (run_.origin.sequence != Origin::kNone) {
     run_.state.last.n = static_cast<int>(run_.origin.sequence);
   }
@@ -92,7 +92,7 @@ BlockOutcome FanucInterpreter::read() {
   return BlockOutcome::Finished;
 }
 
-/// A tape's leader is passed over; % after it, or an O word after code, is the end of the record.
+/// A tape's leader is skipped; % after it, or an O word after code, is the end of the record.
 bool FanucInterpreter::begin_other_block() {
   TextPosition& at = run_.state.at;
   const BlockHead head = read_head(run_.text.begin(), run_.text.end());
@@ -106,7 +106,7 @@ bool FanucInterpreter::begin_other_block() {
   return (head.kind != BlockHead::Kind::Percent && !is_next_program) || departure_end(run_);
 }
 
-/// No block to be seen: more text is needed, the record is over, or it cannot go on.
+/// No block is visible: more text is needed, the record is over, or it cannot continue.
 BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
   if (state == TextCursor::State::NotYet) return BlockOutcome::NeedsText;
   if (run_.block.parts.stage == Stage::Start) place_origin(run_.state.at);
@@ -125,7 +125,7 @@ BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
 }
 
 /// Without an O number, the first block's N names the program.
-void FanucInterpreter::settle_name() {
+void FanucInterpreter::determine_name() {
   if (run_.name.empty() && run_.origin.sequence > 0 && run_.origin.sequence <= 9999) {
     run_.name = fmt::format("O{:04}", run_.origin.sequence);
   }
@@ -148,7 +148,7 @@ bool FanucInterpreter::finish_block() {
   return run_.state.limits.jumps_back == 0 || count_block();
 }
 
-/// Only a program that goes back can go on for ever.
+/// Only a program that jumps back can run for ever.
 bool FanucInterpreter::count_block() {
   if (++run_.state.limits.blocks_after_jumps <= run_.options.max_blocks) return true;
   return run_.fail(ErrorCode::LoopLimit, 0,
@@ -185,7 +185,7 @@ std::optional<CoordinateFrame> FanucInterpreter::frame() const {
 }
 
 void FanucInterpreter::after_restore() {
-  run_.text.forget();
+  run_.text.invalidate();
   run_.block.clear();
   run_.answers.clear();
   run_.answers_used = 0;

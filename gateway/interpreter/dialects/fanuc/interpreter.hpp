@@ -22,7 +22,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   friend BlockInterpreter;
 
   BlockOutcome run_block();
-  void drop_text() { run_.text.forget(); }
+  void drop_text() { run_.text.invalidate(); }
   bool is_at_boundary() const { return run_.block.parts.stage == Stage::Start; }
   Result<void> take_answer(const Answer& answer);
   void after_restore();
@@ -31,7 +31,7 @@ class FanucInterpreter final : public BlockInterpreter<FanucInterpreter>, public
   BlockOutcome read();
   bool begin_other_block();
   bool is_plain() const;
-  void settle_name();
+  void determine_name();
   bool finish_block();
   bool count_block();
 

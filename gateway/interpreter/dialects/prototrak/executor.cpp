@@ -249,7 +249,7 @@ XY Executor::direction_of_chain(ProgramEvent cut) const {
 
 /// The tool stays beside the edge: a position that follows is one even where the edge ends.
 void Executor::end_chain() {
-  path_.settle();
+  path_.flush();
   state_.at = {path_.sent().linear(Axis::X).mm(), path_.sent().linear(Axis::Y).mm()};
   path_.cancel({state_.at.x, state_.at.y});
   wait(StopKind::Operator);

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::prototrak {
 namespace {
 
-/// Ends of lines are layout: a whole program may stand on one.
+/// Ends of lines are layout: a whole program may be on one.
 constexpr LineRules kLineRules{.max_bytes = 60'000, .skip_percent = false};
 constexpr int kLinesAtOnce = 256;
 
@@ -40,7 +40,7 @@ StepState ProtoTrakInterpreter::step(std::uint64_t max_blocks) {
   return StepState::Alarmed;
 }
 
-/// A bounded number of lines; nothing is done before the last one is in.
+/// Takes a bounded number of lines; no event comes before the last one.
 StepState ProtoTrakInterpreter::receive() {
   for (int i = 0; i < kLinesAtOnce; ++i) {
     SourceLine line;
@@ -71,7 +71,7 @@ StepState ProtoTrakInterpreter::receive() {
   return StepState::Ran;
 }
 
-/// The header, then what was noticed while receiving.
+/// Delivers the header, then the warnings of receiving.
 void ProtoTrakInterpreter::deliver_header() {
   program_ = receiver_.program();
   ProgramHeader header;
@@ -117,7 +117,7 @@ Result<void> ProtoTrakInterpreter::answer(const Answer&) {
   return fail(Errc::Syntax, "no question is open");
 }
 
-/// While receiving nothing has happened yet: such a snapshot is that of the start.
+/// A snapshot taken while receiving is that of the start, because nothing has been executed.
 Snapshot ProtoTrakInterpreter::snapshot() const {
   return take_snapshot(
       {static_cast<std::uint8_t>(phase_), program_, executor_.state(),

@@ -68,7 +68,7 @@ BlockOutcome TektronixInterpreter::meet(LineState state) {
   }
 }
 
-/// Everything up to the first end of block: leader, titles, the rewind stop code (spec 3.1).
+/// The text up to the first end of block: leader, titles, the rewind stop code.
 BlockOutcome TektronixInterpreter::hunt(std::string_view line) {
   run_.state.reader = run_.options.search ? ReaderState::Search : ReaderState::Data;
   if (line.find('%') == std::string_view::npos) {
@@ -78,7 +78,7 @@ BlockOutcome TektronixInterpreter::hunt(std::string_view line) {
   return BlockOutcome::NoBlock;
 }
 
-/// Blocks that are passed over change nothing at all (spec 14.1).
+/// Skipped blocks change nothing at all.
 BlockOutcome TektronixInterpreter::search() {
   BlockInProgress& block = run_.state.block;
   if (!block.words.has(Address::N) || block.words[Address::N] != *run_.options.search) {
@@ -115,7 +115,7 @@ BlockOutcome TektronixInterpreter::end_of_tape() {
   return BlockOutcome::NoBlock;
 }
 
-/// What the operator keyed in before CYCLE START: executed like blocks of the tape (spec 14.2).
+/// Blocks that the operator entered before CYCLE START are executed like blocks of the tape.
 BlockOutcome TektronixInterpreter::run_mdi_block() {
   begin_block(TextPlace{});
   const std::string& text = run_.options.mdi[run_.state.mdi_done++];

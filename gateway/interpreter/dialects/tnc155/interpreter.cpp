@@ -64,7 +64,7 @@ BlockOutcome TncInterpreter::next_block() {
   return finish_block() ? BlockOutcome::Finished : BlockOutcome::Paused;
 }
 
-/// A program that is called and not there is complained of when the run begins.
+/// A called program that is missing is an alarm at the begin of the run.
 BlockOutcome TncInterpreter::check_calls() {
   const bool is_wanted = run_.options.checks_calls && !run_.options.blockwise_restrictions;
   const auto outcome =
@@ -97,7 +97,7 @@ BlockOutcome TncInterpreter::find_definition() {
   return BlockOutcome::Finished;
 }
 
-/// What the block needs of the text that the run has not come to.
+/// Reads ahead what the block needs from the text after it.
 BlockOutcome TncInterpreter::look_ahead() {
   peeked_blend_ = false;
   if (is_start()) {
@@ -111,7 +111,7 @@ BlockOutcome TncInterpreter::look_ahead() {
     is_definition_known_ = outcome == BlockOutcome::Finished;
     if (!is_definition_known_ || !is_move) return outcome;
   }
-  // A corner is known from the block after it: that block is looked at first.
+  // A corner is known from the block after it: that block is read first.
   std::string_view next;
   const ReadState state = run_.reader.peek(run_.state.reading, next);
   if (state == ReadState::NotYet) return BlockOutcome::NeedsText;
@@ -119,7 +119,7 @@ BlockOutcome TncInterpreter::look_ahead() {
   return BlockOutcome::Finished;
 }
 
-/// In ISO a corner may stand after other words, whose own blocks of plain language come first.
+/// In ISO a corner may come after other words, whose own blocks of plain language come first.
 bool TncInterpreter::is_blend_next(std::string_view text) {
   const ReadingState& reading = run_.state.reading;
   return may_be_blend(text, reading.program.form) &&
@@ -127,7 +127,7 @@ bool TncInterpreter::is_blend_next(std::string_view text) {
          is_blend(parts_ahead_.blocks[0]);
 }
 
-/// A block whose successor has not arrived is kept, and the run stays in front of it.
+/// A block whose successor has not arrived is kept, and the run stays before it.
 BlockOutcome TncInterpreter::read() {
   const ReadingState before = run_.state.reading;
   const bool was_kept = std::exchange(has_kept_block_, false);
@@ -193,7 +193,7 @@ BlockOutcome TncInterpreter::find_way_back() {
   return BlockOutcome::Finished;
 }
 
-/// Blocks of plain language that follow one another are numbered so.
+/// Blocks of plain language have consecutive numbers.
 bool TncInterpreter::check_number() {
   std::int32_t& due = run_.state.number_due;
   if (run_.state.reading.program.form != Form::Plain) return true;
@@ -206,7 +206,7 @@ bool TncInterpreter::check_number() {
                                           : fmt::format("{} where {} was due", number, wanted));
 }
 
-/// The text ends without END PGM: as if it were there, with what the last moves meet.
+/// The text ends without END PGM: the program ends as with it, after a check of the last moves.
 BlockOutcome TncInterpreter::meet_end() {
   place_origin(run_.reader.place());
   end_program(run_, false);
@@ -219,7 +219,7 @@ bool TncInterpreter::execute_parts() {
     const bool is_last = part_ + 1 == parts.count;
     run_.blend_follows = is_last ? peeked_blend_ : is_blend(parts.blocks[part_ + 1]);
     if (!execute(run_, parts.blocks[part_])) return false;
-    // what a part has done to the contour comes before what the next one finds wrong
+    // a fault of this part in the contour comes before the faults of the next part
     if (run_.state.uses_stages && !is_last && !check_stages(run_)) return false;
     if (run_.state.jump.kind != JumpKind::None && !is_last) [[unlikely]] {
       return run_.fail(ErrorCode::BlockFormatIncorrect,
@@ -232,7 +232,7 @@ bool TncInterpreter::execute_parts() {
   return true;
 }
 
-/// What the moves up to here have met.
+/// Whether the moves up to here have met a limit or broken a rule of the contour.
 bool TncInterpreter::check_moves() {
   if (run_.limits.reached()) [[unlikely]]
     return run_.fail_at_limit();

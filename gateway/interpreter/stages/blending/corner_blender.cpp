@@ -19,7 +19,7 @@ void give(EventSink& sink, const Line& move) {
   sink.on_line(move);
 }
 
-/// Little is written: a move announces nothing as a rule.
+/// Few members are written, because most moves announce nothing.
 void drop(Announced& announced) {
   announced.corner.reset();
   announced.estimate.reset();
@@ -59,7 +59,7 @@ void CornerBlender::follow(const Position& to) {
 
 void CornerBlender::set_plane(Plane plane) {
   if (plane == state_.plane) return;
-  settle();
+  flush();
   state_.plane = plane;
 }
 
@@ -143,22 +143,22 @@ void CornerBlender::on_linear(const Move& move, Feed feed, bool rests) {
 
 void CornerBlender::on_rapid(const Rapid& event) {
   if (policy_.blends_rapids) return on_linear(event, Feed{}, event.rests);
-  settle();
+  flush();
   if (fault_) return;
   drop(state_.next);
   follow(event.to);
   sink_->on_rapid(event);
 }
 
-/// Two lines with nothing to say about the corner between them: no geometry, and little copying.
+/// Two lines whose corner no word shapes: no geometry, and little copying.
 bool CornerBlender::flows_on(const Line& event) {
   if (!state_.has_element || state_.next.corner || state_.next.back || fault_) return false;
   Element& element = state_.waiting();
   if (element.is_arc || element.announced.corner) return false;
   const PlaneAxes axes = axes_of(state_.plane);
   const PlaneVector end = in_plane(event.to, axes);
-  const PlaneVector way = end - in_plane(state_.programmed, axes);
-  if (std::fabs(way.first) + std::fabs(way.second) <= 2 * kNoLength) return false;
+  const PlaneVector along = end - in_plane(state_.programmed, axes);
+  if (std::fabs(along.first) + std::fabs(along.second) <= 2 * kNoLength) return false;
   finish(nullptr);
   element.from = element.end;
   element.end = end;
@@ -169,7 +169,7 @@ bool CornerBlender::flows_on(const Line& event) {
   state_.next.estimate.reset();
   state_.programmed = event.to;
   state_.has_element = true;
-  if (!waits(element)) settle();
+  if (!waits(element)) flush();
   return true;
 }
 
@@ -188,7 +188,7 @@ void CornerBlender::on_arc(const Arc& event) {
               event.origin});
       return;
     }
-    settle();
+    flush();
     drop(state_.next);
     follow(event.to);
     return sink_->on_arc(event);
@@ -226,7 +226,7 @@ void CornerBlender::take(Element& element) {
   state_.programmed = element.line.to;
   state_.swap_elements();
   state_.has_element = true;
-  if (!waits(element)) settle();
+  if (!waits(element)) flush();
 }
 
 /// Whether an arc that no blend corrects has its `end` on its circle; else refused.
@@ -300,7 +300,7 @@ void CornerBlender::finish(const Corner* corner) {
   corner_ = nullptr;
 }
 
-void CornerBlender::settle() {
+void CornerBlender::flush() {
   if (!state_.has_element || fault_) return;
   const Element& element = state_.waiting();
   if (element.announced.corner && policy_.refuses_open_corner) {
@@ -314,7 +314,7 @@ void CornerBlender::settle() {
 bool CornerBlender::make_room(const Origin& origin) {
   if (state_.waiting().announced.corner)
     return refuse({FaultKind::TooMuchBetween, state_.waiting().line.origin, origin});
-  settle();
+  flush();
   return !fault_;
 }
 
@@ -357,7 +357,7 @@ void CornerBlender::on_thread(const Thread& event) {
   if (state_.next.back && !fault_) {
     lead_back(event);
   } else {
-    settle();
+    flush();
   }
   if (fault_) return;
   state_.next = {};

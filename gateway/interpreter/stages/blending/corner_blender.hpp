@@ -21,16 +21,16 @@ namespace dripline::interpreter::blending {
 class CornerBlender final
     : public look_ahead::LookAheadStage<CornerBlender, impl::State, FaultKind> {
  public:
-  /// The sink must outlive it. `start` is where the machine stands.
+  /// The sink must outlive it. `start` is where the machine is.
   CornerBlender(const Policy& policy, EventSink& sink, const Position& start = {});
   /// In front of compensation, which then takes its commands through this stage.
   CornerBlender(const Policy& policy, CompensationSink& sink, const Position& start = {});
 
-  /// Of the elements. Another plane than the present one ends the wait.
+  /// The plane of the elements. Another plane than the present one ends the wait.
   void set_plane(Plane plane);
 
-  /// The next move, or the one that waits (a block of its own says so, whose place the inserted
-  /// piece takes), ends in a corner with the one after it: an arc that touches both, or a straight
+  /// The next move, or the waiting one (by a block of its own, whose place the inserted piece
+  /// takes), ends in a corner with the one after it: an arc that touches both, or a straight
   /// piece between two lines. `feed` of the piece: none means that of the move (a chamfer of a
   /// rapid move is then rapid too). A size of 0 is no corner.
   void round_next_corner(Length radius, std::optional<Feed> feed = {});
@@ -40,13 +40,13 @@ class CornerBlender final
   void chamfer_corner(const Origin& origin, Length size, Chamfer measure = Chamfer::Leg,
                       std::optional<Feed> feed = {});
 
-  /// The move that waits ends in no corner after all.
+  /// The waiting move ends in no corner after all.
   void drop_corner();
 
-  /// The ends of the next move are estimates, of an arc the center and this radius are not. Where
-  /// two such moves follow one another, they join at the intersection nearest to the estimate; a
-  /// line that misses its arc is turned about its other end until it touches. A point within
-  /// `tolerance` of an arc is on it.
+  /// The ends of the next move are approximate; the center of an arc and this radius are exact.
+  /// Where two such moves follow one another, they meet at the intersection nearest to the
+  /// programmed point; a line that misses its arc is turned about its other end until it touches. A
+  /// point within `tolerance` of an arc is on it.
   void approximate_end(Length tolerance, Length radius = {});
   /// The next move, a line or a straight thread, has this slope (in the plane, from its first axis)
   /// and begins where it meets the move before it, which ends there.
@@ -60,9 +60,9 @@ class CornerBlender final
   /// An ordinary end of a block where no compensation follows.
   void on_uncounted_block_end(const Origin& event) override;
 
-  /// Ends what waits where the program says.
-  void settle();
-  /// Nothing waiting or announced, no fault, the machine at `start`: nothing is given out.
+  /// Ends the waiting move where it is programmed.
+  void flush();
+  /// No move waiting or announced, no fault, the machine at `start`: no event is given out.
   void reset(const Position& start);
 
   void on_rapid(const Rapid& event) override;

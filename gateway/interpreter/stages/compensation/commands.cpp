@@ -16,7 +16,7 @@ void Compensator::on_compensation(const Command& command) {
     case Command::Kind::TurnOff:
       return stop();
     case Command::Kind::Cancel:
-      settle();
+      flush();
       state_.phase = Phase::Off;
       return;
     case Command::Kind::SuppressOutput:
@@ -45,7 +45,7 @@ void Compensator::use(const Cutter& cutter) {
 void Compensator::stop() {
   if (state_.phase == Phase::On) {
     state_.phase = Phase::Ending;
-    if (policy_.cancel == Cancel::OwnNormal) settle();
+    if (policy_.cancel == Cancel::OwnNormal) flush();
   } else if (state_.phase == Phase::Starting) {
     state_.phase = Phase::Off;
   }
@@ -64,7 +64,7 @@ void Compensator::turn_off_by_arc(const Origin& origin, Length radius) {
 }
 
 void Compensator::begin_contour(const Cutter& cutter) {
-  settle();
+  flush();
   use(cutter);
   state_.phase = Phase::On;
   state_.is_displaced = true;
@@ -99,7 +99,7 @@ void Compensator::cancel(PlaneVector programmed) {
 }
 
 void Compensator::cancel_in_parallel() {
-  settle();
+  flush();
   state_.phase = Phase::Parallel;
   state_.begins_contour = false;
 }

@@ -13,7 +13,7 @@ using namespace impl;
 
 namespace {
 
-/// By so little an arc may be smaller than the cutter: rounding.
+/// Rounding may make an arc this much smaller than the cutter.
 constexpr double kFits = 1e-9;
 
 void give(EventSink& sink, const Rapid& move) {
@@ -50,7 +50,7 @@ void Compensator::follow(const Position& to) {
   state_.is_displaced = false;
 }
 
-/// The program goes on, the tool stays.
+/// The program continues, the tool stays.
 void Compensator::pass_over(const Position& to) {
   state_.programmed = to;
   state_.is_displaced = true;
@@ -63,7 +63,7 @@ bool Compensator::is_off_plane() const {
   return state_.is_displaced && length(apart) > kNoLength;
 }
 
-/// Of the nose center; the tool's position is that of its tip.
+/// The place of the nose center; the tool's position is that of its tip.
 PlaneVector Compensator::nose() const {
   return in_plane(state_.sent, axes_of(state_.plane)) - state_.tip;
 }
@@ -94,7 +94,7 @@ void Compensator::on_linear(const Move& move, Feed feed, bool rests) {
   take(element);
 }
 
-void Compensator::settle() {
+void Compensator::flush() {
   if (!state_.has_element || fault_) return;
   finish(state_.waiting().own_end());
 }
@@ -111,7 +111,7 @@ void Compensator::keep_in_plane(Position& to) const {
 void Compensator::on_block_end(const Origin& event) {
   hold_or_deliver(look_ahead::BlockEnd{event}, event);
   if (!state_.has_element || event.block == state_.waiting().origin.block) return;
-  if (++state_.idle_blocks > policy_.blocks_without_motion) settle();
+  if (++state_.idle_blocks > policy_.blocks_without_motion) flush();
 }
 
 void Compensator::on_uncounted_block_end(const Origin& event) {
@@ -209,7 +209,7 @@ bool Compensator::accepts_arc(const Element& arc) {
   return true;
 }
 
-/// The corner between what waits and `next` is known now.
+/// The corner between the waiting element and `next` is known now.
 void Compensator::decide_corner(Element& next) {
   const Element& first = state_.waiting();
   if (first.rounds_corner && !end_corner(next)) return;
@@ -231,7 +231,7 @@ void Compensator::reach_begin(Element& next) {
     next.lead_in.add({.is_arc = false, .to = next.begin, .center = {}});
 }
 
-/// Nothing waits: the tool stands on an end that was decided without this element.
+/// No element waits: the tool is on an end that was decided without this one.
 void Compensator::begin_alone(Element& element) {
   element.begin = nose();
   if (element.role != Role::Contour) return;

@@ -17,7 +17,7 @@ namespace dripline::interpreter::compensation {
 /// element itself.
 class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::State, FaultKind> {
  public:
-  /// The sink must outlive it. `start` is where the machine stands.
+  /// The sink must outlive it. `start` is where the machine is.
   Compensator(const Policy& policy, EventSink& sink, const Position& start = {});
 
   void on_compensation(const Command& command) override;
@@ -27,9 +27,9 @@ class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::S
   /// As `cancel`, but the next move in the plane, a straight one, keeps the distance the tool has
   /// from the programmed point now, at its end as well.
   void cancel_in_parallel();
-  /// The start-up move that waits meets the contour by an arc of this radius, which comes from a
-  /// block of its own: tangent to the contour's begin, straight to where it is tangent to the way
-  /// from the tool, on the tool's side. False when no start-up move waits.
+  /// The waiting start-up move meets the contour by an arc of this radius, which comes from a block
+  /// of its own: tangent to the begin of the contour and to the straight move from the tool, on the
+  /// tool's side. False when no start-up move waits.
   bool approach_by_arc(const Origin& origin, Length radius);
   /// As `turn_off`; the cancel move leaves the contour by such an arc.
   void turn_off_by_arc(const Origin& origin, Length radius);
@@ -39,28 +39,28 @@ class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::S
   void begin_contour(const Cutter& cutter, PlaneVector programmed);
   /// As `cancel_in_parallel`, and where that move ends a contour begins.
   void turn_on_in_parallel(const Cutter& cutter);
-  /// The start-up move that waits goes to its programmed end, and the next move in the plane is the
+  /// The waiting start-up move goes to its programmed end, and the next move in the plane is the
   /// start-up move.
   void start_again();
-  /// Goes round the outside of the corner at the end of the move that waits in this manner.
+  /// The outside of the corner at the end of the waiting move is rounded in this manner.
   void shape_corner(OutsideCorner shape);
-  /// Round the outside of the corner at the end of the next move in the plane in this manner.
+  /// The outside of the corner at the end of the next move in the plane is rounded in this manner.
   void shape_next_corner(OutsideCorner shape);
-  /// Goes round the corner that the last move has come to as a move of its own: on the cutter's
-  /// circle from that move's normal to the one of the next move in the plane, or at once to that of
-  /// the direction `along`, of length 1. Nothing where nothing is offset. False: no compensated
-  /// move came before.
+  /// Rounds the corner at the end of the last move as a move of its own: on the cutter's circle
+  /// from that move's normal to the one of the next move in the plane, or at once to that of the
+  /// direction `along`, of length 1. No effect without an offset. False: no compensated move came
+  /// before.
   bool round_outside_corner(const Origin& origin, Feed feed, std::optional<PlaneVector> along = {});
-  /// Ends what waits on its own normal. Compensation stays on.
-  void settle();
-  /// Off, nothing waiting, no fault, the machine at `start`: nothing is given out.
+  /// Ends the waiting move on its own normal. Compensation stays on.
+  void flush();
+  /// Off, no move waiting, no fault, the machine at `start`: no event is given out.
   void reset(const Position& start);
 
   /// On or starting; false once `turn_off` has been called.
   bool is_on() const;
   /// The next move in the plane is the start-up move.
   bool is_starting() const { return state_.phase == impl::Phase::Starting; }
-  /// The move that waits is the start-up move.
+  /// The waiting move is the start-up move.
   bool is_start_waiting() const {
     return state_.has_element && state_.waiting().role == impl::Role::StartUp;
   }

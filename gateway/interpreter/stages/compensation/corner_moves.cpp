@@ -2,12 +2,12 @@
 
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
-/// A corner that a block of its own goes round.
+/// A corner that a block of its own rounds.
 namespace dripline::interpreter::compensation {
 
 using namespace impl;
 
-/// Of the last compensated move at its end.
+/// The direction of the last compensated move at its end.
 std::optional<PlaneVector> Compensator::last_direction() const {
   if (state_.has_element) return state_.waiting().direction_out;
   if (state_.phase != Phase::On) return std::nullopt;
@@ -34,11 +34,11 @@ bool Compensator::round_outside_corner(const Origin& origin, Feed feed,
     return true;
   }
   take(element);
-  if (along) settle();
+  if (along) flush();
   return true;
 }
 
-/// The corner that the element which waits goes round: now the next one is known.
+/// The waiting element rounds a corner, and the next element is known now.
 bool Compensator::end_corner(const Element& next) {
   if (turn_corner(state_.waiting(), next.direction_in)) return true;
   return refuse({FaultKind::ConcaveCorner, state_.waiting().origin, next.origin});

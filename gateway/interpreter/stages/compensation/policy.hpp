@@ -8,14 +8,15 @@
 /// fills a Policy; it never changes how another control's rules are carried out.
 namespace dripline::interpreter::compensation {
 
-/// Of the path, looking along it, with the plane's third axis pointing at the viewer.
+/// The side of the path, looking along it, with the plane's third axis pointing at the viewer.
 enum class Side : std::uint8_t { Left, Right };
 
 /// How the tool goes round the outside of a corner. Where a rapid move follows, `Arc` means
 /// `ExtendTangents` unless `Policy::rounds_at_rapid`.
 enum class OutsideCorner : std::uint8_t {
-  ExtendTangents,   ///< both offset elements go on along their tangents: to their intersection, or
-                    ///< beyond `Policy::sharpest` each by one radius, joined by a straight piece
+  ExtendTangents,  ///< both offset elements continue along their tangents: to their intersection,
+                   ///< or beyond `Policy::sharpest` each by one radius, with a straight piece
+                   ///< between
   Arc,              ///< an arc of the cutter radius about the corner
   IntersectCurves,  ///< the offset lines and circles themselves, prolonged to where they meet
 };
@@ -62,12 +63,12 @@ struct Policy {
   int blocks_without_motion = 1;
   /// A rapid move is a fast feed move: it gets the corner arcs of any other.
   bool rounds_at_rapid = false;
-  /// Of an arc that leads to or from a contour, or round a corner, whose element there is a rapid
-  /// move.
+  /// The feed of an arc that leads to or from a contour, or round a corner, whose element is a
+  /// rapid move.
   Feed arc_at_rapid;
 };
 
-/// What is offset, by how much, to which side. A negative radius swaps the side. `tip_first` and
+/// The offset of the path: its amount and side. A negative radius swaps the side. `tip_first` and
 /// `tip_second` lead from the center of a lathe tool's nose to the point that events position.
 struct Cutter {
   Plane plane = Plane::XY;

@@ -9,10 +9,10 @@
 
 #include "gateway/interpreter/core/event.hpp"
 
-/// What stages that look one move ahead share: the events that wait with the move.
+/// The events that wait with the move in a stage that looks one move ahead.
 namespace dripline::interpreter::look_ahead {
 
-inline constexpr std::size_t kMaxHeldEvents = 256;  ///< ends of blocks do not count
+inline constexpr std::size_t kMaxHeldEvents = 256;  ///< without the ends of blocks
 inline constexpr std::size_t kMaxHeldText = 4096;
 
 /// An event with a text, whose characters are kept apart.
@@ -26,14 +26,14 @@ struct HeldText {
 struct BlockEnd {
   Origin origin;
 };
-/// Events that only say that a block is over. A stage that has a kind of its own names it here.
+/// Whether an event only marks the end of a block. A stage with a kind of its own names it here.
 template <class Event>
 inline constexpr bool kIsBlockEnd = false;
 template <>
 inline constexpr bool kIsBlockEnd<BlockEnd> = true;
 
-/// What came after the move that waits, in order; Rapid and Line are moves of axes outside the
-/// plane, `Own` what only one stage knows. Fixed size.
+/// The events after the waiting move, in order; Rapid and Line are moves of axes outside the plane,
+/// `Own` the events of one stage alone. Fixed size.
 template <class... Own>
 class HeldEvents {
  public:
@@ -67,13 +67,13 @@ class HeldEvents {
   void clear() { count_ = counted_ = text_size_ = 0; }
 
  private:
-  /// So many places are used before ends of blocks in a row share one.
+  /// From so many events on, ends of blocks in a row share a place.
   static constexpr std::size_t kApart = 32;
-  /// One end after every other event, and those that stood apart.
+  /// One end after every other event, and those before kApart.
   static constexpr std::size_t kPlaces = kApart + 2 * kMaxHeldEvents;
 
-  /// While much waits, ends of blocks that did nothing in between are told by the last of them: a
-  /// long calculation between two moves needs no room, however many blocks a form takes for it.
+  /// When many events wait, the last one of the ends in a row stands for all: a long calculation
+  /// between two moves needs no room, however many blocks it takes.
   template <class End>
   bool push_end(const End& end) {
     if (count_ >= kApart) {
@@ -96,7 +96,7 @@ class HeldEvents {
   std::size_t count_ = 0, counted_ = 0, text_size_ = 0;
 };
 
-/// Gives an event to a sink as what it was.
+/// Delivers a held event to a sink.
 struct Forwarder {
   EventSink& sink;
 

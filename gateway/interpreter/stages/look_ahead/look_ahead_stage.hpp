@@ -40,9 +40,9 @@ struct StageState {
 /// A stage of a dialect that sees one move ahead. A move in the plane waits until the next one
 /// decides its end; all events in between, block ends included, wait with it and keep their order.
 /// This class has all but the moves; `Stage`, which derives from it, adds
-/// - `settle()`: ends the waiting move without its successor;
+/// - `flush()`: ends the waiting move without its successor;
 /// - `follow(position)`: the machine is where the program takes it to be;
-/// - `make_room(origin)`: the held events are full. Settles, or refuses and gives false;
+/// - `make_room(origin)`: the held events are full. Flushes, or refuses and gives false;
 /// - `keep_in_plane(position)`: a move outside the plane keeps the path's point in it;
 /// - `deliver_own(event)`, for the kinds of events that only this stage holds.
 ///
@@ -60,7 +60,7 @@ class LookAheadStage : public compensation::CompensationSink {
   const Position& sent() const { return state_.sent; }
   /// The machine is elsewhere than the events say (a reference point, a restart).
   void place(const Position& at) {
-    stage().settle();
+    stage().flush();
     stage().follow(at);
   }
 
@@ -86,29 +86,29 @@ class LookAheadStage : public compensation::CompensationSink {
   }
   void on_message(const Message& event) override { hold_or_deliver(held(event), event.text); }
 
-  /// These need the tool in its place: the waiting move is settled first.
+  /// These need the tool in its place: the waiting move is flushed first.
   void on_thread(const Thread& event) override {
-    stage().settle();
+    stage().flush();
     if (fault_) return;
     stage().follow(event.to);
     sink_->on_thread(event);
   }
   void on_probe(const Probe& event) override {
-    stage().settle();
+    stage().flush();
     if (fault_) return;
     if (event.result) stage().follow(event.result->at);
     sink_->on_probe(event);
   }
   void on_prompt(const Prompt& event) override {
-    stage().settle();
+    stage().flush();
     if (!fault_) sink_->on_prompt(event);
   }
   void on_end(const End& event) override {
-    stage().settle();
+    stage().flush();
     if (!fault_) sink_->on_end(event);
   }
   void on_alarm(const Alarm& event) override {
-    stage().settle();
+    stage().flush();
     sink_->on_alarm(event);
   }
 

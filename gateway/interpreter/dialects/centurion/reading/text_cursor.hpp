@@ -75,7 +75,7 @@ class TextCursor {
     return window_.offset() + static_cast<std::uint64_t>(begin_ - window_.begin());
   }
   const std::string& failure() const { return window_.failure(); }
-  void invalidate() { window_.forget(); }
+  void invalidate() { window_.invalidate(); }
 
   /// Moves `position` after the block that is visible.
   void advance(TextPosition& position) const {

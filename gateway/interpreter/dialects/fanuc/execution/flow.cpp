@@ -150,7 +150,7 @@ BlockOutcome enter_call(Run& run, const TextPosition& entry) {
 BlockOutcome call_library(Run& run) {
   const std::uint32_t number = run.state.jump.number;
   const ProgramLookup lookup = run.source.find(fmt::format("O{:04}", number));
-  run.text.forget();
+  run.text.invalidate();
   if (lookup.state == ProgramLookup::State::NotYet) return BlockOutcome::NeedsText;
   if (lookup.state == ProgramLookup::State::NotFound) {
     run.fail(ErrorCode::NumberNotFound, 0, fmt::format("O{:04}", number));

@@ -60,7 +60,7 @@ class TextCursor {
   /// Of the block's first byte in its program.
   std::uint64_t offset() const { return window_.offset(); }
   const std::string& failure() const { return window_.failure(); }
-  void forget() { window_.forget(); }
+  void invalidate() { window_.invalidate(); }
 
   /// Moves `position` after the block that ends at `block_end`, a semicolon or the line's end.
   void advance(TextPosition& position, const char* block_end) const {

@@ -22,7 +22,7 @@ compensation::Cutter cutter_of(const State& state, Compensation side) {
 
 /// What the corner stage holds goes on: the block is no side of a corner.
 void release_corner(Run& run) {
-  if (run.state.joins) run.blender.settle();
+  if (run.state.joins) run.blender.flush();
 }
 
 /// A nominal point of the plane where the machine has it.
@@ -246,7 +246,7 @@ bool finish_move(Run& run, const Block& block, const PlaneMove& move) {
   if (move.has_any) state.awaits_contour = false;
   if (block.m == 97 && state.joins) shape_corner(run);
   if (state.joins && !run.blend_follows) {
-    run.blender.settle();
+    run.blender.flush();
     state.joins = false;
   }
   last.exists = true;

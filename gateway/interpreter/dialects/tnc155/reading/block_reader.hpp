@@ -75,7 +75,7 @@ class BlockReader {
   }
   ProgramLookup find(std::string_view name);
   void drop_window() {
-    window_.forget();
+    window_.invalidate();
     is_peeked_ = false;
   }
 

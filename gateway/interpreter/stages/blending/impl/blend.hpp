@@ -7,14 +7,14 @@
 
 namespace dripline::interpreter::blending::impl {
 
-/// Where one element goes over into the next.
+/// The point where one element ends and the next begins.
 struct Blend {
   PlaneVector at;
   std::optional<FaultKind> fault;
   double off_by = 0, radius = 0;  ///< of OffArc
 };
 
-/// `first` begins where it truly does and ends where the program says; `second` begins there.
+/// `first` has its true begin and its programmed end, where `second` begins.
 Blend blend_of(const Element& first, const Element& second);
 /// Whether an arc that nothing corrects has `point` on its circle.
 Blend blend_on(const Element& element, PlaneVector point);

@@ -5,7 +5,7 @@
 namespace dripline::interpreter::blending::impl {
 namespace {
 
-/// By so little, in radians, an arc that is a point may turn the wrong way.
+/// An arc that is a point may run backwards by this much, in radians.
 constexpr double kNoTurn = 1e-9;
 constexpr double kFullTurn = 2 * Angle::kPi;
 

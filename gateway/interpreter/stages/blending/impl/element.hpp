@@ -13,17 +13,17 @@ namespace dripline::interpreter::blending::impl {
 /// Moves shorter than a tenth of a nanometre are none: their direction would be rounding noise.
 inline constexpr double kNoLength = 1e-7;
 
-/// What the corner at the end of an element becomes.
+/// The shape of the corner at the end of an element.
 struct CornerShape {
   enum class Kind : std::uint8_t { Round, ChamferLeg, ChamferFace };
   Kind kind = Kind::Round;
   double size = 0;
-  /// Told by a block of its own, whose place the inserted piece takes (`CornerPlace`).
+  /// By a block of its own, whose place the inserted piece takes (`CornerPlace`).
   bool has_own_block = false;
   std::optional<Feed> feed;  ///< else that of the element
 };
 
-/// Both ends of a move are estimates: its joins with others of the kind are worked out.
+/// Both ends of a move are approximate: where it meets others of this kind is computed.
 struct Estimate {
   double tolerance = 0;  ///< a point this near to a circle is on it
   double radius = 0;     ///< of an arc
@@ -35,7 +35,7 @@ struct LeadBack {
   Back which = Back::Nearest;
 };
 
-/// What is said about the next move before it comes.
+/// The words about the next move that come before it.
 struct Announced {
   std::optional<CornerShape> corner;
   std::optional<Estimate> estimate;
@@ -45,28 +45,28 @@ struct Announced {
 struct Element {
   bool is_rapid = false;
   bool is_arc = false;
-  bool is_moved = false;  ///< an end is not where the program has it
-  /// As programmed; of an arc and a rapid move what they have of it.
+  bool is_moved = false;  ///< an end is not the programmed one
+  /// As programmed; the members that an arc and a rapid move have, too.
   Line line;
-  PlaneVector from, end;  ///< as programmed until its joins are decided
+  PlaneVector from, end;  ///< as programmed until its corners are decided
   PlaneVector center;     ///< of an arc
   double side = 1;        ///< +1 turns to the left, -1 to the right
   double sweep = 0;       ///< radians, > 0
   Angle given_sweep;      ///< as programmed, exactly
   Announced announced;
 
-  /// Of the circle an arc lies on, near its `point`.
+  /// The radius of an arc's circle near `point`.
   double radius_at(PlaneVector point) const;
   PlaneCircle circle_at(PlaneVector point) const { return {center, radius_at(point)}; }
   /// Directions of length 1 at start and end.
   PlaneVector direction_in() const;
   PlaneVector direction_out() const;
-  /// Ends that a join moved. The sweep follows.
+  /// Moves an end. The sweep follows.
   void begin_at(PlaneVector point);
   void end_at(PlaneVector point);
 };
 
-/// From `from` to `end` the given way round, in [0, 2 pi); full turns count as none.
+/// From `from` to `end` in the direction of `arc`, in [0, 2 pi); full circles are left out.
 double sweep_between(const Element& arc, PlaneVector from, PlaneVector end);
 
 }  // namespace dripline::interpreter::blending::impl

@@ -5,7 +5,7 @@
 namespace dripline::interpreter::blending::impl {
 namespace {
 
-/// Axes that stay where they are do not count as moved.
+/// Axes that stay where they are have not moved.
 void place(Position& at, const PlaneAxes& axes, PlaneVector to) {
   if (at.raw(axes.first) != to.first) at.set_raw(axes.first, to.first);
   if (at.raw(axes.second) != to.second) at.set_raw(axes.second, to.second);

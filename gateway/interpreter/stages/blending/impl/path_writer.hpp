@@ -11,7 +11,7 @@ class PathWriter {
   PathWriter(EventSink& sink, State& state) : sink_(sink), state_(state) {}
 
   void put_out(const Element& element);
-  /// The piece at the end of `element`, which has been put out.
+  /// The piece at the end of `element`, after it.
   void put_out(const Corner& corner, const Element& element, const Origin& origin);
 
  private:

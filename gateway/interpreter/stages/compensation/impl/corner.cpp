@@ -26,8 +26,8 @@ struct Turning {
   }
 };
 
-/// Where the path turns back on itself, elements that bend away from the tool leave a valley; round
-/// any others the tool has to go.
+/// Where the path turns back on itself, elements that bend away from the tool leave a valley; the
+/// tool has to go round any others.
 Shape shape_of(const Turning& turn, double offset, double tolerance) {
   if (std::fabs(turn.sine) <= tolerance) {
     if (turn.cosine > 0) return Shape::Straight;
@@ -45,9 +45,9 @@ CornerEnd refusal(FaultKind kind) {
 }
 
 /// The pieces between two elements, one after the other.
-class Way {
+class CornerPath {
  public:
-  Way(PlaneVector from, Element& second) : at_(from), second_(second) {}
+  CornerPath(PlaneVector from, Element& second) : at_(from), second_(second) {}
   void go_straight(PlaneVector to) {
     if (length(to - at_) > kNoLength)
       second_.lead_in.add({.is_arc = false, .to = to, .center = {}});
@@ -71,7 +71,7 @@ class Way {
 /// Each on its own normal, with a straight piece between.
 CornerEnd normals_joined(const Element& first, Element& second) {
   const PlaneVector end = first.own_end();
-  Way(end, second).arrive(second.own_begin());
+  CornerPath(end, second).arrive(second.own_begin());
   return {end, {}};
 }
 
@@ -92,29 +92,29 @@ CornerEnd extended(const Policy& policy, const Turning& turn, const Element& fir
     leaving = arriving = tangents_meet(first, second);
   }
   const PlaneVector end = first.is_arc ? first.own_end() : leaving;
-  Way way(end, second);
-  way.go_straight(leaving);
-  way.go_straight(arriving);
-  way.arrive(second.is_arc ? second.own_begin() : arriving);
+  CornerPath path(end, second);
+  path.go_straight(leaving);
+  path.go_straight(arriving);
+  path.arrive(second.is_arc ? second.own_begin() : arriving);
   return {end, {}};
 }
 
 /// Round `first.end` from the cutter's circle to the second's own normal.
-void go_around(Way& way, const Element& first, const Element& second) {
-  const PlaneVector out = way.at() - first.end;
+void go_around(CornerPath& path, const Element& first, const Element& second) {
+  const PlaneVector out = path.at() - first.end;
   const PlaneVector back = std::copysign(length(out), second.offset) * second.normal_in();
   double sweep = turn_between(out, back);
-  if (std::fabs(sweep * second.offset) <= kNoLength) return way.go_straight(first.end + back);
+  if (std::fabs(sweep * second.offset) <= kNoLength) return path.go_straight(first.end + back);
   // away from the compensated side, whatever rounding makes of a half circle
   if ((sweep > 0) == (second.offset > 0)) sweep = -sweep;
-  way.round_corner(first.end, first.end + back, sweep);
+  path.round_corner(first.end, first.end + back, sweep);
 }
 
 CornerEnd rounded(const Element& first, Element& second) {
   const PlaneVector end = first.own_end();
-  Way way(end, second);
-  go_around(way, first, second);
-  way.arrive(second.own_begin());
+  CornerPath path(end, second);
+  go_around(path, first, second);
+  path.arrive(second.own_begin());
   return {end, {}};
 }
 
@@ -162,8 +162,8 @@ CornerEnd tangential_start(const Policy& policy, const Element& first, Element& 
   if (shape == Shape::Inside && policy.inside == InsideCorner::Refuse)
     return refusal(FaultKind::ConcaveCorner);
   if (shape != Shape::Outside) return at_point(second, second.own_begin());
-  Way way(touch, second);
-  go_around(way, first, second);
+  CornerPath path(touch, second);
+  go_around(path, first, second);
   second.begin = second.own_begin();
   return {touch, {}};
 }
@@ -197,8 +197,8 @@ Piece approach_piece(const ByArc& by_arc, const Approach& arc, PlaneVector from,
 
 /// On the tangent itself there is nothing to turn into.
 bool is_on_tangent(PlaneVector contour, PlaneVector along, PlaneVector away, bool ahead) {
-  const PlaneVector way = away - contour;
-  return std::fabs(cross(along, way)) <= kNoLength && (dot(along, way) > 0) == ahead;
+  const PlaneVector out = away - contour;
+  return std::fabs(cross(along, out)) <= kNoLength && (dot(along, out) > 0) == ahead;
 }
 
 CornerEnd run_on(const Element& first, Element& second, PlaneVector tool) {
@@ -239,7 +239,7 @@ CornerEnd start_up_corner(const Policy& policy, const Element& first, Element& s
   return at_point(second, second.own_begin());
 }
 
-/// The cancel move counts as offset like the element before it, but ends where programmed.
+/// The cancel move is offset like the element before it, but ends where programmed.
 CornerEnd cancel_corner(const Policy& policy, const Element& first, Element& second) {
   if (second.by_arc) return run_off(first, second);
   const Turning turn(first, second);

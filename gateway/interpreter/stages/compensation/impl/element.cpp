@@ -20,7 +20,7 @@ struct Shift {
 /// Angles so small are their own tangents to the last digit.
 constexpr double kSmallSlope = 1e-6;
 
-/// So near to a half turn, or to none, in radians, both ways round are the same.
+/// So near to a half turn, or to none, in radians, both directions are the same.
 constexpr double kHalfTurn = 1e-9;
 
 double angle_of(double sine, double cosine) {

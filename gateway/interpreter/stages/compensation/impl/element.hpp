@@ -7,14 +7,15 @@
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/stages/compensation/policy.hpp"
 
-/// Raw doubles inside this folder: millimetres and radians in the compensated plane. The path of
-/// the nose center is meant; the way to a lathe's tool tip is added when a move is put out.
+/// Raw doubles inside this folder: millimetres and radians in the compensated plane. They
+/// describe the path of the nose center; the vector to a lathe's tool tip is added when a move is
+/// put out.
 namespace dripline::interpreter::compensation::impl {
 
 /// Moves shorter than a tenth of a nanometre are none: their direction would be rounding noise.
 inline constexpr double kNoLength = 1e-7;
 
-/// One inserted move on the way to an element's own compensated start.
+/// One inserted move of the path to an element's own compensated start.
 struct Piece {
   bool is_arc = false;
   PlaneVector to;
@@ -28,7 +29,7 @@ struct LeadIn {
   void add(const Piece& piece) { pieces[count++] = piece; }
 };
 
-/// What an element does to compensation.
+/// The effect of an element on compensation.
 enum class Role : std::uint8_t { Contour, StartUp, Cancel, Parallel };
 
 struct Arch {
@@ -45,13 +46,13 @@ struct ByArc {
   Origin origin;
 };
 
-/// A programmed move in the plane on its way through compensation.
+/// A programmed move in the plane, and its compensated path as far as it is known.
 struct Element {
   bool is_rapid = false;
   bool is_arc = false;
   bool rests = false;          ///< the axes come to rest at its end
   bool is_silent = false;      ///< decides its corners, but is not carried out
-  bool rounds_corner = false;  ///< round the corner's own point, until the next element goes on
+  bool rounds_corner = false;  ///< about the corner point, until the next element begins
   Role role = Role::Contour;
   StartUp start_up = StartUp::NextNormal;                 ///< of the role StartUp
   OutsideCorner outside = OutsideCorner::ExtendTangents;  ///< of the corner at its end
@@ -79,9 +80,9 @@ struct Element {
 void complete_line(Element& element);
 /// Sets directions, radii and turn of an arc from `from`, `end`, its center and its turn.
 void complete_arc(Element& element, const Arc& arc);
-/// An arc of no radius about `corner`, which comes along `direction` and goes on along it.
+/// An arc of no radius about `corner`, which arrives and leaves along `direction`.
 void complete_corner(Element& element, PlaneVector corner, PlaneVector direction);
-/// It goes on along `direction` instead. False: that is a turn to the compensated side.
+/// It leaves along `direction` instead. False: that is a turn to the compensated side.
 bool turn_corner(Element& element, PlaneVector direction);
 
 /// The sweep of the offset arc between `element.begin` and `end`, which both lie on it: the

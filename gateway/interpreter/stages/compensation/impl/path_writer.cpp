@@ -25,8 +25,8 @@ PlaneVector PathWriter::nose() const {
   return in_plane(state_.sent, axes_) - state_.tip;
 }
 
-/// Positions are made anew from settled ones wherever they are needed: a copy of one whose numbers
-/// have just been written has to wait for them.
+/// Positions are built from older ones wherever they are needed: a copy of one whose numbers have
+/// just been written has to wait for them.
 void PathWriter::move_tool(PlaneVector tip, const Position& others) {
   if (&others != &state_.sent) state_.sent = others;
   set_in_plane(state_.sent, axes_, tip);
@@ -120,7 +120,7 @@ void PathWriter::put_out_arc(const Element& element, PlaneVector end, double swe
 bool PathWriter::put_out(const Element& element, PlaneVector end) {
   if (element.is_arc) {
     const double radius = std::min(element.offset_radius_in(), element.offset_radius_out());
-    // a cutter that just fits stands still: its arc is a point
+    // a cutter that just fits does not move: its arc is a point
     const double sweep = radius > kNoLength ? offset_sweep(element, end) : 0;
     if (sweep * radius < -kBackwards) return false;
     if (sweep * radius > kNoLength) {

@@ -10,14 +10,14 @@ class PathWriter {
   PathWriter(EventSink& sink, State& state, const Feed& arc_at_rapid)
       : sink_(sink), state_(state), arc_at_rapid_(arc_at_rapid), axes_(axes_of(state.plane)) {}
 
-  /// The way to the element and the element itself, to `end`. False, and nothing given out, when
-  /// it would run against its programmed direction.
+  /// The lead-in and the element itself, to `end`. False, and no move given out, when it would run
+  /// against its programmed direction.
   bool put_out(const Element& element, PlaneVector end);
-  /// The way to the element, then straight on until the tip is at `tip`.
+  /// The lead-in, then straight on until the tip is at `tip`.
   void put_out_straight(const Element& element, PlaneVector tip);
 
  private:
-  /// Of a move, besides its way in the plane.
+  /// The parts of a move besides its path in the plane.
   struct Company {
     const Position& others;  ///< where the axes outside the plane go
     const Feed& feed;

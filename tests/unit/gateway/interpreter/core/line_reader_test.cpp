@@ -144,7 +144,7 @@ TEST(LineReader, SeekWithinTheWindowAsksTheSourceNothing) {
   EXPECT_EQ(source.fetches, 1);
 }
 
-TEST(LineReader, FailedSaysWhy) {
+TEST(LineReader, FailedHasAReason) {
   MemorySource source("M30");
   LineReader reader(source);
   reader.seek({7, 0, 1});

@@ -51,12 +51,12 @@ TEST(Number, BlanksAndCommasAreRulesOfADialect) {
   EXPECT_EQ(read<kBlanks>("1. 2 . 3").fault, NumberFault::SecondPoint);
   std::size_t consumed = 0;
   EXPECT_EQ(read<kBlanks>("1.5  Z2", &consumed).value, 1.5);
-  EXPECT_EQ(consumed, 5U) << "blanks after a number are part of it";
+  EXPECT_EQ(consumed, 5U) << "a number includes the blanks after it";
   EXPECT_EQ(read<kComma>("20,005").value, 20.005);
   EXPECT_EQ(read("20,005").value, 20);
 }
 
-TEST(Number, FaultsAreTold) {
+TEST(Number, FaultsAreReported) {
   for (const char* text : {"", "-", "+.", ".", "X", "--1"}) {
     EXPECT_EQ(read(text).fault, NumberFault::NoDigits) << text;
   }

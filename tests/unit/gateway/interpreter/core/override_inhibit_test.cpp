@@ -22,7 +22,7 @@ Lines locks_of(const std::string& text, const ControlSetup& setup = {}) {
   return run.events("lock");
 }
 
-TEST(FanucOverrideInhibit, IsThatOfATapAndIsTakenBackAfterTheWayOut) {
+TEST(FanucOverrideInhibit, IsThatOfATapAndEndsAfterTheRetraction) {
   const Lines tap{"111 1 1", "000 2 0", "000 0 0"};
   EXPECT_EQ(locks_of<kFanucDialect>("G21 S500 M3\nG84 X0 Y0 Z-5. R2. F500\nG80\nM30\n"), tap);
   EXPECT_EQ(locks_of<kFanucDialect>("G21 S500 M4\nG74 X0 Y0 Z-5. R2. F500\nG80\nM30\n"), tap);

@@ -28,7 +28,7 @@ TEST(Registry, EveryDialectIsFoundByItsNameAndComplete) {
 }
 
 /// Row: CEN-052.
-TEST(Registry, TheCenturionsFeedKnobStandsInStepsOfTenPercentUpTo150) {
+TEST(Registry, TheCenturionsFeedKnobHasStepsOfTenPercentUpTo150) {
   const auto dialect = find_dialect("centurion");
   ASSERT_TRUE(dialect);
   EXPECT_EQ((*dialect)->feed_override_switch.step, 0.1);

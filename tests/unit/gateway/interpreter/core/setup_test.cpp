@@ -32,7 +32,7 @@ TEST(Setup, AnEmptyFileIsADefaultSetup) {
   EXPECT_TRUE(setup.control.empty());
 }
 
-TEST(Setup, EverythingASetupFileCanSayIsRead) {
+TEST(Setup, EveryKeyOfASetupFileIsRead) {
   const auto setup = read(R"(
 start = { X = 1.0, Z = 2, C = 90 }
 units = "in"
@@ -92,7 +92,7 @@ TEST(Setup, LengthsAreInTheFilesUnitsOrTheControls) {
       read("start = { X = 2 }\nunits = \"mm\"", Units::Inch).start.linear(Axis::X).mm(), 2);
 }
 
-TEST(Setup, ADateMayStandWithoutQuotes) {
+TEST(Setup, ADateMayBeWithoutQuotes) {
   EXPECT_EQ(read("date_time = 2001-02-03T04:05:06").date_time->minute, 5);
 }
 
@@ -162,7 +162,7 @@ TEST(Setup, WhatIsMissingOrDoubleIsAnError) {
   EXPECT_THAT(problem("[[tool]]\nnumber = 1\nlength = 1\nZ = 1"), HasSubstr("either"));
 }
 
-TEST(Setup, BrokenTomlSaysTheLine) {
+TEST(Setup, BrokenTomlIsAnErrorWithTheLine) {
   EXPECT_THAT(problem("units = \"in\"\nstart = {"), HasSubstr("line 2"));
   EXPECT_THAT(problem("\xFF\xFE"), HasSubstr("line 1"));
   EXPECT_EQ(parse_setup(std::string(2 << 20, '#')).error().code, Errc::LimitExceeded);

@@ -25,7 +25,7 @@ struct WordCase {
   const char* name;
   const char* control;
   const char* program;
-  const char* message;  ///< how its log line begins, and part of it
+  const char* message;  ///< the begin of its log line, and a part of the line
   const char* part;
 };
 class UnusedWord : public testing::TestWithParam<WordCase> {};

@@ -2,29 +2,34 @@
 
 #include "tests/unit/gateway/interpreter/stages/blending/path.hpp"
 
-/// Joins that the program only estimates, and lines led back.
+/// Ends that the program only approximates, and back-solved lines.
 namespace dripline::interpreter::blending {
 namespace {
 
 // The circle of 5 about (20, 0) is cut by Y=3 at X=16 and X=24.
 TEST(Blend, ALineIsExtendedOrShortenedToItsArc) {
-  for (const double estimate : {9.0, 15.5, 17.0, 19.5}) {
+  for (const double end : {9.0, 15.5, 17.0, 19.5}) {
     Path path{Policy{}, {0, 3}};
-    path.estimated().line(estimate, 3).estimated(5).arc_to({20, 0}, {25, 0}, -100).end();
+    path.approximate().line(end, 3).approximate(5).arc_to({20, 0}, {25, 0}, -100).end();
     expect_moves(path.log, {{{16, 3}}, {{25, 0}, {20, 0}, -180 + 36.86989764584402}});
   }
 }
 
 TEST(Blend, TheNearerOfTwoPointsIsTaken) {
   Path path{Policy{}, {0, 3}};
-  path.estimated().line(21, 3).estimated(5).arc_to({20, 0}, {20, -5}, -90).end();
+  path.approximate().line(21, 3).approximate(5).arc_to({20, 0}, {20, -5}, -90).end();
   expect_moves(path.log, {{{24, 3}}, {{20, -5}, {20, 0}, -126.86989764584402}});
 }
 
-// From (0, 0), 13 away, the tangent to the circle of 5 is 12 long and touches at 144/13, +-60/13.
+// From (0, 0), 13 away, the tangent to the circle of 5 is 12 long and meets it at 144/13, +-60/13.
 TEST(Blend, ALineThatMissesIsTurnedUntilItTouches) {
   Path path;
-  path.estimated().line(12, 9).estimated(5).arc_to({13, 0}, {12, -9}, -90).estimated().line(0, 0);
+  path.approximate()
+      .line(12, 9)
+      .approximate(5)
+      .arc_to({13, 0}, {12, -9}, -90)
+      .approximate()
+      .line(0, 0);
   path.end();
   const double along = 144.0 / 13, beside = 60.0 / 13;
   const double sweep = 360 - 2 * (180 - Angle::radians(std::acos(5.0 / 13)).degrees());
@@ -34,14 +39,18 @@ TEST(Blend, ALineThatMissesIsTurnedUntilItTouches) {
 // 5 and 5 about points 6 apart meet 4 beside the middle.
 TEST(Blend, ArcsEndWhereTheirCirclesMeet) {
   Path path{Policy{}, {-5, 0}};
-  path.estimated(5).arc_to({0, 0}, {2, 5}, -110).estimated(5).arc_to({6, 0}, {11, 0}, -110).end();
+  path.approximate(5)
+      .arc_to({0, 0}, {2, 5}, -110)
+      .approximate(5)
+      .arc_to({6, 0}, {11, 0}, -110)
+      .end();
   expect_moves(path.log,
                {{{3, 4}, {0, 0}, -126.86989764584402}, {{11, 0}, {6, 0}, -126.86989764584402}});
 }
 
 TEST(Blend, APointWithinTheToleranceIsKept) {
   Path path{Policy{}, {0, 3}};
-  path.estimated().line(16.005, 3).estimated(5).arc_to({20, 0}, {25, 0}, -143).end();
+  path.approximate().line(16.005, 3).approximate(5).arc_to({20, 0}, {25, 0}, -143).end();
   ASSERT_EQ(path.log.moves.size(), 2u);
   EXPECT_EQ(path.log.moves[0].to, (PlaneVector{16.005, 3}));
   EXPECT_NEAR(Angle::radians(path.log.moves[1].sweep).degrees(), -143, 1e-9) << "as programmed";
@@ -49,7 +58,7 @@ TEST(Blend, APointWithinTheToleranceIsKept) {
 
 TEST(Blend, ARoundingSitsAtTheTrueCorner) {
   Path path{Policy{}, {0, 3}};
-  path.estimated().round(1).line(9, 3).estimated(5).arc_to({20, 0}, {25, 0}, -100).end();
+  path.approximate().round(1).line(9, 3).approximate(5).arc_to({20, 0}, {25, 0}, -100).end();
   // outside the circle (6) and 1 above the line
   const PlaneVector center{20 - std::sqrt(36.0 - 16), 4};
   ASSERT_EQ(path.log.moves.size(), 3u);
@@ -84,10 +93,10 @@ TEST(Blend, ALineLedBackMeetsTheArcBeforeNearOrFar) {
 TEST(Blend, ALineLedBackMayEndInAnEstimate) {
   Path path;
   path.line(3, 0)
-      .estimated()
+      .approximate()
       .back(90)
       .line(20, 7)
-      .estimated(5)
+      .approximate(5)
       .arc_to({17, 14}, {12, 14}, 90)
       .end();
   // up X=20 to the circle of 5 about (17, 14): Y = 10
@@ -101,7 +110,7 @@ struct Refused {
 };
 class RefusedBlend : public testing::TestWithParam<Refused> {};
 
-TEST_P(RefusedBlend, SaysWhy) {
+TEST_P(RefusedBlend, StatesWhy) {
   Path path;
   GetParam().program(path);
   EXPECT_EQ(path.fault(), GetParam().fault);
@@ -124,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                             FaultKind::NoIntersection},
                     Refused{"no_number",
                             [](Path& p) {
-                              p.line(3, 0).estimated().line(6, 1).estimated(1e200);
+                              p.line(3, 0).approximate().line(6, 1).approximate(1e200);
                               p.arc_to({1e200, 0}, {9, 9}, 90).end();
                             },
                             FaultKind::NoIntersection},
@@ -132,23 +141,23 @@ INSTANTIATE_TEST_SUITE_P(
                             FaultKind::NoElement},
                     Refused{"arcs_apart",
                             [](Path& p) {
-                              p.line(-5, 0).estimated(5).arc_to({0, 0}, {2, 5}, -90);
-                              p.estimated(5).arc_to({60, 0}, {65, 0}, -90);
+                              p.line(-5, 0).approximate(5).arc_to({0, 0}, {2, 5}, -90);
+                              p.approximate(5).arc_to({60, 0}, {65, 0}, -90);
                             },
                             FaultKind::ArcsApart},
                     Refused{"arc_begins_off_its_circle",
                             [](Path& p) {
-                              p.estimated(5).arc_to({20, 0}, {25, 0}, -90);
+                              p.approximate(5).arc_to({20, 0}, {25, 0}, -90);
                             },
                             FaultKind::OffArc},
                     Refused{"line_of_other_data",
                             [](Path& p) {
-                              p.line(9, 3).estimated(5).arc_to({20, 0}, {25, 0}, -90);
+                              p.line(9, 3).approximate(5).arc_to({20, 0}, {25, 0}, -90);
                             },
                             FaultKind::OffArc},
                     Refused{"arc_ends_off_its_circle",
                             [](Path& p) {
-                              p.line(15, 0).estimated(5).arc_to({20, 0}, {26, 0}, -90).end();
+                              p.line(15, 0).approximate(5).arc_to({20, 0}, {26, 0}, -90).end();
                             },
                             FaultKind::OffArc}),
     [](const auto& i) { return i.param.name; });

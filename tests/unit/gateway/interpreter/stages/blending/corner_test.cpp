@@ -117,7 +117,7 @@ struct Refused {
 class RefusedCorner : public testing::TestWithParam<Refused> {};
 
 // CEN-048, CEN-049
-TEST_P(RefusedCorner, SaysWhy) {
+TEST_P(RefusedCorner, StatesWhy) {
   Policy policy;
   policy.refuses_open_corner = true;
   Path path{policy};

@@ -11,16 +11,16 @@ using testing::ElementsAre;
 
 using Step = std::function<void(Path&)>;
 
-void say(Path& path, std::string_view text) {
+void send_message(Path& path, std::string_view text) {
   path.blender.on_output({Origin{}, OutputDevice::File, text});
 }
 
-TEST(JoinOrder, WhatStandsBetweenTwoMovesStaysBetweenThem) {
+TEST(BlendOrder, EventsBetweenTwoMovesStayBetweenThem) {
   Path path;
   path.line(10, 0);
   {
     const std::string text = "DONE";  // must not outlive the call
-    say(path, text);
+    send_message(path, text);
   }
   path.misc(8);
   EXPECT_TRUE(path.log.words.empty());
@@ -28,20 +28,20 @@ TEST(JoinOrder, WhatStandsBetweenTwoMovesStaysBetweenThem) {
   EXPECT_THAT(path.log.words, ElementsAre("move1", "/1", "DONE", "M8", "/2"));
 }
 
-TEST(JoinOrder, APieceComesRightAfterItsMove) {
+TEST(BlendOrder, APieceComesRightAfterItsMove) {
   Path path;
   path.round(1).line(10, 0).misc(8).line(10, 10);
   EXPECT_THAT(path.log.words, ElementsAre("move1", "move1", "/1", "M8", "/2"));
 }
 
-TEST(JoinOrder, ABlockOfItsOwnHoldsThePiece) {
+TEST(BlendOrder, ABlockOfItsOwnHoldsThePiece) {
   Path path;
   path.line(10, 0).misc(8).round_block(1).line(10, 10).end();
   EXPECT_THAT(path.log.words,
               ElementsAre("move1", "/1", "M8", "/2", "move3", "/3", "move4", "/4", "end"));
 }
 
-TEST(JoinOrder, NothingWaitsWhereNothingIsAnnounced) {
+TEST(BlendOrder, NothingWaitsWhereNothingIsAnnounced) {
   Policy policy;
   policy.every_move_waits = false;
   Path path{policy};
@@ -54,7 +54,7 @@ TEST(JoinOrder, NothingWaitsWhereNothingIsAnnounced) {
   expect_moves(path.log, {{{10, 0}}, {{19, 0}}, {{20, 1}, {19, 1}, 90}, {{20, 20}}});
 }
 
-TEST(JoinOrder, ARapidMoveEndsTheWait) {
+TEST(BlendOrder, ARapidMoveEndsTheWait) {
   Path path;
   path.line(10, 0).rapid(20, 0);
   EXPECT_FALSE(path.blender.is_waiting());
@@ -63,24 +63,24 @@ TEST(JoinOrder, ARapidMoveEndsTheWait) {
 
 constexpr std::size_t kTooMany = look_ahead::kMaxHeldEvents + 36;
 
-TEST(JoinOrder, WhereThereIsNoRoomAMoveEndsAsProgrammed) {
+TEST(BlendOrder, WhereThereIsNoRoomAMoveEndsAsProgrammed) {
   Path path;
   path.line(10, 0);
-  for (std::size_t i = 0; i < kTooMany; ++i) say(path, "row");
+  for (std::size_t i = 0; i < kTooMany; ++i) send_message(path, "row");
   EXPECT_FALSE(path.blender.is_waiting());
   path.line(10, 10).end();
   EXPECT_EQ(path.fault(), std::nullopt);
   EXPECT_EQ(path.log.words.size(), 1 + 1 + kTooMany + 1 + 1 + 1);
 }
 
-TEST(JoinOrder, ACornerNeedsRoomForAllThatStandsAtIt) {
+TEST(BlendOrder, ACornerNeedsRoomForAllItsEvents) {
   Path path;
   path.round(1).line(10, 0);
-  for (std::size_t i = 0; i < kTooMany; ++i) say(path, "row");
+  for (std::size_t i = 0; i < kTooMany; ++i) send_message(path, "row");
   EXPECT_EQ(path.fault(), FaultKind::TooMuchBetween);
 }
 
-TEST(JoinOrder, MovesAsideOfThePlaneStayAtTheTrueCorner) {
+TEST(BlendOrder, OffPlaneMovesStayAtTheTrueCorner) {
   Path path;
   path.line(10, 0).aside(5).back(135).line(0, 20).end();
   // the line through (0, 20) at 135 degrees meets Y=0 at (20, 0)
@@ -90,8 +90,8 @@ TEST(JoinOrder, MovesAsideOfThePlaneStayAtTheTrueCorner) {
 
 /// Everything that a state can hold.
 std::vector<Step> script() {
-  return {[](Path& p) { p.estimated().line(10, 0); },
-          [](Path& p) { say(p, "a line with a text"); },
+  return {[](Path& p) { p.approximate().line(10, 0); },
+          [](Path& p) { send_message(p, "a line with a text"); },
           [](Path& p) {
             p.blender.turn_on(compensation::Cutter{});
             p.blender.turn_off();
@@ -104,9 +104,9 @@ std::vector<Step> script() {
             p.blender.on_message({Origin{}, "LOOK"});
           },
           [](Path& p) {
-            p.estimated(5).arc_to({20, 0}, {25, 1}, -170);
+            p.approximate(5).arc_to({20, 0}, {25, 1}, -170);
           },
-          [](Path& p) { p.round(0.5, Feed::per_minute(Length::mm(9))).estimated().line(40, 0); },
+          [](Path& p) { p.round(0.5, Feed::per_minute(Length::mm(9))).approximate().line(40, 0); },
           [](Path& p) { p.misc(8); },
           [](Path& p) { p.line(40, 20); },
           [](Path& p) { p.chamfer_block(2); },
@@ -114,7 +114,7 @@ std::vector<Step> script() {
           [](Path& p) { p.end(); }};
 }
 
-TEST(JoinOrder, AStateReadBackGoesOnInTheSameWay) {
+TEST(BlendOrder, ARestoredStateContinuesInTheSameManner) {
   const std::vector<Step> steps = script();
   Path whole;
   for (const Step& step : steps) step(whole);
@@ -136,7 +136,7 @@ TEST(JoinOrder, AStateReadBackGoesOnInTheSameWay) {
   }
 }
 
-TEST(JoinOrder, ADamagedStateIsRefusedAndChangesNothing) {
+TEST(BlendOrder, ADamagedStateIsRefusedAndChangesNothing) {
   Path path;
   const std::vector<Step> steps = script();
   for (std::size_t i = 0; i < 5; ++i) steps[i](path);

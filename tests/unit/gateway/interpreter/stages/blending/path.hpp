@@ -3,7 +3,7 @@
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "tests/unit/gateway/interpreter/stages/compensation/contour.hpp"
 
-/// Contours for tests of joins: programmed in millimetres in the XY plane, one block a move.
+/// Contours for tests of blends: programmed in millimetres in the XY plane, one block per move.
 namespace dripline::interpreter::blending {
 
 using compensation::Move;
@@ -34,7 +34,7 @@ class Path {
     const PlaneVector end = center + std::cos(turn) * out + std::sin(turn) * left_of(out);
     return arc_to(center, end, sweep_degrees);
   }
-  /// The sweep is what the program makes of its end; an estimate may be anywhere.
+  /// The sweep is that of the programmed end; an approximate end may be anywhere.
   Path& arc_to(PlaneVector center, PlaneVector end, double sweep_degrees) {
     set_in_plane(at_, axes_of(Plane::XY), end);
     Arc arc;
@@ -56,7 +56,7 @@ class Path {
     blender.chamfer_next_corner(Length::mm(size), measure);
     return *this;
   }
-  Path& estimated(double radius = 0, double tolerance = 0.01) {
+  Path& approximate(double radius = 0, double tolerance = 0.01) {
     blender.approximate_end(Length::mm(tolerance), Length::mm(radius));
     return *this;
   }

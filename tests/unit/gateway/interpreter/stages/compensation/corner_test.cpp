@@ -123,7 +123,7 @@ TEST(Corner, ArcsMeetArcsInside) {
   expect_ends(contour.log, {{-20, 2}, {-foot, 2}, {10, valley}, {20 + foot, 2}, {50, 2}, {50, 20}});
 }
 
-TEST(Corner, TangentJoinsNeedNoPiece) {
+TEST(Corner, TangentCornersNeedNoPiece) {
   Contour contour{Policy{}, {-20, 0}};
   contour.left(2).line(-10, 0).line(0, 0).arc({0, 10}, 90).line(10, 30).arc({0, 30}, 90);
   contour.line(-10, 40).off().line(-20, 40);

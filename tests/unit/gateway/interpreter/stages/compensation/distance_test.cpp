@@ -90,7 +90,7 @@ void cut(Contour& contour, const std::vector<Drawn>& drawn, const Cut& how) {
       contour.arc(one.center, Angle::radians(one.sweep).degrees());
     }
   }
-  contour.compensator.settle();
+  contour.compensator.flush();
 }
 
 double scale(const Drawn& one, double radius) {
@@ -253,7 +253,7 @@ TEST(Distance, ClosedContoursCloseOnBothSides) {
 }
 
 /// Joins as post processors write them: tangent up to the last digit of the program.
-TEST(Distance, RoundedTangentJoinsAreCut) {
+TEST(Distance, RoundedTangentCornersAreCut) {
   Random random(5);
   for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
     Pen pen({0, 0}, random.between(-1, 1));

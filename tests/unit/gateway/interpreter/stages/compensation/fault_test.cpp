@@ -77,7 +77,7 @@ TEST(Fault, NothingFollowsAFaultButAnAlarm) {
   EXPECT_EQ(contour.log.words.size(), words);
 }
 
-TEST(Fault, AResetForgetsIt) {
+TEST(Fault, AResetClearsIt) {
   Contour contour{Policy{}, {-20, 0}};
   contour.left(5).arc({0, 4}, 90);
   contour.compensator.reset({});

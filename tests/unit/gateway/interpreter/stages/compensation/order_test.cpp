@@ -17,16 +17,16 @@ Policy patient() {
   return policy;
 }
 
-void say(Contour& contour, std::string_view text) {
+void send_message(Contour& contour, std::string_view text) {
   contour.compensator.on_output({Origin{}, OutputDevice::File, text});
 }
 
-TEST(Order, WhatStandsBetweenTwoMovesStaysBetweenThem) {
+TEST(Order, EventsBetweenTwoMovesStayBetweenThem) {
   Contour contour{patient(), {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0);
   {
     const std::string text = "DONE";  // must not outlive the call
-    say(contour, text);
+    send_message(contour, text);
   }
   contour.misc(8).empty_block();
   EXPECT_THAT(contour.log.words, ElementsAre("move1", "/1"));
@@ -67,7 +67,7 @@ TEST(Order, StatementsAreNoBlocksWithoutMotion) {
   EXPECT_THAT(contour.log.words, testing::IsSupersetOf({"/3", "/4", "/1002", "M8", "/1004"}));
 }
 
-/// What blocks do decides how much may wait, not how many blocks say it.
+/// The number of events decides how many may wait, not the number of blocks they come from.
 TEST(Order, EndsOfBlocksTakeNoRoom) {
   Policy policy;
   policy.blocks_without_motion = 1'000;
@@ -100,7 +100,7 @@ std::vector<Step> script() {
   return {[](Contour& c) { c.left(2).line(0, 0); },
           [](Contour& c) { c.line(20, 0); },
           [](Contour& c) {
-            say(c, "a line with a text");
+            send_message(c, "a line with a text");
             c.misc(8);
           },
           [](Contour& c) { c.aside(-4); },
@@ -136,7 +136,7 @@ std::vector<Step> script() {
           [](Contour& c) { c.line(-50, -50); }};
 }
 
-TEST(Order, AStateReadBackGoesOnInTheSameWay) {
+TEST(Order, ARestoredStateContinuesInTheSameManner) {
   const std::vector<Step> steps = script();
   Contour whole{patient(), {-10, 0}};
   for (const Step& step : steps) step(whole);
@@ -173,7 +173,7 @@ TEST(Order, TheLargestStateKeepsItsBound) {
   contour.left(2).line(0, 0).line(10, 0);
   const std::string text(100, 'x');
   for (int i = 0; i < 32; ++i) contour.empty_block();
-  for (int i = 0; i < 40; ++i) say(contour, text);
+  for (int i = 0; i < 40; ++i) send_message(contour, text);
   for (int i = 0; i < 24; ++i) contour.aside(i + 1.0);
   EXPECT_EQ(contour.fault(), std::nullopt);
   EXPECT_GT(contour.compensator.state().size(), 11'000u);

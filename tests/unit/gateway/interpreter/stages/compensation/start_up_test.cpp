@@ -62,7 +62,7 @@ TEST(StartUp, AsACornerInsideIsOnTheNextNormal) {
 TEST(StartUp, TangentiallyTouchesTheCircleAboutItsEnd) {
   Contour contour{tangential(), {0, 0}};
   contour.right(6).line(10, 0).line(10, 20).off().line(30, 20);
-  // the line from (0, 0) at a sine of 6/10 touches the circle, then round to the normal
+  // the line from (0, 0) at a sine of 6/10 is tangent to the circle, then follows it to the normal
   expect_ends(contour.log, {{6.4, -4.8}, {16, 0}, {16, 20}, {30, 20}});
   EXPECT_NEAR(contour.log.moves[1].center.first, 10, kNear);
   EXPECT_GT(contour.log.moves[1].sweep, 0);
@@ -79,7 +79,7 @@ TEST(StartUp, TangentiallyTooCloseIsAFault) {
 TEST(StartUp, WaitsForAMoveInThePlane) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).empty_block().aside(-4).misc(8).empty_block().line(0, 0).line(20, 0);
-  contour.compensator.settle();
+  contour.compensator.flush();
   expect_ends(contour.log, {{-10, 0}, {0, 2}, {20, 2}});
   EXPECT_EQ(contour.log.moves[2].z, -4);
 }
@@ -103,7 +103,7 @@ TEST(StartUp, CancelOnAnArcIsAFault) {
   EXPECT_EQ(contour.fault(), FaultKind::CancelNotStraight);
 }
 
-TEST(StartUp, AfterACancelAloneOtherAxesLeaveTheToolInItsPlace) {
+TEST(StartUp, AfterACancelAloneMovesOfOtherAxesKeepTheToolInItsPlace) {
   Contour contour{Policy{}, {-10, 0}};
   contour.left(2).line(0, 0).line(10, 0).off().empty_block().aside(50).line(20, 0);
   expect_ends(contour.log, {{0, 2}, {10, 2}, {10, 2}, {20, 0}});
@@ -143,7 +143,7 @@ TEST(StartUp, AnotherPlaneStartsAnew) {
                                .tip_first = {},
                                .tip_second = {}});
   contour.aside(-30).line(30, 0);
-  contour.compensator.settle();
+  contour.compensator.flush();
   // in ZX now: down along Z, then to X 30 with the tool on the side of smaller Z
   ASSERT_EQ(contour.log.moves.size(), 4u);
   EXPECT_NEAR(contour.log.moves[1].to.second, 2, kNear) << "ended on its own normal";
@@ -162,7 +162,7 @@ TEST(StartUp, ARadiusOfZeroFollowsTheProgram) {
   expect_ends(corners.log, {{0, 0}, {10, 0}, {10, -10}, {0, -10}});
 }
 
-TEST(StartUp, SettledContoursGoOnFromWhereTheToolIs) {
+TEST(StartUp, FlushedContoursContinueFromWhereTheToolIs) {
   Policy policy;
   Contour straight{policy, {-10, 0}};
   straight.left(2).line(0, 0).line(10, 0).empty_block().empty_block().line(10, -20).off();
