@@ -3,24 +3,12 @@
 #include <string>
 #include <string_view>
 
+#include "gateway/interpreter/core/refusal.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::library {
 
-/// What is refused here and what controls have a message for too.
-enum class Refusal {
-  None,
-  NameTaken,        ///< a program of that name exists
-  BadNumber,        ///< no number that the control takes
-  NothingToSelect,  ///< no program at all
-  NotSaved,         ///< a program could not be stored
-  NotLoaded,        ///< a stored program could not be read
-  OntoItself,       ///< copied or renamed to its own name
-  BadParameters,    ///< tools, offsets and parameters that the control would not take
-  MemoryFull,       ///< the control's memory for programs
-  DiskFull,         ///< ours
-  NoSuchProgram,
-};
+using interpreter::Refusal;
 
 /// The control's own words: "error 300: program already exists"; empty: it has no number for this
 /// refusal, or numbers none. Pure.

@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "gateway/interpreter/core/interpreter.hpp"
 #include "gateway/interpreter/core/memory_verdict.hpp"
 #include "gateway/interpreter/core/panel_tables.hpp"
+#include "gateway/interpreter/core/refusal.hpp"
 #include "gateway/interpreter/core/setup.hpp"
+#include "gateway/interpreter/core/text_form.hpp"
 
 namespace dripline::interpreter {
 
@@ -56,6 +59,10 @@ struct Dialect {
   bool (*is_protected)(std::string_view head) = nullptr;
   /// The keys of `[control]` (option_rows.hpp), grouped by meaning; nullptr: none.
   std::vector<ListedOption> (*options)() = nullptr;
+  /// The control's own words for what its program storage refuses: "error 300: program already
+  /// exists"; empty: it has none for this refusal. nullptr: it numbers no refusals.
+  std::string (*refusal_words)(Refusal refusal) = nullptr;
+  TextForm text = {};
 };
 
 }  // namespace dripline::interpreter

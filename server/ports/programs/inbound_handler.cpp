@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "gateway/interpreter/registry.hpp"
 #include "protocol/base/one_line.hpp"
 #include "protocol/dds/message.hpp"
 #include "server/library/control_words.hpp"
@@ -10,7 +11,11 @@ namespace dripline::ports {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
-constexpr std::string_view kProtoTrak = "prototrak-plus";
+
+bool prints_nothing(const std::string& control) {
+  const auto dialect = interpreter::find_dialect(control);
+  return dialect && (*dialect)->text.is_all_programs;
+}
 
 /// The line as it was printed; other control characters than TAB become escapes.
 std::string printed_text(const std::string& line) {
@@ -38,7 +43,7 @@ void InboundHandler::take(Incoming incoming, std::function<void()> kept) {
     case Incoming::What::Began:
       is_in_transfer_ = true;
       program_name_ = incoming.text;
-      splitter_.take_programs_only(parts_.sends_programs_only || machine_control() == kProtoTrak);
+      splitter_.take_programs_only(parts_.sends_programs_only || prints_nothing(machine_control()));
       splitter_.begin(incoming.text, incoming.is_program);
       break;
     case Incoming::What::Text:

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gateway/interpreter/registry.hpp"
+
 namespace dripline::ports {
 
 namespace {
+
+using TextKind = interpreter::TextForm::Kind;
 
 constexpr std::uint64_t kMaxLooked = 5000;
 constexpr std::size_t kMaxUnknown = 8;
@@ -49,13 +53,14 @@ int tenths(std::string_view value) {
   return static_cast<int>(number * 10 + 0.5);
 }
 
+interpreter::TextForm text_form(std::string_view control) {
+  const auto dialect = interpreter::find_dialect(control);
+  return dialect ? (*dialect)->text : interpreter::TextForm{};
+}
+
 }  // namespace
 
-ModalScan::ModalScan(std::string_view control)
-    : is_tektronix_(control == "tektronix-1704"),
-      is_prototrak_(control == "prototrak-plus"),
-      is_tnc_(control == "tnc155"),
-      is_diameter_known_(control == "rs274ngc") {}
+ModalScan::ModalScan(std::string_view control) : text_(text_form(control)) {}
 
 /// Words at depth 0: a letter and everything up to the next one. Comments are left out.
 ModalScan::Block ModalScan::read(std::string_view text) {
@@ -82,14 +87,13 @@ ModalScan::Block ModalScan::read(std::string_view text) {
 }
 
 const ModalCode* ModalScan::code_of(const Word& word) const {
-  // A 1704's G20 and G30 are arcs, and G50 is its rapid traverse.
-  static constexpr ModalCode kTektronixMotion{0, ModalGroup::Motion};
+  static constexpr ModalCode kOtherMotion{0, ModalGroup::Motion};
   if (word.letter != 'G' || !word.is_number) return nullptr;
   const int code = tenths(word.value);
-  if (is_tektronix_ && (code == 200 || code == 300 || code == 500)) return &kTektronixMotion;
+  if (std::ranges::find(text_.motion_codes, code) != text_.motion_codes.end()) return &kOtherMotion;
   const auto* found = find_modal_code(code);
   const bool is_diameter = found != nullptr && found->group == ModalGroup::Diameter;
-  return is_diameter && !is_diameter_known_ ? nullptr : found;
+  return is_diameter && !text_.has_diameter_codes ? nullptr : found;
 }
 
 void ModalScan::set(ModalGroup group, std::string words, bool can_be_sent) {
@@ -105,9 +109,9 @@ void ModalScan::name_unknown(std::string_view text) {
 
 void ModalScan::skip(std::string_view text) {
   ++line_;
-  if (is_tnc_) return skip_plain_language(text);
+  if (text_.kind == TextKind::PlainLanguage) return skip_plain_language(text);
   const Block block = read(text);
-  if (is_prototrak_) return skip_event(text, block);
+  if (text_.kind == TextKind::Events) return skip_event(text, block);
   bool is_computed = false;
   for (const Word& word : block) {
     const int code = word.is_number ? tenths(word.value) : -1;
@@ -221,9 +225,10 @@ void ModalScan::skip_plain_language(std::string_view text) {
 }
 
 bool ModalScan::look(std::string_view text) {
-  if (is_tnc_ || in_force_.empty() || ++looked_ > kMaxLooked) return false;
+  if (text_.kind == TextKind::PlainLanguage || in_force_.empty() || ++looked_ > kMaxLooked)
+    return false;
   const Block block = read(text);
-  if (is_prototrak_) return look_event(block);
+  if (text_.kind == TextKind::Events) return look_event(block);
   for (const Word& word : block) look_word(word);
   const bool changes = std::ranges::any_of(
       block, [](const Word& word) { return word.letter == 'M' && tenths(word.value) == 60; });

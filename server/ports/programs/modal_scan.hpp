@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gateway/interpreter/core/text_form.hpp"
 #include "server/ports/programs/modal_codes.hpp"
 
 namespace dripline::ports {
@@ -63,7 +64,7 @@ class ModalScan {
   bool is_feed_move(const Block& block) const;
   void decide(bool is_feed_move);
 
-  const bool is_tektronix_, is_prototrak_, is_tnc_, is_diameter_known_;
+  const interpreter::TextForm text_;
   std::uint64_t line_ = 0;
   std::uint64_t looked_ = 0;
   bool is_moving_ = false;  ///< G0 to G3: the last motion code of all is not G0

@@ -6,6 +6,7 @@
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
+#include "gateway/interpreter/dialects/centurion/refusal_words.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -72,6 +73,7 @@ const Dialect kCenturionDialect{
     .feed_override_switch = {.step = 0.1, .most = 1.5, .fastest = std::nullopt},
     .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,
-    .options = &list_options};
+    .options = &list_options,
+    .refusal_words = &centurion::refusal_words};
 
 }  // namespace dripline::interpreter

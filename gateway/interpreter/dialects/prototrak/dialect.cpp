@@ -86,6 +86,7 @@ const Dialect kProtoTrakDialect{.name = "prototrak-plus",
                                 // Every tool is changed by hand at a prompt.
                                 .waits_at_tool_change = true,
                                 .list = list,
-                                .options = list_options};
+                                .options = list_options,
+                                .text = {.kind = TextForm::Kind::Events, .is_all_programs = true}};
 
 }  // namespace dripline::interpreter

@@ -40,6 +40,9 @@ int likelihood(std::string_view head, std::string_view file_name) {
 
 }  // namespace
 
+/// G20 and G30 are arcs, G50 is rapid traverse.
+constexpr int kMotionCodes[] = {200, 300, 500};
+
 const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     .title = "Tektronix 1704 contouring control (punched tape)",
                                     .likelihood = likelihood,
@@ -50,6 +53,7 @@ const Dialect kTektronix1704Dialect{.name = "tektronix-1704",
                                     // Without a changer M06 is an M00 with a lamp.
                                     .waits_at_tool_change = true,
                                     .list = planning_sheet,
-                                    .options = list_options};
+                                    .options = list_options,
+                                    .text = {.motion_codes = kMotionCodes}};
 
 }  // namespace dripline::interpreter

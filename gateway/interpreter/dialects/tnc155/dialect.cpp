@@ -139,6 +139,7 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .waits_at_tool_change = true,
                              .check_memory = &check_memory,
                              .is_protected = &is_protected,
-                             .options = &list_options};
+                             .options = &list_options,
+                             .text = {.kind = TextForm::Kind::PlainLanguage}};
 
 }  // namespace dripline::interpreter
