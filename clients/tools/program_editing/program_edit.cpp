@@ -95,15 +95,15 @@ class Plan {
 };
 
 tl::unexpected<Error> no_block(std::span<const std::int64_t> numbers, std::int64_t number) {
-  std::optional<std::int64_t> least, most;
+  std::optional<std::int64_t> lowest, highest;
   for (const std::int64_t there : numbers) {
     if (there < 0) continue;
-    least = std::min(least.value_or(there), there);
-    most = std::max(most.value_or(there), there);
+    lowest = std::min(lowest.value_or(there), there);
+    highest = std::max(highest.value_or(there), there);
   }
-  if (!least) return fail(Errc::NotFound, "block {}: the program has no block numbers", number);
+  if (!lowest) return fail(Errc::NotFound, "block {}: the program has no block numbers", number);
   return fail(Errc::NotFound, "block {} is not there: the program has blocks {} to {}", number,
-              *least, *most);
+              *lowest, *highest);
 }
 
 /// Lines with their ends.

@@ -8,9 +8,8 @@
 
 #include "protocol/base/result.hpp"
 
-/// Changes of a program by its blocks' numbers: what becomes of which block. How blocks are cut,
-/// numbered and written is their control's business; `edit_lines` does it for controls that keep a
-/// program as its lines. Pure.
+/// Changes of a program by its block numbers. How blocks are cut, numbered and written depends on
+/// the control; `edit_lines` edits programs of controls that keep a program as its lines. Pure.
 namespace dripline::program_editing {
 
 /// All numbers are those before the edit.
@@ -24,7 +23,7 @@ struct BlockChange {
 
 struct EditedProgram {
   struct Change {
-    char mark = '+';   ///< '-': was taken out, '+': was put in
+    char mark = '+';   ///< '-': deleted, '+': inserted
     std::string text;  ///< the block, without its line end
   };
   std::string text;
@@ -32,7 +31,7 @@ struct EditedProgram {
   std::size_t renumbered = 0;   ///< blocks that only have another number now
 };
 
-/// What becomes of a program, in the order of the result.
+/// One step of an edit, in the order of the result.
 struct EditStep {
   enum class Kind : std::uint8_t { Keep, Drop, Enter };
   Kind kind = Kind::Keep;
@@ -43,13 +42,13 @@ struct EditStep {
 inline constexpr std::int64_t kNoNumber = -1;
 
 /// `numbers`: of all blocks, kNoNumber where one cannot be named. Where no block has the number
-/// 0, it stands for the place in front of all. Errors: NotFound (no such block), Conflict (two
-/// changes of one block; a number that stands twice), Syntax (a range from right to left, nothing
-/// to put in).
+/// 0, 0 is the place in front of all blocks. Errors: NotFound (no such block), Conflict (two
+/// changes of one block; a number that is programmed twice), Syntax (a range from right to left,
+/// nothing to put in).
 Result<std::vector<EditStep>> plan_edit(std::span<const std::int64_t> numbers,
                                         std::span<const BlockChange> changes);
 
-/// Which block has this number. Errors: NotFound, Conflict (the number stands twice).
+/// Which block has this number. Errors: NotFound, Conflict (the number is programmed twice).
 Result<std::size_t> find_block(std::span<const std::int64_t> numbers, std::int64_t number);
 
 /// Blocks are the lines of the text, numbered from 1; they keep their line ends. Errors: those of

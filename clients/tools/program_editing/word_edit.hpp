@@ -7,8 +7,8 @@
 
 #include "clients/tools/program_editing/program_edit.hpp"
 
-/// Changes within blocks, as an operator makes them word by word at the control. What a word is, is
-/// its control's business.
+/// Changes within blocks, as an operator makes them word by word at the control. The control
+/// defines its words.
 namespace dripline::program_editing {
 
 struct WordChange {
@@ -29,7 +29,7 @@ struct WordSearch {
     std::uint64_t line = 0;  ///< it begins in
     std::string text;        ///< in one line
   };
-  /// A block that cannot be read, so nobody knows its words.
+  /// A block that cannot be read, so its words are not known.
   struct Unread {
     Found block;
     std::string reason;

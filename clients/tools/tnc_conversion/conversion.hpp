@@ -23,8 +23,8 @@ struct ConversionOptions {
   ReaderOptions reading = {};   ///< what of the text the control takes
 };
 
-/// As the options of a control say it: the decimal sign, lines that go on with a block, and the
-/// version, which takes not all blocks.
+/// From the options of a control: the decimal sign, the lines that continue a block, and the
+/// version, which may not take all blocks.
 ConversionOptions conversion_options(const ControlOptions& control);
 
 /// The program in the control's own layout, in the form it is in. Errors: Syntax, with line, column

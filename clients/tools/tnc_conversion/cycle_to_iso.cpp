@@ -19,7 +19,7 @@ class DefinitionWords {
  public:
   explicit DefinitionWords(IsoBlock& iso) : iso_(iso) {}
 
-  /// False: the axis stands in the block already.
+  /// False: the block has the axis already.
   bool add(const Block& part, CycleField field) {
     switch (field) {
       case CycleField::Shift:
@@ -87,9 +87,9 @@ class DefinitionWords {
 
 std::size_t definition_length(std::span<const Block> blocks) {
   const Block& first = blocks.front();
-  const std::size_t most = cycle_parts(first.cycle).size();
+  const std::size_t max = cycle_parts(first.cycle).size();
   std::size_t count = 0;
-  while (count < blocks.size() && count < most) {
+  while (count < blocks.size() && count < max) {
     const Block& part = blocks[count];
     if (part.kind != BlockKind::CycleDefinition || part.cycle != first.cycle ||
         part.part != count) {
@@ -97,8 +97,8 @@ std::size_t definition_length(std::span<const Block> blocks) {
     }
     ++count;
   }
-  const std::size_t least = first.cycle == kDatumShift ? 2 : most;
-  return count < least ? 0 : count;
+  const std::size_t min = first.cycle == kDatumShift ? 2 : max;
+  return count < min ? 0 : count;
 }
 
 bool add_definition_words(std::span<const Block> definition, IsoBlock& iso) {

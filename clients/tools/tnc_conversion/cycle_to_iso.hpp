@@ -14,7 +14,7 @@ using interpreter::tnc155::IsoBlock;
 /// complete.
 std::size_t definition_length(std::span<const Block> blocks);
 
-/// Puts the words of that definition into `iso`. False: an axis stands twice.
+/// Puts the words of that definition into `iso`. False: an axis is programmed twice.
 bool add_definition_words(std::span<const Block> definition, IsoBlock& iso);
 
 }  // namespace dripline::tnc_conversion

@@ -42,7 +42,7 @@ bool has_move(const IsoBlock& block) {
   return slots != 0;
 }
 
-/// Nothing of what the block takes from before depends on the way to it.
+/// The modal functions that the block uses are the same on all paths to it.
 Result<void> check_ways(const NumberedIsoBlock& numbered, const ModesBefore& before) {
   const IsoBlock& block = numbered.block;
   if (before.is_distance_open && takes_distance(block)) {
@@ -126,7 +126,7 @@ class IsoToPlain {
     return version.takes_all_blocks() || check_version(version, part, fault);
   }
 
-  /// END PGM says what BEGIN PGM does; in ISO the end of the text may stand for it.
+  /// END PGM repeats the words of BEGIN PGM; in ISO the end of the text may replace it.
   void complete_frame() {
     if (blocks_.empty() || blocks_.front().kind != BlockKind::Begin) return;
     const Block& begin = blocks_.front();
@@ -151,7 +151,7 @@ class IsoToPlain {
       return refuse(lines_[i], "G43 or G44 without an axis has no counterpart in plain language");
     }
     if (block.kind == BlockKind::Arc && block.coordinates[0].axis == Axis::C) {
-      return refuse(lines_[i], "an arc that names C alone cannot be told from CC");
+      return refuse(lines_[i], "an arc that names C alone cannot be distinguished from CC");
     }
     if (block.kind == BlockKind::CycleDefinition && block.cycle == 10 && block.axis &&
         block.axis != axis_) {

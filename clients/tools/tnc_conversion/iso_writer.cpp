@@ -27,7 +27,7 @@ class IsoWriter {
     write_g(IsoGroup::Tool);
     write_number('T', block_.tool);
     if (block_.length.is_programmed()) write_value('L', block_.length, Sign::Always);
-    // The plane of a blank or a rotation stands after their own code.
+    // The plane of a blank or a rotation follows its own code.
     const bool has_own_plane = block_.has(IsoGroup::Blank) || block_.has_code(IsoGroup::Cycle, 73);
     if (!has_own_plane) write_g(IsoGroup::Plane);
     write_g(IsoGroup::Motion);

@@ -27,7 +27,8 @@ std::int32_t jump_target(const IsoBlock& block) {
   return block.cycle[3].value.number / Value::kStepsPerUnit;
 }
 
-/// The distance in force after a block, as its words are sorted; AsBefore: it says nothing.
+/// The distance in force after a block, as its words are sorted; AsBefore: the block does not set
+/// it.
 Distance distance_after(const IsoBlock& block) {
   if (block.last_distance != Distance::AsBefore) return block.last_distance;
   Distance last = Distance::AsBefore;

@@ -9,10 +9,11 @@ namespace dripline::tnc_conversion {
 
 using interpreter::tnc155::IsoModes;
 
-/// What is in force in front of an ISO block, over all ways the run of a program can come to it.
+/// What is in force in front of an ISO block, over all paths on which the run of a program can
+/// reach it.
 struct ModesBefore {
   IsoModes modes;
-  // Where the ways disagree:
+  // Where the paths disagree:
   bool is_motion_open = false;
   bool is_distance_open = false;
   bool is_turn_open = false;
@@ -23,7 +24,7 @@ struct ModesBefore {
 };
 
 /// One for each block of the program. Labels, repeats, jumps and returns are followed; a called
-/// program has modes of its own. Blocks that nothing reaches go on from those before them.
+/// program has modes of its own. Blocks that are never reached continue from those before them.
 std::vector<ModesBefore> modes_before(const IsoProgram& program);
 
 }  // namespace dripline::tnc_conversion

@@ -15,7 +15,7 @@ using namespace interpreter::tnc155;
 
 namespace {
 
-/// What the ISO text has made known so far; nothing is known where the run may come from elsewhere.
+/// The modal functions known from the ISO text so far; none are where a jump may lead to the block.
 struct KnownModes {
   int motion = IsoBlock::kNone;
   Distance distance = Distance::AsBefore;
@@ -153,7 +153,8 @@ class PlainToIso {
     if (increment_ > 0) start.number = number_ += increment_;
     write_iso_block(start, options_.layout, text_);
   }
-  /// The plane we say counts as a tool call in ISO, and there is none in the program.
+  /// The plane function that the conversion adds acts as a tool call in ISO, and the program has
+  /// none.
   Result<void> check_tool_call(const Block& block) const {
     const bool is_call = block.kind == BlockKind::CycleCall || block.m == 99 || block.m == 89;
     const bool is_mirror = block.kind == BlockKind::CycleDefinition && block.cycle == 8;
@@ -329,7 +330,7 @@ class PlainToIso {
   }
 
   /// G90 and G91 only where they change something. Words of what is in force come first in the
-  /// block, so the rest must say theirs.
+  /// block, so the others need their own.
   void sort_distances() {
     Distance last = known_.distance;
     for (std::size_t i = 0; i < kIsoSlots; ++i) {
@@ -355,7 +356,7 @@ class PlainToIso {
   std::size_t begin_pass_ = 0;
   bool has_start_ = false;
   bool has_plane_ = false;
-  bool has_own_plane_ = true;  ///< the program's; else the one we said
+  bool has_own_plane_ = true;  ///< the program's; else the one the conversion added
   bool has_flow_ = false;
   KnownModes known_;
   IsoBlock iso_;

@@ -11,8 +11,8 @@ using interpreter::Axis;
 using interpreter::tnc155::Block;
 using interpreter::tnc155::RoundingUse;
 
-/// What is known of the radius compensation while a program is walked through in the order of its
-/// text: enough to say what a plain-language RND is for.
+/// Tracks the radius compensation in the order of the text, as far as it is known, to determine the
+/// purpose of a plain-language RND.
 class CompensationTrack {
  public:
   /// Of a program with these blocks.

@@ -20,7 +20,7 @@ bool is_any_plane_cycle(int cycle) {
   return cycle <= 5 || cycle == 7 || cycle == 9;
 }
 
-/// What the block does is the same in all planes, and the run goes on after it.
+/// The block has the same effect in all planes, and the run continues after it.
 bool is_same_in_all_planes(const Block& block) {
   switch (block.kind) {
     case BlockKind::Begin:

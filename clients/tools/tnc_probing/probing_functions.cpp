@@ -24,7 +24,7 @@ double angle_of(PlaneVector direction) {
   return std::atan2(direction.second, direction.first) * (180 / Angle::kPi);
 }
 
-/// Half the way between touches on either side, along each axis of the plane.
+/// Half the distance between the contacts on both sides, along each axis of the plane.
 struct Spans {
   double first = 0, second = 0;
   PlaneVector middle;
@@ -41,10 +41,10 @@ Spans spans_of(std::span<const Position, 4> touches, Plane plane) {
 std::string name_of(const Touch& touch) {
   return {letter(touch.axis), sign_of(touch) > 0 ? '+' : '-'};
 }
-bool is_same_way(const Touch& a, const Touch& b) {
+bool is_same_direction(const Touch& a, const Touch& b) {
   return a.axis == b.axis && a.direction == b.direction;
 }
-/// X, Y or Z that an axis is parallel to or turns about.
+/// X, Y or Z that an axis is parallel to or rotates about.
 Axis main_axis(Axis axis) {
   return static_cast<Axis>(static_cast<std::size_t>(axis) % 3);
 }
@@ -85,7 +85,7 @@ Result<Position> touch_around(const Workpiece& workpiece, const Stylus& stylus,
   const PlaneAxes axes = axes_of(plane_across(main_axis(touch.axis)));
   const double radius = distance_from_axis(touch.from, touch.axis);
   if (radius <= stylus.radius) {
-    return fail(Errc::LimitExceeded, "the ball stands on the axis {} it turns about, {:g} from it",
+    return fail(Errc::LimitExceeded, "the ball is on the rotary axis {}, {:g} from it",
                 letter(touch.axis), radius);
   }
   const double begin = std::atan2(touch.from.raw(axes.second), touch.from.raw(axes.first)) +
@@ -97,18 +97,18 @@ Result<Position> touch_around(const Workpiece& workpiece, const Stylus& stylus,
     at.set_raw(axes.second, radius * std::sin(angle));
     return at;
   };
-  for (double way = 0; way < stylus.travel; way += kStep) {
-    const double step = std::min(kStep, stylus.travel - way);
-    const Position from = place(way), to = place(way + step);
+  for (double travel = 0; travel < stylus.travel; travel += kStep) {
+    const double step = std::min(kStep, stylus.travel - travel);
+    const Position from = place(travel), to = place(travel + step);
     const ProbeResult result = workpiece.probe(from, to, ProbeUntil::Contact);
     if (!result.tripped) continue;
-    if (way == 0 && result.at.same_point(from)) break;
+    if (travel == 0 && result.at.same_point(from)) break;
     const auto along = [&](const Position& a) {
       return std::hypot(a.raw(axes.first) - from.raw(axes.first),
                         a.raw(axes.second) - from.raw(axes.second));
     };
     Position at = touch.from;
-    const double turned = way + step * along(result.at) / along(to);
+    const double turned = travel + step * along(result.at) / along(to);
     at.set_raw(touch.axis, touch.from.raw(touch.axis) + sign_of(touch) * turned);
     return at;
   }
@@ -130,14 +130,14 @@ Result<void> check_in_plane(std::span<const Touch> touches, Axis tool_axis) {
   return {};
 }
 
-Result<void> check_four_ways(std::span<const Touch> touches, Axis tool_axis) {
+Result<void> check_four_directions(std::span<const Touch> touches, Axis tool_axis) {
   const PlaneAxes axes = axes_of(plane_across(tool_axis));
   const char first = letter(axes.first), second = letter(axes.second);
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const Touch expected{{},
                          i < 2 ? axes.first : axes.second,
                          i % 2 == 0 ? ProbeDirection::Positive : ProbeDirection::Negative};
-    if (is_same_way(touches[i], expected)) continue;
+    if (is_same_direction(touches[i], expected)) continue;
     return wrong_touch(
         i, touches[i],
         fmt::format("expected {}+, {}-, {}+ and {}-, in this order", first, first, second, second));
@@ -147,7 +147,7 @@ Result<void> check_four_ways(std::span<const Touch> touches, Axis tool_axis) {
 
 /// Two touches of one direction from `i` on.
 Result<void> check_side(std::span<const Touch> touches, std::size_t i) {
-  if (is_same_way(touches[i], touches[i + 1])) return {};
+  if (is_same_direction(touches[i], touches[i + 1])) return {};
   return wrong_touch(
       i + 1, touches[i + 1],
       fmt::format("expected {}, as the other touch of this side", name_of(touches[i])));
@@ -182,7 +182,7 @@ Result<void> check_touches(ProbingFunction function, std::span<const Touch> touc
                          fmt::format("expected the tool's axis, {}", letter(tool_axis)));
     case ProbingFunction::Radius:
     case ProbingFunction::Circle:
-      return check_four_ways(touches, tool_axis);
+      return check_four_directions(touches, tool_axis);
     default:
       break;
   }
@@ -229,12 +229,12 @@ Position touched_point(const Position& at, const Touch& touch, const Stylus& sty
   Transformation turn;
   turn.basic_rotation = frame.basic_rotation;
   turn.basic_plane = frame.basic_plane;
-  Transformation::Values way{};
-  way[static_cast<std::size_t>(touch.axis)] =
+  Transformation::Values offset{};
+  offset[static_cast<std::size_t>(touch.axis)] =
       touched_coordinate(at, touch, stylus, tool_axis) - at.raw(touch.axis);
-  way = turn.to_machine(way);
+  offset = turn.to_machine(offset);
   for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-    point.set_raw(axis, at.raw(axis) + way[static_cast<std::size_t>(axis)]);
+    point.set_raw(axis, at.raw(axis) + offset[static_cast<std::size_t>(axis)]);
   }
   return point;
 }
@@ -270,22 +270,22 @@ Result<double> calibrated_radius(std::span<const Position, 4> touches, Plane pla
 
 Result<double> basic_rotation(const Position& first, const Position& second, Plane plane,
                               double nominal) {
-  const PlaneVector way = in_plane(second, plane) - in_plane(first, plane);
-  if (way == PlaneVector{}) return fail(Errc::LimitExceeded, "both touches at the same point");
-  // A side has no sense: its angle counts modulo half a turn.
-  return std::remainder(angle_of(way) - nominal, 180.0);
+  const PlaneVector along = in_plane(second, plane) - in_plane(first, plane);
+  if (along == PlaneVector{}) return fail(Errc::LimitExceeded, "both touches at the same point");
+  // A side has no sense: its angle is defined modulo 180 degrees.
+  return std::remainder(angle_of(along) - nominal, 180.0);
 }
 
 Result<Corner> corner(const Side& first, const Side& second, const Stylus& stylus, Plane plane) {
   const auto line_of = [&](const Side& side) {
     const PlaneVector from = in_plane(side.first_at, plane);
     const PlaneVector along = in_plane(side.second_at, plane) - from;
-    const double way = length(along);
-    if (way == 0) return std::pair(from, along);
+    const double distance = length(along);
+    if (distance == 0) return std::pair(from, along);
     // Across the wall, to the side where the touches lead.
     const bool is_first = side.first.axis == axes_of(plane).first;
     const double lead = (is_first ? -along.second : along.first) * sign_of(side.first);
-    const double ball = (lead < 0 ? -stylus.radius : stylus.radius) / way;
+    const double ball = (lead < 0 ? -stylus.radius : stylus.radius) / distance;
     return std::pair(from + ball * PlaneVector{-along.second, along.first}, along);
   };
   const auto [a, along_a] = line_of(first);

@@ -10,8 +10,8 @@
 #include "gateway/interpreter/dialects/tnc155/reading/block.hpp"
 #include "protocol/base/result.hpp"
 
-/// The touch probe's functions of the manual and handwheel modes: what an operator measures before
-/// a program runs (TNC 151/155, chapter on the touch probe). Pure: touch points in, results out.
+/// The touch probe functions of the manual and handwheel modes, with which an operator measures
+/// before a program runs (manual: touch probe). Pure: contact points in, results out.
 /// Lengths are millimetres in machine coordinates with the stylus length left out, angles degrees.
 namespace dripline::tnc_probing {
 
@@ -26,7 +26,7 @@ using interpreter::tnc155::Transformation;
 /// The stylus as calibrated.
 struct Stylus {
   double radius = 0;    ///< of the ball, effective
-  double travel = 100;  ///< longest way of one touch
+  double travel = 100;  ///< longest travel of one touch
 };
 
 /// One touch: from a place along one axis until contact.
@@ -45,10 +45,10 @@ std::size_t touches_of(ProbingFunction function);
 Result<void> check_touches(ProbingFunction function, std::span<const Touch> touches,
                            Axis tool_axis);
 
-/// Where the stylus was at contact. Along U, V, W it moves as along X, Y, Z; about A, B, C it goes
-/// round the machine's zero, on the axis' side of a workpiece that lies as at 0 degrees, and travel
-/// counts degrees. Errors: NotFound, TOUCH POINT INACCESSIBLE: no contact within the travel, or
-/// deflected at the start; LimitExceeded (the ball is on the axis it turns about).
+/// Where the stylus was at contact. Along U, V, W it moves as along X, Y, Z; about A, B, C it
+/// circles the machine's zero, on the axis' side of a workpiece that lies as at 0 degrees, and
+/// travel is in degrees. Errors: NotFound, TOUCH POINT INACCESSIBLE: no contact within the travel,
+/// or deflected at the start; LimitExceeded (the ball is on the axis it turns about).
 Result<Position> touch(const Workpiece& workpiece, const Stylus& stylus, const Touch& touch);
 
 /// The surface's coordinate along the touch's axis: of the tip along the tool, of the ball's rim

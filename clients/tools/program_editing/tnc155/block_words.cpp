@@ -13,7 +13,7 @@ using namespace interpreter::tnc155;
 
 namespace {
 
-/// Of plain language; one that another begins with stands after that one.
+/// Addresses of plain language; the longer of two with the same beginning comes first.
 constexpr std::array<std::string_view, 72> kPlainAddresses{"DEF BLK FORM",
                                                            "REF. PLANE",
                                                            "BEGIN PGM",
@@ -98,7 +98,7 @@ bool begins_value(char c) {
   return (kCharacterBits[static_cast<unsigned char>(c)] & kValueBit) != 0;
 }
 
-/// What can stand directly after an address.
+/// Characters that can follow an address directly.
 bool is_value_of(std::string_view address, std::string_view rest) {
   if (rest.empty() || begins_value(rest.front())) return true;
   if (address == "F") return rest.starts_with("MAX");
@@ -257,7 +257,7 @@ std::vector<BlockWord> words_of(std::string_view text, Form form) {
 Result<TypedWord> read_typed_word(std::string_view typed, Form form) {
   auto word = split(typed, form);
   if (word && !is_one_value(*word, form)) {
-    return fail(Errc::Syntax, "\"{}\" is not one word: after {} stands \"{}\"", typed,
+    return fail(Errc::Syntax, "\"{}\" is not one word: {} is followed by \"{}\"", typed,
                 word->address, word->value);
   }
   return word;

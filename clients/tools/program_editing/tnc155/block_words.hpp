@@ -7,8 +7,8 @@
 #include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 #include "protocol/base/result.hpp"
 
-/// The words of a block for whoever edits it word by word: addresses and the places of their values
-/// in a text as the control writes it (text_layout.hpp). What a value may be is the readers'.
+/// The words of a block for editing word by word: addresses and the places of their values in a
+/// text as the control writes it (text_layout.hpp). The readers check the values.
 namespace dripline::program_editing {
 
 using interpreter::tnc155::Form;
@@ -16,7 +16,7 @@ using interpreter::tnc155::Form;
 struct BlockWord {
   /// Plain language: "X", "IX", "F", "TOOL CALL", "="; ISO: "X", "G41", "P01".
   std::string_view address;
-  std::string_view value;  ///< empty: none, as of "R" in "L X+5,000 R F M"; may stand after a blank
+  std::string_view value;  ///< empty: none, as of "R" in "L X+5,000 R F M"; may follow a blank
   std::size_t begin = 0, end = 0;  ///< of both, in the block's text
 };
 

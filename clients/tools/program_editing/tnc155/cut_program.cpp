@@ -59,7 +59,7 @@ void CutProgram::cut() {
   }
 }
 
-/// Plain language counts on where a number is missing; an ISO block without N has none.
+/// A plain-language block without a number has the next one; an ISO block without N has none.
 void CutProgram::take_numbers() {
   std::int64_t before = -1;
   for (TextBlock& block : blocks_) {

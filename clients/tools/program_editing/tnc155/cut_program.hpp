@@ -17,7 +17,7 @@ using interpreter::tnc155::Form;
 using interpreter::tnc155::ReadingState;
 using tnc_conversion::TextLayout;
 
-/// A block as it stands in the text.
+/// A block as written in the text.
 struct TextBlock {
   const char* begin = nullptr;
   const char* end = nullptr;    ///< without what ends it and blanks in front of that
@@ -29,8 +29,8 @@ struct TextBlock {
   std::string text() const;
 };
 
-/// A whole program cut into blocks as the readers cut it, but without reading what they say: one
-/// that is wrong can be mended. Keeps a copy of the text, which its blocks point into.
+/// A whole program cut into blocks as the readers cut it, but without reading its words, so that
+/// a faulty block can be repaired. Keeps a copy of the text, which its blocks point into.
 class CutProgram {
  public:
   explicit CutProgram(std::string_view text);
@@ -47,7 +47,7 @@ class CutProgram {
   std::vector<std::int64_t> numbers() const;
   /// What is in force after the first block.
   const ReadingState& state() const { return state_; }
-  /// Line ends and decimal signs as they stand in the text.
+  /// Line ends and decimal signs as the text has them.
   const TextLayout& layout() const { return layout_; }
   /// The first block names the program and its units.
   bool has_head() const { return has_head_; }

@@ -51,7 +51,7 @@ class Editor {
                     block.number, block.text());
       }
       if (step.kind == Kind::Enter && is_last_block(block)) {
-        return fail(Errc::Syntax, "{}: nothing stands after the last block, {} \"{}\"",
+        return fail(Errc::Syntax, "{}: nothing may follow the last block, {} \"{}\"",
                     error_row(ErrorCode::MemoryExceeded).text, block.number, block.text());
       }
     }
@@ -107,8 +107,8 @@ class Editor {
     const std::int64_t gap = (next - before) / (count + 1);
     if (gap < 1) {
       return fail(Errc::LimitExceeded,
-                  "{} blocks do not find numbers between {} and {}: renumber first", count, before,
-                  next);
+                  "{} blocks do not fit between block numbers {} and {}: renumber first", count,
+                  before, next);
     }
     const std::int64_t step = std::min<std::int64_t>(gap, kUsualIncrement);
     for (std::size_t i = first; i < after; ++i) numbers_[i] = before += step;

@@ -52,7 +52,7 @@ class BlockRewriter {
   ReadingState state_;
 };
 
-/// What tells one kind of block from another cannot be changed as a word.
+/// Words that determine the kind of a block cannot be changed as words.
 bool names_the_block(const BlockWord& word, Form form) {
   if (form == Form::Iso) return word.address == "D" || word.address == "%";
   static constexpr std::string_view kNames[] = {
@@ -97,8 +97,9 @@ class WordEditor {
     const BlockWord* old = word_for(words, *word, form_);
     if (old == nullptr) return no_word(word->address);
     if (names_the_block(*old, form_)) {
-      return fail(Errc::Syntax, "block {}: {} says what the block is, --replace changes it",
-                  number_, old->address);
+      return fail(Errc::Syntax,
+                  "block {}: {} determines the kind of the block, --replace changes it", number_,
+                  old->address);
     }
     if (std::ranges::find(set_, word->address) != set_.end()) {
       return fail(Errc::Conflict, "{} of block {} is given two values", word->address, number_);
@@ -234,7 +235,7 @@ Result<std::map<std::size_t, std::optional<WordEditor>>> editors_of(
     const auto editor = editors.find(i);
     if (editor == editors.end()) continue;
     if (!is_read) {
-      return fail(Errc::Syntax, "block {} \"{}\" cannot be read, --replace mends it: {}",
+      return fail(Errc::Syntax, "block {} \"{}\" cannot be read, --replace repairs it: {}",
                   block.number, block.text(), fault.text());
     }
     editor->second.emplace(program, block.number, std::move(text));

@@ -60,7 +60,7 @@ Result<void> check_tool_store(const Setup& setup) {
   return {};
 }
 
-void stand_at_start(const Setup& setup, State& state) {
+void place_at_start(const Setup& setup, State& state) {
   state.machine = setup.start;
   state.machine.unmark_all();
   state.transformation.update();
@@ -85,11 +85,11 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (!pockets) return fail(pockets.error());
   state.pockets = *std::move(pockets);
   state.transformation.basic_rotation = options->basic_rotation;
-  stand_at_start(setup, state);
+  place_at_start(setup, state);
   if (options->start_block >= 0) {
     state.start.is_searching = true;
     state.start.block = options->start_block;
-    state.start.stand = setup.stands.value_or(setup.start);
+    state.start.actual = setup.stands.value_or(setup.start);
   }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
       *std::move(options), std::move(state), std::move(tools), source, sink));
@@ -134,8 +134,8 @@ const Dialect kTnc155Dialect{.name = "tnc155",
                              .likelihood = &likelihood,
                              .make = &make,
                              // M06 is a program stop where the machine parameter makes it one
-                             // (`m06_stop`; spec 16.2); TOOL CALL itself never stops, a STOP before
-                             // it is programmed (spec 6).
+                             // (`m06_stop`); TOOL CALL itself never stops, a STOP before
+                             // it is programmed.
                              .waits_at_tool_change = true,
                              .check_memory = &check_memory,
                              .is_protected = &is_protected,

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// What this control calls an error. It has texts and no numbers, so the ids are ours and stable;
-/// texts that its manual does not have are marked in the table.
+/// The errors of this control. It has texts and no numbers, so the ids are ours and stable; texts
+/// that are not in its manual are marked in the table.
 namespace dripline::interpreter::tnc155 {
 
 enum class ErrorCode : std::uint8_t {
@@ -63,8 +63,8 @@ const ErrorRow& error_row(ErrorCode code);
 /// Why a block cannot be read.
 struct Fault {
   ErrorCode code = ErrorCode::None;
-  std::uint32_t column = 0;  ///< 1-based, in the block's text as it stands in the program
-  std::string detail;        ///< names the word, its value and the limit
+  std::uint32_t column = 0;  ///< 1-based, in the block's text as written in the program
+  std::string detail;        ///< the word, its value and the limit
 
   explicit operator bool() const { return code != ErrorCode::None; }
   /// "BLOCK FORMAT INCORRECT: ...".

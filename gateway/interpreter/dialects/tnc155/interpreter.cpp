@@ -185,7 +185,7 @@ bool TncInterpreter::is_start() const {
 BlockOutcome TncInterpreter::find_way_back() {
   if (came_back_ || run_.state.known_labels.empty()) return BlockOutcome::Finished;
   const TextPlace place = run_.reader.block_place();
-  const auto outcome = way_back_.find_way_back(place);
+  const auto outcome = way_back_.find_return(place);
   run_.reader.drop_window();
   if (outcome == AheadSearch::Outcome::NotYet) return BlockOutcome::NeedsText;
   if (outcome == AheadSearch::Outcome::More) return BlockOutcome::MoreFollows;

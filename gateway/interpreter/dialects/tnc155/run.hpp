@@ -23,9 +23,9 @@ struct DefinitionAhead {
   Units units = Units::Millimetre;
 };
 
-/// One run: what the files of this folder work on. Functions that cannot go on give false and
-/// leave the reason in `pause`. A question may be asked by the last thing a block does only, and
-/// that thing is done again once the answer is there.
+/// One run: the state that the files of this folder work on. Functions that cannot continue return
+/// false and leave the reason in `pause`. Only the last action of a block may ask a question; that
+/// action is executed again once the answer is there.
 struct Run : BlockRun {
   Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink);
 
@@ -41,7 +41,7 @@ struct Run : BlockRun {
   void use_stages();
   /// And the one for corners in front of it, from the next move on.
   void begin_blending();
-  /// Both at the position of the state, with nothing waiting.
+  /// Places both stages at the position of the state, with nothing waiting.
   void reset_stages();
   void end_block() {
     if (state.uses_stages) [[unlikely]] {
@@ -51,7 +51,7 @@ struct Run : BlockRun {
     }
   }
 
-  /// All give false. `detail` is added to the control's text: which value, which limit.
+  /// All return false. `detail` is appended to the control's text: the value, the limit.
   [[gnu::cold]] bool fail(ErrorCode code, std::string_view detail = {});
   /// With a text in place of the control's.
   [[gnu::cold]] bool fail_as(ErrorCode code, std::string_view text);
@@ -59,7 +59,7 @@ struct Run : BlockRun {
   [[gnu::cold]] bool ask(Question asked);
   [[gnu::cold]] void warn(std::string_view id, std::string_view text);
 
-  /// A word's number, or what its Q parameter holds; 0 for none.
+  /// The number of a word, or the value of its Q parameter; 0 for none.
   double number(const Value& value) const {
     if (!value.is_q()) [[likely]]
       return value.amount();
@@ -81,16 +81,16 @@ struct Run : BlockRun {
   BlockReader reader;
   State state;
   std::vector<ToolDefinition> tools;                ///< of the setup: the central tool file
-  std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL in hand
+  std::optional<DefinitionAhead> definition_ahead;  ///< for the TOOL CALL being executed
 
-  BlockParts parts;  ///< of the block in hand
+  BlockParts parts;  ///< of the block being executed
   language::LoopGuard loops;
-  language::WordLedger ledger;   ///< of the part in hand: its coordinates, by their place
+  language::WordLedger ledger;   ///< of the part being executed: its coordinates, by their place
   bool is_in_block = false;      ///< read, and not finished
-  bool is_measuring = false;     ///< moves are held against the limits and not made
-  bool blend_follows = false;    ///< RND or a chamfer stands after the part in hand
-  bool starts_contour = false;   ///< the part in hand is the first with RL or RR
-  std::optional<Answer> answer;  ///< to the question of the part in hand
+  bool is_measuring = false;     ///< moves are checked against the limits and not made
+  bool blend_follows = false;    ///< RND or a chamfer follows the current part
+  bool starts_contour = false;   ///< the part being executed is the first with RL or RR
+  std::optional<Answer> answer;  ///< to the question of the part being executed
 
  private:
   EventSink& stages() {

@@ -151,7 +151,7 @@ template <class Archive>
 void visit_start(Archive& archive, StartState& start) {
   visit_all(archive, start.is_searching, start.block, start.has_changed_tool, start.is_in_contour,
             start.contour_block);
-  visit(archive, start.stand);
+  visit(archive, start.actual);
   visit(archive, start.expected);
   visit_bits(archive, start.codes);
   visit_bits(archive, start.assigned);

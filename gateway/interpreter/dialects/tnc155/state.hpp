@@ -12,7 +12,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
-/// Everything that stays from one block to the next. Lengths are millimetres, angles degrees.
+/// The state that is kept from one block to the next. Lengths are millimetres, angles degrees.
 /// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
 namespace dripline::interpreter::tnc155 {
 
@@ -92,7 +92,7 @@ struct Jump {
   TextPlace call;  ///< the block that jumps
 };
 
-/// The positioning block before, for what joins it: CT, RND, chamfers, single-axis rules.
+/// The previous positioning block, as CT, RND, chamfers and the single-axis rules need it.
 struct LastMove {
   bool exists = false;
   bool is_arc = false;
@@ -116,7 +116,7 @@ enum class BlendKind : std::uint8_t {
 struct Blend {
   BlendKind kind = BlendKind::None;
   bool is_stated = false;  ///< G25: a corner and nothing else
-  bool is_lost = false;    ///< the contour ended before the move that it joins
+  bool is_lost = false;    ///< the contour ended before the move after the corner
   double size = 0;
   Origin origin;
 };
@@ -124,7 +124,7 @@ struct Blend {
 /// The first half of DEF BLK FORM.
 struct BlankState {
   bool has_minimum = false;
-  bool is_tool_across = false;  ///< the graphics were told that they show nothing
+  bool is_tool_across = false;  ///< the warning about the graphics was given
   Axis axis = Axis::Z;
   std::array<double, 3> minimum{};
 };
@@ -133,14 +133,14 @@ struct BlankState {
 struct StartState {
   bool is_searching = false;  ///< nothing reaches the machine yet
   std::int32_t block = Block::kNone;
-  Position stand;                             ///< where the machine is
+  Position actual;                            ///< where the machine is
   Position expected;                          ///< where the program has it at the block
   bool has_changed_tool = false;              ///< before the block
   bool is_in_contour = false;                 ///< or a corner
   std::int32_t contour_block = Block::kNone;  ///< that began it
-  std::bitset<100> codes;                 ///< M functions of the machine that were not given out
-  std::bitset<kParameterCount> assigned;  ///< Q parameters that the program has set
-  std::bitset<kParameterCount> carried;   ///< or used in a computation before it set them
+  std::bitset<100> codes;                     ///< M functions of the machine that were not output
+  std::bitset<kParameterCount> assigned;      ///< Q parameters that the program has set
+  std::bitset<kParameterCount> carried;       ///< or used in a computation before it set them
 };
 
 struct PolarData {
@@ -171,7 +171,7 @@ struct State {
   std::vector<ToolPocket> pockets;          ///< of the random changer; empty without one
   SpindleModes spindle;
   CoolantModes coolant;
-  /// F in force, by what moves: an inch program counts it in tenths of an inch for linear axes and
+  /// F in force, by what moves: an inch program states it in tenths of an inch for linear axes and
   /// in degrees for a rotary axis alone. 0: none yet.
   double feed = 0;         ///< millimetres per minute
   double rotary_feed = 0;  ///< degrees per minute
@@ -179,8 +179,8 @@ struct State {
   Compensation compensation = Compensation::Off;
   bool uses_stages = false;       ///< from the first RL, RR, RND or chamfer on
   bool joins = false;             ///< moves pass the corner stage: one waits there
-  bool is_parallel = false;       ///< after M98: compensation has to be programmed anew
-  bool needs_side = false;        ///< a tool call ended RL or RR: R0, RL or RR is to be said
+  bool is_parallel = false;       ///< after M98: compensation has to be programmed again
+  bool needs_side = false;        ///< a tool call ended RL or RR: R0, RL or RR must be programmed
   bool has_compensated = false;   ///< a contour was started in this run
   bool is_first_contour = false;  ///< the one that was started last is that one
   bool awaits_contour = false;    ///< RL or RR is on, and no block in the plane has followed
@@ -200,7 +200,7 @@ struct State {
   Jump jump;
   StartState start;
   bool is_restart = false;      ///< after GOTO
-  bool has_positioned = false;  ///< the first positioning of the run has said where it goes
+  bool has_positioned = false;  ///< the first positioning of the run was executed
 
   double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
   bool is_compensating() const {

@@ -32,10 +32,11 @@ bool check_side(Run& run, Axis axis, double side) {
                               side, kLongestSide));
 }
 
-/// Where the workpiece lies on the machine: corners are coordinates, which refer to the active
-/// datum (spec 13.1), so the datum and a shift in force count. Mirroring, rotation and scaling are
-/// about the path, and the sides stay parallel to the axes (spec 21); a basic rotation turns the
-/// workpiece itself, so the blank becomes the smallest one that holds it all.
+/// The place of the workpiece on the machine. Its corners are coordinates relative to the datum, so
+/// the datum and a shift in force apply. Mirroring, rotation and scaling apply to the path only,
+/// and the sides stay parallel to the axes; a basic rotation rotates the workpiece itself, so the
+/// blank becomes the smallest one that contains it (manual: path functions, common rules; BLK
+/// FORM).
 void put_on_machine(const Transformation& transformation, Blank& blank) {
   Transformation place;
   place.datum = transformation.datum;
@@ -92,11 +93,11 @@ bool define_blank(Run& run, const Block& block) {
   }
   put_on_machine(run.state.transformation, event);
   run.events().on_blank(event);
-  if (run.state.tool.number != 0) tell_graphics(run);
+  if (run.state.tool.number != 0) warn_of_graphics(run);
   return true;
 }
 
-void tell_graphics(Run& run) {
+void warn_of_graphics(Run& run) {
   BlankState& blank = run.state.blank;
   const ActiveTool& tool = run.state.tool;
   const bool is_across = blank.has_minimum && !(tool.is_called && tool.axis == blank.axis);

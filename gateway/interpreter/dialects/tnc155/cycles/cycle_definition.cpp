@@ -21,8 +21,8 @@ bool refuse_incomplete(Run& run, const Block& block) {
   const CycleState& cycle = run.state.cycle;
   if (block.cycle == cycle.defining && block.part == cycle.next_part) {
     return run.fail(ErrorCode::CycleIncomplete,
-                    fmt::format("CYCL DEF {0}.{1} does not stand after {0}.{2}", block.cycle,
-                                block.part, block.part - 1));
+                    fmt::format("CYCL DEF {0}.{1} does not follow {0}.{2}", block.cycle, block.part,
+                                block.part - 1));
   }
   return run.fail(ErrorCode::CycleIncomplete,
                   fmt::format("CYCL DEF {}.{} where {}.{} was due", block.cycle, block.part,
@@ -68,7 +68,7 @@ bool shift_datum(Run& run, const Block& block) {
 
 bool mirror(Run& run, const Block& block) {
   run.ledger.take_all();
-  // In whichever order the axes stand, the same one is complained about.
+  // The same axis is reported in whatever order the axes were programmed.
   const ActiveTool& tool = run.state.tool;
   const auto names = [&](Axis axis) {
     for (std::size_t i = 0; i < block.coordinate_count; ++i) {

@@ -13,11 +13,11 @@ Pace feeding(const Run& run, double feed) {
   return {false, feed, is_inch ? feed * kTenthsPerInch / Length::kMillimetresPerInch : feed};
 }
 
-/// A hole's moves are none in the plane, unless the rotation of another plane turns them into it.
-bool leaves_contour(const Run& run, CycleMotion::Way way) {
+/// The moves of a hole do not lie in the plane, unless the rotation of another plane tilts them.
+bool leaves_contour(const Run& run, CycleMotion::Direction direction) {
   const State& state = run.state;
-  return state.uses_stages &&
-         (way == CycleMotion::Way::InThePlane || !state.transformation.keeps_circles(state.plane));
+  return state.uses_stages && (direction == CycleMotion::Direction::InThePlane ||
+                               !state.transformation.keeps_circles(state.plane));
 }
 
 /// Where a contour has led the tool the cycle begins, not where its block pointed to.
@@ -32,9 +32,9 @@ void stand_where_the_tool_is(Run& run) {
 
 }  // namespace
 
-CycleMotion::CycleMotion(Run& run, Way way)
+CycleMotion::CycleMotion(Run& run, Direction direction)
     : run_(run),
-      leaves_contour_(leaves_contour(run, way)),
+      leaves_contour_(leaves_contour(run, direction)),
       axes_(axes_of(run.state.plane)),
       machine_(run.state.machine),
       nominal_(run.state.nominal) {
@@ -48,7 +48,7 @@ void CycleMotion::end() {
   run_.state.nominal = nominal_;
   if (leaves_contour_) {
     run_.state.machine = machine_;
-    go_on_with_contour(run_, machine_);
+    continue_contour(run_, machine_);
   }
   run_.state.last = LastMove{};
 }

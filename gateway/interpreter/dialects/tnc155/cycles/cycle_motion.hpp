@@ -4,22 +4,22 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// The moves of one call of a machining cycle, from where the tool stands. Program coordinates:
-/// what transforms the program transforms the cycle. `u` and `v` are the plane's axes.
+/// The moves of one call of a machining cycle, from the position of the tool. Program coordinates:
+/// transformations of the program apply to the cycle too. `u` and `v` are the plane's axes.
 class CycleMotion {
  public:
   /// A hole is made at the corner that the contour has there. A pocket is milled where the block
-  /// before ends by itself; the contour goes on at `end`.
-  enum class Way : std::uint8_t { AlongTheToolAxis, InThePlane };
+  /// before ends by itself; the contour resumes at `end`.
+  enum class Direction : std::uint8_t { AlongTheToolAxis, InThePlane };
 
-  CycleMotion(Run& run, Way way);
+  CycleMotion(Run& run, Direction direction);
   void end();
 
   PlaneVector start() const { return start_; }
   double start_height() const { return start_height_; }
-  /// In program coordinates, which scaling makes another length than the tool's.
+  /// In program coordinates: scaling makes it differ from the tool's own radius.
   double tool_radius() const { return tool_radius_; }
-  /// The way round that the machine has to see: mirroring does not turn a cycle over.
+  /// The direction for the machine: mirroring does not reverse a cycle.
   Turn turn_for(Turn programmed) const;
   /// The place of an axis in the plane: 0, 1, or -1 for neither.
   int place_of(Axis axis) const;

@@ -8,7 +8,7 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What a complete definition of a machining cycle (1-5, 12) says. Lengths are millimetres with
+/// A complete definition of a machining cycle (1-5, 12). Lengths are millimetres with
 /// their signs, feeds millimetres per minute, dwells seconds.
 struct MachiningCycle {
   std::uint8_t number = 0;  ///< 0: none was defined
@@ -35,8 +35,8 @@ struct ProbeState {
   ProbeDirection direction = ProbeDirection::Negative;
 };
 
-/// What cycle definitions leave for calls and for later blocks. Part of the run's state; whoever
-/// adds a member adds it to `visit_cycle_state` as well.
+/// The state that cycle definitions leave for calls and later blocks. Part of the run's state: add
+/// new members to `visit_cycle_state` too.
 struct CycleState {
   bool is_modal_call = false;  ///< M89
   std::uint8_t defining = 0;   ///< cycle whose sub-blocks come now
@@ -44,7 +44,7 @@ struct CycleState {
   bool is_complete = true;     ///< no sub-block is missing
   std::uint64_t block = 0;     ///< of the run: the last sub-block
   MachiningCycle machining;    ///< what a call runs
-  MachiningCycle draft;        ///< what has been said of the one being defined
+  MachiningCycle draft;        ///< the definition so far
   ProbeState probe;
 };
 

@@ -139,8 +139,9 @@ bool stays_within_limits(Run& run, CycleMotion& motion, const MachiningCycle& cy
 }
 
 bool run_machining(Run& run, const MachiningCycle& cycle) {
-  using Way = CycleMotion::Way;
-  CycleMotion motion(run, cycle.number < kSlot ? Way::AlongTheToolAxis : Way::InThePlane);
+  using Direction = CycleMotion::Direction;
+  CycleMotion motion(run,
+                     cycle.number < kSlot ? Direction::AlongTheToolAxis : Direction::InThePlane);
   if (!stays_within_limits(run, motion, cycle)) return run.fail_at_limit();
   make(run, motion, cycle);
   motion.end();

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-/// How far in front of the last depth the rapid way down ends: 0.6 mm, of holes deeper than 30 mm a
+/// How far in front of the last depth the rapid infeed ends: 0.6 mm, of holes deeper than 30 mm a
 /// fiftieth, 7 mm at most.
 double stop_distance(double depth) {
   constexpr double kShallow = 30, kLeast = 0.6, kMax = 7, kPart = 50;

@@ -2,11 +2,11 @@
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycle_motion.hpp"
 
-/// The motion of each machining cycle, from where the tool stands. What cannot be cut was refused
-/// before (`check_machining`).
+/// The motion of each machining cycle, from the position of the tool. A cycle that cannot be cut
+/// was refused before (`check_machining`).
 namespace dripline::interpreter::tnc155 {
 
-/// A call is one block, and one block brings a bounded number of moves.
+/// A call is one block, and the number of moves in one block is bounded.
 inline constexpr double kMaxMoves = 8000;
 
 /// Conditions of a call: tool, spindle, signs, sizes, bounds.

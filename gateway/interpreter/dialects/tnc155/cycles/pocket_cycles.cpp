@@ -15,12 +15,12 @@ double height_of(const CycleMotion& motion, const MachiningCycle& cycle, double 
   return surface + std::copysign(deep, cycle.depth);
 }
 
-int steps_to(double way, double step) {
-  return std::max(1, static_cast<int>(std::ceil(way / step - kSliver)));
+int steps_to(double distance, double step) {
+  return std::max(1, static_cast<int>(std::ceil(distance / step - kSliver)));
 }
 
-PlaneVector along(int place, double way) {
-  return place == 0 ? PlaneVector{way, 0} : PlaneVector{0, way};
+PlaneVector along(int place, double distance) {
+  return place == 0 ? PlaneVector{distance, 0} : PlaneVector{0, distance};
 }
 
 /// One turn of a rectangular spiral: half its sides along the long and the short axis.
@@ -53,8 +53,8 @@ void run_ring(CycleMotion& motion, int long_place, Ring ring, Turn turn, double 
 void mill_slot(CycleMotion& motion, const MachiningCycle& cycle) {
   const int place = motion.place_of(cycle.first_axis);
   const double reach = std::fabs(cycle.first_side) - 2 * motion.tool_radius();
-  const double way = std::copysign(reach, cycle.first_side);
-  const PlaneVector near = motion.start(), far = near + along(place, way);
+  const double travel = std::copysign(reach, cycle.first_side);
+  const PlaneVector near = motion.start(), far = near + along(place, travel);
   bool is_far = false;
   const auto pecks = static_cast<int>(pecks_of(cycle));
   for (int peck = 1; peck <= pecks; ++peck) {
@@ -63,9 +63,10 @@ void mill_slot(CycleMotion& motion, const MachiningCycle& cycle) {
     motion.feed_to(is_far ? far : near, cycle.feed);
   }
   const PlaneVector here = is_far ? far : near, other = is_far ? near : far;
-  // Down-cut inside: counter-clockwise, so the wall to the right of the way to the other end first.
+  // Climb milling inside is counterclockwise, so the wall on the right of the travel to the other
+  // end comes first.
   const double half = std::fabs(cycle.second_side) / 2 - motion.tool_radius();
-  const double ahead = (is_far ? -1 : 1) * (way < 0 ? -1 : 1);
+  const double ahead = (is_far ? -1 : 1) * (travel < 0 ? -1 : 1);
   const double handed = place == 0 ? 1 : -1;
   const double turned = motion.turn_for(Turn::Counterclockwise) == Turn::Counterclockwise ? 1 : -1;
   const PlaneVector aside = along(1 - place, -ahead * handed * turned * half);
@@ -106,7 +107,7 @@ void mill_pocket(CycleMotion& motion, const MachiningCycle& cycle, double step) 
 
 void mill_circle(CycleMotion& motion, const MachiningCycle& cycle, double step) {
   const double radius = cycle.radius - motion.tool_radius();
-  const int turns = steps_to(radius, step);
+  const int rings = steps_to(radius, step);
   const Turn turn = motion.turn_for(cycle.turn);
   const PlaneVector center = motion.start();
   const auto pecks = static_cast<int>(pecks_of(cycle));
@@ -115,8 +116,8 @@ void mill_circle(CycleMotion& motion, const MachiningCycle& cycle, double step) 
     // Half circles that grow by half a step, leaving the center along the second axis.
     double at = 0;
     double side = turn == Turn::Counterclockwise ? -1 : 1;
-    for (int half = 1; half <= 2 * turns; ++half, side = -side) {
-      const double to = side * radius * half / (2 * turns);
+    for (int half = 1; half <= 2 * rings; ++half, side = -side) {
+      const double to = side * radius * half / (2 * rings);
       motion.arc_to(center + along(0, to), center + along(0, (at + to) / 2), turn, cycle.feed);
       at = to;
     }

@@ -20,11 +20,11 @@ double sign_of(const ProbeState& probe) {
   return probe.direction == ProbeDirection::Positive ? 1 : -1;
 }
 
-/// By a way of the machine's: clearance and travel are machine parameters, which are not scaled.
+/// Moves by a distance of the machine: clearance and travel are machine parameters and not scaled.
 Target moved(const Run& run, Target target, double by) {
   const ProbeState& probe = run.state.cycle.probe;
-  const double way = sign_of(probe) * by / run.state.transformation.factor(probe.axis);
-  target.set(probe.axis, target.at[static_cast<std::size_t>(probe.axis)] + way);
+  const double distance = sign_of(probe) * by / run.state.transformation.factor(probe.axis);
+  target.set(probe.axis, target.at[static_cast<std::size_t>(probe.axis)] + distance);
   return target;
 }
 
@@ -55,12 +55,13 @@ AxisValues values_of(const Position& position) {
   return values;
 }
 
-/// The touched coordinate: of the stylus' tip along the tool, of its ball's rim across it.
+/// The probed coordinate: at the tip of the stylus along the tool axis, at the rim of its ball
+/// across it.
 double measured(const Run& run, const Position& at) {
   const State& state = run.state;
   const ProbeState& probe = state.cycle.probe;
-  const AxisValues touched = state.transformation.to_program(values_of(at));
-  const double value = touched[static_cast<std::size_t>(probe.axis)];
+  const AxisValues probed = state.transformation.to_program(values_of(at));
+  const double value = probed[static_cast<std::size_t>(probe.axis)];
   if (probe.axis == state.tool.axis) return value;
   return value + sign_of(probe) * state.tool.data.radius / state.transformation.factor(probe.axis);
 }

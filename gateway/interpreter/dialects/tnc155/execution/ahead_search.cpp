@@ -13,7 +13,7 @@ void AheadSearch::begin() {
   blocks_ = 0;
 }
 
-/// Of an ISO program only the words are read: what they mean in their place is the run's.
+/// Of an ISO program only the words are read: the run resolves them.
 AheadSearch::Step AheadSearch::next() {
   reader_.seek(at_);
   const bool knew_form = state_.program.form != Form::Unknown;
@@ -74,7 +74,7 @@ AheadSearch::Outcome AheadSearch::find_tool(std::int32_t number, std::uint64_t m
     const bool is_found = step == Step::Read && is_definition(number);
     if (is_found || step == Step::End || blocks_ >= max_blocks ||
         (step == Step::Read && is_over())) {
-      tool_ = Block::kNone;  // the next search begins anew
+      tool_ = Block::kNone;  // the next search starts from the beginning
       undefined_.set(tool, !is_found);
       return is_found ? Outcome::Found : Outcome::Missing;
     }
@@ -100,7 +100,7 @@ std::int32_t AheadSearch::called_program() const {
   return block.has(IsoGroup::Unit) ? Block::kNone : block.program;
 }
 
-/// What the block read last has to do with labels.
+/// The use of labels in the block read last.
 AheadSearch::LabelUse AheadSearch::label_use() const {
   LabelUse use;
   if (!is_iso()) {
@@ -137,7 +137,7 @@ bool AheadSearch::comes_back(bool is_before) {
   return (use.returns ? is_sub_open_ : before_).test(static_cast<std::size_t>(use.used));
 }
 
-AheadSearch::Outcome AheadSearch::find_way_back(const TextPlace& place) {
+AheadSearch::Outcome AheadSearch::find_return(const TextPlace& place) {
   reader_.drop_window();
   for (unsigned count = 0; count < kBlocksPerCall; ++count) {
     const Step step = next();

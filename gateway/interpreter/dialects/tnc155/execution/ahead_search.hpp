@@ -9,11 +9,10 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What the control finds out about a program before it runs to it: a program is looked through in
-/// the order of its text, its labels and jumps meaning nothing, and blocks that cannot be read are
-/// passed over (the run stops at them). A search goes on where it stopped when it is called again,
-/// and gives back after a bounded number of blocks. The windows of other readers of the source are
-/// stale after a search.
+/// Searches a program ahead of the run: in the order of its text, ignoring labels and jumps, and
+/// skipping blocks that cannot be read (the run stops at them). A search resumes where it stopped
+/// when it is called again, and returns after a bounded number of blocks. The windows of other
+/// readers of the source are stale after a search.
 class AheadSearch {
  public:
   enum class Outcome : std::uint8_t { Found, Missing, NotYet, More };
@@ -38,10 +37,10 @@ class AheadSearch {
   const TextPlace& place() const { return reader_.block_place(); }  ///< of the block that calls it
   std::int32_t block_number() const;
 
-  /// The block that comes back over the one at `place` of the program that was started: a repeat or
-  /// a jump from after it to a label before it, or a call of the subprogram that it is in. Looks
-  /// through the whole program.
-  Outcome find_way_back(const TextPlace& place);
+  /// Finds a block that leads back over the one at `place` of the program that was started: a
+  /// repeat or a jump from after it to a label before it, or a call of the subprogram that it is
+  /// in. Searches the whole program.
+  Outcome find_return(const TextPlace& place);
   const ProgramForm& program() const { return state_.program; }
 
  private:
@@ -76,7 +75,7 @@ class AheadSearch {
   std::bitset<256> before_;             ///< labels in front of the place that is looked at
   std::bitset<256> is_sub_open_;        ///< and no LBL 0 between them and the place
   std::vector<std::int32_t> called_;    ///< programs looked up
-  std::optional<std::int32_t> wanted_;  ///< to be looked up before the search goes on
+  std::optional<std::int32_t> wanted_;  ///< to be looked up before the search continues
 };
 
 }  // namespace dripline::interpreter::tnc155

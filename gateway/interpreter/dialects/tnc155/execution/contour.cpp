@@ -20,7 +20,7 @@ compensation::Cutter cutter_of(const State& state, Compensation side) {
   return cutter;
 }
 
-/// What the corner stage holds goes on: the block is no side of a corner.
+/// The corner stage outputs what it holds: the block is not a side of a corner.
 void release_corner(Run& run) {
   if (run.state.joins) run.blender.flush();
 }
@@ -36,19 +36,20 @@ bool refuse_start(Run& run, std::string_view why) {
   return run.fail(ErrorCode::PathOffsetWronglyStarted, why);
 }
 
-/// M96: the tool stands on the offset path already. The programmed way to P1 begins beside it.
+/// M96: the tool is on the offset path already. The programmed travel to P1 begins beside it.
 bool start_from_offset(Run& run, const PlaneMove& move, const compensation::Cutter& cutter) {
   const double offset =
       cutter.side == compensation::Side::Left ? cutter.radius.mm() : -cutter.radius.mm();
   const PlaneVector tool = in_plane(run.compensator.sent(), axes_of(run.state.plane));
-  const PlaneVector way = in_machine(run.state, move.to) - tool;
-  const double distance = length(way);
+  const PlaneVector travel = in_machine(run.state, move.to) - tool;
+  const double distance = length(travel);
   if (distance <= std::fabs(offset)) {
     return run.fail(ErrorCode::ToolRadiusTooLarge,
                     fmt::format("{:.4f} mm to the first point", distance));
   }
   const double along = std::sqrt(distance * distance - offset * offset);
-  const PlaneVector direction = (1 / (distance * distance)) * (along * way + offset * left_of(way));
+  const PlaneVector direction =
+      (1 / (distance * distance)) * (along * travel + offset * left_of(travel));
   run.compensator.begin_contour(cutter, tool - offset * left_of(direction));
   return true;
 }
@@ -67,7 +68,7 @@ bool start_contour(Run& run, const Block& block, const PlaneMove& move, Compensa
   note_contour(state);
   state.compensation = side;
   if (block.m == 96) return start_from_offset(run, move, cutter);
-  if (move.has_any && !move.has_way) {
+  if (move.has_any && !move.has_travel) {
     run.compensator.begin_contour(cutter);  // the tool is at P1: it goes to P1' all the same
   } else {
     run.compensator.turn_on(cutter);
@@ -89,18 +90,18 @@ bool go_parallel(Run& run, const Block& block, const PlaneMove& move, Compensati
     if (move.is_arc) return refuse_start(run, "a contour begins with a straight block");
     const compensation::Cutter cutter = cutter_of(state, side);
     note_contour(state);
-    if (move.has_way) {
+    if (move.has_travel) {
       run.compensator.turn_on_in_parallel(cutter);
     } else {
       run.compensator.begin_contour(cutter);
     }
     state.compensation = side;
   }
-  if (begins || move.has_way) state.is_parallel = false;
+  if (begins || move.has_travel) state.is_parallel = false;
   return true;
 }
 
-/// M95: the block before begins the contour once more, without compensation.
+/// M95: the previous block begins the contour again, without compensation.
 bool start_again(Run& run, const Block& block) {
   if (block.m != 95) return true;
   if (!run.state.last.starts_contour || !run.state.is_first_contour) {
@@ -133,7 +134,7 @@ bool change_compensation(Run& run, const Block& block, const PlaneMove& move) {
   const bool is_side = side == Compensation::Left || side == Compensation::Right;
   const bool is_offset = side == Compensation::Longer || side == Compensation::Shorter;
   if (is_offset && (state.is_parallel || state.is_compensating())) {
-    return refuse_start(run, "R+ and R- stand between blocks with R0");
+    return refuse_start(run, "R+ and R- are only allowed between blocks with R0");
   }
   if (state.is_parallel) return go_parallel(run, block, move, side);
   if (!state.is_compensating()) {
@@ -198,13 +199,14 @@ void warn_of_quadrant(Run& run, const PlaneMove& move) {
   const PlaneVector along = -end_direction(next);
   const double sign = state.compensation == Compensation::Left ? 1 : -1;
   const PlaneVector first = move.from + sign * state.tool.data.radius * left_of(along);
-  const PlaneVector way = state.last.from - first;
-  if (dot(way, along) > 0 && cross(along, way) * sign < 0) {
-    run.warn("TNC-QUADRANT", "the run-on comes from quadrant IV: its arc cuts into the contour");
+  const PlaneVector travel = state.last.from - first;
+  if (dot(travel, along) > 0 && cross(along, travel) * sign < 0) {
+    run.warn("TNC-QUADRANT",
+             "the tangential approach comes from quadrant IV: its arc cuts into the contour");
   }
 }
 
-/// F MAX is its block's alone: between rapid sides too a corner has the feed of the contour.
+/// F MAX applies to its own block only: a corner between rapid sides also has the contour feed.
 bool has_corner_feed(Run& run, const Blend& blend) {
   const bool is_corner = blend.kind == BlendKind::Round || blend.kind == BlendKind::Chamfer;
   if (!is_corner || blend.size <= 0 || run.state.feed > 0) return true;
@@ -220,8 +222,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   }
   State& state = run.state;
   if (!check_blend(run, move)) return false;
-  // Whether the control goes on beside the contour or on it is not told: on it the tool would cut
-  // its radius too deep.
+  // The manual does not state whether the control continues beside the contour or on it: on it the
+  // tool would cut too deep by its radius.
   if (block.compensation != Compensation::NotProgrammed) state.needs_side = false;
   if (state.needs_side && move.has_any) {
     return refuse_start(run,
@@ -233,7 +235,8 @@ bool begin_move(Run& run, const Block& block, const PlaneMove& move) {
   if (!change_compensation(run, block, move)) return false;
   if (!was_on) state.awaits_contour = state.is_compensating();
   if (block.m == 97 && !state.joins) shape_corner(run);
-  // RND after the first compensated block is a run-on, which is the compensation's
+  // RND after the first compensated block is a tangential approach, which the compensation stage
+  // makes
   run.starts_contour = state.is_compensating() && state.awaits_contour && move.has_any;
   if (run.blend_follows && !run.starts_contour) run.begin_blending();
   return true;
@@ -259,7 +262,7 @@ bool finish_move(Run& run, const Block& block, const PlaneMove& move) {
   last.to = move.to;
   last.center = move.center;
   last.turn = move.turn;
-  if (block.m == 97 && !move.has_way && state.is_compensating()) {
+  if (block.m == 97 && !move.has_travel && state.is_compensating()) {
     // a line of no length between two elements: the corner is that of their tangents
     run.compensator.shape_corner(OutsideCorner::ExtendTangents);
   }
@@ -272,7 +275,7 @@ bool make_blend(Run& run, const Block& block) {
   const LastMove& last = state.last;
   Blend blend;
   if (state.blend.kind != BlendKind::None) {
-    return run.fail(ErrorCode::PlaneWronglyDefined, "RND and chamfers stand directly after a move");
+    return run.fail(ErrorCode::PlaneWronglyDefined, "RND and chamfers must directly follow a move");
   }
   blend.origin = run.origin;
   blend.size = run.length(block.radius);
@@ -309,7 +312,7 @@ bool make_blend(Run& run, const Block& block) {
   switch (blend.kind) {
     case BlendKind::TangentialApproach:
       if (!run.compensator.approach_by_arc(run.origin, size)) {
-        return refuse_start(run, "no way to the first point before the arc that approaches it");
+        return refuse_start(run, "no travel to the first point before the arc that approaches it");
       }
       break;
     case BlendKind::Round:
@@ -354,7 +357,7 @@ void resume_contour(Run& run) {
   if (state.is_compensating()) run.compensator.turn_on(cutter_of(state, state.compensation));
 }
 
-void go_on_with_contour(Run& run, const Position& programmed) {
+void continue_contour(Run& run, const Position& programmed) {
   const State& state = run.state;
   const PlaneVector at = in_plane(programmed, axes_of(state.plane));
   if (!state.is_compensating() || state.awaits_contour) {

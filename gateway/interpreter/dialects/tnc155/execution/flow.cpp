@@ -15,8 +15,8 @@ bool refuse_in_transfer(Run& run, std::string_view what) {
   return run.fail(ErrorCode::NotInBlockwiseTransfer, what);
 }
 
-bool refuse_depth(Run& run, std::size_t most, std::string_view what) {
-  return run.fail(ErrorCode::ExcessiveSubprogramming, fmt::format("more than {} {}", most, what));
+bool refuse_depth(Run& run, std::size_t max, std::string_view what) {
+  return run.fail(ErrorCode::ExcessiveSubprogramming, fmt::format("more than {} {}", max, what));
 }
 
 std::size_t label_base(const State& state) {
@@ -38,7 +38,7 @@ void request(Run& run, JumpKind kind, std::int32_t number, std::int32_t repeats 
   jump.call = run.reader.block_place();
 }
 
-/// The repeat that this block controls, if it is under way.
+/// The repeat that this block controls, if it is active.
 LabelFrame* open_repeat(State& state, const TextPlace& call) {
   for (std::size_t i = state.labels.size(); i > label_base(state); --i) {
     LabelFrame& frame = state.labels[i - 1];
@@ -48,7 +48,7 @@ LabelFrame* open_repeat(State& state, const TextPlace& call) {
   return nullptr;
 }
 
-void forget_labels_of(State& state, ProgramIndex program) {
+void drop_labels_of(State& state, ProgramIndex program) {
   std::erase_if(state.known_labels,
                 [&](const LabelPlace& label) { return label.program == program; });
 }
@@ -66,7 +66,7 @@ void go_to(Run& run, const TextPlace& place) {
   run.reader.seek(place);
 }
 
-/// LBL 0: back after the call. A repeat plays over it, and so does a program that runs into it.
+/// LBL 0 returns to the block after the call. It is ignored within a repeat and without a call.
 void return_from_label(Run& run) {
   State& state = run.state;
   const std::uint64_t here = run.reader.block_place().offset;
@@ -182,7 +182,7 @@ bool call_label(Run& run, const Block& block) {
   }
   if (LabelFrame* repeat = open_repeat(state, run.reader.block_place())) {
     const auto level = static_cast<std::size_t>(repeat - state.labels.data());
-    state.labels.resize(level + 1);  // repeats inside it start anew
+    state.labels.resize(level + 1);  // repeats inside it start again
     if (repeat->left == 0) {
       state.labels.pop_back();
       return true;
@@ -221,7 +221,7 @@ void end_program(Run& run, bool rewinds) {
   State& state = run.state;
   if (!state.programs.empty()) {
     const ProgramFrame& frame = state.programs.back();
-    forget_labels_of(state, state.at.program);
+    drop_labels_of(state, state.at.program);
     state.labels.resize(frame.label_base);
     if (run.options.modes_go_over_calls) {
       state.reading.program = frame.reading.program;

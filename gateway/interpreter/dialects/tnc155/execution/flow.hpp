@@ -3,8 +3,8 @@
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
 
-/// Labels, repeats, subprograms, program calls, jumps and ends. A block only asks for a jump; it is
-/// taken before the next block, because its place may not have arrived yet.
+/// Labels, repeats, subprograms, program calls, jumps and ends. A block only requests a jump; it is
+/// taken before the next block, because the text of its destination may not have arrived yet.
 namespace dripline::interpreter::tnc155 {
 
 bool meet_label(Run& run, const Block& block);
@@ -13,14 +13,14 @@ bool call_label(Run& run, const Block& block);
 bool jump_to_label(Run& run, std::int32_t label);
 /// CALL PGM, %.
 bool call_program(Run& run, std::int32_t number);
-/// The call of cycle 12: M89 rests until the program is over.
+/// The call of cycle 12: M89 is suspended until the program ends.
 bool call_cycle_program(Run& run, std::int32_t number);
 /// PGM n UNAVAILABLE. False.
 bool fail_unavailable(Run& run, std::int64_t number);
-/// END PGM, M02, M30 and the end of the text: back to the caller, or the run is over.
+/// END PGM, M02, M30 and the end of the text: returns to the caller, or ends the run.
 void end_program(Run& run, bool rewinds);
 
-/// Takes `State::jump`; afterwards State::at is where the run goes on.
+/// Takes `State::jump`; afterwards the run continues at State::at.
 BlockOutcome take_jump(Run& run, TextSearch& search);
 
 }  // namespace dripline::interpreter::tnc155

@@ -35,23 +35,23 @@ void switch_coolant(Run& run, bool on) {
   run.events().on_coolant({run.origin, on, false});
 }
 
-/// M94: whole turns are taken off what a rotary axis shows. The axis stands where it stood, so the
+/// M94 reduces the display of a rotary axis by full revolutions. The axis does not move, so the
 /// datum moves by them. It is kept from run to run: before a start in the middle it has moved
 /// already when that part ran, and would move twice.
 bool reduce_rotary_axes(Run& run) {
   State& state = run.state;
   for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
     const auto i = static_cast<std::size_t>(axis);
-    const double turns = std::trunc(state.nominal[i] / 360) * 360;
-    if (turns != 0 && state.start.is_searching) {
+    const double revolutions = std::trunc(state.nominal[i] / 360) * 360;
+    if (revolutions != 0 && state.start.is_searching) {
       return run.fail(
           ErrorCode::ProgramStartUndefined,
           fmt::format("a start after M94 would lose the datum of {}, which it has moved "
                       "by {:+.0f} when it was executed: start before it",
-                      letter(axis), turns));
+                      letter(axis), revolutions));
     }
-    state.nominal[i] -= turns;
-    state.transformation.datum[i] += turns;
+    state.nominal[i] -= revolutions;
+    state.transformation.datum[i] += revolutions;
   }
   state.transformation.update();
   ++run.frame_changes;

@@ -10,7 +10,7 @@ namespace dripline::interpreter::tnc155 {
 bool begin_m(Run& run, int m);
 bool end_m(Run& run, int m);
 
-/// Turns it that way at its speed, or stops it.
+/// Starts the spindle in a direction at its speed, or stops it.
 void turn_spindle(Run& run, SpindleState to);
 bool set_speed(Run& run, double speed);
 /// STOP.

@@ -31,7 +31,7 @@ Target machine_target(Run& run, const Block& block) {
   return target;
 }
 
-/// The first positioning has to be told by itself alone, after GOTO by more than one coordinate.
+/// The first positioning block must be absolute, and after GOTO it must name two coordinates.
 bool check_start(Run& run, const Block& block, const Target& target) {
   State& state = run.state;
   if (state.has_positioned) [[likely]]
@@ -82,7 +82,7 @@ bool run_machine_block(Run& run, const Block& block) {
   return true;
 }
 
-/// PR and PA count from CC, which is no machine coordinate.
+/// PR and PA are relative to CC, which is not a machine coordinate.
 bool refuse_machine_block(Run& run, const Block& block) {
   if (!is_machine_block(block)) [[likely]]
     return true;
@@ -151,7 +151,7 @@ bool run_tail(Run& run, const Block& block, const Target& target) {
   const bool is_about_path = (block.compensation != Compensation::NotProgrammed &&
                               block.compensation != run.state.compensation) ||
                              (block.m >= 95 && block.m <= 98);
-  run.state.last.starts_contour = false;  // RND joins the block directly before it
+  run.state.last.starts_contour = false;  // RND belongs to the block directly before it
   if (!is_about_path) return read_feed(run, block);
   LastMove last = run.state.last;
   if (!go_straight(run, block, target)) return false;
@@ -160,7 +160,7 @@ bool run_tail(Run& run, const Block& block, const Target& target) {
   return true;
 }
 
-/// Angle in degrees from `from` to `to` the way `turn` goes, in (0, 360].
+/// Angle in degrees from `from` to `to` in the direction of `turn`, in (0, 360].
 double sweep_of(double from, double to, Turn turn) {
   double sweep = turn == Turn::Counterclockwise ? to - from : from - to;
   sweep = std::fmod(sweep, 360.0);
@@ -172,12 +172,12 @@ double sweep_of(PlaneVector from, PlaneVector to, Turn turn) {
   const double angle = turn_between(from, to) * (180 / Angle::kPi);
   return sweep_of(0, angle, turn);
 }
-/// Of IPA: its full turns, and the rest the way `turn` goes, which may be none.
+/// The sweep of IPA: its full circles, and the rest in the direction of `turn`, which may be 0.
 double sweep_by(double angle, double from, Turn turn) {
-  const double turns = std::floor(std::fabs(angle) / 360) * 360;
+  const double circles = std::floor(std::fabs(angle) / 360) * 360;
   const double rest =
       std::fmod(std::fabs(angle), 360) == 0 ? 0 : sweep_of(from, from + angle, turn);
-  return turns + rest;
+  return circles + rest;
 }
 
 bool round_corner(Run& run, const Block& block, const ArcTarget& arc, bool has_both = true) {
@@ -187,7 +187,7 @@ bool round_corner(Run& run, const Block& block, const ArcTarget& arc, bool has_b
   PlaneMove move = plane_move(state, arc.to);
   move.is_arc = true;
   move.has_both = has_both;
-  move.has_way = true;
+  move.has_travel = true;
   move.center = arc.center;
   move.turn = arc.turn;
   Pace pace;
@@ -250,7 +250,7 @@ bool run_polar_line(Run& run, const Block& block) {
 }
 
 bool run_arc(Run& run, const Block& block) {
-  constexpr double kNoWay = 1e-6;  // a full circle ends where it begins
+  constexpr double kNoTravel = 1e-6;  // a full circle ends where it begins
   State& state = run.state;
   if (!has_pole(run) || !check_circle_axes(run, block, false)) return false;
   ArcTarget arc;
@@ -264,7 +264,7 @@ bool run_arc(Run& run, const Block& block) {
   const PlaneVector end = in_plane(state, arc.to) - arc.center;
   if (!check_radii(run, start, end)) return false;
   if (length(start) == 0) return run.fail(ErrorCode::AngleReferenceMissing, "the tool is on CC");
-  arc.sweep = length(end - start) < kNoWay ? 360 : sweep_of(start, end, arc.turn);
+  arc.sweep = length(end - start) < kNoTravel ? 360 : sweep_of(start, end, arc.turn);
   state.polar.is_current = false;
   return round_corner(run, block, arc, has_both);
 }
@@ -287,7 +287,7 @@ bool run_polar_arc(Run& run, const Block& block) {
   arc.sweep =
       block.is_angle_incremental ? sweep_by(angle, from, arc.turn) : sweep_of(from, to, arc.turn);
   state.polar = {true, true, radius, to};
-  if (arc.sweep == 0) return go_straight(run, block, arc.to);  // a helix without turns
+  if (arc.sweep == 0) return go_straight(run, block, arc.to);  // a helix without revolutions
   set_in_plane(state, arc.to, arc.center + radius * unit_vector(to));
   return round_corner(run, block, arc);
 }
@@ -307,16 +307,16 @@ bool run_tangent_arc(Run& run, const Block& block) {
   }
   const PlaneVector start = nominal_in_plane(state);
   const PlaneVector along = end_direction(last);
-  const PlaneVector way = in_plane(state, arc.to) - start;
-  const double distance = length(way);
+  const PlaneVector chord = in_plane(state, arc.to) - start;
+  const double distance = length(chord);
   if (length(along) == 0 || distance == 0) {
     return run.fail(ErrorCode::CircleEndIncorrect, "CT goes nowhere, or no element before it");
   }
   state.polar.is_current = false;
   constexpr double kStraight = 1e-9;
-  const double side = cross(along, way) / distance;
+  const double side = cross(along, chord) / distance;
   if (std::fabs(side) < kStraight) {
-    if (dot(along, way) > 0) return go_straight(run, block, arc.to);
+    if (dot(along, chord) > 0) return go_straight(run, block, arc.to);
     return run.fail(ErrorCode::CircleEndIncorrect, "the end of CT is after its start");
   }
   const double radius = distance / (2 * side);

@@ -15,8 +15,8 @@ double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
   double linear = 0;
   double rotary = 0;
   for (const Axis axis : kAllAxes) {
-    const double way = to.raw(axis) - run.state.machine.raw(axis);
-    (is_rotary(axis) ? rotary : linear) += way * way;
+    const double travel = to.raw(axis) - run.state.machine.raw(axis);
+    (is_rotary(axis) ? rotary : linear) += travel * travel;
   }
   if (rotary == 0) return pace.feed;
   if (linear == 0) return pace.rotary_feed;
@@ -25,11 +25,11 @@ double feed_with_rotary(const Run& run, const Position& to, const Pace& pace) {
 }
 
 Feed feed_to(const Run& run, const Target& target, const Position& to, const Pace& pace) {
-  const bool turns = (target.named & kRotary) != 0 && !pace.is_rapid;
-  return Feed::per_minute(Length::mm(turns ? feed_with_rotary(run, to, pace) : pace.feed));
+  const bool is_rotating = (target.named & kRotary) != 0 && !pace.is_rapid;
+  return Feed::per_minute(Length::mm(is_rotating ? feed_with_rotary(run, to, pace) : pace.feed));
 }
 
-void put_out(Run& run, const Line& move, bool is_rapid) {
+void output(Run& run, const Line& move, bool is_rapid) {
   State& state = run.state;
   const bool moves = !move.to.same_point(state.machine);
   if (moves) run.loops.note_progress();
@@ -61,8 +61,8 @@ void apply(const State& state, Position& to, const Target& target) {
   }
 }
 
-/// The element before lies in the machine where it lay: what joins it (CT) sees it from the new
-/// coordinates.
+/// The previous element stays where it is in the machine; CT, which continues it, needs it in the
+/// new coordinates.
 void carry_last_move(State& state, const Transformation& before, const AxisValues& nominal) {
   const PlaneAxes axes = axes_of(state.plane);
   const auto first = static_cast<std::size_t>(axes.first);
@@ -98,7 +98,7 @@ void line_to(Run& run, const Target& target, const Pace& pace) {
   apply(state, move.to, target);
   state.nominal = target.at;
   move.feed = feed_to(run, target, move.to, pace);
-  put_out(run, move, pace.is_rapid);
+  output(run, move, pace.is_rapid);
 }
 
 void arc_to(Run& run, const ArcTarget& target, const Pace& pace) {
@@ -138,7 +138,7 @@ void machine_line_to(Run& run, const Target& target, const Pace& pace) {
     if ((target.named & bit(axis)) != 0) to.set_raw(axis, target.at[i]);
   }
   move.feed = feed_to(run, target, to, pace);
-  put_out(run, move, pace.is_rapid);
+  output(run, move, pace.is_rapid);
   AxisValues machine{};
   for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
   const AxisValues nominal = state.transformation.to_program(machine);

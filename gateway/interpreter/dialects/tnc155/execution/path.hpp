@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
 
-/// Moves in program coordinates, put out in the machine's. What positioning blocks, cycles and the
-/// probe move with; the rules of compensation and corners are contour.hpp's.
+/// Moves in program coordinates, output in machine coordinates. What positioning blocks, cycles and
+/// the probe move with; the rules of compensation and corners are contour.hpp's.
 namespace dripline::interpreter::tnc155 {
 
 using AxisValues = std::array<double, kAxisCount>;
@@ -20,8 +20,8 @@ struct Pace {
   double rotary_feed = 0;  ///< degrees per minute: of a rotary axis alone
 };
 inline constexpr Pace kRapid{true, 0, 0};
-/// What an arc, which is never a rapid move, takes for F MAX: the highest feed that can be entered,
-/// above that of every axis.
+/// The feed of an arc, which is never a rapid move, for F MAX: the highest feed that can be
+/// entered, above that of every axis.
 inline constexpr double kFeedAtRapid = 15'999;
 
 /// Where a straight move goes: program coordinates of the axes in `named`.
@@ -46,18 +46,18 @@ inline Target here(const State& state) {
   return {state.nominal, 0};
 }
 
-/// Straight to there; the nominal position follows. No event for a move of no length.
+/// A straight move; the nominal position follows. A move of no length gives no event.
 void line_to(Run& run, const Target& target, const Pace& pace);
 /// Along an arc in the plane in force.
 void arc_to(Run& run, const ArcTarget& target, const Pace& pace);
-/// To a place in machine coordinates (M91): only the axes that are named.
+/// To a position in machine coordinates (M91): only the axes that are named.
 void machine_line_to(Run& run, const Target& target, const Pace& pace);
 
 /// The nominal position in the plane.
 PlaneVector nominal_in_plane(const State& state);
 
-/// After State::transformation was changed: the tool stands where it stood, the nominal position is
-/// what that is now.
+/// After State::transformation was changed: the tool does not move, and the nominal position
+/// becomes that of the tool in the new coordinates.
 void change_transformation(Run& run, const Transformation& changed);
 
 /// Positions the machine would have: for graphics and probing.

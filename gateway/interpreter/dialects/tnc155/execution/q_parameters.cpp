@@ -9,7 +9,7 @@ namespace {
 /// A parameter shows five digits before and three after the point.
 constexpr double kLargest = 99'999.999;
 
-/// Sine of an angle in degrees; exact at quarter turns.
+/// Sine of an angle in degrees; exact at multiples of 90 degrees.
 double sine(double degrees) {
   const double turn = std::remainder(degrees, 360.0);
   if (std::fabs(turn) == 180) return 0;

@@ -19,15 +19,15 @@ std::string block_text(std::int32_t number) {
 }
 
 /// Why the state at this block cannot be rebuilt, one text a reason.
-std::vector<std::string> refusals(const Run& run, std::int32_t way_back) {
+std::vector<std::string> refusals(const Run& run, std::int32_t returning) {
   const State& state = run.state;
   std::vector<std::string> reasons;
   for (const LabelFrame& frame : state.labels) {
     reasons.push_back(fmt::format("repeats and return address of LBL {}, which line {} calls",
                                   frame.label, frame.call.line));
   }
-  if (way_back >= 0) {
-    reasons.push_back(fmt::format("how often block {} has come back over it", way_back));
+  if (returning >= 0) {
+    reasons.push_back(fmt::format("how often block {} leads back over it", returning));
   }
   if (is_contour_open(state)) {
     reasons.push_back(
@@ -101,7 +101,7 @@ std::string description(const Run& run, std::int32_t number, const Position& exp
   }
   std::string program, machine;
   add_axes(program, values_of(expected));
-  add_axes(machine, values_of(state.start.stand));
+  add_axes(machine, values_of(state.start.actual));
   return text + fmt::format("; the program is at{}, the machine at{} (machine coordinates, mm)",
                             program.empty() ? " 0" : program, machine.empty() ? " 0" : machine);
 }
@@ -109,7 +109,7 @@ std::string description(const Run& run, std::int32_t number, const Position& exp
 /// The machine is where it was stopped; what joins a move to the one before it is lost.
 void stand_at_start(Run& run) {
   State& state = run.state;
-  state.machine = state.start.stand;
+  state.machine = state.start.actual;
   state.machine.unmark_all();
   state.nominal = state.transformation.to_program(values_of(state.machine));
   state.last = LastMove{};
@@ -151,9 +151,9 @@ void StartGate::on_miscellaneous(const Miscellaneous& event) {
   if (code < start_->codes.size()) start_->codes.set(code);
 }
 
-bool begin_at_block(Run& run, std::int32_t number, std::int32_t way_back) {
+bool begin_at_block(Run& run, std::int32_t number, std::int32_t returning) {
   State& state = run.state;
-  if (const auto reasons = refusals(run, way_back); !reasons.empty()) {
+  if (const auto reasons = refusals(run, returning); !reasons.empty()) {
     return run.fail(ErrorCode::ProgramStartUndefined,
                     fmt::format("a start at block {} would lose {}", number, join(reasons)));
   }
@@ -195,10 +195,10 @@ bool check_positions(Run& run, std::uint16_t named) {
   std::string wrong;
   for (const Axis axis : kAllAxes) {
     const double expected = start.expected.raw(axis);
-    const double stand = start.stand.raw(axis);
-    if ((named & bit(axis)) != 0 || std::fabs(expected - stand) <= kResolution) continue;
+    const double actual = start.actual.raw(axis);
+    if ((named & bit(axis)) != 0 || std::fabs(expected - actual) <= kResolution) continue;
     wrong += fmt::format("{}{} is at {:.3f} and the program has it at {:.3f} here",
-                         wrong.empty() ? "" : ", ", letter(axis), stand, expected);
+                         wrong.empty() ? "" : ", ", letter(axis), actual, expected);
   }
   if (wrong.empty()) return true;
   return run.fail(ErrorCode::ProgramStartUndefined,

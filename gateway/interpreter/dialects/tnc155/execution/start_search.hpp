@@ -4,9 +4,9 @@
 #include "gateway/interpreter/stages/event_filter.hpp"
 
 /// A start in the middle of a program (GOTO before the start). On the control a run that was
-/// terminated leaves tool, transformations, CC and cycle in force (spec 20.4); here they are
-/// rebuilt by going through everything the program does before the block, of which nothing reaches
-/// the machine. What cannot be rebuilt is refused before anything moves.
+/// terminated leaves tool, transformations, CC and cycle in force (manual: program run,
+/// termination); here they are rebuilt by executing the program up to the block without any output
+/// to the machine. A state that cannot be rebuilt is refused before anything moves.
 namespace dripline::interpreter::tnc155 {
 
 /// The last stage before the sink, closed while the start is looked for.
@@ -16,7 +16,7 @@ class StartGate final : public EventGate {
   /// `start` is where the state is kept; it must outlive this.
   void attach(StartState& start) { start_ = &start; }
 
-  // What a program states of itself, and its alarm, are delivered all the same.
+  // The program's header and its alarm are delivered in any case.
   void on_program(const ProgramHeader& event) override { out().on_program(event); }
   void on_units(const UnitsChange& event) override { out().on_units(event); }
   void on_blank(const Blank& event) override { out().on_blank(event); }
@@ -30,9 +30,9 @@ class StartGate final : public EventGate {
 };
 
 /// The block that the start names is read and not executed: the machine's state is announced, the
-/// operator is asked, and the run goes on from where the machine is. `way_back`: the block that
-/// comes back over this one, -1 without one. False: what is missing.
-bool begin_at_block(Run& run, std::int32_t number, std::int32_t way_back);
+/// operator is asked, and the run continues from the position of the machine. `returning`: the
+/// block that leads back over this one, -1 without one. False: the run has failed.
+bool begin_at_block(Run& run, std::int32_t number, std::int32_t returning);
 
 /// Compensation, or a corner that the next move decides.
 bool is_contour_open(const State& state);

@@ -99,7 +99,7 @@ PlaneMove plane_move(const State& state, const Target& target) {
   move.has_third = (target.named & ~both) != 0;
   move.from = {state.nominal_of(axes.first), state.nominal_of(axes.second)};
   move.to = in_plane(state, target);
-  move.has_way = !(move.from == move.to);
+  move.has_travel = !(move.from == move.to);
   return move;
 }
 
@@ -110,7 +110,7 @@ bool check_circle_plane(Run& run) {
   }
   const PlaneAxes axes = axes_of(state.plane);
   return run.fail(ErrorCode::PlaneWronglyDefined,
-                  fmt::format("rotation or scaling of another plane turns a circle of {} and {} "
+                  fmt::format("rotation or scaling of another plane tilts a circle of {} and {} "
                               "out of the main planes",
                               letter(axes.first), letter(axes.second)));
 }

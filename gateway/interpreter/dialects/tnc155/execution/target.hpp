@@ -16,14 +16,14 @@ inline void read_coordinates(Run& run, const Block& block, Target& target) {
   }
 }
 
-/// PR and PA of LP: the point, and what later polar blocks go on from.
+/// PR and PA of LP: the point, and the values that later polar blocks continue from.
 bool read_polar(Run& run, const Block& block, Target& target);
 
 /// F of a cycle: of the cycle alone.
 bool read_cycle_feed(Run& run, const Value& word, double& feed);
 /// F: stays in force.
 bool read_feed(Run& run, const Block& block);
-/// How fast the block moves: FEED RATE MISSING where nothing says.
+/// How fast the block moves: FEED RATE MISSING without a feed.
 bool pace_of(Run& run, const Block& block, Pace& pace);
 
 PlaneMove plane_move(const State& state, const Target& target);
@@ -35,11 +35,11 @@ inline PlaneVector in_plane(const State& state, const Target& target) {
 /// PLANE WRONGLY DEFINED where a circle in the plane in force would be none in the machine's.
 bool check_circle_plane(Run& run);
 void set_in_plane(const State& state, Target& target, PlaneVector to);
-/// Both axes of the plane count as programmed.
+/// Marks both axes of the plane as programmed.
 void name_plane(const State& state, Target& target);
 bool names_plane(const State& state, const Target& target);
 PlaneVector pole_in_plane(const State& state);
-/// Of length 1; quarter turns exactly.
+/// Of length 1; exact at multiples of 90 degrees.
 PlaneVector unit_vector(double degrees);
 /// Of length 1, where the element before ends; (0, 0) when it went nowhere.
 PlaneVector end_direction(const LastMove& last);

@@ -120,7 +120,8 @@ bool call_tool(Run& run, const Block& block) {
   const bool names_axis = block.axis.has_value() || block.is_fourth_axis;
   if (block.axis && !check_axis(run, *block.axis)) return false;
   if (is_change || names_axis) {
-    // Tool 0 has no radius: the way to where it is changed is uncompensated, as the manual has it.
+    // Tool 0 has no radius: the travel to the tool change position is not compensated (manual: TOOL
+    // CALL 0).
     state.needs_side = block.target != 0 && (state.is_compensating() || state.needs_side);
     end_contour(run, false);
   }
@@ -138,7 +139,7 @@ bool call_tool(Run& run, const Block& block) {
     const ToolShape shape{Length::mm(state.tool.data.length), Length::mm(state.tool.data.radius)};
     run.events().on_tool({run.origin, state.tool.number, false, {}, shape});
   }
-  if ((is_change || names_axis) && state.tool.number != 0) tell_graphics(run);
+  if ((is_change || names_axis) && state.tool.number != 0) warn_of_graphics(run);
   return !block.spindle.is_programmed() || set_speed(run, run.number(block.spindle));
 }
 

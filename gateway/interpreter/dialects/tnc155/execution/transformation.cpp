@@ -11,13 +11,13 @@ constexpr std::size_t index(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-/// Quarter turns exactly.
+/// Exact at multiples of 90 degrees.
 PlaneVector direction(double degrees) {
   const double quarter = degrees / 90;
   if (quarter == std::floor(quarter)) {
-    const int turns = static_cast<int>(std::fmod(quarter, 4));
+    const int quarters = static_cast<int>(std::fmod(quarter, 4));
     constexpr PlaneVector kQuarters[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    return kQuarters[(turns + 4) % 4];
+    return kQuarters[(quarters + 4) % 4];
   }
   const double radians = degrees * (Angle::kPi / 180);
   return {std::cos(radians), std::sin(radians)};

@@ -34,14 +34,14 @@ struct Transformation {
   }
   Values to_machine(Values point) const;
   Values to_program(Values point) const;
-  /// Directions only: a distance or an arc turns the other way round in this plane.
+  /// Mirroring reverses the direction of arcs in this plane.
   bool turns_over(Plane plane) const;
   /// Of lengths along an axis.
   double factor(Axis axis) const;
   /// Of lengths in the plane.
   double factor(Plane plane) const;
   /// A circle in this plane is one in the same plane of the machine: no rotation in another plane
-  /// turns it out, and both axes have one scale.
+  /// tilts it, and both axes have the same scale.
   bool keeps_circles(Plane plane) const;
   /// Without the cycles; datum and basic rotation stay.
   void cancel_cycles();

@@ -35,7 +35,7 @@ void TravelLimits::check_line(const Origin& origin, const Position& from, const 
   }
 }
 
-/// Its end, and where it is farthest along each axis of its plane on its way.
+/// Checks the end of an arc and its extreme points along each axis of its plane.
 void TravelLimits::check_arc(const Arc& arc, const Position& from) {
   const PlaneAxes axes = axes_of(arc.plane);
   const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
@@ -45,9 +45,9 @@ void TravelLimits::check_arc(const Arc& arc, const Position& from) {
   for (const double sign : {1.0, -1.0}) {
     for (const bool is_first : {true, false}) {
       const PlaneVector extreme = is_first ? PlaneVector{sign, 0} : PlaneVector{0, sign};
-      double way = side * turn_between(out, extreme);
-      if (way < 0) way += 2 * Angle::kPi;
-      if (way > arc.sweep.radians()) continue;
+      double travel = side * turn_between(out, extreme);
+      if (travel < 0) travel += 2 * Angle::kPi;
+      if (travel > arc.sweep.radians()) continue;
       const double middle = is_first ? center.first : center.second;
       check(arc.origin, is_first ? axes.first : axes.second, middle + sign * radius);
     }
@@ -75,7 +75,7 @@ void TravelLimits::on_arc(const Arc& event) {
   check_arc(event, at_);
   follow(&EventSink::on_arc, event, event.to);
 }
-/// It ends at its contact, which nobody knows before: it says how far the machine came.
+/// A probe ends at its contact, which is not known before; the event states the position reached.
 void TravelLimits::on_probe(const Probe& event) {
   follow(&EventSink::on_probe, event, event.result ? event.result->at : at_);
 }

@@ -13,9 +13,9 @@ struct LimitReached {
   Origin origin;  ///< of the move
 };
 
-/// The last stage before the sink: the limits of MOD function LIMIT, which the path of the tool has
-/// to keep to as it is, compensated, arcs between their ends included. A move that leaves them is
-/// not given out, nor anything after it but the alarm.
+/// The last stage before the sink: the limits of MOD function LIMIT, for the
+/// compensated path of the tool, including arcs between their ends. A move that leaves them is
+/// not output, and after it only the alarm is.
 class TravelLimits final : public EventGate {
  public:
   /// `low`, `high`: machine coordinates of the axes that are marked. The sink must outlive it.
@@ -23,11 +23,11 @@ class TravelLimits final : public EventGate {
 
   bool has_any() const { return has_any_; }
   const std::optional<LimitReached>& reached() const { return reached_; }
-  /// The machine stands there.
+  /// The machine is there.
   void place(const Position& at) { at_ = at; }
   void reset() { reached_.reset(); }
 
-  /// Of moves that are not made yet. Of a line, only axes that move count.
+  /// Checks of moves that are not made yet. Only axes that move are checked on a line.
   void check_line(const Origin& origin, const Position& from, const Position& to);
   void check_arc(const Arc& arc, const Position& from);
 

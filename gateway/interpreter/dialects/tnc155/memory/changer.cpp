@@ -33,7 +33,7 @@ std::optional<int> lowest_free_pocket(const std::vector<ToolPocket>& tools, int 
   return std::nullopt;
 }
 
-/// The tool stands where no other one is.
+/// No other tool has this pocket.
 Result<void> check_place(const ToolPocket& tool, const std::vector<ToolPocket>& others,
                          int pockets) {
   const int pocket = *tool.pocket;

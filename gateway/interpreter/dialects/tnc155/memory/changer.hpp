@@ -13,11 +13,12 @@
 /// - Pocket 0 is the spindle: the tool that has it waits there for the next change.
 /// - A special tool keeps its pocket, also while it is in the spindle, and takes those on both
 /// sides
-///   of it. What it drives out of the spindle, and what is driven out by a tool without a pocket,
+///   of it. The tool that it replaces in the spindle, and one replaced by a tool without a pocket,
 ///   goes into the lowest pocket that is free.
 /// - A tool without a pocket, or none of the store, is changed by hand and never gets one.
 /// - TOOL CALL 0 ends the compensation and changes no tool.
-/// Sources: spec 3.1; which pocket is taken where the other one cannot be, and pocket 0, are ours.
+/// Source: the manual, central tool store. Pocket 0, and the pocket for a tool that cannot have the
+/// other one's, are decided here (decisions.md).
 namespace dripline::interpreter::tnc155 {
 
 /// Of the setup's tools, where `random_changer` is on; else empty. Errors: Syntax (a pocket beyond

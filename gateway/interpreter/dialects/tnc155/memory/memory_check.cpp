@@ -10,7 +10,7 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-/// Programs are not looked for beyond this many: the verdict is clear long before.
+/// No more programs are searched than these: the verdict is clear long before.
 constexpr std::size_t kMaxLookedAt = 100;
 constexpr std::int32_t kHighestPlainNumber = 999;
 constexpr std::int32_t kHighestIsoNumber = 9999;
@@ -52,7 +52,7 @@ class Loading {
     }
   }
 
-  /// Up to the end. Blocks that cannot be read are passed over: the run will say that.
+  /// Reads up to the end. Blocks that cannot be read are skipped: the run reports them.
   void read_blocks(const Waiting& waiting) {
     BlockReader reader(source_, {options_.iso_continuation, options_.version});
     TextPlace start;
@@ -100,7 +100,7 @@ class Loading {
     labels_.set(index);
   }
 
-  /// A program that is not there is told by the run that calls it.
+  /// A missing program is reported by the run that calls it.
   void note_call(std::int32_t number, std::uint64_t line) {
     if (number == program_.number || called_.size() >= kMaxLookedAt) return;
     if (!called_.insert(number).second) return;

@@ -37,7 +37,7 @@ struct ModSettings {
   PositionDisplay position_display = PositionDisplay::Actual;
   bool is_display_large = false;
   int block_increment = 10;      ///< of ISO block numbers; 0: blocks get none
-  std::optional<int> baud_rate;  ///< of the control's interface; absent: not said
+  std::optional<int> baud_rate;  ///< of the control's interface; absent: not stated
   Axis fourth_axis = Axis::C;
   Position limit_low, limit_high;  ///< machine coordinates; of the axes that are marked
   std::string nc_software, plc_software;

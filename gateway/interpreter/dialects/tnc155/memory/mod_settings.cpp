@@ -102,7 +102,7 @@ std::optional<double> as_number(const OptionValue& value) {
   return std::nullopt;
 }
 
-/// Reads one table of the list; `place` counts from 1.
+/// Reads one table of the list; `place` begins at 1.
 class UserParameterReader {
  public:
   explicit UserParameterReader(std::size_t place) : place_(place) {}

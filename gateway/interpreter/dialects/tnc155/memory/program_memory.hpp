@@ -18,7 +18,7 @@ struct MemoryLimits {
   std::size_t programs = 32;
   std::size_t blocks = 3'100;  ///< of all programs; a TNC 151 may have 1200
   std::size_t blocks_per_program = 999;
-  /// Who counts may stop after this many, the highest number of a block there is.
+  /// Counting may stop after this many, the highest block number.
   static constexpr std::size_t kMaxCounted = 65'534;
   static constexpr std::int32_t kHighestNumber = 99'999'999;
 };

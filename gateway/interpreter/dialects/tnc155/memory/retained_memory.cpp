@@ -2,10 +2,10 @@
 
 #include "gateway/interpreter/dialects/tnc155/interpreter.hpp"
 
-/// What the control keeps when a program is over and when it is switched off (spec 28.1): the
-/// datum, which M94 moves by whole turns of a rotary axis. Q parameters begin as 0 at every start
-/// (L3525); what the control stores for going on after an interruption is not a program's to leave
-/// after.
+/// What the control retains after a program and at power off: the datum, which M94 shifts by full
+/// revolutions of a rotary axis (decisions.md). Q parameters are 0 at every start (manual:
+/// parameter functions). The data stored to resume after an interruption are not a program's to
+/// leave after.
 namespace dripline::interpreter::tnc155 {
 
 std::vector<MemoryCell> TncInterpreter::memory_cells() const {

@@ -23,7 +23,7 @@ bool begins_as_blend(std::string_view text) {
   return is_digit(next) || next == '+' || next == '-' || next == ',' || next == '.' || next == 'Q';
 }
 
-/// G24 to G27 stand anywhere in a block.
+/// G24 to G27 may be anywhere in a block.
 bool has_iso_blend(std::string_view text) {
   for (std::size_t at = text.find('G'); at != std::string_view::npos; at = text.find('G', at + 1)) {
     std::size_t tens = skip_blanks(text, at + 1);

@@ -7,8 +7,8 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// Whether a block's text may begin with a rounding or a chamfer, which says something about the
-/// move before it: cheap, and true of some others. `is_blend` of what the text reads as decides.
+/// Whether a block may be a rounding or a chamfer, which changes the move before it. The test is
+/// cheap and true for some other blocks too; `is_blend` on the block as read decides.
 bool may_be_blend(std::string_view text, Form form);
 
 inline bool is_blend(const Block& block) {

@@ -45,7 +45,7 @@ enum class BlockKind : std::uint8_t {
   ToolDefinition,   ///< TOOL DEF, G99; without length and radius the next tool: G51
   ToolCall,         ///< TOOL CALL; T, S, G17-G20. Without a number no tool is changed
   Stop,             ///< STOP, G38
-  Line,             ///< L; without coordinates only its tail counts (an ISO block of M and F)
+  Line,             ///< L; without coordinates only its tail applies (an ISO block of M and F)
   PolarLine,        ///< LP
   Chamfer,          ///< L and a length, G24
   Center,           ///< CC; without coordinates the last position: G29
@@ -73,12 +73,13 @@ enum class Compensation : std::uint8_t {
   Shorter,        ///< R-, G44
 };
 
-/// What a rounding is for. Plain language does not say: it follows from the blocks around it.
+/// Purpose of a rounding. Plain language does not state it: it follows from the adjacent blocks.
 enum class RoundingUse : std::uint8_t { Unstated, Corner, TangentialApproach, TangentialDeparture };
 
 enum class ProbeDirection : std::uint8_t { Negative, Positive };
 
-/// One block. Which members count is said beside them; all others are as after `clear`.
+/// One block. The comments name the kinds that use a member; all other members are as after
+/// `clear`.
 struct Block {
   static constexpr std::size_t kMaxCoordinates = 4;
   static constexpr std::int32_t kNone = -1;
@@ -99,7 +100,7 @@ struct Block {
   std::uint8_t coordinate_count = 0;
   bool is_radius_incremental = false;  ///< IPR
   bool is_angle_incremental = false;   ///< IPA; IROT of cycle 10
-  /// Arc, PolarArc, cycles 4 and 5. DR+ is counter-clockwise. Always there after a reader.
+  /// Arc, PolarArc, cycles 4 and 5. DR+ is counterclockwise. A reader always sets it.
   std::optional<Turn> turn;
 
   RoundingUse rounding = RoundingUse::Unstated;
@@ -115,8 +116,8 @@ struct Block {
   bool is_fourth_axis = false;  ///< ToolCall: axis IV, whichever the machine has
   ProbeDirection direction = ProbeDirection::Negative;  ///< Probe 0
 
-  /// The place of the block in the program's numbering; kNone where it was left out. Those of one
-  /// ISO block are the same.
+  /// The block number; kNone where it was omitted. All parts of one ISO block have the same
+  /// number.
   std::int32_t number = kNone;
 
   /// ToolDefinition, ToolCall: tool. Label, LabelCall, Function 9-12: label. Begin, End,
@@ -142,8 +143,8 @@ struct Block {
   std::array<Coordinate, kMaxCoordinates> coordinates{};
 };
 
-/// What every block that is read begins as. Defined out of sight: where a compiler sees the zeros
-/// it fills them in with one slow instruction instead of copying.
+/// The initial content of every block that is read. It is defined in another file on purpose: a
+/// compiler that sees the zeros fills them in with one slow instruction instead of copying.
 extern const Block kEmptyBlock;
 
 inline void Block::clear(BlockKind new_kind) {
@@ -151,8 +152,8 @@ inline void Block::clear(BlockKind new_kind) {
   kind = new_kind;
 }
 
-/// What one block of text does: one block of plain language, one or more of an ISO block. Fixed
-/// room, so that reading does not allocate.
+/// The parts of one block of text: one for a plain-language block, one or more for an ISO block.
+/// The room is fixed, so that reading does not allocate.
 struct BlockParts {
   static constexpr std::size_t kMax = 16;
 

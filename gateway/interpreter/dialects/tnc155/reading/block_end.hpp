@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
-/// Where a block of text ends. Both functions give a place in [at, limit) that ends the block which
-/// begins at or after `at`, or `limit` when more text is needed to know.
+/// Finds where a block of text ends. Both functors return a place in [at, limit) that ends the
+/// block which begins at or after `at`, or `limit` when more text is needed.
 namespace dripline::interpreter::tnc155 {
 
 inline bool is_blank_or_control(char c) {
@@ -19,11 +19,11 @@ inline const char* skip_blanks(const char* at, const char* limit) {
   return at;
 }
 
-/// The LF that ends the line, or its CR where no LF follows; null: not seen yet.
+/// The LF that ends the line, or its CR where no LF follows; null: not found yet.
 inline const char* find_line_end(const char* at, const char* limit) {
   const auto size = static_cast<std::size_t>(limit - at);
   const auto* lf = static_cast<const char*>(std::memchr(at, '\n', size));
-  // The CR of a CR LF is not looked for.
+  // The CR of a CR LF does not end the line by itself.
   const char* after = lf ? (lf != at && lf[-1] == '\r' ? lf - 1 : lf) : limit;
   const auto* cr =
       static_cast<const char*>(std::memchr(at, '\r', static_cast<std::size_t>(after - at)));
@@ -72,7 +72,7 @@ struct PlainEnd {
 /// complete at once.
 struct IsoEnd {
   bool has_continuation;
-  bool* is_one_line;  ///< as above; blanks before it do not count
+  bool* is_one_line;  ///< as above; blanks before it are ignored
 
   const char* operator()(const char* at, const char* limit) const {
     *is_one_line = false;

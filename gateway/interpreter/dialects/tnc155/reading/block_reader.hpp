@@ -14,20 +14,20 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// Which form a program's first bytes are in; Unknown when they fit neither.
+/// The form of a program by its first bytes; Unknown when they fit neither.
 Form detect_form(std::string_view head);
 
 struct ReaderOptions {
-  bool iso_continuation = true;  ///< an ISO line without number goes on with the block before it
-  ControlVersion version = {};   ///< blocks that ask for what it has not are Wrong
+  bool iso_continuation = true;  ///< an ISO line without a number continues the block before it
+  ControlVersion version = {};   ///< blocks that need a feature it lacks are Wrong
 };
 
 enum class ReadState : std::uint8_t {
   Ready,
   End,     ///< the program has no more blocks
-  NotYet,  ///< the rest of this block is on its way; ask again later
-  Failed,  ///< the source will never give it; see reason()
-  Wrong,   ///< the text is no block of this control; see fault(). The place stays before it
+  NotYet,  ///< the rest of this block has not arrived; ask again later
+  Failed,  ///< the source will never provide it; see reason()
+  Wrong,   ///< the text is not a block of this control; see fault(). The place stays before it
 };
 
 /// Reads a program block by block out of a source's windows, whatever the chunking. A block of
@@ -44,22 +44,23 @@ class BlockReader {
   /// first line decides.
   ReadState next(ReadingState& state, BlockParts& parts);
 
-  /// The text of the block that comes next, which stays the next one; `text` of the block read
-  /// last is gone.
+  /// The text of the next block, without consuming it; the `text` of the block read last is
+  /// invalid afterwards.
   ReadState peek(const ReadingState& state, std::string_view& next);
-  /// What that block does, in what is in force after the one before it. After a `peek` that was
-  /// Ready. False: it cannot be read, as its own turn will say.
+  /// The parts of that block, with the modal state after the block before it. Call it after a
+  /// `peek` that was Ready. False: the block cannot be read; reading it in its turn reports the
+  /// fault.
   bool read_peeked(ReadingState state, BlockParts& parts);
 
-  /// Moves after the next block, which is only looked at: `passed` is its text, until the next
+  /// Skips the next block without reading its words: `passed` is its text, valid until the next
   /// call on the reader or the source. Of `state` only the form changes.
   ReadState pass(ReadingState& state, std::string_view& passed);
 
-  /// The next block of a program in ISO form, only its words: see `iso_block`. Of `state` only the
+  /// Reads only the words of the next block of an ISO program: see `iso_block`. Of `state` only the
   /// program changes, and only by its % block.
   ReadState next_words(ReadingState& state);
 
-  /// Moves after the block that was Wrong. False: where it ends is not known.
+  /// Skips the block that was Wrong. False: its end is not known.
   bool skip_wrong();
 
   /// Where the next block begins.
@@ -68,7 +69,7 @@ class BlockReader {
   const TextPlace& block_place() const { return block_place_; }
   /// Its text, continuation lines included; valid until the next call on the reader or the source.
   std::string_view text() const { return {text_, text_end_}; }
-  /// Goes on from there: the beginning of a block.
+  /// Continues from there: the beginning of a block.
   void seek(const TextPlace& place) {
     place_ = place;
     is_peeked_ = false;
@@ -80,7 +81,7 @@ class BlockReader {
   }
 
   const Fault& fault() const { return fault_; }
-  /// The line of the text the fault is in; its column counts from there.
+  /// The line of the text the fault is in; its column is relative to that line.
   std::uint64_t fault_line() const { return fault_line_; }
   /// The words of the block read last, where it was an ISO block.
   const IsoBlock& iso_block() const { return iso_; }
@@ -100,7 +101,7 @@ class BlockReader {
   ProgramSource* source_;
   ReaderOptions options_;
   language::LineWindow window_;
-  bool is_peeked_ = false;  ///< the block at place_ is shown already
+  bool is_peeked_ = false;  ///< the block at place_ is in the window already
   TextPlace place_;
   TextPlace block_place_;
   const char* text_ = nullptr;

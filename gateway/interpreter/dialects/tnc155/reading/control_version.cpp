@@ -130,16 +130,16 @@ Result<ControlVersion> version_of(const Options& options) {
     return fail(Errc::Syntax, "option model: \"{}\" is not one of {}", *model,
                 fmt::join(kModels, ", "));
   }
-  const auto told = software_of_number(options);
-  if (!told) return fail(told.error());
+  const auto stated = software_of_number(options);
+  if (!stated) return fail(stated.error());
   const auto software =
-      options.integer("software", told->value_or(ControlVersion::kNewestSoftware));
+      options.integer("software", stated->value_or(ControlVersion::kNewestSoftware));
   if (!software) return fail(software.error());
-  if (*told && **told != *software) {
+  if (*stated && **stated != *software) {
     return fail(Errc::Syntax, "option software: {}, and nc_software ends in {:02}", *software,
-                **told);
+                **stated);
   }
-  const bool is_from_number = told->has_value() && options.find("software") == nullptr;
+  const bool is_from_number = stated->has_value() && options.find("software") == nullptr;
   if (is_from_number && *software < 1) {
     return fail(Errc::Syntax, "option nc_software: it ends in 00, and software begins with 01");
   }

@@ -9,13 +9,13 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What not every TNC 151/155 has: it hangs on the model, or on the software in it.
+/// Features that not every TNC 151/155 has: they depend on the model or on its software.
 enum class Feature : std::uint8_t {
   ThreeAxisLines,      ///< a straight line of three axes at once
   Helix,               ///< a circle and the third axis
   BlockwiseTransfer,   ///< a program runs while it is transferred
   Graphics,            ///< the blank is cut on the screen
-  SplitFeed,           ///< F is that of the way of linear and rotary axes together
+  SplitFeed,           ///< F applies to the path of linear and rotary axes together
   ToolStore,           ///< program 0
   NextTool,            ///< G51, TOOL DEF without L and R
   Hardcopy,            ///< of the graphics, to a printer
@@ -30,13 +30,13 @@ enum class Feature : std::uint8_t {
 };
 
 /// Which control it is: its model and the number of its software. Value type; any thread.
-/// Source: spec, section 1 (models, features by software).
+/// Source: the manual, versions, and the features named there with a software number.
 class ControlVersion {
  public:
   static constexpr int kNewestSoftware = 8;
   static constexpr int kHighestSoftware = 99;  ///< two digits; has what the newest known one has
 
-  /// A TNC 155 A with the newest software: it has everything.
+  /// A TNC 155 A with the newest software, which has every feature.
   ControlVersion() = default;
   /// `model`: its place in `model_names`.
   ControlVersion(std::size_t model, int software);

@@ -4,8 +4,8 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// Resolves the blocks that the reader lets stand alone: %, D functions, label calls. Arguments and
-/// result as of `resolve`.
+/// Resolves the blocks whose words must be alone in their block: %, D functions, label calls.
+/// Arguments and result as of `resolve`.
 bool resolve_alone(const IsoBlock& block, bool is_first, ProgramForm& program, BlockParts& parts,
                    Fault& fault);
 

@@ -14,9 +14,9 @@ inline constexpr unsigned kCenterSlots = 0x0007;
 inline constexpr unsigned kRadiusSlot = 1u << static_cast<unsigned>(IsoSlot::R);
 inline constexpr unsigned kAngleSlot = 1u << static_cast<unsigned>(IsoSlot::H);
 
-/// The words of a block that are absolute or incremental as G90 and G91 say. The radius of a corner
-/// or a tool and the axes of a mirror are no coordinates; a MIN corner is absolute anyway, "G90 may
-/// be omitted in G30" (spec 21).
+/// The words of a block to which G90 and G91 apply. The radius of a corner or a tool and the axes
+/// of a mirror are not coordinates; a MIN corner (G30) is always absolute (manual: graphics, BLK
+/// FORM).
 inline unsigned distance_slots(const IsoBlock& block) {
   unsigned slots = block.slots;
   if (block.has(IsoGroup::Corner) || block.has(IsoGroup::Tool)) slots &= ~kRadiusSlot;
@@ -26,7 +26,7 @@ inline unsigned distance_slots(const IsoBlock& block) {
   return slots;
 }
 
-/// Slots from X to W stand in the order of `Axis`.
+/// Slots from X to W are in the order of `Axis`.
 constexpr Axis axis_of_slot(IsoSlot slot) {
   return static_cast<Axis>(static_cast<unsigned>(slot) - static_cast<unsigned>(IsoSlot::X));
 }
@@ -40,7 +40,7 @@ constexpr std::optional<Axis> axis_of_plane(int code) {
   if (code == 19) return Axis::X;
   return std::nullopt;
 }
-/// And back; U, V, W stand for the axes they are parallel to.
+/// The inverse; only X, Y and Z have a plane function.
 constexpr std::optional<std::uint8_t> plane_of_axis(Axis axis) {
   if (axis == Axis::Z) return std::uint8_t{17};
   if (axis == Axis::Y) return std::uint8_t{18};

@@ -10,13 +10,12 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// The words of an ISO block that stand for lengths and angles, in the order the control sorts
-/// them.
+/// The words of an ISO block for lengths and angles, in the order in which the control sorts them.
 enum class IsoSlot : std::uint8_t { I, J, K, X, Y, Z, A, B, C, U, V, W, R, H };
 inline constexpr std::size_t kIsoSlots = 14;
 
-/// What governs such a word: a G90 or G91 in front of it (or of a word before it), or what was in
-/// force when the block began.
+/// How such a word is measured: by a G90 or G91 in front of it (or of a word before it), or by the
+/// modal function in force at the start of the block.
 enum class Distance : std::uint8_t { AsBefore, Absolute, Incremental };
 
 /// G codes of one group exclude each other in a block.
@@ -46,8 +45,8 @@ struct IsoParameter {
   friend bool operator==(const IsoParameter&, const IsoParameter&) = default;
 };
 
-/// One ISO block as its words say it: what is needed to write it again. What it does depends on the
-/// blocks before it: see `resolve`.
+/// The words of one ISO block, enough to write it again. Its effect depends on the blocks before
+/// it: see `resolve`.
 struct IsoBlock {
   static constexpr std::int32_t kNone = -1;
 
@@ -95,14 +94,14 @@ struct IsoBlock {
   std::array<IsoParameter, 8> cycle;  ///< P01-P07, where `parameters` has the bit
 };
 
-/// Reads one ISO block, [begin, end) without its `*`; `*end` can be read and is a `*` or a line
-/// end. False: `fault` says why.
+/// Reads one ISO block, [begin, end) without its `*`; `*end` is readable and is a `*` or a line
+/// end. False: `fault` has the reason.
 bool read_iso_block(const char* begin, const char* end, const ProgramForm& form, IsoBlock& block,
                     Fault& fault);
 
-/// What the block does where `state` is in force, in the order of execution; `state` becomes what
-/// is in force after it. `is_first`: the program begins with it. False: `fault` says why, and
-/// state is as it was.
+/// Resolves the block into parts under the modal `state`, in the order of execution, and updates
+/// `state`. `is_first`: the program begins with the block. False: `fault` has the reason, and
+/// `state` is unchanged.
 bool resolve(const IsoBlock& block, bool is_first, ReadingState& state, BlockParts& parts,
              Fault& fault);
 

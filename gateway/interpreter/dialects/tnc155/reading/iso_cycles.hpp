@@ -5,11 +5,11 @@
 namespace dripline::interpreter::tnc155 {
 
 /// Adds the sub-blocks of the cycle that an ISO block defines. `incremental` has the bits of the
-/// slots that are. False: `fault` says why.
+/// incremental slots. False: `fault` has the reason.
 bool add_cycle(const IsoBlock& block, unsigned incremental, Units units, BlockParts& parts,
                Fault& fault);
 
-/// Which slots a cycle takes for itself, so that no move is left of them.
+/// The slots that a cycle consumes, so that they do not cause a move.
 unsigned slots_of_cycle(int code);
 
 /// The cycle and the direction of a G code of the group Cycle, and back.

@@ -7,9 +7,9 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What stays in force between ISO blocks, in the order of execution. Part of the run's state: at
-/// the start of a program nothing is preset (the first move must find everything programmed).
-/// Compensation and feed are in force in both forms alike and not kept here.
+/// The modal functions between ISO blocks, in the order of execution. They are part of the run's
+/// state; nothing is preset at the start of a program, so everything must be programmed before the
+/// first move. Compensation and feed are modal in both forms and are not kept here.
 struct IsoModes {
   static constexpr std::uint8_t kUnset = 0xFF;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int kMaxCodes = 8;
 constexpr int kProgramDigits = 8;
 
-/// Reads the words of one block, in whatever order they stand.
+/// Reads the words of one block, in any order.
 class IsoReader {
  public:
   IsoReader(const char* begin, const char* end, const ProgramForm& form, IsoBlock& block,
@@ -84,7 +84,7 @@ class IsoReader {
 
   bool twice(char letter, const char* start) {
     return cursor_.wrong(ErrorCode::BlockFormatIncorrect, start,
-                         fmt::format("{} stands twice", letter));
+                         fmt::format("{} is programmed twice", letter));
   }
   bool read_once(std::int32_t& value, std::int32_t low, std::int32_t high, std::string_view name,
                  const char* start) {
@@ -251,10 +251,10 @@ class IsoReader {
     const bool is_function = block_.function != IsoBlock::kNone;
     const bool is_call = block_.label != IsoBlock::kNone && !block_.has(IsoGroup::Label);
     if (!is_program && (block_.groups & kHead) != 0) {
-      return cursor_.wrong("G50, G70 and G71 stand in the % block");
+      return cursor_.wrong("G50, G70 and G71 belong in the % block");
     }
     if (!is_function && block_.parameter != IsoBlock::kNone) {
-      return cursor_.wrong("Q stands without a D function");
+      return cursor_.wrong("Q is programmed without a D function");
     }
     if (!is_program && !is_function && !is_call) return true;
     const bool has_words = block_.slots != 0 || block_.m != IsoBlock::kNone ||
@@ -265,9 +265,9 @@ class IsoReader {
     const bool is_two = is_program + is_function + (block_.label != IsoBlock::kNone) > 1;
     if (is_two || has_words || (block_.groups & ~(is_program ? kHead : 0u)) != 0 ||
         (!is_function && block_.parameters != 0)) {
-      return cursor_.wrong(is_program    ? "% stands alone in its block"
-                           : is_function ? "a D function stands alone in its block"
-                                         : "a label call stands alone in its block");
+      return cursor_.wrong(is_program    ? "% must be alone in its block"
+                           : is_function ? "a D function must be alone in its block"
+                                         : "a label call must be alone in its block");
     }
     return true;
   }

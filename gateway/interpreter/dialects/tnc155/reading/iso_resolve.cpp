@@ -94,7 +94,7 @@ class Resolver {
         block_.groups & (bit(IsoGroup::Cycle) | bit(IsoGroup::Blank) | bit(IsoGroup::Probe));
     if (std::popcount(definitions) > 1) return wrong("two definitions in one block");
     if (definitions != 0 && block_.has(IsoGroup::Corner)) {
-      return wrong("a definition stands between the corner and its move");
+      return wrong("a definition is between the corner and its move");
     }
     if ((block_.m == 91 || block_.m == 92) &&
         (block_.has(IsoGroup::Blank) || block_.has(IsoGroup::Probe) ||
@@ -169,7 +169,7 @@ class Resolver {
     if (block_.has(IsoGroup::Blank)) return add_blank(slots);
     if (block_.has(IsoGroup::Probe)) return add_probe(slots);
     if (!block_.has(IsoGroup::Cycle))
-      return block_.parameters == 0 || wrong("P stands without a cycle");
+      return block_.parameters == 0 || wrong("P is programmed without a cycle");
     is_feed_done_ = block_.has_code(IsoGroup::Cycle, 4) || block_.has_code(IsoGroup::Cycle, 72);
     slots &= ~slots_of_cycle(block_.code(IsoGroup::Cycle));
     return add_cycle(block_, incremental_, state_.program.units, parts_, fault_);
@@ -203,9 +203,9 @@ class Resolver {
 
   bool add_probe(unsigned& slots) {
     const IsoParameter& result = block_.cycle[1];
-    const IsoParameter& way = block_.cycle[2];
+    const IsoParameter& direction = block_.cycle[2];
     if (block_.parameters != 0b1110 || block_.cycle[3].axis ||
-        block_.cycle[3].value.is_programmed() || !way.axis || !way.direction ||
+        block_.cycle[3].value.is_programmed() || !direction.axis || !direction.direction ||
         (slots & kAxisSlots) == 0 || result.value.kind != Value::Kind::Number ||
         result.value.number < 0 || result.value.number > 99 * Value::kStepsPerUnit ||
         result.value.number % Value::kStepsPerUnit != 0) {
@@ -213,8 +213,8 @@ class Resolver {
     }
     Block& plane = parts_.add(BlockKind::Probe);
     plane.target = result.value.number / Value::kStepsPerUnit;
-    plane.axis = way.axis;
-    plane.direction = *way.direction;
+    plane.axis = direction.axis;
+    plane.direction = *direction.direction;
     Block& point = parts_.add(BlockKind::Probe);
     point.part = 1;
     add_axes(point, slots);

@@ -27,7 +27,7 @@ bool read_axes(TextCursor& cursor, Block& block) {
   while (is_axis_letter(cursor.peek())) {
     const Axis axis = axis_of_letter(cursor.peek());
     for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-      if (block.coordinates[i].axis == axis) return cursor.wrong("an axis stands twice");
+      if (block.coordinates[i].axis == axis) return cursor.wrong("an axis is programmed twice");
     }
     if (block.coordinate_count == Block::kMaxCoordinates) {
       return cursor.wrong("more than 4 axes");

@@ -24,7 +24,7 @@ bool read_blank_form(TextCursor& cursor, Block& block, bool has_def);  ///< afte
 bool read_m(TextCursor& cursor, Block& block);
 /// Axis words up to something else; each axis once.
 bool read_coordinates(TextCursor& cursor, Block& block, std::size_t most);
-/// One axis word; the cursor stands on its letter or its I.
+/// One axis word; the cursor is at its letter or its I.
 bool read_coordinate(TextCursor& cursor, Block& block);
 /// F and its value, F MAX where `may_be_rapid`, or F alone; after the letter.
 bool read_feed(TextCursor& cursor, Block& block, bool may_be_rapid);

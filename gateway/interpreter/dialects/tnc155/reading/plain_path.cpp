@@ -46,7 +46,7 @@ bool read_coordinate(TextCursor& cursor, Block& block) {
   coordinate.axis = axis_of_letter(c);
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     if (block.coordinates[i].axis == coordinate.axis) {
-      return cursor.wrong(fmt::format("{} stands twice", c));
+      return cursor.wrong(fmt::format("{} is programmed twice", c));
     }
   }
   const Range& range = coordinate_range(cursor.form(), coordinate.axis);
@@ -131,11 +131,11 @@ bool read_polar_words(TextCursor& cursor, Block& block, bool has_radius) {
       return true;
     }
     if (has_radius && cursor.take('R')) {
-      if (block.radius.is_programmed()) return cursor.wrong("PR stands twice");
+      if (block.radius.is_programmed()) return cursor.wrong("PR is programmed twice");
       block.is_radius_incremental = is_incremental;
       if (!cursor.read_value(block.radius, coordinate_range(cursor.form()), "PR")) return false;
     } else if (cursor.take('A')) {
-      if (block.angle.is_programmed()) return cursor.wrong("PA stands twice");
+      if (block.angle.is_programmed()) return cursor.wrong("PA is programmed twice");
       block.is_angle_incremental = is_incremental;
       if (!cursor.read_value(block.angle, angle_range(is_incremental), "PA")) return false;
     } else {

@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/tnc155/reading/text_cursor.hpp"
 
-/// What the control accepts as values. Lengths of inch programs have the same travel; degrees are
-/// the same in both.
+/// The values the control accepts. Lengths of inch programs span the same travel; degrees are the
+/// same in both.
 namespace dripline::interpreter::tnc155 {
 
 inline constexpr std::int64_t kUnit = Value::kStepsPerUnit;
@@ -43,7 +43,7 @@ inline const Range& angle_range(bool is_incremental) {
   return is_incremental ? kIncrementalAngle : kAbsoluteAngle;
 }
 
-/// Of a letter for which `is_axis_letter`.
+/// The axis of a letter for which `is_axis_letter` holds.
 inline Axis axis_of_letter(char c) {
   if (c >= 'X') return static_cast<Axis>(c - 'X');
   if (c >= 'U') return static_cast<Axis>(static_cast<int>(Axis::U) + (c - 'U'));

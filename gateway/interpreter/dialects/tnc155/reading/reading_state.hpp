@@ -10,15 +10,15 @@ namespace dripline::interpreter::tnc155 {
 
 enum class Form : std::uint8_t { Unknown, Plain, Iso };
 
-/// What the reader must know of the text it is in: per program, so a call keeps the caller's.
+/// The reader's state of one program; a call keeps the caller's.
 struct ProgramForm {
-  Form form = Form::Unknown;           ///< found out from the first block that is read
+  Form form = Form::Unknown;           ///< detected from the first block that is read
   Units units = Units::Millimetre;     ///< set by BEGIN PGM and %
   std::int32_t number = Block::kNone;  ///< likewise
   friend bool operator==(const ProgramForm&, const ProgramForm&) = default;
 };
 
-/// All that reading depends on: part of the run's state.
+/// Everything that reading depends on; part of the run's state.
 struct ReadingState {
   ProgramForm program;
   IsoModes iso;

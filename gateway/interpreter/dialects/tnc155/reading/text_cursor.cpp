@@ -75,7 +75,7 @@ bool TextCursor::read_millionths(std::int32_t& value, std::int32_t high, std::st
   return true;
 }
 
-/// The number as it stands in the text.
+/// The number as written in the text.
 std::string TextCursor::word_at(const char* start) const {
   std::string word;
   for (const char* at = start; at != end_ && word.size() < 24; ++at) {
@@ -86,7 +86,7 @@ std::string TextCursor::word_at(const char* start) const {
   return word;
 }
 
-/// Leading zeros count for nothing.
+/// Leading zeros are not significant.
 std::int64_t TextCursor::long_number(const char* start) const {
   constexpr std::int64_t kTooLong = 1'000'000'000;
   std::int64_t number = 0;

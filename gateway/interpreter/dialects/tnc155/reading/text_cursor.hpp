@@ -10,7 +10,7 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What a number may be, in steps of a Value.
+/// The permitted values of a number, in steps of a Value.
 struct Range {
   std::int64_t low = 0;
   std::int64_t high = 0;
@@ -19,7 +19,7 @@ struct Range {
   bool is_degrees = false;  ///< three decimals, in inch programs as well
 };
 
-/// What a character can be the beginning of.
+/// Bits for what a character can begin.
 inline constexpr std::uint8_t kDigitBit = 1;
 inline constexpr std::uint8_t kValueBit = 2;  ///< sign, digit, decimal sign, Q
 inline constexpr std::uint8_t kAxisBit = 4;
@@ -36,15 +36,15 @@ inline bool is_axis_letter(char c) {
   return (kCharacterBits[static_cast<unsigned char>(c)] & kAxisBit) != 0;
 }
 
-/// Reads the words of one block from left to right; blanks and line ends between two characters
-/// mean nothing. `*end` can be read and is no character of a word. A function that gives false has
-/// put the reason into the fault.
+/// Reads the words of one block from left to right; blanks and line ends between two characters are
+/// ignored. `*end` is readable and not a character of a word. A function that returns false has put
+/// the reason into the fault.
 class TextCursor {
  public:
   TextCursor(const char* begin, const char* end, const ProgramForm& form, Fault& fault)
       : begin_(begin), at_(begin), end_(end), form_(&form), fault_(&fault) {}
 
-  /// The next character that means something; where the block ends, that is `*end`.
+  /// The next significant character; at the end of the block that is `*end`.
   char peek() {
     while (*at_ == ' ') ++at_;
     if (static_cast<unsigned char>(*at_) < ' ' && at_ != end_) skip_controls();
@@ -60,8 +60,8 @@ class TextCursor {
     ++at_;
     return true;
   }
-  /// Words of capitals and points; blanks mean nothing, here and in the text. Where it is not,
-  /// nothing is taken.
+  /// Takes a word of capitals and points; blanks are ignored, here and in the text. Takes nothing
+  /// where the text has another word.
   bool take(std::string_view word) {
     const char* start = at_;
     for (const char c : word) {
@@ -122,7 +122,7 @@ class TextCursor {
     at_ = start;
     return false;
   }
-  /// Moves after what looks like a value.
+  /// Skips what looks like a value.
   void skip_value() {
     while (is_value_next()) ++at_;
   }
@@ -134,7 +134,7 @@ class TextCursor {
     return wrong(ErrorCode::BlockFormatIncorrect, at_, std::move(detail));
   }
   [[gnu::cold]] bool missing(std::string_view name);
-  /// Something stands where the block should end.
+  /// There is text where the block should end.
   [[gnu::cold]] bool unexpected();
 
   const ProgramForm& form() const { return *form_; }
@@ -182,7 +182,7 @@ class TextCursor {
     }
     return at == start ? missing(name) : true;
   }
-  /// Adds those that count; after them only zeros may stand.
+  /// Adds the significant decimals; only zeros may follow them.
   [[gnu::cold]] bool read_many_decimals(const char* start, const char* decimals,
                                         std::int64_t& steps, std::string_view name);
   [[gnu::cold]] bool too_fine(const char* start, std::string_view name);

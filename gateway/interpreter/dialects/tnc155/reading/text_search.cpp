@@ -50,7 +50,7 @@ class Characters {
   std::size_t at_ = 0;
 };
 
-/// G98 and its L stand anywhere in an ISO block; most blocks have no L.
+/// G98 and its L may be anywhere in an ISO block; few blocks have an L.
 std::int32_t label_of_iso(std::string_view block) {
   if (block.find('L') == std::string_view::npos) return -1;
   bool sets_label = false;
@@ -86,7 +86,7 @@ TextSearch::TextSearch(ProgramSource& source, ReaderOptions options) : reader_(s
 TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   Index* oldest = &indexes_[0];
   for (Index& index : indexes_) {
-    if (index.is_used && index.way.next.program == program) {
+    if (index.is_used && index.progress.next.program == program) {
       index.last_use = ++uses_;
       return index;
     }
@@ -95,15 +95,15 @@ TextSearch::Index& TextSearch::index_of(ProgramIndex program) {
   *oldest = Index{};
   oldest->is_used = true;
   oldest->last_use = ++uses_;
-  oldest->way.next.program = program;
+  oldest->progress.next.program = program;
   return *oldest;
 }
 
-TextSearch::Outcome TextSearch::next_block(Way& way, std::string_view& text) {
-  reader_.seek(way.next);
-  switch (reader_.pass(way.state, text)) {
+TextSearch::Outcome TextSearch::next_block(Progress& progress, std::string_view& text) {
+  reader_.seek(progress.next);
+  switch (reader_.pass(progress.state, text)) {
     case ReadState::Ready:
-      way.next = reader_.place();
+      progress.next = reader_.place();
       return Outcome::Found;
     case ReadState::End:
       return Outcome::Missing;
@@ -132,11 +132,11 @@ TextSearch::Outcome TextSearch::find_label(ProgramIndex program, std::uint32_t l
     }
     if (index.is_complete) return Outcome::Missing;
     std::string_view text;
-    const Outcome read = next_block(index.way, text);
+    const Outcome read = next_block(index.progress, text);
     if (read == Outcome::Missing) index.is_complete = true;
     if (read == Outcome::Missing) continue;
     if (read != Outcome::Found) return read;
-    const std::int32_t set = read_head(text, index.way.state.program.form).label;
+    const std::int32_t set = read_head(text, index.progress.state.program.form).label;
     if (set < 0 || static_cast<std::size_t>(set) >= kLabels) continue;
     auto& place = index.labels[static_cast<std::size_t>(set)];
     if (!place) place = reader_.block_place();

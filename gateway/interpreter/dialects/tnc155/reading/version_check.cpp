@@ -44,7 +44,7 @@ Demand demand_of(const Block& block) {
   }
 }
 
-bool settle(const ControlVersion& version, Demand demand, Fault& fault) {
+bool meets(const ControlVersion& version, Demand demand, Fault& fault) {
   if (demand.feature == Feature::Count || version.has(demand.feature)) return true;
   fault = {demand.code, 0, demand.words + ": " + version.lacks(demand.feature)};
   return false;
@@ -53,7 +53,7 @@ bool settle(const ControlVersion& version, Demand demand, Fault& fault) {
 }  // namespace
 
 bool check_version(const ControlVersion& version, const Block& block, Fault& fault) {
-  return settle(version, demand_of(block), fault);
+  return meets(version, demand_of(block), fault);
 }
 
 bool check_version(const ControlVersion& version, const IsoBlock& block, Fault& fault) {
@@ -67,7 +67,7 @@ bool check_version(const ControlVersion& version, const IsoBlock& block, Fault& 
         Code{IsoGroup::Probe, 55, Feature::TouchProbe}}) {
     if (!block.has_code(code.group, code.number)) continue;
     const Demand demand{code.feature, ErrorCode::IllegalGCode, fmt::format("G{}", code.number)};
-    if (!settle(version, demand, fault)) return false;
+    if (!meets(version, demand, fault)) return false;
   }
   return true;
 }

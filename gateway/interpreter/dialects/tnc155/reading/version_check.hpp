@@ -5,11 +5,11 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// What a control of that version does not take, because it has not what the block asks for. False:
-/// `fault` says it, in the control's words where it has some. Only for versions that do not take
-/// all blocks.
+/// Whether a control of that version has every feature the block needs. False: `fault` names the
+/// missing one, with the control's message where it has one. Only for versions that do not take all
+/// blocks.
 bool check_version(const ControlVersion& version, const Block& block, Fault& fault);
-/// The same of the G codes of an ISO block, whatever is in force where it stands.
+/// The same for the G codes of an ISO block, independent of the modal state.
 bool check_version(const ControlVersion& version, const IsoBlock& block, Fault& fault);
 
 }  // namespace dripline::interpreter::tnc155

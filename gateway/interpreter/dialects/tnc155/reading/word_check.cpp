@@ -22,7 +22,7 @@ bool check_value(Run& run, std::string_view name, const Value& value, const Rang
                               value.is_negated ? "-" : "+", value.number, held, low, high));
 }
 
-/// In whichever order the words stand, the axes come first.
+/// The axes come first, in whatever order the words were programmed.
 bool check_coordinates(Run& run, const Block& block) {
   for (std::size_t i = 0; i < block.coordinate_count; ++i) {
     if (!check_axis(run, block.coordinates[i].axis)) return false;
@@ -58,7 +58,7 @@ bool check_words(Run& run, const Block& block) {
   const Range& lengths = coordinate_range(run.state.reading.program);
   switch (block.kind) {
     case BlockKind::Function:   // its operands are numbers of any size
-    case BlockKind::BlankForm:  // it tells itself what is wrong with it
+    case BlockKind::BlankForm:  // it reports its own faults
       return true;
     case BlockKind::CycleDefinition:
       if (block.cycle == kMirror) return true;  // likewise

@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
 
-/// What the text of a block alone cannot say of its words: what Q parameters hold, and which axes
-/// this machine has.
+/// Checks of words that depend on more than the text of the block: the values of Q parameters, and
+/// the axes of this machine.
 namespace dripline::interpreter::tnc155 {
 
 /// A word of the block is a Q parameter or names another axis than X, Y and Z.
@@ -16,8 +16,8 @@ inline bool needs_check(const Block& block) {
   return needs;
 }
 
-/// Q parameters hold what could stand in their place as a number, and axes are those of the
-/// machine. False: the run has failed.
+/// Q parameters must hold a value that is permitted as a number in their place, and axes must be
+/// those of the machine. False: the run has failed.
 bool check_words(Run& run, const Block& block);
 
 /// X, Y, Z or axis IV.

@@ -86,7 +86,7 @@ TEST(Tnc155Editing, RefusesAWrongBlockInTheControlsWords) {
 
 TEST(Tnc155Editing, KeepsTheFirstAndTheLastBlock) {
   EXPECT_EQ(edit(kPlain, {{Kind::Insert, 5, 5, "CC"}}).error().what,
-            "PROGRAM MEMORY EXCEEDED: nothing stands after the last block, 5 \"5 END PGM 15 MM\"");
+            "PROGRAM MEMORY EXCEEDED: nothing may follow the last block, 5 \"5 END PGM 15 MM\"");
   EXPECT_EQ(edit(kPlain, {{Kind::Delete, 0, 0, ""}}).error().what,
             "block 0 \"0 BEGIN PGM 15 MM\" begins or ends the program: it stays");
   EXPECT_FALSE(edit(kPlain, {{Kind::Delete, 4, 5, ""}}));
@@ -117,7 +117,7 @@ TEST(Tnc155Editing, FindsANumberBetweenItsNeighboursWhereThereAreGaps) {
   ASSERT_TRUE(edited) << edited.error().what;
   EXPECT_EQ(edited->text, "0 BEGIN PGM 1 MM\n100 CC\n102 LBL 3\n105 END PGM 1 MM\n");
   EXPECT_EQ(edit(text, {{Kind::Insert, 104, 104, "CC"}}).error().what,
-            "1 blocks do not find numbers between 104 and 105: renumber first");
+            "1 blocks do not fit between block numbers 104 and 105: renumber first");
 }
 
 TEST(Tnc155Editing, EditsIsoByItsN) {

@@ -210,8 +210,8 @@ TEST(Tnc155WordEdits, OfOneBlockGoTogether) {
 
 TEST(Tnc155WordEdits, DoNotTouchABlockThatCannotBeRead) {
   EXPECT_EQ(changed("0 BEGIN PGM 1 MM\n1 L Q\n2 STOP M\n3 END PGM 1 MM\n", {{Set, 1, "X1"}})
-                .substr(0, 57),
-            "block 1 \"1 L Q\" cannot be read, --replace mends it: BLOCK");
+                .substr(0, 59),
+            "block 1 \"1 L Q\" cannot be read, --replace repairs it: BLOCK");
   EXPECT_EQ(
       changed("0 BEGIN PGM 1 INCH\n1 L Q\n2 L X+1.5\n3 END PGM 1 INCH\n", {{Set, 2, "X.0001"}}),
       "2 L X+0.0001 R F M");

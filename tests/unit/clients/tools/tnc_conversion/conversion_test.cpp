@@ -254,7 +254,7 @@ TEST(Tnc155ConversionRefuses, WhatHasNoCounterpart) {
             "! line 3: this needs a TOOL CALL with the spindle axis before all moves, labels and "
             "calls");
   EXPECT_EQ(converted("%7 G71\nN1 G17 G40 G90 G01 X0 Y0 F9\nN2 I1 J1\nN3 G02 C+5", Form::Plain),
-            "! line 4: an arc that names C alone cannot be told from CC");
+            "! line 4: an arc that names C alone cannot be distinguished from CC");
   EXPECT_EQ(converted("%7 G71\nN1 G17 G40 G90 G01 X0 Y0 F9\nN2 X5\nN3 G91\nN4 G25 R1\nN5 Y5",
                       Form::Plain),
             "! line 5: a corner after a block that plain language has none for");

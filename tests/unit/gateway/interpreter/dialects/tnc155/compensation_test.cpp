@@ -262,7 +262,7 @@ TEST(TncCompensation, AHoleAlongARotaryAxisHasItsFeed) {
   EXPECT_NE(moves[1].find(" F80"), std::string::npos) << moves[1];
 }
 
-// HD-093: R+ and R- stand between blocks with R0, along the tool axis as well.
+// HD-093: R+ and R- are only allowed between blocks with R0, along the tool axis as well.
 TEST(TncCompensation, ASingleAxisOffsetIsNoPartOfAContour) {
   EXPECT_EQ(path("+4", {"L X+0 Y+20 Z+0 R0 F100", "L X+0 Y+0 RL", "L X+50 Y+0", "Z+5 R+"}).back(),
             "! PATH OFFSET WRONGLY STARTED");

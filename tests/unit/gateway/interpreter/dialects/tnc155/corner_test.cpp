@@ -131,7 +131,7 @@ TEST(TncCorner, ARoundingAfterTheFirstPointIsARunOn) {
                   "L X40 Y4 F100", "L X40 Y30 F100"));
 }
 
-// HD-109: the mirror image of the run-on about x = 20.
+// HD-109: the mirror image of the tangential approach about x = 20.
 TEST(TncCorner, ARoundingBeforeTheEndIsARunOff) {
   EXPECT_THAT(
       path("+4", {"L X+0 Y+40 R0 F100", "L X+0 Y+0 RL", "L X+40 Y+0", "RND R8", "L X+70 Y+40 R0"}),

@@ -105,13 +105,13 @@ TEST(TncStart, RefusesWhatItWouldLose) {
   EXPECT_THAT(refusal(from_block(9, kContour)), HasSubstr("block 6 on: start there"));
   EXPECT_THAT(
       refusal(from_block(2, {"LBL 1", "L X+1 Y+1 R0 F MAX", "L IX+1 F MAX", "CALL LBL 1 REP 2/2"})),
-      HasSubstr("how often block 4 has come back over it"));
+      HasSubstr("how often block 4 leads back over it"));
   EXPECT_THAT(refusal(from_block(
                   4, {"CALL LBL 5 REP", "STOP M02", "LBL 5", "L X+1 Y+1 R0 F MAX", "LBL 0"})),
               HasSubstr("repeats and return address of LBL 5, which line 2 calls"));
   EXPECT_THAT(refusal(from_block(3, {"FN 0: Q1 = +0", "LBL 2", "L X+1 Y+1 R0 F MAX",
                                      "FN 1: Q1 = +Q1 + +1", "FN 12: IF +Q1 LT +3 GOTO LBL 2"})),
-              HasSubstr("how often block 5 has come back over it"));
+              HasSubstr("how often block 5 leads back over it"));
   EXPECT_THAT(refusal(from_block(3, {"L X+1 Y+1 R0 F100", "RND R2", "L X+9 Y+1", "L X+9 Y+9"})),
               HasSubstr("the corner from block 1 on"));
   EXPECT_THAT(refusal(from_block(2, {"L X+1 Y+1 R0 F100", "RND R2", "L X+9 Y+1", "L X+9 Y+9"})),
