@@ -49,6 +49,8 @@ class ProgramStore {
 
   /// In order of their names.
   virtual Result<std::vector<ProgramSummary>> list(Page page) = 0;
+  /// The number of programs that `list` names.
+  virtual Result<std::uint64_t> count() = 0;
   /// Newest first, held ones included. Errors: NotFound.
   virtual Result<std::vector<Revision>> revisions(const std::string& program) = 0;
   /// The latest that is not held, or the one with that number, held or not. Errors: NotFound (also

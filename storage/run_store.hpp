@@ -84,6 +84,8 @@ class RunStore {
   virtual Result<Run> find(const std::string& id) = 0;
   /// Newest first.
   virtual Result<std::vector<Run>> list(const RunFilter& filter, Page page) = 0;
+  /// The number of runs that `list` names.
+  virtual Result<std::uint64_t> count(const RunFilter& filter) = 0;
   /// Ordered to Active, or either to a final state; the state it has changes nothing. A final state
   /// is never left. Errors: NotFound, Conflict.
   virtual Result<void> set_state(const std::string& id, RunState state,

@@ -10,10 +10,10 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/health.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "server/machines/machine_control.hpp"
 #include "server/ports/port_control.hpp"
-#include "storage/store.hpp"
 
 namespace dripline::api {
 
@@ -29,7 +29,7 @@ struct Services {
   library::Programs& programs;
   library::Setups& setups;
   machines::MachineControl& feeds;
-  const storage::Store& store;
+  library::RunHistory& runs;
   library::AuditTrail& audit;
   EventHub& events;
   const Clock& clock;

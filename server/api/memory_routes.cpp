@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/routes.hpp"
-#include "server/library/kept_memory.hpp"
 
 namespace dripline::api {
 namespace {
@@ -34,7 +33,7 @@ Response list_memories(Services& services, const Request& request) {
   const std::string machine = request.parameter("name");
   if (const auto known = services.feeds.machine(machine); !known)
     return error_response(known.error());
-  const auto memories = library::kept_memories(services.store, machine, run, page);
+  const auto memories = services.runs.memories(machine, run, page);
   if (!memories) return error_response(memories.error());
   auto list = json::array();
   for (const auto& memory : *memories) list.push_back(memory_json(memory));

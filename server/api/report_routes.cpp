@@ -22,7 +22,7 @@ Response list_reports(Services& services, const Request& request) {
   filter.program = query.text("program");
   filter.with_outputs = true;
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto runs = services.store.runs.list(filter, page);
+  const auto runs = services.runs.runs(filter, page);
   if (!runs) return error_response(runs.error());
   auto list = nlohmann::json::array();
   for (const auto& run : *runs) list.push_back(report_json(run));
@@ -32,7 +32,7 @@ Response list_reports(Services& services, const Request& request) {
 Response list_machine_reports(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto reports = services.store.records.machine_reports();
+  const auto reports = services.runs.machine_reports();
   if (!reports) return error_response(reports.error());
   auto list = nlohmann::json::array();
   for (const auto& report : *reports) list.push_back(machine_report_json(report));
@@ -64,11 +64,9 @@ Response send_machine_report(Services& services, const Request& request) {
   const auto format = library::parse_report_format(query.text("format").value_or("text"));
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (!format) return error_response(format.error());
-  const auto machine = services.store.machines.find(request.parameter("name"));
-  if (!machine) return error_response(machine.error());
-  return send(
-      std::make_shared<library::ReportReader>(services.store.records, machine->name, *format),
-      *format);
+  const auto report = services.runs.machine_report(request.parameter("name"), *format);
+  if (!report) return error_response(report.error());
+  return send(*report, *format);
 }
 
 Response send_report(Services& services, const Request& request) {
@@ -76,11 +74,9 @@ Response send_report(Services& services, const Request& request) {
   const auto format = library::parse_report_format(query.text("format").value_or("text"));
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (!format) return error_response(format.error());
-  auto run = services.store.runs.find(request.parameter("run"));
-  if (!run) return error_response(run.error());
-  return send(
-      std::make_shared<library::ReportReader>(services.store.records, *std::move(run), *format),
-      *format);
+  const auto report = services.runs.report(request.parameter("run"), *format);
+  if (!report) return error_response(report.error());
+  return send(*report, *format);
 }
 
 }  // namespace

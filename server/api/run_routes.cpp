@@ -39,7 +39,7 @@ Response list_runs(Services& services, const Request& request) {
   const auto filter = read_filter(query);
   if (!filter) return error_response(filter.error());
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto runs = services.store.runs.list(*filter, page);
+  const auto runs = services.runs.runs(*filter, page);
   if (!runs) return error_response(runs.error());
   auto list = nlohmann::json::array();
   for (const auto& run : *runs) list.push_back(run_json(run));
@@ -47,7 +47,7 @@ Response list_runs(Services& services, const Request& request) {
 }
 
 Response show_run(Services& services, const Request& request) {
-  const auto run = services.store.runs.find(request.parameter("id"));
+  const auto run = services.runs.run(request.parameter("id"));
   return run ? json_response(200, run_json(*run)) : error_response(run.error());
 }
 
@@ -74,9 +74,7 @@ Response list_records(Services& services, const Request& request) {
   const storage::Page page = read_page(query);
   const std::string kind = query.text("kind").value_or("");
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto run = services.store.runs.find(request.parameter("id"));
-  if (!run) return error_response(run.error());
-  const auto records = services.store.records.of_run(run->id, kind, page);
+  const auto records = services.runs.records(request.parameter("id"), kind, page);
   if (!records) return error_response(records.error());
   auto list = nlohmann::json::array();
   for (const auto& record : *records) list.push_back(record_json(record));

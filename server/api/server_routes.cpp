@@ -6,24 +6,6 @@
 namespace dripline::api {
 namespace {
 
-/// The entries of all pages of a listing.
-template <class List>
-Result<std::uint64_t> count_all(const List& list) {
-  std::uint64_t count = 0;
-  for (;;) {
-    const auto entries = list(storage::Page{.limit = kMaxLimit, .offset = count});
-    if (!entries) return fail(entries.error());
-    count += entries->size();
-    if (entries->size() < kMaxLimit) return count;
-  }
-}
-
-Result<std::uint64_t> count_active_runs(const storage::Store& store) {
-  storage::RunFilter filter;
-  filter.state = storage::RunState::Active;
-  return count_all([&](storage::Page page) { return store.runs.list(filter, page); });
-}
-
 library::Health::State health_of(const Services& services) {
   return services.health == nullptr ? library::Health::State{} : services.health->state();
 }
@@ -45,9 +27,11 @@ nlohmann::json health_json(const library::Health::State& state, Audience audienc
 Response describe_server(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto programs = count_all([&](storage::Page page) { return services.programs.list(page); });
+  const auto programs = services.programs.count();
   if (!programs) return error_response(programs.error());
-  const auto active = count_active_runs(services.store);
+  storage::RunFilter active_runs;
+  active_runs.state = storage::RunState::Active;
+  const auto active = services.runs.count(active_runs);
   if (!active) return error_response(active.error());
   const auto machines = services.feeds.machines();
   const auto connected =

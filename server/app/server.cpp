@@ -93,6 +93,7 @@ struct Server::Parts {
         health(clock),
         audit(store->audit, clock),
         programs(*store, clock, catalog, audit),
+        runs(*store),
         setups(store->setups, catalog, audit),
         feeds(*store, clock, feed_options(), feed_listener()),
         ports(*store, programs, clock,
@@ -102,7 +103,7 @@ struct Server::Parts {
         api({.programs = programs,
              .setups = setups,
              .feeds = machines,
-             .store = *store,
+             .runs = runs,
              .audit = audit,
              .events = events,
              .clock = clock,
@@ -156,6 +157,7 @@ struct Server::Parts {
   library::DialectCatalog catalog;
   library::AuditTrail audit;
   library::Programs programs;
+  library::RunHistory runs;
   library::Setups setups;
   api::EventHub events;
   machines::MachineService feeds;

@@ -60,6 +60,7 @@ class Programs {
   Result<std::vector<storage::ProgramSummary>> list(storage::Page page) {
     return store_.list(page);
   }
+  Result<std::uint64_t> count() { return store_.count(); }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) {
     return store_.revisions(program);
   }

@@ -31,6 +31,19 @@ Result<std::vector<ProgramSummary>> ProgramRepository::list(Page page) {
   });
 }
 
+Result<std::uint64_t> ProgramRepository::count() {
+  static const std::string kSql =
+      "SELECT count(DISTINCT program.id) "
+      "FROM revision JOIN program ON program.id = revision.program WHERE " +
+      kRevisionVisible;
+  const auto found = connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(database, kSql,
+                             [](const sqlite::Statement& row) { return row.number(0); });
+  });
+  if (!found) return fail(found.error());
+  return found->value_or(0);
+}
+
 Result<std::vector<Revision>> ProgramRepository::revisions(const std::string& program) {
   static const std::string kSql = "SELECT " + kRevisionColumns + kRevisionTables +
                                   "WHERE program.name = ?1 AND " + kRevisionVisible +

@@ -14,6 +14,7 @@ class ProgramRepository final : public ProgramStore {
       : connections_(connections), clock_(clock), cache_(cache_bytes) {}
 
   Result<std::vector<ProgramSummary>> list(Page page) override;
+  Result<std::uint64_t> count() override;
   Result<std::vector<Revision>> revisions(const std::string& program) override;
   Result<Revision> revision(const std::string& program,
                             std::optional<std::uint64_t> number) override;

@@ -81,6 +81,7 @@ class RunRepository final : public RunStore {
   Result<void> create(const Run& run) override;
   Result<Run> find(const std::string& id) override;
   Result<std::vector<Run>> list(const RunFilter& filter, Page page) override;
+  Result<std::uint64_t> count(const RunFilter& filter) override;
   Result<void> set_state(const std::string& id, RunState state, const std::string& reason) override;
   Result<void> update_counters(const RunProgress& progress) override;
 

@@ -158,15 +158,39 @@ Result<Run> RunRepository::find(const std::string& id) {
   return connections_.read([&](sqlite::Database& database) { return find_run(database, id); });
 }
 
-Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
+namespace {
+
+std::string select_filtered(const RunFilter& filter) {
   std::string sql = kSelect + "WHERE true ";  // few texts, so that each is prepared once
   if (filter.machine) sql += "AND machine.name = ?1 ";
   if (filter.program) sql += "AND program.name = ?2 ";
   if (filter.state) sql += "AND run.state = ?3 ";
   if (filter.with_outputs) sql += "AND run.outputs > 0 ";
-  sql += "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ORDER BY run.number DESC LIMIT ?4 OFFSET ?5";
-  std::optional<std::string> state;
-  if (filter.state) state = to_string(*filter.state);
+  return sql + "AND ?1 IS ?1 AND ?2 IS ?2 AND ?3 IS ?3 ";
+}
+
+std::optional<std::string> state_of(const RunFilter& filter) {
+  if (!filter.state) return std::nullopt;
+  return std::string(to_string(*filter.state));
+}
+
+}  // namespace
+
+Result<std::uint64_t> RunRepository::count(const RunFilter& filter) {
+  const std::string sql = "SELECT count(*) FROM (" + select_filtered(filter) + ")";
+  const auto state = state_of(filter);
+  const auto found = connections_.read([&](sqlite::Database& database) {
+    return sqlite::first_row(
+        database, sql, [](const sqlite::Statement& row) { return row.number(0); }, filter.machine,
+        filter.program, state);
+  });
+  if (!found) return fail(found.error());
+  return found->value_or(0);
+}
+
+Result<std::vector<Run>> RunRepository::list(const RunFilter& filter, Page page) {
+  const std::string sql = select_filtered(filter) + "ORDER BY run.number DESC LIMIT ?4 OFFSET ?5";
+  const auto state = state_of(filter);
   return connections_.read([&](sqlite::Database& database) {
     return sqlite::all_rows(database, sql, read_run, filter.machine, filter.program, state,
                             page.limit, page.offset);

@@ -13,6 +13,7 @@ class ProgramStoreDecorator : public storage::ProgramStore {
   Result<std::vector<storage::ProgramSummary>> list(storage::Page page) override {
     return inner_.list(page);
   }
+  Result<std::uint64_t> count() override { return inner_.count(); }
   Result<std::vector<storage::Revision>> revisions(const std::string& program) override {
     return inner_.revisions(program);
   }
@@ -67,6 +68,9 @@ class RunStoreDecorator : public storage::RunStore {
   Result<std::vector<storage::Run>> list(const storage::RunFilter& filter,
                                          storage::Page page) override {
     return inner_.list(filter, page);
+  }
+  Result<std::uint64_t> count(const storage::RunFilter& filter) override {
+    return inner_.count(filter);
   }
   Result<void> set_state(const std::string& id, storage::RunState state,
                          const std::string& reason) override {

@@ -36,6 +36,7 @@ TEST_F(ProgramTest, SameContentAgainIsTheLatestRevision) {
 TEST_F(ProgramTest, ListingIsByNameAndPaged) {
   for (const char* name : {"c.nc", "a.nc", "b.nc"}) ASSERT_TRUE(push(name, "M30\n"));
   ASSERT_TRUE(push("a.nc", "M2\n"));
+  EXPECT_EQ(store_->programs.count().value_or(0), store_->programs.list({})->size());
   const auto page = store_->programs.list({.limit = 2, .offset = 0});
   ASSERT_TRUE(page) << page.error().what;
   ASSERT_EQ(page->size(), 2u);
@@ -54,6 +55,7 @@ TEST_F(ProgramTest, RemovedOneIsGoneButItsBytesStay) {
   EXPECT_EQ(store_->programs.revisions("p.nc").error().code, Errc::NotFound);
   EXPECT_EQ(store_->programs.remove("p.nc").error().code, Errc::NotFound);
   EXPECT_TRUE(store_->programs.list({})->empty());
+  EXPECT_EQ(store_->programs.count().value_or(99), 0u);
   EXPECT_EQ(pull(revision->content), "G00 X1.\n");
 }
 

@@ -145,6 +145,9 @@ TEST_F(RunTest, ListingIsNewestFirstAndFiltered) {
     std::string text;
     const auto all = store_->runs.list(filter, page);
     for (const Run& found : *all) text += found.id + " ";
+    if (page.limit > 1) {
+      EXPECT_EQ(store_->runs.count(filter).value_or(99), all->size());
+    }
     return text;
   };
   EXPECT_EQ(ids({}), "r2 r1 ");

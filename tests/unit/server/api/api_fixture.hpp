@@ -28,7 +28,7 @@ class ApiTest : public ServerTest {
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .setups = *setups_,
                                                     .feeds = feeds_,
-                                                    .store = *store_,
+                                                    .runs = *runs_,
                                                     .audit = *audit_,
                                                     .events = events_,
                                                     .clock = clock_,

@@ -8,6 +8,7 @@
 #include "server/library/audit_trail.hpp"
 #include "server/library/control_catalog.hpp"
 #include "server/library/programs.hpp"
+#include "server/library/run_history.hpp"
 #include "server/library/setups.hpp"
 #include "storage/sqlite_store.hpp"
 #include "tests/support/manual_clock.hpp"
@@ -49,6 +50,7 @@ class ServerTest : public testing::Test {
 
   void reopen() {
     setups_.reset();
+    runs_.reset();
     programs_.reset();
     audit_.reset();
     store_.reset();
@@ -57,6 +59,7 @@ class ServerTest : public testing::Test {
     store_ = *std::move(opened);
     audit_ = std::make_unique<library::AuditTrail>(store_->audit, clock_);
     programs_ = std::make_unique<library::Programs>(*store_, clock_, catalog_, *audit_);
+    runs_ = std::make_unique<library::RunHistory>(*store_);
     setups_ = std::make_unique<library::Setups>(store_->setups, catalog_, *audit_);
   }
 
@@ -92,6 +95,7 @@ class ServerTest : public testing::Test {
   std::unique_ptr<storage::SqliteStore> store_;
   std::unique_ptr<library::AuditTrail> audit_;
   std::unique_ptr<library::Programs> programs_;
+  std::unique_ptr<library::RunHistory> runs_;
   std::unique_ptr<library::Setups> setups_;
 };
 
