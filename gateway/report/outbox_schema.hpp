@@ -6,6 +6,7 @@
 
 namespace dripline::report {
 
+/// A published step is never changed: a change of the schema is a new step at the end.
 inline constexpr std::array kOutboxMigrations{storage::sqlite::Migration{1, "outbox", R"sql(
 CREATE TABLE outbox (
   only_row    INTEGER PRIMARY KEY CHECK (only_row = 1),
@@ -37,7 +38,7 @@ CREATE TABLE active_run (
   sequence INTEGER NOT NULL, -- its N number, -1 none
   offset   INTEGER NOT NULL  -- bytes
 ) STRICT;
-CREATE TABLE command_result (
+CREATE TABLE order_result (
   position    INTEGER PRIMARY KEY AUTOINCREMENT, -- the oldest are dropped
   id          TEXT NOT NULL UNIQUE,
   is_accepted INTEGER NOT NULL,
@@ -69,6 +70,9 @@ CREATE TABLE memory_state (
   fault    TEXT NOT NULL  -- why the memory is not to be used; empty: it is sound
 ) STRICT;
 INSERT INTO memory_state VALUES (1, '', '', '');
+)sql"},
+                                              storage::sqlite::Migration{4, "commands", R"sql(
+ALTER TABLE order_result RENAME TO command_result;
 )sql"}};
 
 }  // namespace dripline::report

@@ -8,6 +8,8 @@
 #include <random>
 #include <thread>
 
+#include "gateway/report/outbox_schema.hpp"
+#include "storage/sqlite/migration.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dripline::report {
@@ -156,6 +158,24 @@ TEST_F(OutboxTest, RemembersHowOrdersWereAnswered) {
   EXPECT_FALSE(answer->is_accepted);
   EXPECT_EQ(answer->reason, "busy");
   EXPECT_FALSE(outbox.command_result("order-2").value().has_value());
+}
+
+TEST_F(OutboxTest, AFileOfAnEarlierVersionKeepsItsAnswersAndRecords) {
+  {
+    auto earlier = storage::sqlite::Database::open(file, {}).value();
+    ASSERT_TRUE(storage::sqlite::migrate(earlier, std::span(kOutboxMigrations).first(3)));
+    ASSERT_TRUE(earlier.execute(
+        "INSERT INTO outbox VALUES (1, 77, 1);"
+        "INSERT INTO record VALUES (1, 1700000000000001, 'run-1', 1, 12, 3, 10, 'file', 'A');"
+        "INSERT INTO order_result VALUES (1, 'hold-1', 0, 'not running')"));
+  }
+  Outbox outbox = open();
+  EXPECT_EQ(outbox.epoch(), 77u);
+  EXPECT_EQ(texts(outbox), std::vector<std::string>{"A"});
+  const auto answer = outbox.command_result("hold-1").value();
+  ASSERT_TRUE(answer);
+  EXPECT_FALSE(answer->is_accepted);
+  EXPECT_EQ(answer->reason, "not running");
 }
 
 TEST_F(OutboxTest, ANewEpochNumbersTheRestFromOne) {

@@ -99,10 +99,11 @@ TEST(Tnc155TypedWord, IsReadWithoutBlanksAndCapitals) {
 TEST(Tnc155TypedWord, IsRefusedWhereItIsNoneOrMore) {
   EXPECT_EQ(typed("E5", Form::Plain), "\"E5\" is no word of plain language");
   EXPECT_EQ(typed("L X+5", Form::Plain), "\"L X+5\" is no word of plain language");
-  EXPECT_EQ(typed("X+5 Y+7", Form::Plain), "\"X+5 Y+7\" is not one word: after X stands \"+5Y+7\"");
-  EXPECT_EQ(typed("G01 X+5", Form::Iso), "\"G01 X+5\" is not one word: after G01 stands \"X+5\"");
+  EXPECT_EQ(typed("X+5 Y+7", Form::Plain),
+            "\"X+5 Y+7\" is not one word: X is followed by \"+5Y+7\"");
+  EXPECT_EQ(typed("G01 X+5", Form::Iso), "\"G01 X+5\" is not one word: G01 is followed by \"X+5\"");
   EXPECT_EQ(typed("TOOL CALL 3", Form::Iso),
-            "\"TOOL CALL 3\" is not one word: after T stands \"OOLCALL3\"");
+            "\"TOOL CALL 3\" is not one word: T is followed by \"OOLCALL3\"");
   EXPECT_EQ(typed("", Form::Iso), "\"\" is no word of ISO");
   EXPECT_EQ(read_typed_address("F200", Form::Plain).error().what,
             "\"F200\": expected an address alone, as F");
