@@ -15,6 +15,14 @@ enum class Pause : std::uint8_t { None, ForAlarm, ForQuestion, ForText };
 
 /// The members of every run that `BlockInterpreter` works on.
 struct BlockRun {
+  /// Returns false. `detail` follows the control's text: which value, which limit.
+  [[gnu::cold]] bool fail(const DiagnosticRow& row, std::uint32_t column,
+                          std::string_view detail = {}) {
+    pause = Pause::ForAlarm;
+    alarm = diagnostic(row, detail, origin.line, column);
+    return false;
+  }
+
   Origin origin;      ///< of the block in hand, or the last one
   Question question;  ///< the open one, or the last one
   Diagnostic alarm;

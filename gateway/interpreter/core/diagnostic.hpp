@@ -17,4 +17,15 @@ struct Diagnostic {
   std::uint32_t column = 0;  ///< 1-based byte within the line; 0 where it concerns the whole block
 };
 
+/// A row of a control's table of alarms and warnings: its id, and the control's wording.
+struct DiagnosticRow {
+  std::string_view id;    ///< static storage
+  std::string_view text;  ///< static storage
+  bool operator==(const DiagnosticRow&) const = default;
+};
+
+/// `detail` follows the text: which value, which limit.
+Diagnostic diagnostic(const DiagnosticRow& row, std::string_view detail, std::uint64_t line,
+                      std::uint32_t column = 0);
+
 }  // namespace dripline::interpreter

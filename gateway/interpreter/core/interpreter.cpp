@@ -17,6 +17,13 @@ void add_number(Sha256& hash, Number number) {
 
 }  // namespace
 
+Diagnostic diagnostic(const DiagnosticRow& row, std::string_view detail, std::uint64_t line,
+                      std::uint32_t column) {
+  Diagnostic made{row.id, std::string(row.text), line, column};
+  if (!detail.empty()) made.text.append(": ").append(detail);
+  return made;
+}
+
 bool fits(const Question& question, const Answer& answer) {
   if (std::holds_alternative<ProbeQuestion>(question)) {
     return std::holds_alternative<ProbeResult>(answer);

@@ -231,8 +231,8 @@ constexpr auto kIds = [] {
 constexpr auto kRows = [] {
   std::array<ErrorRow, kTexts.size()> rows{};
   for (std::size_t i = 0; i < kTexts.size(); ++i) {
-    rows[i] = {static_cast<ErrorCode>(kTexts[i].number),
-               std::string_view(kIds[i].data(), kIdLength), kTexts[i].text};
+    rows[i] = {{{kIds[i].data(), kIdLength}, kTexts[i].text},
+               static_cast<ErrorCode>(kTexts[i].number)};
   }
   return rows;
 }();

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+
+#include "gateway/interpreter/core/diagnostic.hpp"
 
 /// The errors of this control with its own numbers (manual: appendix), and from 1001 on those that
 /// only this software has. The ids are stable: CEN0549 is the control's error 549.
@@ -103,10 +104,8 @@ enum class ErrorCode : std::uint16_t {
   ContourTooNarrow = 1022,         ///< the compensated move would run backwards
 };
 
-struct ErrorRow {
+struct ErrorRow : DiagnosticRow {
   ErrorCode code;
-  std::string_view id;
-  std::string_view text;
 };
 
 /// The row of `code`; its text is the control's wording, shortened.

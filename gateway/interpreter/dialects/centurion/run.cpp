@@ -100,23 +100,6 @@ void Run::report_blank() {
   sink.on_blank(blank);
 }
 
-bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
-  return fail_as(error_row(code), at_column, detail);
-}
-
-bool Run::fail_as(const ErrorRow& row, std::uint32_t at_column, std::string_view detail) {
-  pause = Pause::ForAlarm;
-  alarm.id = row.id;
-  alarm.text = row.text;
-  if (!detail.empty()) {
-    alarm.text += ": ";
-    alarm.text += detail;
-  }
-  alarm.line = origin.line;
-  alarm.column = at_column;
-  return false;
-}
-
 bool Run::flush_path() {
   blender.flush();
   if (state.uses_compensator) compensator.flush();

@@ -78,10 +78,10 @@ struct Run : BlockRun {
   }
   std::uint32_t column(const char* at) const { return offset(at) + 1; }
 
-  /// Both return false. `detail` is added to the control's text: which value, which limit.
-  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
-  [[gnu::cold]] bool fail_as(const ErrorRow& row, std::uint32_t at_column,
-                             std::string_view detail = {});
+  using BlockRun::fail;
+  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {}) {
+    return fail(error_row(code), at_column, detail);
+  }
   [[gnu::cold]] bool ask(Question asked);
   /// The answer to the next question of the item in hand, or nullptr when it has yet to be asked.
   const Answer* next_answer();
@@ -134,7 +134,7 @@ struct Run : BlockRun {
   std::vector<Answer> answers;  ///< to the questions of this item, in order
   std::size_t answers_used = 0;
   std::uint64_t random_at_item = 0;  ///< `state.random` when this item began
-  std::string scratch;  ///< buffer for output text
+  std::string scratch;               ///< buffer for output text
 
   EventSink* front = nullptr;  ///< the first stage; none before the header
   bool has_stages = false;     ///< besides the blending stage

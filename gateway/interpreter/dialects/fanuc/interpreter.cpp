@@ -84,9 +84,10 @@ BlockOutcome FanucInterpreter::read() {
   }
   for (std::size_t i = 0; i < block.parts.warning_count; ++i) {
     const auto& warning = block.warnings[i];
-    if (warning.code == WarningCode::LowerCase && run_.state.told_lower_case) continue;
-    run_.state.told_lower_case |= warning.code == WarningCode::LowerCase;
-    run_.warn(warning.code, warning.column);
+    const bool is_lower_case = *warning.row == WarningCode::LowerCase;
+    if (is_lower_case && run_.state.told_lower_case) continue;
+    run_.state.told_lower_case |= is_lower_case;
+    run_.warn(*warning.row, warning.column);
   }
   block.parts.stage = Stage::Execution;
   return BlockOutcome::Finished;

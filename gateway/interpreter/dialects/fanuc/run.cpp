@@ -3,19 +3,6 @@
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 
 namespace dripline::interpreter::fanuc {
-namespace {
-
-Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_view detail,
-                      std::uint64_t line, std::uint32_t column) {
-  Diagnostic made{id, std::string(text), line, column};
-  if (!detail.empty()) {
-    made.text += ": ";
-    made.text += detail;
-  }
-  return made;
-}
-
-}  // namespace
 
 void Run::deliver_header() {
   state.has_header = true;
@@ -30,19 +17,6 @@ void Run::deliver_header() {
   if (locks) sink.on_override_inhibit(lock);
 }
 
-bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
-  const ErrorRow& row = error_row(code);
-  pause = Pause::ForAlarm;
-  alarm = diagnostic(row.id, row.text, detail, origin.line, at_column);
-  return false;
-}
-
-bool Run::fail_as(std::string_view id, std::string_view alarm_text, std::uint32_t at_column) {
-  pause = Pause::ForAlarm;
-  alarm = diagnostic(id, alarm_text, {}, origin.line, at_column);
-  return false;
-}
-
 bool Run::ask(Question asked) {
   state.limits = {};
   pause = Pause::ForQuestion;
@@ -50,9 +24,8 @@ bool Run::ask(Question asked) {
   return false;
 }
 
-void Run::warn(WarningCode code, std::uint32_t at_column, std::string_view detail) {
-  const WarningRow& row = warning_row(code);
-  events().on_warning({origin, diagnostic(row.id, row.text, detail, origin.line, at_column)});
+void Run::warn(const DiagnosticRow& row, std::uint32_t at_column, std::string_view detail) {
+  events().on_warning({origin, diagnostic(row, detail, origin.line, at_column)});
 }
 
 void Run::update_increments() {

@@ -51,12 +51,10 @@ struct Run : BlockRun {
   }
   std::uint32_t column(const char* at) const { return offset(at) + 1; }
 
-  /// All give false. `detail` is added to the control's text: which value, which limit.
-  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
-  [[gnu::cold]] bool fail_as(std::string_view id, std::string_view alarm_text,
-                             std::uint32_t at_column);
+  /// Returns false, as `fail` does.
   [[gnu::cold]] bool ask(Question asked);
-  [[gnu::cold]] void warn(WarningCode code, std::uint32_t at_column, std::string_view detail = {});
+  [[gnu::cold]] void warn(const DiagnosticRow& row, std::uint32_t at_column,
+                          std::string_view detail = {});
   /// The answer to the next question of the block in hand, or nullptr when it has yet to be asked.
   const Answer* next_answer() {
     return answers_used < answers.size() ? &answers[answers_used++] : nullptr;

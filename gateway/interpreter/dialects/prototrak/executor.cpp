@@ -335,18 +335,13 @@ void Executor::tell_units(const ProgramEvent& event) {
   path_.on_units({origin_, event.is_metric ? Units::Millimetre : Units::Inch});
 }
 
-bool Executor::fail(Fault fault, std::string_view detail) {
-  const FaultRow& row = fault_row(fault);
-  alarm_ = {row.id, std::string(row.text), origin_.line, 0};
-  if (!detail.empty()) alarm_.text.append(": ").append(detail);
+bool Executor::fail(const DiagnosticRow& fault, std::string_view detail) {
+  alarm_ = diagnostic(fault, detail, origin_.line);
   return false;
 }
 
-void Executor::warn(Fault fault, std::string_view detail) {
-  const FaultRow& row = fault_row(fault);
-  Diagnostic diagnostic{row.id, std::string(row.text), origin_.line, 0};
-  if (!detail.empty()) diagnostic.text.append(": ").append(detail);
-  path_.on_warning({origin_, std::move(diagnostic)});
+void Executor::warn(const DiagnosticRow& fault, std::string_view detail) {
+  path_.on_warning({origin_, diagnostic(fault, detail, origin_.line)});
 }
 
 }  // namespace dripline::interpreter::prototrak

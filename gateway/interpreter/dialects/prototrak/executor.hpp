@@ -87,8 +87,8 @@ class Executor {
   void run_circle(XY center, double radius, const ProgramEvent& event);
   void tell_units(const ProgramEvent& event);
   bool meets_no_fault();
-  bool fail(Fault fault, std::string_view detail);
-  void warn(Fault fault, std::string_view detail);
+  bool fail(const DiagnosticRow& fault, std::string_view detail);
+  void warn(const DiagnosticRow& fault, std::string_view detail);
 
   const ControlOptions& options_;
   const StoredProgram& program_;

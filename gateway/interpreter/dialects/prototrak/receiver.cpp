@@ -52,7 +52,7 @@ Receiver::State Receiver::end_of_text(std::uint64_t line) {
   return state_ = State::Failed;
 }
 
-Receiver::State Receiver::fail_line(Fault fault, std::string_view detail) {
+Receiver::State Receiver::fail_line(const DiagnosticRow& fault, std::string_view detail) {
   fail(fault, detail);
   return state_ = State::Failed;
 }
@@ -142,22 +142,18 @@ bool Receiver::end_block() {
          make_event(block);
 }
 
-bool Receiver::fail(Fault fault, std::string_view detail) {
-  const FaultRow& row = fault_row(fault);
-  failure_ = {line_, block_offset_, {row.id, std::string(row.text), line_, 0}};
-  if (block_line_ != 0 && fault >= Fault::Range)
-    failure_.line = failure_.diagnostic.line = block_line_;
-  if (!detail.empty()) failure_.diagnostic.text.append(": ").append(detail);
+bool Receiver::fail(const DiagnosticRow& fault, std::string_view detail) {
+  // faults of a character are at its line, all others at that of their block
+  const bool is_of_block = block_line_ != 0 && fault.id >= Fault::Range.id;
+  const std::uint64_t line = is_of_block ? block_line_ : line_;
+  failure_ = {line, block_offset_, diagnostic(fault, detail, line)};
   return false;
 }
 
-void Receiver::notice(Fault fault, std::string_view detail) {
+void Receiver::notice(const DiagnosticRow& fault, std::string_view detail) {
   if (notices_.size() >= kMaxNotices) return;
-  const FaultRow& row = fault_row(fault);
   const std::uint64_t line = block_line_ != 0 ? block_line_ : line_;
-  Notice made{line, block_offset_, {row.id, std::string(row.text), line, 0}};
-  if (!detail.empty()) made.diagnostic.text.append(": ").append(detail);
-  notices_.push_back(std::move(made));
+  notices_.push_back({line, block_offset_, diagnostic(fault, detail, line)});
 }
 
 const Word* Receiver::BlockWords::find(Address address) const {

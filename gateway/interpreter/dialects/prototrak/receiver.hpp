@@ -32,7 +32,7 @@ class Receiver {
   /// There is no more text.
   State end_of_text(std::uint64_t line);
   /// The text cannot be taken further.
-  State fail_line(Fault fault, std::string_view detail);
+  State fail_line(const DiagnosticRow& fault, std::string_view detail);
 
   const StoredProgram& program() const { return program_; }
   const std::vector<Notice>& notices() const { return notices_; }
@@ -60,8 +60,8 @@ class Receiver {
 
   bool take_character(char c);
   bool end_block();
-  bool fail(Fault fault, std::string_view detail);
-  void notice(Fault fault, std::string_view detail);
+  bool fail(const DiagnosticRow& fault, std::string_view detail);
+  void notice(const DiagnosticRow& fault, std::string_view detail);
 
   bool apply_modes(const BlockWords& block);
   bool apply_modal_words(const BlockWords& block);

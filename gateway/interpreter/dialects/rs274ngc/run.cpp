@@ -27,22 +27,8 @@ void Run::deliver_header() {
   sink.on_program(header);
 }
 
-bool Run::fail(ErrorCode code, std::uint32_t at_column, std::string_view detail) {
-  const ErrorRow& row = error_row(code);
-  pause = Pause::ForAlarm;
-  alarm.id = row.id;
-  alarm.text = row.text;
-  if (!detail.empty()) {
-    alarm.text += ": ";
-    alarm.text += detail;
-  }
-  alarm.line = origin.line;
-  alarm.column = at_column;
-  return false;
-}
-
-bool Run::fail_word(ErrorCode code, char capital, std::string_view detail) {
-  return fail(code, block.words.has(capital) ? block.words.column(capital) : 0, detail);
+bool Run::fail_word(const DiagnosticRow& row, char capital, std::string_view detail) {
+  return fail(row, block.words.has(capital) ? block.words.column(capital) : 0, detail);
 }
 
 bool Run::ask(Question asked) {

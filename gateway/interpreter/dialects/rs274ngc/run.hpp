@@ -37,10 +37,9 @@ struct Run : BlockRun {
   std::uint32_t column(const char* at) const {
     return static_cast<std::uint32_t>(at - line_begin) + 1;
   }
-  /// Give false. `detail` is added to the control's text: which value, which limit.
-  [[gnu::cold]] bool fail(ErrorCode code, std::uint32_t at_column, std::string_view detail = {});
-  /// At the column of a word.
-  [[gnu::cold]] bool fail_word(ErrorCode code, char capital, std::string_view detail = {});
+  /// As `fail`, at the column of a word.
+  [[gnu::cold]] bool fail_word(const DiagnosticRow& row, char capital,
+                               std::string_view detail = {});
   [[gnu::cold]] bool ask(Question asked);
   [[gnu::cold]] void warn(std::string_view id, std::string_view text);
 

@@ -3,16 +3,6 @@
 #include <string>
 
 namespace dripline::interpreter::tektronix1704 {
-namespace {
-
-Diagnostic diagnostic(std::string_view id, const FaultRow& row, const Origin& at,
-                      std::uint32_t column, std::string_view detail) {
-  Diagnostic made{id, std::string(row.text), at.line, column};
-  if (!detail.empty()) made.text.append(": ").append(detail);
-  return made;
-}
-
-}  // namespace
 
 Run::Run(ControlOptions control_options, EventSink& event_sink)
     : options(std::move(control_options)), mm_per_count(options.mm_per_count()), sink(event_sink) {
@@ -35,15 +25,11 @@ void Run::deliver_header() {
 }
 
 bool Run::fail(Fault fault, std::uint32_t column, std::string_view detail) {
-  const FaultRow& row = fault_row(fault);
-  pause = Pause::ForAlarm;
-  alarm = diagnostic(row.id, row, origin, column, detail);
-  return false;
+  return BlockRun::fail(fault_row(fault), column, detail);
 }
 
 void Run::warn(Fault fault, const Origin& at, std::uint32_t column, std::string_view detail) {
-  const FaultRow& row = fault_row(fault);
-  events().on_warning({at, diagnostic(row.warning_id, row, at, column, detail)});
+  events().on_warning({at, diagnostic(fault_row(fault), detail, at.line, column)});
 }
 
 bool Run::object(Fault fault, std::uint32_t column, std::string_view detail) {

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
+
+#include "gateway/interpreter/core/diagnostic.hpp"
 
 /// The errors of this control. It has texts and no numbers, so the ids are ours and stable; texts
 /// that are not in its manual are marked in the table.
@@ -52,13 +53,8 @@ enum class ErrorCode : std::uint8_t {
   Count,
 };
 
-struct ErrorRow {
-  ErrorCode code;
-  std::string_view id;    ///< stable, e.g. TNC-BLOCK-FORMAT
-  std::string_view text;  ///< the control's wording
-};
-
-const ErrorRow& error_row(ErrorCode code);
+/// A stable id, as TNC-BLOCK-FORMAT, and the control's wording.
+const DiagnosticRow& error_row(ErrorCode code);
 
 /// Why a block cannot be read.
 struct Fault {

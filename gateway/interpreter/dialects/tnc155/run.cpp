@@ -25,16 +25,6 @@ blending::Policy corner_policy() {
   return policy;
 }
 
-Diagnostic diagnostic(std::string_view id, std::string_view text, std::string_view detail,
-                      std::uint64_t line) {
-  Diagnostic made{id, std::string(text), line, 0};
-  if (!detail.empty()) {
-    made.text += ": ";
-    made.text += detail;
-  }
-  return made;
-}
-
 }  // namespace
 
 Run::Run(ControlOptions control_options, ProgramSource& program_source, EventSink& event_sink)
@@ -78,16 +68,11 @@ void Run::reset_stages() {
 }
 
 bool Run::fail(ErrorCode code, std::string_view detail) {
-  const ErrorRow& row = error_row(code);
-  pause = Pause::ForAlarm;
-  alarm = diagnostic(row.id, row.text, detail, origin.line);
-  return false;
+  return BlockRun::fail(error_row(code), 0, detail);
 }
 
 bool Run::fail_as(ErrorCode code, std::string_view text) {
-  pause = Pause::ForAlarm;
-  alarm = diagnostic(error_row(code).id, text, {}, origin.line);
-  return false;
+  return BlockRun::fail({error_row(code).id, text}, 0);
 }
 
 bool Run::fail_at_limit() {
@@ -111,7 +96,7 @@ bool Run::ask(Question asked) {
 }
 
 void Run::warn(std::string_view id, std::string_view text) {
-  events().on_warning({origin, diagnostic(id, text, {}, origin.line)});
+  events().on_warning({origin, diagnostic({id, text}, {}, origin.line)});
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -152,8 +152,8 @@ bool force_error(Run& run, const GRow&) {
   if (!(number >= 1 && number <= 999)) {
     return run.fail(ErrorCode::ParameterOutOfRange, 0, fmt::format("P1 = {}", number));
   }
-  return run.fail_as(error_row_of_number(static_cast<int>(number)), 0,
-                     fmt::format("G997 with P1 = {}", number));
+  return run.fail(error_row_of_number(static_cast<int>(number)), 0,
+                  fmt::format("G997 with P1 = {}", number));
 }
 
 bool beep(Run& run, const GRow&) {

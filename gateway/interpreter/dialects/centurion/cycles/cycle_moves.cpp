@@ -66,12 +66,8 @@ bool check_cycle_spindle(Run& run) {
     case SpindleCheck::Warn:
       break;
   }
-  const ErrorRow& row = error_row(ErrorCode::SpindleNeeded);
-  Warning warning{run.origin, {}};
-  warning.diagnostic.id = row.id;
-  warning.diagnostic.text = row.text;
-  warning.diagnostic.line = run.origin.line;
-  run.events().on_warning(warning);
+  run.events().on_warning(
+      {run.origin, diagnostic(error_row(ErrorCode::SpindleNeeded), {}, run.origin.line)});
   return true;
 }
 

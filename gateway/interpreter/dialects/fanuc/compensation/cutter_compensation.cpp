@@ -25,7 +25,7 @@ compensation::Cutter cutter_of(const Run& run) {
   return cutter;
 }
 
-ErrorCode code_of(FaultKind kind) {
+const DiagnosticRow& code_of(FaultKind kind) {
   switch (kind) {
     case FaultKind::NoIntersection:
       return ErrorCode::NoSolution;

@@ -23,7 +23,7 @@ void each_axis_word(const Run& run, Use use) {
   }
 }
 
-bool refuse_transformed(Run& run, ErrorCode code) {
+bool refuse_transformed(Run& run, const DiagnosticRow& code) {
   return run.fail(code, run.block.parts.g_column);
 }
 

@@ -209,7 +209,7 @@ bool raise_alarm(Run& run, std::uint32_t column, double value) {
   const Block::Parts& parts = run.block.parts;
   const std::string_view message(run.text.begin() + parts.message_begin,
                                  parts.message_end - parts.message_begin);
-  return run.fail_as(user_alarm_id(static_cast<int>(number)), message, column);
+  return run.fail({user_alarm_id(static_cast<int>(number)), message}, column);
 }
 
 void stop_with_message(Run& run) {

@@ -85,7 +85,7 @@ struct Block {
     std::uint32_t message_end = 0;
   };
   struct PendingWarning {
-    WarningCode code{};
+    const DiagnosticRow* row = nullptr;
     std::uint32_t column = 0;
   };
 
@@ -93,12 +93,12 @@ struct Block {
     words.clear();
     parts = Parts{};
   }
-  void warn(WarningCode code, std::uint32_t column) {
+  void warn(const DiagnosticRow& row, std::uint32_t column) {
     for (std::size_t i = 0; i < parts.warning_count; ++i) {
-      if (warnings[i].code == code) return;  // once a block is enough
+      if (*warnings[i].row == row) return;  // once a block is enough
     }
     if (parts.warning_count == kMaxWarnings) return;
-    warnings[parts.warning_count++] = {code, column};
+    warnings[parts.warning_count++] = {&row, column};
   }
   bool names(Group group) const { return (parts.groups >> group & 1u) != 0; }
 

@@ -25,7 +25,8 @@ std::ptrdiff_t place_in(const std::vector<std::int64_t>& codes, double code) {
   return at == codes.end() ? -1 : at - codes.begin();
 }
 
-bool read_call_number(Run& run, const Word& word, double most, ErrorCode error, double& value) {
+bool read_call_number(Run& run, const Word& word, double most, const DiagnosticRow& error,
+                      double& value) {
   value = run.whole(word);
   if (word.form == WordForm::Point) return run.fail(ErrorCode::DecimalPoint, word.column);
   if (value >= 1 && value <= most) return true;

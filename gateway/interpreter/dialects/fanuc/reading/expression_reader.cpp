@@ -24,7 +24,7 @@ double or_zero(double value) {
   return std::isnan(value) ? 0 : value;
 }
 
-ErrorCode code_of(MathFault fault) {
+const DiagnosticRow& code_of(MathFault fault) {
   switch (fault) {
     case MathFault::DivisionByZero:
       return ErrorCode::DivisionByZero;
@@ -145,7 +145,7 @@ class Terms {
   }
 
  private:
-  bool here(ErrorCode code, std::string_view detail) {
+  bool here(const DiagnosticRow& code, std::string_view detail) {
     return run_.fail(code, run_.column(at_), detail);
   }
   bool finish(const Computed& computed, double& value) {

@@ -44,7 +44,7 @@ class CycleRun {
   bool make();
 
  private:
-  bool check_sticky(bool is_missing, ErrorCode code, const char* what);
+  bool check_sticky(bool is_missing, const DiagnosticRow& code, const char* what);
   bool check_words_of_code();
   bool place_heights();
   void raise_to_r();
@@ -117,7 +117,7 @@ bool CycleRun::check_line() {
   return true;
 }
 
-bool CycleRun::check_sticky(bool is_missing, ErrorCode code, const char* what) {
+bool CycleRun::check_sticky(bool is_missing, const DiagnosticRow& code, const char* what) {
   if (!is_missing || run_.state.modes.motion == row_.code) return true;
   return run_.fail(code, 0, fmt::format("G{} needs {}", row_.code / 10.0, what));
 }

@@ -94,7 +94,7 @@ SkipFor end_of(BlockKind kind) {
 
 }  // namespace
 
-bool Flow::refuse(ErrorCode code, const OwordHead& head, const char* detail) {
+bool Flow::refuse(const DiagnosticRow& code, const OwordHead& head, const char* detail) {
   return run_.fail(code, 1, fmt::format("O{} {}", label_text(run_, head.label), detail));
 }
 

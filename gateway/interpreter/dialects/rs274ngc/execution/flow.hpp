@@ -46,7 +46,7 @@ class Flow {
   bool test_do(const OwordHead& head, BlockFrame& frame);
 
   bool condition(const OwordHead& head, double& value);
-  bool refuse(ErrorCode code, const OwordHead& head, const char* detail = "");
+  bool refuse(const DiagnosticRow& code, const OwordHead& head, const char* detail = "");
   bool push(BlockKind kind, const OwordHead& head, std::uint64_t left);
   /// The frame of `label` in this call; those within it are left. nullptr: there is none.
   BlockFrame* frame_of(Label label);

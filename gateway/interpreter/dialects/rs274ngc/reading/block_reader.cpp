@@ -16,7 +16,7 @@ constexpr AddressSet kLaterLetters = set_of("ABCDEFHIJKLPQRSTUVWXYZ@^");
 
 struct LowestValue {
   char letter;
-  ErrorCode code;
+  DiagnosticRow code;
 };
 /// Letters whose negative values are refused while reading.
 constexpr std::array kNotNegative{
@@ -138,7 +138,7 @@ bool add_m(Run& run, const char* start, const char*& at) {
   constexpr std::uint8_t kMax = 4;
   int code = 0;
   if (!read_integer(run, at, code)) return false;
-  const auto refuse = [&](ErrorCode why) {
+  const auto refuse = [&](const DiagnosticRow& why) {
     return run.fail(why, run.column(start), fmt::format("M{}", code));
   };
   if (code < 0) return refuse(ErrorCode::MNegative);

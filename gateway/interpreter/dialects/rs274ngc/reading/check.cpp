@@ -8,7 +8,7 @@ namespace {
 
 struct UnusedWord {
   char letter;
-  ErrorCode code;
+  DiagnosticRow code;
 };
 constexpr std::array kWordsWithUsers{
     UnusedWord{'D', ErrorCode::UnusedD}, UnusedWord{'E', ErrorCode::UnusedE},

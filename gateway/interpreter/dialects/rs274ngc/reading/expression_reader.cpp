@@ -42,7 +42,7 @@ class Terms {
   bool bracketed(double& value);
 
  private:
-  static ErrorCode code_of(MathFault fault) {
+  static const DiagnosticRow& code_of(MathFault fault) {
     switch (fault) {
       case MathFault::DivisionByZero:
         return ErrorCode::DivideByZero;

@@ -120,7 +120,7 @@ class Loading {
   }
 
   void refuse(ErrorCode code, std::uint64_t line, std::string_view what) {
-    const ErrorRow& row = error_row(code);
+    const DiagnosticRow& row = error_row(code);
     std::string text(what);
     if (!text.starts_with(row.text)) text = fmt::format("{}: {}", row.text, text);
     if (line_ != 0) text += fmt::format(" (in program {}, which is called here)", program_.number);

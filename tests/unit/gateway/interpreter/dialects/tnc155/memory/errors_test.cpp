@@ -50,7 +50,7 @@ TEST(TncErrors, AreTheControlsWords) {
 TEST(TncErrors, HaveAnIdAndATextEach) {
   std::set<std::string_view> ids;
   for (std::size_t i = 1; i < static_cast<std::size_t>(ErrorCode::Count); ++i) {
-    const ErrorRow& row = error_row(static_cast<ErrorCode>(i));
+    const DiagnosticRow& row = error_row(static_cast<ErrorCode>(i));
     EXPECT_TRUE(row.id.starts_with("TNC-")) << i;
     EXPECT_TRUE(ids.insert(row.id).second) << row.id;
     EXPECT_FALSE(row.text.empty()) << row.id;
