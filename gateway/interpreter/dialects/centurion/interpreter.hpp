@@ -6,7 +6,6 @@
 #include "gateway/interpreter/dialects/centurion/codes/status_window.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
-#include "gateway/interpreter/dialects/centurion/snapshot.hpp"
 #include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
 
 namespace dripline::interpreter::centurion {

@@ -14,7 +14,7 @@
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says
 /// which), X is a radius, positions are machine coordinates with the tool length left out, unless
-/// a comment states otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there.
+/// a comment states otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones there.
 namespace dripline::interpreter::centurion {
 
 enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, Counterclockwise };

@@ -3,7 +3,6 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
-#include "gateway/interpreter/dialects/fanuc/snapshot.hpp"
 
 namespace dripline::interpreter::fanuc {
 

@@ -134,4 +134,9 @@ struct Run : BlockRun {
   [[gnu::cold]] void deliver_header();
 };
 
+/// The state between two blocks; snapshot.cpp.
+Snapshot take_snapshot(const Run& run);
+/// Errors: Unsupported (another dialect or version), Corrupt. `run` is then unchanged.
+Result<void> restore_snapshot(Run& run, const Snapshot& snapshot);
+
 }  // namespace dripline::interpreter::fanuc

@@ -12,7 +12,7 @@
 
 /// Everything that stays from one block to the next. Lengths are millimetres, angles degrees;
 /// positions are machine coordinates of the programmed point, the tool's length left out, unless
-/// said otherwise. `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+/// said otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones there.
 namespace dripline::interpreter::fanuc {
 
 /// One value for each axis of event.hpp, in its order.

@@ -4,7 +4,6 @@
 #include "gateway/interpreter/core/retained_memory.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/snapshot.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 

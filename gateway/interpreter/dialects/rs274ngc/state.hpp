@@ -11,8 +11,8 @@
 
 /// Everything that stays from one line to the next. Coordinates are program coordinates in
 /// millimetres and degrees whatever the units in force; bare numbers (feed, cycle words) stay in
-/// the units they were written in, as this control keeps them. `visit_state` (snapshot.cpp) lists
-/// every member: add new ones there too.
+/// the units they were written in, as this control keeps them. `visit` (snapshot.cpp) lists the
+/// members of State: add new ones there.
 namespace dripline::interpreter::rs274ngc {
 
 using Axes = std::array<double, kAxisCount>;

@@ -3,7 +3,6 @@
 #include "gateway/interpreter/core/block_interpreter.hpp"
 #include "gateway/interpreter/core/language/line_reader.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/run.hpp"
-#include "gateway/interpreter/dialects/tektronix1704/snapshot.hpp"
 
 namespace dripline::interpreter::tektronix1704 {
 

@@ -52,9 +52,8 @@ class Words {
   bool empty() const { return present_ == 0; }
 
   template <class Archive>
-  void visit(Archive& archive) {
-    for (std::int32_t& value : value_) archive(value);
-    archive(present_);
+  friend void visit(Archive& archive, Words& words) {
+    archive(words.value_, words.present_);
   }
 
  private:

@@ -5,7 +5,6 @@
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/run.hpp"
-#include "gateway/interpreter/dialects/tnc155/snapshot.hpp"
 
 namespace dripline::interpreter::tnc155 {
 

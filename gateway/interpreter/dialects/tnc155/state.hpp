@@ -13,7 +13,7 @@
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
 /// The state that is kept from one block to the next. Lengths are millimetres, angles degrees.
-/// `visit_state` (snapshot.cpp) lists every member: add new ones there too.
+/// `visit` (snapshot.cpp) lists the members of State: add new ones there.
 namespace dripline::interpreter::tnc155 {
 
 inline constexpr int kParameterCount = 100;  ///< Q0 to Q99

@@ -1,38 +1,34 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
+#include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "gateway/interpreter/core/language/event_archive.hpp"
+#include "gateway/interpreter/core/language/state_archive.hpp"
 #include "gateway/interpreter/stages/look_ahead/look_ahead_stage.hpp"
 #include "protocol/base/result.hpp"
 
 /// The bytes of a stage that looks ahead: its state, which the stage's own `visit_state` lists, and
 /// the events that wait.
+namespace dripline::interpreter::language {
+
+template <>
+inline constexpr auto kLast<look_ahead::HeldText::Kind> = look_ahead::HeldText::Kind::Message;
+template <>
+inline constexpr auto kLast<compensation::Command::Kind> =
+    compensation::Command::Kind::ResumeOutput;
+template <>
+inline constexpr auto kLast<compensation::Side> = compensation::Side::Right;
+template <>
+inline constexpr auto kLast<compensation::StartUp> = compensation::StartUp::Tangent;
+
+}  // namespace dripline::interpreter::language
+
 namespace dripline::interpreter::look_ahead {
 
 using language::StateReader;
 using language::StateWriter;
-using language::up_to;
-using language::visit;
-using language::visit_all;
-using language::visit_numbers;
-using language::visit_optional;
-
-template <class Archive>
-void visit(Archive& archive, BlockEnd& event) {
-  visit(archive, event.origin);
-}
-template <class Archive>
-void visit(Archive& archive, HeldText& text) {
-  up_to(archive, text.kind, HeldText::Kind::Message);
-  up_to(archive, text.device, OutputDevice::Printer);
-  visit(archive, text.origin);
-  archive(text.size);
-}
 
 template <class Held>
 void write_held(StateWriter& archive, const Held& held) {
@@ -40,49 +36,32 @@ void write_held(StateWriter& archive, const Held& held) {
   archive(count);
   for (std::size_t i = 0; i < held.size(); ++i) {
     typename Held::Event event = held[i];
-    auto kind = static_cast<std::uint8_t>(event.index());
-    archive(kind);
-    std::visit([&](auto& one) { visit(archive, one); }, event);
+    archive(event);
     if (const auto* text = std::get_if<HeldText>(&event)) {
-      for (char c : held.text(*text)) archive(c);
+      std::string content(held.text(*text));
+      archive(content);
     }
   }
 }
 
-template <class Event, class Held>
-void read_event(StateReader& archive, Held& held) {
-  Event event{};
-  visit(archive, event);
-  if constexpr (std::is_same_v<Event, HeldText>) {
-    if (event.size > kMaxHeldText) archive.damage();
-    std::array<char, kMaxHeldText> content;
-    for (std::uint32_t i = 0; i < event.size && !archive.is_damaged(); ++i) archive(content[i]);
-    if (!archive.is_damaged() && !held.push(event, {content.data(), event.size})) archive.damage();
-  } else {
-    if (!archive.is_damaged() && !held.push(event)) archive.damage();
-  }
-}
-
-template <class Held, std::size_t... Kinds>
-void read_kind(StateReader& archive, Held& held, std::size_t kind, std::index_sequence<Kinds...>) {
-  using Event = typename Held::Event;
-  const bool is_known =
-      ((kind == Kinds ? (read_event<std::variant_alternative_t<Kinds, Event>>(archive, held), true)
-                      : false) ||
-       ...);
-  if (!is_known) archive.damage();
-}
-
 template <class Held>
 void read_held(StateReader& archive, Held& held) {
-  constexpr std::size_t kKinds = std::variant_size_v<typename Held::Event>;
   std::uint16_t count = 0;
   archive(count);
   held.clear();
   for (std::uint16_t i = 0; i < count && !archive.is_damaged(); ++i) {
-    std::uint8_t kind = 0;
-    archive(kind);
-    read_kind(archive, held, kind, std::make_index_sequence<kKinds>{});
+    typename Held::Event event;
+    archive(event);
+    const auto push = [&]<class One>(const One& one) {
+      if constexpr (std::is_same_v<One, HeldText>) {
+        std::string content;
+        archive(content);
+        return held.push(one, content);
+      } else {
+        return held.push(one);
+      }
+    };
+    if (!archive.is_damaged() && !std::visit(push, event)) archive.damage();
   }
 }
 
@@ -98,7 +77,7 @@ std::vector<std::byte> LookAheadStage<Stage, State, FaultKind>::state() const {
 
 template <class Stage, class State, class FaultKind>
 Result<void> LookAheadStage<Stage, State, FaultKind>::restore(const std::vector<std::byte>& bytes) {
-  StateReader archive(bytes);
+  StateReader archive(bytes, language::Numbers::Finite);
   State read;
   visit_state(archive, read);
   read_held(archive, read.held);

@@ -34,7 +34,7 @@ class NamedParameters {
   void enter(std::size_t level);
 
   template <class Archive>
-  void visit(Archive& archive);
+  friend void visit(Archive& archive, NamedParameters& names);
 
  private:
   struct Hash {
@@ -60,33 +60,18 @@ class NamedParameters {
 };
 
 template <class Archive>
-void NamedParameters::visit(Archive& archive) {
-  std::size_t count = names_.size();
-  if (!archive.size(count, kMaxNames)) return;
-  names_.resize(count);
-  for (std::string& name : names_) {
-    std::size_t length = name.size();
-    if (!archive.size(length, kMaxNameLength)) return;
-    name.resize(length);
-    for (char& c : name) archive(c);
-    if (name.empty()) return archive.damage();
-  }
-  const auto visit_values = [&](Values& values) {
-    std::size_t used = values.size();
-    if (!archive.size(used, count)) return;
-    values.resize(used);
-    for (Slot& slot : values) {
-      archive(slot.value);
-      archive(slot.is_defined);
-    }
-  };
-  visit_values(globals_);
-  for (Values& values : locals_) visit_values(values);
+void visit(Archive& archive, NamedParameters& names) {
+  archive(names.names_, names.globals_, names.locals_);
   if constexpr (Archive::kReads) {
-    ids_.clear();
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      ids_.emplace(names_[i], static_cast<NameId>(i));
+    const std::size_t count = names.names_.size();
+    bool is_plausible = count <= kMaxNames && names.globals_.size() <= count;
+    for (const auto& values : names.locals_) is_plausible &= values.size() <= count;
+    names.ids_.clear();
+    for (const std::string& name : names.names_) {
+      is_plausible &= !name.empty() && name.size() <= kMaxNameLength;
+      names.ids_.emplace(name, static_cast<NameId>(names.ids_.size()));
     }
+    if (!is_plausible) archive.damage();
   }
 }
 

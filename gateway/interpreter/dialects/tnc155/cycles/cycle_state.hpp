@@ -35,8 +35,7 @@ struct ProbeState {
   ProbeDirection direction = ProbeDirection::Negative;
 };
 
-/// The state that cycle definitions leave for calls and later blocks. Part of the run's state: add
-/// new members to `visit_cycle_state` too.
+/// The state that cycle definitions leave for calls and later blocks.
 struct CycleState {
   bool is_modal_call = false;  ///< M89
   std::uint8_t defining = 0;   ///< cycle whose sub-blocks come now
@@ -47,53 +46,5 @@ struct CycleState {
   MachiningCycle draft;        ///< the definition so far
   ProbeState probe;
 };
-
-template <class Archive>
-void visit_machining_cycle(Archive& archive, MachiningCycle& cycle) {
-  archive(cycle.number);
-  for (double* value :
-       {&cycle.clearance, &cycle.depth, &cycle.peck, &cycle.dwell, &cycle.plunge_feed, &cycle.feed,
-        &cycle.first_side, &cycle.second_side, &cycle.radius}) {
-    archive(*value);
-    if (!(*value >= -1e9 && *value <= 1e9)) archive.damage();
-  }
-  for (Axis* axis : {&cycle.first_axis, &cycle.second_axis}) {
-    archive(*axis);
-    if (static_cast<std::size_t>(*axis) >= kAxisCount) {
-      archive.damage();
-      *axis = Axis::X;
-    }
-  }
-  bool is_clockwise = cycle.turn == Turn::Clockwise;
-  archive(is_clockwise);
-  cycle.turn = is_clockwise ? Turn::Clockwise : Turn::Counterclockwise;
-  archive(cycle.program);
-}
-
-template <class Archive>
-void visit_probe_state(Archive& archive, ProbeState& probe) {
-  archive(probe.is_defined);
-  archive(probe.q);
-  archive(probe.axis);
-  if (static_cast<std::size_t>(probe.axis) >= kAxisCount || probe.q < 0 || probe.q > 99) {
-    archive.damage();
-    probe = {};
-  }
-  bool is_positive = probe.direction == ProbeDirection::Positive;
-  archive(is_positive);
-  probe.direction = is_positive ? ProbeDirection::Positive : ProbeDirection::Negative;
-}
-
-template <class Archive>
-void visit_cycle_state(Archive& archive, CycleState& cycle) {
-  archive(cycle.is_modal_call);
-  archive(cycle.defining);
-  archive(cycle.next_part);
-  archive(cycle.is_complete);
-  archive(cycle.block);
-  visit_machining_cycle(archive, cycle.machining);
-  visit_machining_cycle(archive, cycle.draft);
-  visit_probe_state(archive, cycle.probe);
-}
 
 }  // namespace dripline::interpreter::tnc155

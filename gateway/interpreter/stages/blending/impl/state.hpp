@@ -27,8 +27,8 @@ struct CornerPlace {
 
 using Held = look_ahead::HeldEvents<compensation::Command, UncountedEnd, CornerPlace>;
 
-/// Everything that decides the rest of the path; `visit_state` (state_bytes.cpp) lists every
-/// member: add new ones there too.
+/// Everything that decides the rest of the path; `visit_state` (state_bytes.cpp) lists the
+/// members: add new ones there too.
 struct State : look_ahead::StageState<Element, Held> {
   static constexpr std::string_view kName = "blending";
 

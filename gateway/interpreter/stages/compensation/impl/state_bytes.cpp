@@ -2,79 +2,38 @@
 
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
-namespace dripline::interpreter::compensation {
-
-/// In the namespace of its type, where the look-up by argument finds it.
-template <class Archive>
-void visit(Archive& archive, OutsideCorner& corner) {
-  look_ahead::up_to(archive, corner, OutsideCorner::IntersectCurves);
-}
-
-}  // namespace dripline::interpreter::compensation
+namespace dripline::interpreter::language {
+template <>
+inline constexpr auto kLast<compensation::OutsideCorner> =
+    compensation::OutsideCorner::IntersectCurves;
+template <>
+inline constexpr auto kLast<compensation::impl::Role> = compensation::impl::Role::Parallel;
+template <>
+inline constexpr auto kLast<compensation::impl::Phase> = compensation::impl::Phase::Parallel;
+}  // namespace dripline::interpreter::language
 
 namespace dripline::interpreter::compensation::impl {
 
 template <class Archive>
-void visit(Archive& archive, ByArc& by_arc) {
-  look_ahead::visit(archive, by_arc.radius);
-  look_ahead::visit(archive, by_arc.origin);
-}
-
-using look_ahead::up_to;
-using look_ahead::visit;
-using look_ahead::visit_all;
-using look_ahead::visit_numbers;
-using look_ahead::visit_optional;
-
-template <class Archive>
 void visit(Archive& archive, LeadIn& lead_in) {
-  visit_all(archive, lead_in.count);
+  archive(lead_in.count);
   if (lead_in.count > lead_in.pieces.size()) lead_in.count = 0, archive.damage();
-  for (std::uint8_t i = 0; i < lead_in.count; ++i) {
-    Piece& piece = lead_in.pieces[i];
-    archive(piece.is_arc);
-    visit(archive, piece.sweep);
-    visit(archive, piece.to);
-    visit(archive, piece.center);
-    visit_optional(archive, piece.origin);
-  }
+  for (std::uint8_t i = 0; i < lead_in.count; ++i) archive(lead_in.pieces[i]);
 }
 template <class Archive>
 void visit(Archive& archive, Element& element) {
-  visit_all(archive, element.is_rapid, element.is_arc, element.rests, element.is_silent,
-            element.rounds_corner);
-  visit(archive, element.offset);
-  up_to(archive, element.role, Role::Parallel);
-  up_to(archive, element.start_up, StartUp::Tangent);
-  up_to(archive, element.outside, OutsideCorner::IntersectCurves);
-  visit(archive, element.origin);
-  visit(archive, element.to);
-  visit(archive, element.feed);
-  for (PlaneVector* vector : {&element.from, &element.end, &element.direction_in,
-                              &element.direction_out, &element.arch.center, &element.begin}) {
-    visit(archive, *vector);
-  }
-  Arch& arch = element.arch;
-  visit_numbers(archive, arch.radius_in, arch.radius_out, arch.side, arch.sweep);
-  visit(archive, element.lead_in);
-  visit_optional(archive, element.by_arc);
+  archive(element.is_rapid, element.is_arc, element.rests, element.is_silent, element.rounds_corner,
+          element.offset, element.role, element.start_up, element.outside, element.origin,
+          element.to, element.feed, element.from, element.end, element.direction_in,
+          element.direction_out, element.arch, element.begin, element.lead_in, element.by_arc);
 }
 
 template <class Archive>
 void visit_state(Archive& archive, State& state) {
-  up_to(archive, state.phase, Phase::Parallel);
-  visit_all(archive, state.has_element, state.is_displaced, state.is_output_suppressed,
-            state.idle_blocks);
-  visit(archive, state.offset);
-  up_to(archive, state.plane, Plane::YZ);
-  visit(archive, state.tip);
-  up_to(archive, state.start_up, StartUp::Tangent);
-  visit_optional(archive, state.next_corner);
-  visit_optional(archive, state.next_arc);
-  archive(state.begins_contour);
-  visit(archive, state.programmed);
-  visit(archive, state.sent);
-  if (state.has_element) visit(archive, state.waiting());
+  archive(state.phase, state.has_element, state.is_displaced, state.is_output_suppressed,
+          state.idle_blocks, state.offset, state.plane, state.tip, state.start_up,
+          state.next_corner, state.next_arc, state.begins_contour, state.programmed, state.sent);
+  if (state.has_element) archive(state.waiting());
 }
 
 }  // namespace dripline::interpreter::compensation::impl
