@@ -17,8 +17,8 @@ namespace dripline::interpreter::centurion {
 /// A drilling or grooving cycle while the spindle stands still.
 enum class SpindleCheck : std::uint8_t { Ignore, Warn, Alarm };
 
-/// What a machine's builder and operator have set: the `[control]` options of spec 1.1 that touch
-/// what this version does, and the panel's switches.
+/// What a machine's builder and operator have set: the `[control]` options that touch what this
+/// version does (`dnc setup options centurion`), and the panel's switches.
 struct ControlOptions {
   bool block_skip = false;
   bool optional_stop = false;

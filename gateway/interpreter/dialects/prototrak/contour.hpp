@@ -17,8 +17,8 @@ struct Element {
 Element element_of(const ProgramEvent& cut);
 
 double distance(XY a, XY b);
-/// Within a resolution step: so far, in mm, events may lie apart and still be one corner (spec
-/// 11.2).
+/// Within a resolution step: so far, in mm, events may be apart and still be one corner
+/// (decided here).
 double join_tolerance(bool is_metric);
 /// Of travel at an element's ends; unit length.
 XY direction_at_start(const Element& element);
@@ -29,7 +29,7 @@ XY beside(XY at, XY direction, double by);
 double turn_at(const Element& first, const Element& second);
 
 /// The conrad between two elements that meet: the arc that touches both on the inside of the turn,
-/// nearest to the corner. nullopt: there is none that touches them within their length (spec 11.3).
+/// nearest to the corner. nullopt: there is none that touches them within their length.
 std::optional<Element> conrad(const Element& first, const Element& second, double radius);
 
 }  // namespace dripline::interpreter::prototrak

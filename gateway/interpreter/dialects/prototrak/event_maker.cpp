@@ -5,7 +5,7 @@
 #include "gateway/interpreter/dialects/prototrak/contour.hpp"
 #include "gateway/interpreter/dialects/prototrak/receiver.hpp"
 
-/// Blocks to events: the Receiver's second half (spec 8 to 10, 13).
+/// Blocks to events: the Receiver's second half (manual: events and their words).
 namespace dripline::interpreter::prototrak {
 namespace {
 
@@ -24,7 +24,7 @@ constexpr AddressSet set_of(std::initializer_list<Address> addresses) {
 
 /// Coordinates. Z and K never move anything here, I and J belong to arcs.
 constexpr AddressSet kMovingWords = set_of({XB, YB, XE, YE, XC, YC, XD, YD, XO, YO, X, Y});
-/// Words of one event alone (spec 7.3).
+/// Words of one event alone (README, "Decided here").
 constexpr AddressSet kEventWords = set_of({CR, FC, DR, HL, A, R, RE, FE, LE});
 
 constexpr bool makes_event(int code) {
@@ -60,7 +60,7 @@ bool Receiver::make_event(const BlockWords& block) {
     event_code = code;
   }
   if (block.has_g(92) || block.has_g(28)) return !block.has_g(92) || move_reference(block);
-  // a code that was told to be ignored takes its words with it (spec 13)
+  // an ignored code takes its words with it (manual: modified Fanuc 6 programs)
   if (!event_code && is_ignored) return true;
   const bool is_native = event_code.value_or(0) >= 100;
   if (!is_native && !block.g_codes.empty()) ledger_.take(set_of(Z));
@@ -92,7 +92,8 @@ bool Receiver::report_left_words(const BlockWords& block, std::optional<int> eve
   return true;
 }
 
-/// G00 to G03 (spec 13): Z decides whether cuts are connected, unless a conrad says so.
+/// G00 to G03 (manual: modified Fanuc 6 programs): Z decides whether cuts are connected, unless a
+/// conrad says so.
 bool Receiver::make_converted(const BlockWords& block, int code) {
   if ((block.has(X) && block.has(XE)) || (block.has(Y) && block.has(YE)))
     return fail(Fault::UnknownWord, "two end points in one block");

@@ -171,8 +171,8 @@ bool Executor::check_arc(const ProgramEvent& event) {
               fmt::format("{:.4f} and {:.4f}", event.shown(event.radius), event.shown(last)));
 }
 
-/// The arc between two connected cuts, if the first one's conrad asks for one (spec 11.3). A tool
-/// inside the turn that is larger makes the corner by itself.
+/// The arc between two connected cuts, if the first one's conrad asks for one (manual: connective
+/// events). A tool inside the turn that is larger makes the corner by itself.
 bool Executor::join(const Element& first, const Element& second, const ProgramEvent& event,
                     std::optional<Element>& corner) {
   constexpr double kStraight = 1e-9;
@@ -212,8 +212,8 @@ bool Executor::execute_cut(const ProgramEvent& event) {
   return meets_no_fault();
 }
 
-/// Rapid to the offset begin point (spec 11.3, 12), from wherever the tool is: a rapid to the
-/// programmed point as a start-up move has no length where the tool is there already.
+/// Rapid to the offset begin point (README, "Decided here"), from wherever the tool is: a rapid to
+/// the programmed point as a start-up move has no length where the tool is there already.
 void Executor::begin_chain(const ProgramEvent& event) {
   load_tool(event);
   const bool is_offset = event.side != ToolSide::Center && event.diameter > 0;

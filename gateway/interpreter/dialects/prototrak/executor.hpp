@@ -36,7 +36,7 @@ struct ExecutionState {
   XY at;                     ///< the programmed point
 };
 
-/// Executes stored events as motion of the two axes (spec 12): Z is the operator's.
+/// Executes stored events as motion of the two axes (README, "Decided here"): Z is the operator's.
 class Executor {
  public:
   /// References must outlive it. `start`: where the machine stands.

@@ -4,8 +4,8 @@
 
 #include "gateway/interpreter/dialects/prototrak/executor.hpp"
 
-/// Pockets and frames of the Executor (spec 12): clearing rings from the inside out, a rough pass
-/// along the wall that leaves the finish cut, and the finish pass.
+/// Pockets and frames of the Executor (README, "Decided here"): clearing rings from the inside out,
+/// a rough pass along the wall that leaves the finish cut, and the finish pass.
 namespace dripline::interpreter::prototrak {
 namespace {
 
@@ -136,7 +136,7 @@ bool Executor::clear_rectangle(const ProgramEvent& event) {
   return true;
 }
 
-/// The tool's side and the direction say whether it runs inside or outside (spec 10).
+/// The tool's side and the direction decide whether it runs inside or outside (manual: events).
 bool Executor::run_frame(const ProgramEvent& event) {
   const bool is_circle = event.kind == EventKind::CircularFrame;
   const bool is_on_line = event.side == ToolSide::Center;

@@ -5,7 +5,7 @@
 
 #include "protocol/base/units.hpp"
 
-/// What the control stores (spec 10): numbered events instead of blocks.
+/// What the control stores (manual: events): numbered events instead of blocks.
 namespace dripline::interpreter::prototrak {
 
 enum class EventKind : std::uint8_t {
@@ -66,7 +66,7 @@ struct StoredProgram {
   bool is_metric = false;  ///< the unit it began with
 };
 
-/// The place the next event's increments count from (spec 8).
+/// The place the next event's increments count from (manual: absolute and incremental).
 XY reference_of(const StoredProgram& program, std::size_t index);
 
 }  // namespace dripline::interpreter::prototrak

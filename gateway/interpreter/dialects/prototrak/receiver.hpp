@@ -22,7 +22,8 @@ struct Notice {
 
 /// Takes a program's characters as they come over the line and stores its events: both input forms,
 /// the control's own G100 to G109 and a Fanuc 6 program after its three changes, even mixed
-/// (spec 3.2, 5 to 10, 13). Nothing is stored when anything is wrong.
+/// (manual: transfer procedure, blocks, words and events). Nothing is stored when anything is
+/// wrong.
 class Receiver {
  public:
   enum class State : std::uint8_t { Receiving, Complete, Failed };
@@ -49,7 +50,7 @@ class Receiver {
     bool has(Address address) const { return find(address) != nullptr; }
     bool has_g(int code) const;
   };
-  /// Words that stay until changed (spec 7.3).
+  /// Words that stay until changed (README, "Decided here").
   struct Modal {
     bool is_metric = false, is_incremental = false;
     ToolSide side = ToolSide::Center;

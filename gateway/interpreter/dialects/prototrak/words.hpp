@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-/// The words of a block (spec 5, 7): one- and two-letter addresses, numbers with implied decimals,
-/// tags that override absolute or incremental for one word.
+/// The words of a block (manual: blocks and words): one- and two-letter addresses, numbers with
+/// implied decimals, tags that override absolute or incremental for one word.
 namespace dripline::interpreter::prototrak {
 
 enum class Address : std::uint8_t {

@@ -26,7 +26,8 @@ Plane plane_of(bool x, bool y, bool z) {
   return z && x ? Plane::ZX : Plane::YZ;
 }
 
-/// The two end letters name the plane; with one, two center words do, else it stays (spec 7.3).
+/// The two end letters name the plane; with one, two center words do, else it stays (manual:
+/// plane of an arc).
 bool choose_plane(Run& run) {
   const Words& words = run.state.block.words;
   const int ends = std::popcount(static_cast<unsigned>(words.present() & kEndWords));
@@ -57,7 +58,7 @@ struct PlaneArc {
   double sweep = 0;  ///< degrees
 };
 
-/// An axis that is not named is not kept: its store was cleared (spec 7.2).
+/// An axis that is not named is not kept: its store was cleared (manual: stored coordinates).
 Counts arc_end(Run& run, const PlaneArc& arc) {
   Counts end = run.state.program;
   const Words& words = run.state.block.words;

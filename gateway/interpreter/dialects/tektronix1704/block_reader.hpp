@@ -14,7 +14,8 @@ enum class ReadOutcome : std::uint8_t {
   Alarm,
 };
 
-/// Reads the characters of one line, its end of block included, into `state.block` (spec 3.2, 4).
+/// Reads the characters of one line, its end of block included, into `state.block` (manual: tape,
+/// blocks and words).
 ReadOutcome read_line(Run& run, std::string_view line);
 
 }  // namespace dripline::interpreter::tektronix1704

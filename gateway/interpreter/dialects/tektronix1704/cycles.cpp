@@ -23,7 +23,7 @@ void load_levels(Run& run) {
   }
 }
 
-/// Below R the tool leaves the hole first; above it, it comes down over the hole (spec 12.1).
+/// Below R the tool leaves the hole first; above it, it comes down over the hole.
 bool position_tool(Run& run) {
   const State& state = run.state;
   Counts hole = end_point(run);
@@ -54,7 +54,7 @@ SpindleState reverse_of(SpindleState direction) {
                                                      : SpindleState::Counterclockwise;
 }
 
-/// Feeds until the timer fires, out to R, back to the same depth, and so on (spec 12.2, G83).
+/// Feeds until the timer fires, out to R, back to the same depth, and so on (manual: G83).
 bool peck(Run& run) {
   const State& state = run.state;
   const auto feed = feed_rate(run);

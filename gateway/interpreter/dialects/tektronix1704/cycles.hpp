@@ -4,7 +4,7 @@
 
 namespace dripline::interpreter::tektronix1704 {
 
-/// The block in a fixed cycle G80 to G89 (spec 12): loads R and Z, positions, and works the hole as
+/// The block in a fixed cycle (manual: G80 to G89): loads R and Z, positions, and works the hole as
 /// the cycle table says. False: alarm.
 bool run_cycle(Run& run);
 

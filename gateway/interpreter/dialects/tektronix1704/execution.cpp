@@ -30,7 +30,7 @@ bool enter_cycle(Run& run, int code) {
   return run.options.has_cycles && (code == 80 || run.options.axes == kAxes);
 }
 
-/// Sets the mode a G word stands for (spec 6).
+/// Sets the mode a G word stands for.
 GFunction apply_g(Run& run, int code) {
   State& state = run.state;
   switch (code) {
@@ -65,7 +65,7 @@ GFunction apply_g(Run& run, int code) {
   }
 }
 
-/// No motion: the present place becomes zero, of the axes named or of all (spec 5.4).
+/// No motion: the present place becomes zero, of the axes named or of all (manual: G94).
 void preset(Run& run) {
   State& state = run.state;
   const Words& words = state.block.words;
@@ -82,7 +82,7 @@ void preset(Run& run) {
   run.ledger.take(kEndWords);
 }
 
-/// F is tenths of a second here and leaves the feedrate alone (spec 11).
+/// F is tenths of a second here and leaves the feedrate alone (manual: G04).
 bool dwell(Run& run) {
   const Words& words = run.state.block.words;
   constexpr int kLongest = 999;

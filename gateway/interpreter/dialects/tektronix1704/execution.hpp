@@ -4,7 +4,8 @@
 
 namespace dripline::interpreter::tektronix1704 {
 
-/// Executes the block in `state.block`, in the control's order (spec 15). False: alarm.
+/// Executes the block in `state.block`, in the order that README, "Decided here", gives. False:
+/// alarm.
 bool execute_block(Run& run);
 
 }  // namespace dripline::interpreter::tektronix1704

@@ -75,7 +75,7 @@ bool stop_program(Run& run, StopKind kind) {
   return true;
 }
 
-/// When the block's other commands are done (spec 9, "D").
+/// When the block's other commands are done (manual: M functions).
 bool is_delayed(const ControlOptions& options, int code) {
   switch (code) {
     case 0:

@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/tektronix1704/run.hpp"
 
-/// Spindle, coolant, tool, quill and program control (spec 9, 10, 13).
+/// Spindle, coolant, tool, quill and program control.
 namespace dripline::interpreter::tektronix1704 {
 
 /// S and T words.

@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kCapacity = 999'999;
 constexpr std::size_t kZ = 2;
 
-/// The F word's value per minute, in the control's unit (spec 2, 8).
+/// The F word's value per minute, in the control's unit (manual: feedrate).
 double feed_value(const ControlOptions& options, std::int32_t count) {
   if (options.units != UnitSet::Option1 || count == 0) return count * options.feed_per_count();
   if (options.option1_feed_is_doubled) return count * 0.2;

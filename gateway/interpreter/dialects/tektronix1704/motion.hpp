@@ -24,7 +24,7 @@ bool move_depth(Run& run, double to, Pace pace);
 
 /// The end point of a linear block: axes that are named go, the others stay.
 Counts end_point(const Run& run);
-/// Capacity and travel (spec 2).
+/// Capacity (manual: numbers and units) and travel.
 bool check_point(Run& run, const Counts& point);
 /// The block's motion in the active mode; true without doing anything when it has none.
 bool move_block(Run& run);

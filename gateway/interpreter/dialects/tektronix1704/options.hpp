@@ -14,7 +14,7 @@ namespace dripline::interpreter::tektronix1704 {
 
 inline constexpr std::size_t kAxes = 3;  // X, Y, Z
 
-/// How the control counts (spec 2).
+/// How the control counts (manual: numbers and units).
 enum class UnitSet : std::uint8_t {
   Inch,     ///< 0.0001 inch, F in 0.1 inch per minute
   Option1,  ///< 0.0002 inch
@@ -22,7 +22,7 @@ enum class UnitSet : std::uint8_t {
   Metric,   ///< 0.001 mm, F in mm per minute
 };
 
-/// What a fixed cycle does between R and R (spec 12).
+/// What a fixed cycle does between R and R (manual: fixed cycles).
 enum class CycleStep : std::uint8_t {
   FeedIn,
   PeckIn,
@@ -40,7 +40,7 @@ struct AxisLimits {
   std::optional<std::int64_t> low, high;  ///< counts, machine
 };
 
-/// How the unit was built and what its operator has set: the `[control]` options (spec 1).
+/// How the unit was built and what its operator has set: the `[control]` options.
 struct ControlOptions {
   std::size_t axes = 3;
   UnitSet units = UnitSet::Inch;

@@ -2,7 +2,8 @@
 
 #include "gateway/interpreter/dialects/tektronix1704/run.hpp"
 
-/// What the manual wants of moves that do not come to rest (spec 6.2, 6.4, 9, 16).
+/// What the manual wants of moves that do not come to rest (manual: G01, quill, M functions,
+/// buffering).
 namespace dripline::interpreter::tektronix1704 {
 
 using Direction = std::array<double, kAxes>;

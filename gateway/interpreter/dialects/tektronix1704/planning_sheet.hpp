@@ -8,7 +8,8 @@
 namespace dripline::interpreter::tektronix1704 {
 
 /// A tape's blocks in the columns of the control's planning sheet, N to M, as written but without
-/// leading zeros; blocks that do not read stand whole after an exclamation mark (spec 17).
+/// leading zeros; blocks that do not read follow an exclamation mark as they are (manual: planning
+/// sheet).
 Result<std::string> planning_sheet(std::string_view text);
 
 }  // namespace dripline::interpreter::tektronix1704

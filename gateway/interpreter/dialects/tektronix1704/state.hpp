@@ -53,7 +53,7 @@ struct BlockInProgress {
   bool is_bad = false;           ///< a fault that leaves the block out
 };
 
-/// The last move, for the rules about stops and for the reader's time (spec 6.2, 16).
+/// The last move, for the rules about stops and for the reader's time (manual: G01, buffering).
 struct LastMove {
   bool flows = false;  ///< it was in G01, G02 or G03 and nothing has stopped since
   std::array<double, kAxes> direction{};  ///< at its end; not of unit length

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-/// The words of a block: letters, formats, and what stands in one block (spec 4).
+/// The words of a block: letters, formats, and what one block has (manual: blocks and words).
 namespace dripline::interpreter::tektronix1704 {
 
 enum class Address : std::uint8_t { N, G, X, Y, Z, I, J, K, R, F, S, T, M };
