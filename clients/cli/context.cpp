@@ -17,8 +17,8 @@ std::optional<client::Client> Context::connect() {
   return std::optional<client::Client>(std::in_place, std::move(*address));
 }
 
-bool Context::has_colour() const {
-  return terminal_of(STDOUT_FILENO).has_colour;
+bool Context::has_color() const {
+  return terminal_of(STDOUT_FILENO).has_color;
 }
 
 void Context::print(std::string_view text) const {

@@ -24,10 +24,10 @@ class Context {
   /// found it complains, sets `status` and gives nothing.
   std::optional<client::Client> connect();
 
-  bool has_colour() const;
+  bool has_color() const;
   void print(std::string_view text) const;
-  void print(const Table& table) const { print(table.render(has_colour())); }
-  void print(const Details& details) const { print(details.render(has_colour())); }
+  void print(const Table& table) const { print(table.render(has_color())); }
+  void print(const Details& details) const { print(details.render(has_color())); }
 };
 
 /// Adds `--json` to a command.

@@ -8,7 +8,7 @@
 
 /// The server's answers (server/api/README.md) as plain values. Words and times stay the text that
 /// the server sent, so that an older client shows the words of a newer server; times are ISO 8601
-/// UTC, lengths millimetres. An absent text is empty; other absent values are nullopt. Each type's
+/// UTC, lengths millimeters. An absent text is empty; other absent values are nullopt. Each type's
 /// members are listed in impl/api_members.hpp; a test compares the lists with openapi.json.
 namespace dripline::client {
 
@@ -63,7 +63,7 @@ struct Upload {
   std::uint64_t max_piece = 0;
 };
 
-/// The modal state that a control's status window shows; millimetres.
+/// The modal state that a control's status window shows; millimeters.
 struct ActiveModes {
   std::string motion, compensation, units;
   bool incremental = false;
@@ -82,7 +82,7 @@ struct ActiveModes {
   std::string spindle;    ///< "off", "clockwise", ...; empty: unknown
 };
 
-/// How program coordinates lie on the machine; by axis letter, millimetres and degrees.
+/// How program coordinates lie on the machine; by axis letter, millimeters and degrees.
 struct ProgramFrame {
   std::map<std::string, double> position, target;  ///< program coordinates
   std::map<std::string, double> datum, shift;

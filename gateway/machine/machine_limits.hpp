@@ -9,7 +9,7 @@
 
 namespace dripline::machine {
 
-/// What one axis can do. Linear axes: millimetres (a lathe's X in radius); rotary axes: degrees.
+/// What one axis can do. Linear axes: millimeters (a lathe's X in radius); rotary axes: degrees.
 struct AxisLimits {
   double min = -std::numeric_limits<double>::infinity();  ///< travel, both ends allowed
   double max = std::numeric_limits<double>::infinity();

@@ -40,7 +40,7 @@ struct MotionCapabilities {
 ///
 /// One owner, one thread. A back end with threads of its own queues what they report, and delivers
 /// it inside of `poll`. The *executed* counter is ExecutionSink::on_block_executed: a device's
-/// acknowledgement of a text line is not enough for it, the motion must have ended.
+/// acknowledgment of a text line is not enough for it, the motion must have ended.
 class MotionBackend {
  public:
   virtual ~MotionBackend() = default;

@@ -5,15 +5,15 @@
 
 namespace dripline {
 
-/// A length or a coordinate, kept in millimetres. 1 inch = 25.4 mm exactly.
+/// A length or a coordinate, kept in millimeters. 1 inch = 25.4 mm exactly.
 /// There is no conversion from or to double: say the unit.
 class Length {
  public:
   constexpr Length() = default;
   static constexpr Length mm(double value) { return Length{value}; }
-  static constexpr Length inch(double value) { return Length{value * kMillimetresPerInch}; }
+  static constexpr Length inch(double value) { return Length{value * kMillimetersPerInch}; }
   constexpr double mm() const { return mm_; }
-  constexpr double inch() const { return mm_ / kMillimetresPerInch; }
+  constexpr double inch() const { return mm_ / kMillimetersPerInch; }
 
   friend constexpr Length operator+(Length a, Length b) { return Length{a.mm_ + b.mm_}; }
   friend constexpr Length operator-(Length a, Length b) { return Length{a.mm_ - b.mm_}; }
@@ -26,7 +26,7 @@ class Length {
   constexpr Length& operator-=(Length other) { return mm_ -= other.mm_, *this; }
   friend constexpr auto operator<=>(Length, Length) = default;
 
-  static constexpr double kMillimetresPerInch = 25.4;
+  static constexpr double kMillimetersPerInch = 25.4;
 
  private:
   constexpr explicit Length(double mm) : mm_(mm) {}
@@ -40,7 +40,7 @@ inline Length hypot(Length a, Length b) {
   return Length::mm(std::hypot(a.mm(), b.mm()));
 }
 
-/// An angle, kept in degrees; counter-clockwise positive, 0 along the first axis of its plane.
+/// An angle, kept in degrees; counterclockwise positive, 0 along the first axis of its plane.
 class Angle {
  public:
   constexpr Angle() = default;

@@ -131,8 +131,8 @@ Result<std::string> domain_configuration(const NetworkOptions& options, Role rol
   if (!place) return fail(place.error());
   // ExternalDomainId is the number on the network; the one in this process may differ, so that
   // several ends fit into one process. The watermarks only have to be above what the writers'
-  // history can hold (qos.cpp), since a writer must never wait for an acknowledgement. A closing
-  // endpoint waits for acknowledgements only as long as a live peer needs (Cyclone: 1 s).
+  // history can hold (qos.cpp), since a writer must never wait for an acknowledgment. A closing
+  // endpoint waits for acknowledgments only as long as a live peer needs (Cyclone: 1 s).
   return fmt::format(
       R"(<CycloneDDS><Domain Id="any"><General><Interfaces>{}</Interfaces>)"
       "<AllowMulticast>false</AllowMulticast>{}</General>"

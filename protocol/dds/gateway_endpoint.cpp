@@ -173,7 +173,7 @@ void Gateway::watch(const std::stop_token& stop) {
   }
 }
 
-/// Commands, acknowledgements and text of any other participant are rejected.
+/// Commands, acknowledgments and text of any other participant are rejected.
 void Gateway::believe(const std::string& server) {
   command_->set_peer(server);
   ack_->set_peer(server);

@@ -82,7 +82,7 @@ Qos topic_qos<Record>() {
   return keep_last(kRecordWindow);
 }
 
-// An acknowledgement covers everything before it, so a newer one replaces an older one.
+// An acknowledgment covers everything before it, so a newer one replaces an older one.
 template <>
 Qos topic_qos<RecordAck>() {
   return keep_last(1);

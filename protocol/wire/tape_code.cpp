@@ -80,7 +80,7 @@ TapeRow decode_seven_bits(std::uint8_t row) {
   }
 }
 
-/// Rows after a position, counted while walking towards the tape's beginning.
+/// Rows after a position, counted while walking toward the tape's beginning.
 struct RowsAfter {
   std::size_t odd = 0, even = 0, blanks = 0;
   std::optional<std::uint8_t> next;  ///< the first that is not blank
@@ -230,7 +230,7 @@ Result<CodeVerdict> detect_code(std::span<const std::byte> rows) {
   }
   if (verdict) return *verdict;
   return fail(Errc::Corrupt,
-              "code not recognised: of {} rows that are not blank, {} have the odd parity of EIA "
+              "code not recognized: of {} rows that are not blank, {} have the odd parity of EIA "
               "and {} the even one of ISO, and no block follows an end of block",
               census.odd + census.even, census.odd, census.even);
 }

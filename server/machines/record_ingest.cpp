@@ -110,7 +110,7 @@ void RecordIngest::commit(const std::string& machine) {
   parts_.pool.post([this, machine] { commit(machine); });
 }
 
-/// Records of one epoch, ascending, each once: a gateway that heard no acknowledgement repeats.
+/// Records of one epoch, ascending, each once: a gateway that heard no acknowledgment repeats.
 std::vector<dds::Record> RecordIngest::take_batch(Lane& lane) {
   const std::uint64_t epoch = lane.waiting.front().epoch;
   std::vector<dds::Record> records;
@@ -212,7 +212,7 @@ void RecordIngest::succeed(const std::string& machine, std::uint64_t epoch, std:
   acknowledge(machine);
 }
 
-/// The newest acknowledgement contains the older ones, so only that one is ever repeated.
+/// The newest acknowledgment contains the older ones, so only that one is ever repeated.
 void RecordIngest::acknowledge(const std::string& machine) {
   dds::RecordAck ack;
   {

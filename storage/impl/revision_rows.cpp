@@ -121,19 +121,19 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
   return std::nullopt;
 }
 
-Result<void> set_standing(sqlite::Database& database, const Judgement& judgement,
+Result<void> set_standing(sqlite::Database& database, const Judgment& judgment,
                           std::string_view standing, std::optional<UtcTime> accepted) {
   return sqlite::run(database,
                      "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
                      "program = (SELECT id FROM program WHERE name = ?1)",
-                     judgement.program, judgement.number, standing, accepted);
+                     judgment.program, judgment.number, standing, accepted);
 }
 
-Result<void> write_down(sqlite::Database& database, const Judgement& judgement,
+Result<void> write_down(sqlite::Database& database, const Judgment& judgment,
                         const std::string& action, const Digest& content) {
   return add_audit(database,
-                   {judgement.time, judgement.who, action, judgement.program,
-                    fmt::format("revision {} sha256 {}", judgement.number, content.hex())});
+                   {judgment.time, judgment.who, action, judgment.program,
+                    fmt::format("revision {} sha256 {}", judgment.number, content.hex())});
 }
 
 }  // namespace
@@ -167,30 +167,30 @@ Result<Revision> publish_revision(sqlite::Database& database, const Upload& uplo
   return find_revision(database, upload.program, program->highest + 1);
 }
 
-Result<Revision> accept_revision(sqlite::Database& database, const Judgement& judgement) {
-  auto revision = find_revision(database, judgement.program, judgement.number);
+Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment) {
+  auto revision = find_revision(database, judgment.program, judgment.number);
   if (!revision || !revision->is_held) return revision;
-  if (auto set = set_standing(database, judgement, "accepted", judgement.time); !set) {
+  if (auto set = set_standing(database, judgment, "accepted", judgment.time); !set) {
     return fail(set.error());
   }
-  if (auto written = write_down(database, judgement, "program.accept", revision->content);
+  if (auto written = write_down(database, judgment, "program.accept", revision->content);
       !written) {
     return fail(written.error());
   }
-  return find_revision(database, judgement.program, judgement.number);
+  return find_revision(database, judgment.program, judgment.number);
 }
 
-Result<void> reject_revision(sqlite::Database& database, const Judgement& judgement) {
-  const auto revision = find_revision(database, judgement.program, judgement.number);
+Result<void> reject_revision(sqlite::Database& database, const Judgment& judgment) {
+  const auto revision = find_revision(database, judgment.program, judgment.number);
   if (!revision) return fail(revision.error());
   if (!revision->is_held) {
     return fail(Errc::Conflict,
                 "program {} revision {} is in force; only one that waits for acceptance can be "
                 "rejected",
-                judgement.program, judgement.number);
+                judgment.program, judgment.number);
   }
-  if (auto set = set_standing(database, judgement, "rejected", std::nullopt); !set) return set;
-  return write_down(database, judgement, "program.reject", revision->content);
+  if (auto set = set_standing(database, judgment, "rejected", std::nullopt); !set) return set;
+  return write_down(database, judgment, "program.reject", revision->content);
 }
 
 }  // namespace dripline::storage

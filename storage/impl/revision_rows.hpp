@@ -32,14 +32,14 @@ Result<Revision> find_revision(sqlite::Database& database, const std::string& pr
 Result<Revision> publish_revision(sqlite::Database& database, const Upload& upload,
                                   std::int64_t content, UtcTime now);
 
-struct Judgement {
+struct Judgment {
   std::string program;
   std::uint64_t number = 0;
   std::string who;
   UtcTime time;
 };
 /// Promises of both: storage/program_store.hpp.
-Result<Revision> accept_revision(sqlite::Database& database, const Judgement& judgement);
-Result<void> reject_revision(sqlite::Database& database, const Judgement& judgement);
+Result<Revision> accept_revision(sqlite::Database& database, const Judgment& judgment);
+Result<void> reject_revision(sqlite::Database& database, const Judgment& judgment);
 
 }  // namespace dripline::storage

@@ -60,9 +60,9 @@ TEST_F(Cli, TheNewestSetupOfAMachineGoesWithTheStart) {
   EXPECT_EQ(dnc_json({"setup", "push", "lathe-1", setup_of(7)}).at("revision"), 1);
   const auto second = dnc({"setup", "push", "lathe-1", setup_of(8), "-m", "new"});
   EXPECT_EQ(second.status, 0) << second.output;
-  const auto refused = dnc({"setup", "push", "lathe-1", write("bad.toml", "colour = 1\n")});
+  const auto refused = dnc({"setup", "push", "lathe-1", write("bad.toml", "color = 1\n")});
   EXPECT_NE(refused.status, 0) << refused.output;
-  EXPECT_NE(refused.output.find("colour"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("color"), std::string::npos) << refused.output;
   const std::string text = "POPEN P0\nDPRNT [#10[10]]\nPCLOS\nM30\n";
   dnc({"program", "push", write("p.nc", text), "--name", "O1", "--control", "centurion"});
   EXPECT_EQ(dnc({"run", "start", "lathe-1", "O1", "--follow"}).status, 0);

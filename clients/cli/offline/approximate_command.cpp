@@ -37,13 +37,13 @@ std::string blocks_text(const std::vector<interpreter::PathPoint>& points, int d
 }
 
 std::string points_text(const std::vector<interpreter::PathPoint>& points, int decimals,
-                        bool has_colour) {
+                        bool has_color) {
   Table table({{"STEP", Align::Right}, {"X", Align::Right}, {"Y", Align::Right}});
   for (std::size_t i = 0; i < points.size(); ++i) {
     table.add({std::to_string(i), fmt::format("{:.{}f}", points[i].x.mm(), decimals),
                fmt::format("{:.{}f}", points[i].y.mm(), decimals)});
   }
-  return table.render(has_colour);
+  return table.render(has_color);
 }
 
 int approximate(Context& context, const ApproximateCommand& command) {
@@ -62,7 +62,7 @@ int approximate(Context& context, const ApproximateCommand& command) {
   } else if (command.as_blocks) {
     context.print(blocks_text(*points, command.decimals));
   } else {
-    context.print(points_text(*points, command.decimals, context.has_colour()));
+    context.print(points_text(*points, command.decimals, context.has_color()));
   }
   return kExitOk;
 }

@@ -160,7 +160,7 @@ int check(Context& context, const CheckCommand& command) {
   if (context.wants_json) {
     context.print(json_text(check_json(report)));
   } else {
-    context.print(check_text(report, context.has_colour()));
+    context.print(check_text(report, context.has_color()));
   }
   if (!command.to.empty() && outcome->ended) return never_there(command);
   return outcome->ended || outcome->has_stopped ? kExitOk : kExitNo;

@@ -81,10 +81,10 @@ std::string block_name(const interpreter::Origin& origin) {
   return fmt::format("block {} in line {}", origin.sequence, origin.line);
 }
 
-std::string verdict(const CheckReport& report, bool has_colour) {
+std::string verdict(const CheckReport& report, bool has_color) {
   const auto& summary = report.summary;
   if (report.stopped) {
-    return styled("comes to " + block_name(report.stopped->block()), Style::Good, has_colour);
+    return styled("comes to " + block_name(report.stopped->block()), Style::Good, has_color);
   }
   std::string place_text;
   if (summary.alarm) {
@@ -94,7 +94,7 @@ std::string verdict(const CheckReport& report, bool has_colour) {
   }
   const std::string text =
       summary.ended ? "reaches its end" : fmt::format("raises an alarm{}", place_text);
-  return styled(text, summary.ended ? Style::Good : Style::Bad, has_colour);
+  return styled(text, summary.ended ? Style::Good : Style::Bad, has_color);
 }
 
 std::string feed_text(const Summary& summary, const Feed& feed) {
@@ -223,7 +223,7 @@ Json state_json(const Summary& summary, const MachineState& state) {
 
 }  // namespace
 
-std::string check_text(const CheckReport& report, bool has_colour) {
+std::string check_text(const CheckReport& report, bool has_color) {
   const auto& summary = report.summary;
   std::string text;
   for (const auto& warning : summary.warnings) {
@@ -234,7 +234,7 @@ std::string check_text(const CheckReport& report, bool has_colour) {
   }
   if (summary.alarm) text += diagnostic_line(report, *summary.alarm, "alarm");
   text += stop_lines(report);
-  text += fmt::format("{}: {}\n", report.file, verdict(report, has_colour));
+  text += fmt::format("{}: {}\n", report.file, verdict(report, has_color));
   Details details;
   details.add("control", summary.control);
   details.add("program", summary.program.value_or(""));
@@ -250,7 +250,7 @@ std::string check_text(const CheckReport& report, bool has_colour) {
   details.add("warnings", std::to_string(summary.warning_count));
   details.add("checked in", fmt::format("{:.2f} s, {:.0f} blocks/s", report.elapsed_seconds,
                                         blocks_per_second(report)));
-  return text + details.render(has_colour);
+  return text + details.render(has_color);
 }
 
 Json check_json(const CheckReport& report) {

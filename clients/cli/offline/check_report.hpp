@@ -34,7 +34,7 @@ struct CheckReport {
 
 /// Warnings, alarm and stops as FILE:LINE:COLUMN lines, FILE being the called program's own where
 /// they are in one, then the summary. Lengths in the program's units, X as it is programmed.
-std::string check_text(const CheckReport& report, bool has_colour);
+std::string check_text(const CheckReport& report, bool has_color);
 
 /// {"file", "control", "program", "ended", "blocks", "moves", "units", "x", "rapid_length",
 /// "feed_length", "seconds", "extents": {"X": {"min", "max"}}, "warnings": [{"code", "text",

@@ -9,7 +9,7 @@
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/output_file.hpp"
-#include "clients/tools/conversational/catalogue.hpp"
+#include "clients/tools/conversational/catalog.hpp"
 #include "clients/tools/conversational/post.hpp"
 #include "clients/tools/conversational/reader.hpp"
 
@@ -102,7 +102,7 @@ std::string default_text(const FieldDescription& field) {
   return field.is_required ? "required" : field.blank;
 }
 
-std::string event_text(const EventDescription& event, bool has_colour) {
+std::string event_text(const EventDescription& event, bool has_color) {
   std::string text = fmt::format("{}  ({})\n", event.type, event.title);
   if (event.fields.empty()) return text + "  no fields\n";
   Table table({{"FIELD"}, {"WORD"}, {"VALUES"}, {"DEFAULT"}, {"ONLY WITH"}, {"MEANING"}});
@@ -110,7 +110,7 @@ std::string event_text(const EventDescription& event, bool has_colour) {
     table.add({field.name, field.word, values_text(field), default_text(field), field.condition,
                field.help});
   }
-  text += table.render(has_colour);
+  text += table.render(has_color);
   for (const auto& rule : event.rules) text += "  " + rule + "\n";
   return text;
 }
@@ -130,7 +130,7 @@ int list_events(Context& context, const ConversationalCommand& command) {
   }
   std::string text;
   for (const auto& event : events) {
-    text += (text.empty() ? "" : "\n") + event_text(event, context.has_colour());
+    text += (text.empty() ? "" : "\n") + event_text(event, context.has_color());
   }
   context.print(text);
   return kExitOk;

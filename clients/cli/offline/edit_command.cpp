@@ -170,7 +170,7 @@ std::string edit_text(Context& context, const EditedProgram& edited) {
   std::string text;
   for (const auto& [mark, block] : edited.changes) {
     text += styled(fmt::format("{}{}", mark, printable(block)),
-                   mark == '+' ? Style::Good : Style::Bad, context.has_colour()) +
+                   mark == '+' ? Style::Good : Style::Bad, context.has_color()) +
             "\n";
   }
   if (edited.renumbered > 0) text += fmt::format("{} blocks renumbered\n", edited.renumbered);

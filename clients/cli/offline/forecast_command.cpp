@@ -69,7 +69,7 @@ struct Report {
   std::function<std::string(interpreter::ProgramIndex)> file_of;
 };
 
-std::string report_text(const Report& report, bool has_colour) {
+std::string report_text(const Report& report, bool has_color) {
   const auto& [result, line, units, limit, file_of] = report;
   std::string text =
       fmt::format("{} blocks at {:g} characters a second: moves {}, waits {}\n", result.blocks,
@@ -98,7 +98,7 @@ std::string report_text(const Report& report, bool has_colour) {
                std::to_string(block.characters),
                fmt::format("{:.1f}", in_units(block.feed_that_would_do, units))});
   }
-  return text + table.render(has_colour);
+  return text + table.render(has_color);
 }
 
 nlohmann::ordered_json report_json(const Report& report) {
@@ -139,7 +139,7 @@ int forecast(Context& context, const ForecastCommand& command) {
   const Report report{result, *line, sink.summary().units, command.limit,
                       [&](auto called) { return program->file_of(source, called); }};
   context.print(context.wants_json ? json_text(report_json(report))
-                                   : report_text(report, context.has_colour()));
+                                   : report_text(report, context.has_color()));
   if (outcome->alarm) {
     return complain(Error{
         Errc::Syntax, fmt::format("the program alarms in {}: {}",

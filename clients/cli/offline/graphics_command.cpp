@@ -61,7 +61,7 @@ Result<AxisRanges> parse_section(const GraphicsCommand& command) {
     if (axis >= 3 || end == part.c_str() + 1 || *end != '\0') {
       return fail(Errc::Syntax, "--section \"{}\": expected an axis and a place, as X40", part);
     }
-    at.low[axis] = place * (command.is_inch ? Length::kMillimetresPerInch : 1);
+    at.low[axis] = place * (command.is_inch ? Length::kMillimetersPerInch : 1);
     text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
   }
   return at;

@@ -38,7 +38,7 @@ std::size_t index_of(Axis axis) {
 
 Result<AxisRanges> parse_ranges(std::string_view text, bool is_inch) {
   AxisRanges ranges;
-  const double scale = is_inch ? Length::kMillimetresPerInch : 1;
+  const double scale = is_inch ? Length::kMillimetersPerInch : 1;
   while (true) {
     const auto comma = text.find(',');
     if (auto part = parse_range(text.substr(0, comma), scale, ranges); !part)

@@ -35,7 +35,7 @@ struct GraphicsCommand {
   bool shows_path = false, shows_limits = false, shows_zone = false, has_front_turret = false;
 };
 
-/// Low and high on each axis that was named, in millimetres.
+/// Low and high on each axis that was named, in millimeters.
 struct AxisRanges {
   std::optional<double> low[3], high[3];
 };

@@ -28,7 +28,7 @@ struct TouchCommand {
   std::vector<double> values;  ///< what the touched place is to be called
   bool is_boss = false, is_inch = false, takes_rotation_touches = false;
 
-  double unit() const { return is_inch ? Length::kMillimetresPerInch : 1; }
+  double unit() const { return is_inch ? Length::kMillimetersPerInch : 1; }
   Axis tool() const { return *interpreter::axis_of(tool_axis.front()); }
   Plane plane() const { return interpreter::plane_across(tool()); }
   tnc::Stylus stylus() const {
@@ -47,7 +47,7 @@ struct Touched {
 
 struct MeasuredValue {
   std::string name;
-  double value = 0;  ///< millimetres, degrees
+  double value = 0;  ///< millimeters, degrees
   bool is_angle = false;
 };
 /// The measured values in order, and what the control keeps of them.

@@ -18,8 +18,8 @@ using interpreter::Units;
 constexpr std::size_t kMaxSetup = 1024 * 1024;
 constexpr const char* kTouchesKey = "basic_rotation_touches";
 
-double millimetres(Units units) {
-  return units == Units::Inch ? Length::kMillimetresPerInch : 1;
+double millimeters(Units units) {
+  return units == Units::Inch ? Length::kMillimetersPerInch : 1;
 }
 
 /// Without the noise of the last digits.
@@ -54,7 +54,7 @@ Result<void> read_rotation_touches(const interpreter::Options& options, TouchSet
   for (const auto& entry : *list) {
     const auto* text = std::get_if<std::string>(&entry.value);
     if (text == nullptr) return wrong();
-    const auto touch = parse_touch(*text, {setup.fourth_axis, millimetres(setup.units)});
+    const auto touch = parse_touch(*text, {setup.fourth_axis, millimeters(setup.units)});
     if (!touch) {
       return fail(Errc::Syntax, "option {}, line {}: {}", kTouchesKey, entry.line,
                   touch.error().what);
@@ -74,7 +74,7 @@ Result<TouchSetup> read_setup_text(std::string_view text) {
   }
   TouchSetup setup;
   setup.workpiece = read->workpiece;
-  setup.units = read->units.value_or(Units::Millimetre);
+  setup.units = read->units.value_or(Units::Millimeter);
   for (const auto& offset : read->offsets) {
     if (offset.name != "datum") continue;
     setup.datum = offset.value;
@@ -93,7 +93,7 @@ Result<TouchSetup> read_setup_text(std::string_view text) {
 }
 
 std::string touch_text(const tnc_probing::Touch& touch, const TouchSetup& setup) {
-  const double unit = millimetres(setup.units);
+  const double unit = millimeters(setup.units);
   return fmt::format("{}{}:{},{},{}", letter(touch.axis),
                      touch.direction == tnc::ProbeDirection::Positive ? '+' : '-',
                      number(touch.from.raw(Axis::X) / unit), number(touch.from.raw(Axis::Y) / unit),
@@ -129,7 +129,7 @@ Result<tnc_probing::Touch> parse_touch(const std::string& text, const TouchForm&
     char* end = nullptr;
     const double value = std::strtod(at, &end);
     if (end == at || !std::isfinite(value)) return wrong("");
-    touch.from.set_raw(each, value * (is_rotary(each) ? 1 : form.millimetres));
+    touch.from.set_raw(each, value * (is_rotary(each) ? 1 : form.millimeters));
     const bool is_end = *end == '\0' && each >= Axis::Z;
     if (is_end) return touch;
     if (*end != ',') return wrong("");
@@ -146,7 +146,7 @@ std::string datum_toml(const TouchSetup& setup, const tnc::Transformation::Value
     bool is_there = setup.datum.has(axis) || number(datum[i]) != number(setup.frame.datum[i]);
     for (const auto& one : named) is_there |= one.axis == axis;
     if (!is_there) continue;
-    const double unit = is_rotary(axis) ? 1 : millimetres(setup.units);
+    const double unit = is_rotary(axis) ? 1 : millimeters(setup.units);
     text += fmt::format("{} = {}\n", letter(axis), number(datum[i] / unit));
   }
   return text;

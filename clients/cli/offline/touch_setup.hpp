@@ -16,7 +16,7 @@ struct TouchSetup {
   interpreter::Workpiece workpiece;
   interpreter::tnc155::Transformation frame;  ///< datum and basic rotation
   interpreter::Position datum;                ///< as the setup names its axes
-  interpreter::Units units = interpreter::Units::Millimetre;
+  interpreter::Units units = interpreter::Units::Millimeter;
   interpreter::Axis fourth_axis = interpreter::Axis::C;
   /// Where the basic rotation was touched, as a touch that begins there; empty: not kept.
   std::vector<tnc_probing::Touch> rotation_touches;
@@ -27,7 +27,7 @@ Result<TouchSetup> read_touch_setup(const std::string& path);
 /// How touches are written: the control's fourth axis, and how long a unit is.
 struct TouchForm {
   interpreter::Axis fourth_axis = interpreter::Axis::C;
-  double millimetres = 1;
+  double millimeters = 1;
 };
 /// "X+:10,20,-5": along +X from there; the position of the fourth axis may follow. Errors:
 /// Syntax.

@@ -47,7 +47,7 @@ Result<std::pair<int, double>> parse_width(const std::string& text, bool is_inch
     const bool is_read = left.ec == std::errc{} && left.ptr == begin + equals &&
                          right.ec == std::errc{} && right.ptr == end;
     if (is_read && number > 0 && width > 0 && std::isfinite(width))
-      return std::pair(number, is_inch ? width * Length::kMillimetresPerInch : width);
+      return std::pair(number, is_inch ? width * Length::kMillimetersPerInch : width);
   }
   return fail(Errc::Syntax, "--tool-width \"{}\": expected an offset and a width, as 5=10", text);
 }

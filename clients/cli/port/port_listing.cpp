@@ -98,7 +98,7 @@ int show_port(Context& context, const std::string& name) {
   }
   context.print(port_details(*port));
   const std::string warning = baud_warning(*port, control_rate);
-  if (!warning.empty()) context.print(styled(warning, Style::Bad, context.has_colour()) + "\n");
+  if (!warning.empty()) context.print(styled(warning, Style::Bad, context.has_color()) + "\n");
   return kExitOk;
 }
 

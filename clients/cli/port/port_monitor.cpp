@@ -28,7 +28,7 @@ class PortMonitor {
       : context_(context),
         client_(client),
         name_(command.name),
-        text_({command.is_hex, context.has_colour()}) {}
+        text_({command.is_hex, context.has_color()}) {}
 
   int run() {
     auto port = client_.port(name_);
@@ -149,7 +149,7 @@ class Lines {
 
 int print_recording(Context& context, client::Client& client, const RecordingCommand& command) {
   StandardOutput output;
-  TrafficText text({command.is_hex, context.has_colour()});
+  TrafficText text({command.is_hex, context.has_color()});
   Lines lines;
   const auto show = [&](std::string_view line) {
     const auto json = client::parse_json(line);

@@ -32,8 +32,8 @@ int test_port(Context& context, const std::string& name) {
     context.print(json_text(*test));
   } else {
     for (const auto& finding : test->findings) context.print(printable(finding) + "\n");
-    const auto verdict = test->passed ? styled("passed", Style::Good, context.has_colour())
-                                      : styled("failed", Style::Bad, context.has_colour());
+    const auto verdict = test->passed ? styled("passed", Style::Good, context.has_color())
+                                      : styled("failed", Style::Bad, context.has_color());
     context.print(fmt::format("{}: {}\n", printable(name), verdict));
   }
   return test->passed ? kExitOk : kExitNo;
@@ -52,7 +52,7 @@ int test_rules(Context& context, const std::string& name, const std::string& fil
   }
   for (const auto& reason : verdict->why) context.print("  " + printable(reason) + "\n");
   const Style style = verdict->rule.empty() ? Style::Busy : Style::Good;
-  context.print(styled(printable(verdict_text(*verdict)), style, context.has_colour()) + "\n");
+  context.print(styled(printable(verdict_text(*verdict)), style, context.has_color()) + "\n");
   return kExitOk;
 }
 

@@ -93,9 +93,9 @@ std::string named_characters(std::string_view bytes) {
 std::string TrafficText::line(std::string_view time, std::string_view what,
                               std::string_view text) const {
   const Kind kind = kind_of(what);
-  return fmt::format("{}  {}  {}\n", styled(clock_text(time), Style::Faint, look_.has_colour),
-                     styled(kind.sign, kind.style, look_.has_colour),
-                     styled(text, kind.style, look_.has_colour));
+  return fmt::format("{}  {}  {}\n", styled(clock_text(time), Style::Faint, look_.has_color),
+                     styled(kind.sign, kind.style, look_.has_color),
+                     styled(text, kind.style, look_.has_color));
 }
 
 std::string TrafficText::end(Begun& begun) const {

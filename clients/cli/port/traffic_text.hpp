@@ -18,7 +18,7 @@ class TrafficText {
  public:
   struct Look {
     bool is_hex = false;
-    bool has_colour = false;
+    bool has_color = false;
   };
   explicit TrafficText(Look look) : look_(look) {}
 

@@ -182,7 +182,7 @@ int compare(Context& context, const MemoryCommand& command) {
     differ = true;
     table.add({name, a, b});
   }
-  context.print(differ ? table.render(context.has_colour()) : std::string("No difference\n"));
+  context.print(differ ? table.render(context.has_color()) : std::string("No difference\n"));
   return kExitOk;
 }
 

@@ -163,8 +163,8 @@ int reject_revision(Context& context, const RevisionCommand& command) {
   return kExitOk;
 }
 
-void add_judgement(CLI::App& group, Context& context, const char* verb, const char* help,
-                   int (*action)(Context&, const RevisionCommand&)) {
+void add_judgment(CLI::App& group, Context& context, const char* verb, const char* help,
+                  int (*action)(Context&, const RevisionCommand&)) {
   auto* command = group.add_subcommand(verb, help);
   auto options = std::make_shared<RevisionCommand>();
   command->add_option("NAME", options->program, "The program")->required();
@@ -266,8 +266,8 @@ void add_program_commands(CLI::App& app, Context& context) {
   add_json_flag(*list, context);
   list->callback([&context] { context.status = list_programs(context); });
   add_show(*group, context);
-  add_judgement(*group, context, "accept", "Put a held revision in force", accept_revision);
-  add_judgement(*group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_judgment(*group, context, "accept", "Put a held revision in force", accept_revision);
+  add_judgment(*group, context, "reject", "Hide a held revision for ever", reject_revision);
   add_remove(*group, context);
   add_copy(*group, context);
   add_rename(*group, context);

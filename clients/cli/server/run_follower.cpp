@@ -145,7 +145,7 @@ class RunFollower {
       if (style_ == WatchStyle::Silent) context_.print(json_text(run_));
     } else {
       const Style look = is_good ? Style::Good : Style::Bad;
-      print(styled(outcome_line(run_), look, context_.has_colour()));
+      print(styled(outcome_line(run_), look, context_.has_color()));
     }
     return is_good ? kExitOk : kExitNo;
   }

@@ -65,10 +65,10 @@ int show(Context& context, const SetupCommand& command) {
     context.print(json_text(json));
     return kExitOk;
   }
-  const auto text = setup_tables(*setup, context.has_colour());
+  const auto text = setup_tables(*setup, context.has_color());
   if (!text) return complain(text.error());
   context.print(*text);
-  if (*menu) context.print("\n" + menu_tables(**menu, context.has_colour()));
+  if (*menu) context.print("\n" + menu_tables(**menu, context.has_color()));
   return kExitOk;
 }
 

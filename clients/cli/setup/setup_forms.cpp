@@ -15,7 +15,7 @@ using interpreter::tnc155::Feature;
 
 namespace {
 
-/// Tools as the TOML of a setup, in millimetres.
+/// Tools as the TOML of a setup, in millimeters.
 std::string tools_toml(const std::vector<interpreter::ToolRecord>& tools) {
   std::string text = "units = \"mm\"\n";
   for (const auto& tool : tools) {
@@ -78,7 +78,7 @@ Result<std::string> tool_store_of(std::string_view toml) {
   const auto sign = interpreter::tnc155::decimal_sign_of(data->control);
   if (!sign) return fail(sign.error());
   return interpreter::tnc155::write_tool_store(
-      data->tools, data->units.value_or(interpreter::Units::Millimetre), *sign);
+      data->tools, data->units.value_or(interpreter::Units::Millimeter), *sign);
 }
 
 Result<std::string> control_form_of(std::string_view toml, std::string_view control,

@@ -84,12 +84,12 @@ client::Reply<std::optional<SetupMenu>> menu_of(client::Client& client, const cl
       SetupMenu{tnc155::mod_functions(*settings, *vacant), settings->user_parameters});
 }
 
-std::string menu_tables(const SetupMenu& menu, bool has_colour) {
+std::string menu_tables(const SetupMenu& menu, bool has_color) {
   Table functions({{"MOD FUNCTION"}, {"VALUE"}, {"MAY BE"}});
   for (const auto& function : menu.functions) {
     functions.add({function.name, function.value, function.range});
   }
-  std::string text = functions.render(has_colour);
+  std::string text = functions.render(has_color);
   if (menu.parameters.empty()) return text;
   Table parameters(
       {{"NO", Align::Right}, {"USER PARAMETER"}, {"MP"}, {"VALUE", Align::Right}, {"MAY BE"}});
@@ -99,7 +99,7 @@ std::string menu_tables(const SetupMenu& menu, bool has_colour) {
                     fmt::format("MP{}", parameter.parameter),
                     fmt::format("{:.12g}", parameter.value), tnc155::range_text(parameter)});
   }
-  return text + "\n" + parameters.render(has_colour);
+  return text + "\n" + parameters.render(has_color);
 }
 
 void add_menu(const SetupMenu& menu, nlohmann::ordered_json& json) {

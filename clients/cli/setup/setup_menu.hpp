@@ -27,7 +27,7 @@ client::Reply<std::optional<SetupMenu>> menu_of(client::Client& client, const cl
                                                 const SetupMenuRequest& request);
 
 /// Two tables: the menu, and the user parameters where there are some.
-std::string menu_tables(const SetupMenu& menu, bool has_colour);
+std::string menu_tables(const SetupMenu& menu, bool has_color);
 /// As "mod_functions" and "user_parameters".
 void add_menu(const SetupMenu& menu, nlohmann::ordered_json& json);
 

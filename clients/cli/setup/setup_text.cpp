@@ -32,7 +32,7 @@ class Lengths {
 };
 
 std::string tool_table(const std::vector<interpreter::ToolRecord>& tools, const Lengths& lengths,
-                       bool has_colour) {
+                       bool has_color) {
   const std::string unit = lengths.unit();
   Table table({{"TOOL", Align::Right},
                {"X " + unit, Align::Right},
@@ -51,11 +51,11 @@ std::string tool_table(const std::vector<interpreter::ToolRecord>& tools, const 
                lengths.text(tool.radius_wear), std::to_string(tool.tip),
                tool.is_special ? "S" + pocket : pocket});
   }
-  return table.render(has_colour);
+  return table.render(has_color);
 }
 
 std::string offset_table(const std::vector<interpreter::OffsetRecord>& offsets,
-                         const Lengths& lengths, bool has_colour) {
+                         const Lengths& lengths, bool has_color) {
   std::vector<Axis> used;
   for (const Axis axis : interpreter::kAllAxes) {
     const auto has_it = [axis](const auto& offset) { return offset.value.has(axis); };
@@ -72,20 +72,20 @@ std::string offset_table(const std::vector<interpreter::OffsetRecord>& offsets,
     for (const Axis axis : used) row.emplace_back(lengths.text(offset.value, axis));
     table.add(std::move(row));
   }
-  return table.render(has_colour);
+  return table.render(has_color);
 }
 
 std::string variable_table(const std::vector<interpreter::VariableRecord>& variables,
-                           bool has_colour) {
+                           bool has_color) {
   Table table({{"VARIABLE"}, {"VALUE", Align::Right}});
   for (const auto& variable : variables) {
     table.add({variable.name, fmt::format("{:g}", variable.value)});
   }
-  return table.render(has_colour);
+  return table.render(has_color);
 }
 
 /// A Centurion's axis and power parameters by their pages; other controls have none.
-std::string machine_table(const interpreter::Options& control, bool has_colour) {
+std::string machine_table(const interpreter::Options& control, bool has_color) {
   interpreter::centurion::Parameters values;
   if (!interpreter::centurion::load_machine_parameters(control, values)) return {};
   Table table({{"PAGE"},
@@ -101,23 +101,23 @@ std::string machine_table(const interpreter::Options& control, bool has_colour) 
     table.add({std::string(row.page), std::string(row.name), row.is_per_axis ? "" : first, x,
                row.is_per_axis ? first : "", std::string(row.title)});
   }
-  return table.empty() ? std::string() : table.render(has_colour);
+  return table.empty() ? std::string() : table.render(has_color);
 }
 
 }  // namespace
 
-Result<std::string> setup_tables(const client::Setup& setup, bool has_colour) {
+Result<std::string> setup_tables(const client::Setup& setup, bool has_color) {
   const auto data = interpreter::parse_control_data(setup.text);
   if (!data) return fail(data.error());
-  const Lengths lengths(data->units.value_or(interpreter::Units::Millimetre));
+  const Lengths lengths(data->units.value_or(interpreter::Units::Millimeter));
   std::string text =
       fmt::format("Setup {} of {}, saved {}{}{}\n", setup.revision, setup.machine,
                   time_text(setup.created), setup.comment.empty() ? "" : ": ", setup.comment);
   const auto add = [&text](const std::string& table) { text += "\n" + table; };
-  if (!data->tools.empty()) add(tool_table(data->tools, lengths, has_colour));
-  if (!data->offsets.empty()) add(offset_table(data->offsets, lengths, has_colour));
-  if (!data->variables.empty()) add(variable_table(data->variables, has_colour));
-  if (const auto machine = machine_table(data->control, has_colour); !machine.empty()) add(machine);
+  if (!data->tools.empty()) add(tool_table(data->tools, lengths, has_color));
+  if (!data->offsets.empty()) add(offset_table(data->offsets, lengths, has_color));
+  if (!data->variables.empty()) add(variable_table(data->variables, has_color));
+  if (const auto machine = machine_table(data->control, has_color); !machine.empty()) add(machine);
   if (!data->control.empty()) text += "\nIt also sets options of the control: dnc setup pull\n";
   return text;
 }

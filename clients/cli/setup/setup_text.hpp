@@ -9,6 +9,6 @@ namespace dripline::cli {
 
 /// The tools, offsets and variables of a setup as tables; lengths in the setup's own units. Errors:
 /// those of parse_control_data.
-Result<std::string> setup_tables(const client::Setup& setup, bool has_colour);
+Result<std::string> setup_tables(const client::Setup& setup, bool has_color);
 
 }  // namespace dripline::cli

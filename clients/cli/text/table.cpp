@@ -17,8 +17,8 @@ struct Slot {
   bool is_last = false;
 };
 
-void append_cell(std::string& line, const Cell& cell, const Slot& slot, bool has_colour) {
-  const std::string text = styled(cell.text, cell.style, has_colour);
+void append_cell(std::string& line, const Cell& cell, const Slot& slot, bool has_color) {
+  const std::string text = styled(cell.text, cell.style, has_color);
   const std::string pad = padding(slot.width, columns(cell.text));
   line += slot.align == Align::Right ? pad + text : text;
   if (slot.is_last) return;
@@ -39,7 +39,7 @@ void Table::add(std::vector<Cell> row) {
   rows_.push_back(std::move(row));
 }
 
-std::string Table::render(bool has_colour) const {
+std::string Table::render(bool has_color) const {
   std::vector<Slot> slots;
   std::vector<Cell> headings;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -52,7 +52,7 @@ std::string Table::render(bool has_colour) const {
   const auto add_line = [&](const std::vector<Cell>& cells) {
     std::string line;
     for (std::size_t i = 0; i < slots.size(); ++i) {
-      append_cell(line, cells[i], slots[i], has_colour);
+      append_cell(line, cells[i], slots[i], has_color);
     }
     end_line(out, std::move(line));
   };
@@ -61,14 +61,14 @@ std::string Table::render(bool has_colour) const {
   return out;
 }
 
-std::string Details::render(bool has_colour) const {
+std::string Details::render(bool has_color) const {
   std::size_t width = 0;
   for (const auto& line : lines_) width = std::max(width, columns(line.name));
   std::string out;
   for (const auto& line : lines_) {
     const std::string text = line.value.text.empty() ? "-" : printable(line.value.text);
-    end_line(out, styled(line.name, Style::Faint, has_colour) + padding(width, columns(line.name)) +
-                      "  " + styled(text, line.value.style, has_colour));
+    end_line(out, styled(line.name, Style::Faint, has_color) + padding(width, columns(line.name)) +
+                      "  " + styled(text, line.value.style, has_color));
   }
   return out;
 }

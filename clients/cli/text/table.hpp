@@ -31,7 +31,7 @@ class Table {
   /// As many cells as columns.
   void add(std::vector<Cell> row);
   bool empty() const { return rows_.empty(); }
-  std::string render(bool has_colour) const;
+  std::string render(bool has_color) const;
 
  private:
   std::vector<Column> columns_;
@@ -42,7 +42,7 @@ class Table {
 class Details {
  public:
   void add(std::string name, Cell value) { lines_.push_back({std::move(name), std::move(value)}); }
-  std::string render(bool has_colour) const;
+  std::string render(bool has_color) const;
 
  private:
   struct Line {

@@ -11,7 +11,7 @@ bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-bool colour_is_wanted() {
+bool color_is_wanted() {
   const char* no_color = std::getenv("NO_COLOR");
   const char* term = std::getenv("TERM");
   return (no_color == nullptr || *no_color == '\0') &&
@@ -41,7 +41,7 @@ std::string_view sequence(Style style) {
 Terminal terminal_of(int descriptor) {
   Terminal terminal;
   terminal.is_terminal = ::isatty(descriptor) == 1;
-  terminal.has_colour = terminal.is_terminal && colour_is_wanted();
+  terminal.has_color = terminal.is_terminal && color_is_wanted();
   winsize size{};
   if (terminal.is_terminal && ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
     terminal.width = size.ws_col;
@@ -49,8 +49,8 @@ Terminal terminal_of(int descriptor) {
   return terminal;
 }
 
-std::string styled(std::string_view text, Style style, bool has_colour) {
-  if (!has_colour || style == Style::Plain) return std::string(text);
+std::string styled(std::string_view text, Style style, bool has_color) {
+  if (!has_color || style == Style::Plain) return std::string(text);
   return std::string(sequence(style)) + std::string(text) + "\x1b[0m";
 }
 

@@ -5,10 +5,10 @@
 namespace dripline::conversational {
 namespace {
 
-constexpr double kMaxInch = 99999.9999, kMaxMillimetre = 99999.999;
+constexpr double kMaxInch = 99999.9999, kMaxMillimeter = 99999.999;
 
 Limits range_of(Quantity quantity, bool is_metric) {
-  const double length = is_metric ? kMaxMillimetre : kMaxInch;
+  const double length = is_metric ? kMaxMillimeter : kMaxInch;
   const int decimals = is_metric ? 3 : 4;
   switch (quantity) {
     case Quantity::Feed:

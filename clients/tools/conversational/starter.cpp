@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "clients/tools/conversational/catalogue.hpp"
+#include "clients/tools/conversational/catalog.hpp"
 
 namespace dripline::conversational {
 

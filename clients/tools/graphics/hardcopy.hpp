@@ -35,7 +35,7 @@ Result<Printer> printer_of_parameters(const std::array<std::uint16_t, 8>& words)
 inline constexpr std::size_t kDotColumns = 512;
 
 /// The picture in black dots on white paper, eight rows a line, the upper row in the highest bit.
-/// Grey becomes a pattern of dots; a wider picture is made smaller.
+/// Gray becomes a pattern of dots; a wider picture is made smaller.
 std::string hardcopy(const Picture& picture, const Printer& printer);
 
 }  // namespace dripline::graphics

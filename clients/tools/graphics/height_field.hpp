@@ -6,7 +6,7 @@
 #include "protocol/base/result.hpp"
 
 /// Material removal on a screen, as the test graphics of a milling control show it: a cuboid blank
-/// and a flat-ended cutter whose axis never tilts. All lengths are in millimetres.
+/// and a flat-ended cutter whose axis never tilts. All lengths are in millimeters.
 namespace dripline::graphics {
 
 /// A point seen along the tool: `u` and `v` are the work plane's axes, `w` points to the spindle.
@@ -45,7 +45,7 @@ class HeightField {
   double at(std::size_t column, std::size_t row) const { return heights_[row * columns_ + column]; }
   /// Row by row, from low v to high v.
   const std::vector<float>& heights() const { return heights_; }
-  /// Cubic millimetres gone from the extent.
+  /// Cubic millimeters gone from the extent.
   double removed_volume() const;
 
  private:

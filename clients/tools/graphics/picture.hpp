@@ -13,7 +13,7 @@ using Shade = std::uint8_t;  ///< 0 black, 255 white
 inline constexpr Shade kBlack = 0;
 inline constexpr Shade kWhite = 255;
 
-/// A grey picture, row by row from the top left.
+/// A gray picture, row by row from the top left.
 class Picture {
  public:
   Picture(std::size_t width, std::size_t height, Shade shade = kBlack)

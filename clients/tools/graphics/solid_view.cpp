@@ -129,7 +129,7 @@ class Ray {
     }
   }
 
-  /// Normal of the top, smooth where neighbours are about as high: a slope, not a step.
+  /// Normal of the top, smooth where neighbors are about as high: a slope, not a step.
   Vector normal_at() const {
     const auto column = static_cast<std::size_t>(column_), row = static_cast<std::size_t>(row_);
     const double here = part_.at(column, row), cell = part_.cell();

@@ -8,7 +8,7 @@
 #include "protocol/base/result.hpp"
 
 /// The rest of a bar after turning, as one half of its section along the axis. All lengths are in
-/// millimetres; `x` is a radius, counted from the spindle's axis.
+/// millimeters; `x` is a radius, counted from the spindle's axis.
 namespace dripline::graphics {
 
 struct SectionPoint {
@@ -53,7 +53,7 @@ class TurnedSection {
   /// Radii of the material's outer and inner surface; both 0 where there is none.
   double outer(std::size_t column) const;
   double inner(std::size_t column) const;
-  /// Cubic millimetres that are left.
+  /// Cubic millimeters that are left.
   double volume() const;
 
  private:

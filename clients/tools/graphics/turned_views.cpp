@@ -12,7 +12,7 @@ constexpr Shade kAxis = 130, kFeedLine = 255, kRapidLine = 190, kLimitLine = 160
 constexpr std::size_t kHatchStep = 9, kDash = 6, kAxisDash = 14;
 constexpr double kMargin = 0.04;
 
-/// From millimetres to pixels.
+/// From millimeters to pixels.
 class Screen {
  public:
   Screen(const Frame& window, std::size_t width, bool is_upside_down)

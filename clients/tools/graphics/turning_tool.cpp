@@ -15,7 +15,7 @@ constexpr double kClearance = 3;
 constexpr double kThreadDegrees = 60;
 constexpr double kDrillPointDegrees = 118;
 
-SectionPoint towards(double degrees, double length) {
+SectionPoint toward(double degrees, double length) {
   const double angle = Angle::degrees(degrees).radians();
   return {length * std::cos(angle), length * std::sin(angle)};
 }
@@ -31,7 +31,7 @@ ConvexOutline circle(const SectionPoint& center, double radius) {
   constexpr int kCorners = 16;
   ConvexOutline outline;
   for (int i = 0; i < kCorners; ++i) {
-    const SectionPoint corner = towards(i * 360.0 / kCorners, radius);
+    const SectionPoint corner = toward(i * 360.0 / kCorners, radius);
     outline.push_back({center.z + corner.z, center.x + corner.x});
   }
   return outline;
@@ -39,7 +39,7 @@ ConvexOutline circle(const SectionPoint& center, double radius) {
 
 /// The area of `outline` and of everything from it in direction `degrees`.
 ConvexOutline drawn_out(const ConvexOutline& outline, double degrees, double length) {
-  return swept(outline, {}, towards(degrees, length));
+  return swept(outline, {}, toward(degrees, length));
 }
 
 /// The insert of a corner tool: from its wall side (3 degrees off the X direction) back by its
@@ -49,7 +49,7 @@ ConvexOutline insert_of(const SectionPoint& center, const SectionPoint& tip, dou
   const double up = tip.x < 0 ? 1 : -1, right = tip.z < 0 ? 1 : -1;
   ConvexOutline outline = circle(center, nose);
   for (const double edge : {90 - kClearance, 90 - kClearance - degrees}) {
-    const SectionPoint end = towards(edge, kEdge);
+    const SectionPoint end = toward(edge, kEdge);
     outline.push_back({center.z + right * end.z, center.x + up * end.x});
   }
   return swept(outline, {}, {});
@@ -58,7 +58,7 @@ ConvexOutline insert_of(const SectionPoint& center, const SectionPoint& tip, dou
 ConvexOutline pointed(const SectionPoint& center, double nose, double outwards) {
   ConvexOutline outline = circle(center, nose);
   for (const double side : {-1.0, 1.0}) {
-    const SectionPoint end = towards(outwards + side * kThreadDegrees / 2, kEdge);
+    const SectionPoint end = toward(outwards + side * kThreadDegrees / 2, kEdge);
     outline.push_back({center.z + end.z, center.x + end.x});
   }
   return swept(outline, {}, {});

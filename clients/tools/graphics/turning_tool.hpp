@@ -13,7 +13,7 @@ struct TurningTool {
   int type = 3;
   double radius = 0;
   /// Diameter of a drill (type 7 on the axis); width of a blade (5 to 8), from the tip
-  /// towards +Z or +X.
+  /// toward +Z or +X.
   std::optional<double> width;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60;
 
-/// Over the linear axes; a move of rotary axes alone takes its degrees as millimetres, which is
+/// Over the linear axes; a move of rotary axes alone takes its degrees as millimeters, which is
 /// how controls read the feed of such a move.
 Length distance(const Position& from, const Position& to) {
   double linear = 0;
@@ -58,7 +58,7 @@ double CheckSummary::spindle_speed() const {
 
 void CheckSummary::cut(Length length, const Feed& feed) {
   summary_.feed_length += length;
-  double per_minute = 0;  // moves, or millimetres
+  double per_minute = 0;  // moves, or millimeters
   double amount = length.mm();
   switch (feed.per()) {
     case Feed::Per::Minute:

@@ -17,7 +17,7 @@ struct CheckRates {
 };
 
 /// The smallest and largest coordinate an axis was moved to, on arcs between their ends as well.
-/// Millimetres or degrees, as Position::raw.
+/// Millimeters or degrees, as Position::raw.
 struct AxisExtent {
   double least = 0;
   double most = 0;
@@ -27,7 +27,7 @@ struct AxisExtent {
 struct Summary {
   std::string control;
   std::optional<std::string> program;
-  Units units = Units::Millimetre;  ///< of the header, for printing
+  Units units = Units::Millimeter;  ///< of the header, for printing
   bool x_is_diameter = false;       ///< extents hold radii all the same
   std::uint64_t blocks = 0;
   std::uint64_t moves = 0;

@@ -10,10 +10,10 @@ namespace dripline::interpreter {
 namespace {
 
 constexpr std::size_t kFlushAt = 32 * 1024;
-/// Millimetres or degrees: what rounding leaves of a path there and back is no move.
+/// Millimeters or degrees: what rounding leaves of a path there and back is no move.
 constexpr double kNoMove = 1e-7;
-constexpr double kMillimetresPerFoot = 12 * Length::kMillimetresPerInch;
-constexpr double kMillimetresPerMetre = 1000;
+constexpr double kMillimetersPerFoot = 12 * Length::kMillimetersPerInch;
+constexpr double kMillimetersPerMeter = 1000;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ double TraceWriter::in_units(Length length) const {
 }
 
 void TraceWriter::coordinate(Axis axis, double raw) {
-  const double value = is_rotary(axis) || !is_inch_ ? raw : raw / Length::kMillimetresPerInch;
+  const double value = is_rotary(axis) || !is_inch_ ? raw : raw / Length::kMillimetersPerInch;
   buffer_ += '"';
   buffer_ += letter(axis);
   buffer_ += "\":";
@@ -209,9 +209,9 @@ void TraceWriter::on_spindle(const Spindle& spindle) {
   begin("spindle", spindle.origin);
   member("state", word_of(spindle.state));
   if (spindle.surface_speed) {
-    // As every control is programmed: feet or metres a minute.
+    // As every control is programmed: feet or meters a minute.
     member("surface_speed",
-           spindle.surface_speed->mm() / (is_inch_ ? kMillimetresPerFoot : kMillimetresPerMetre));
+           spindle.surface_speed->mm() / (is_inch_ ? kMillimetersPerFoot : kMillimetersPerMeter));
   } else {
     member("speed", spindle.revolutions_per_minute);
   }

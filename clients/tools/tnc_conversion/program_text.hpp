@@ -16,7 +16,7 @@ using interpreter::tnc155::ReaderOptions;
 struct PlainProgram {
   std::vector<Block> blocks;
   std::vector<std::uint64_t> lines;  ///< where they begin
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
 };
 
 /// The words of a block and the line they begin in.
@@ -26,7 +26,7 @@ struct NumberedIsoBlock {
 };
 struct IsoProgram {
   std::vector<NumberedIsoBlock> blocks;
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
 };
 
 /// All blocks up to the program's last one. Errors: Syntax, "line 3, column 8: ..."; Unsupported

@@ -78,7 +78,7 @@ Result<Position> touch_parallel(const Workpiece& workpiece, const Stylus& stylus
 }
 
 /// The stylus goes round in chords, which leave its circle by less than a thousandth of a
-/// micrometre in ten millimetres.
+/// micrometer in ten millimeters.
 Result<Position> touch_around(const Workpiece& workpiece, const Stylus& stylus,
                               const Touch& touch) {
   constexpr double kStep = 0.05;  // degrees

@@ -12,7 +12,7 @@
 
 /// The touch probe functions of the manual and handwheel modes, with which an operator measures
 /// before a program runs (manual: touch probe). Pure: contact points in, results out.
-/// Lengths are millimetres in machine coordinates with the stylus length left out, angles degrees.
+/// Lengths are millimeters in machine coordinates with the stylus length left out, angles degrees.
 namespace dripline::tnc_probing {
 
 using interpreter::Axis;

@@ -14,7 +14,7 @@ enum class CompensationSide : std::uint8_t { Off, Left, Right };
 /// The modes that a control shows with the block in hand and that no event carries: for the
 /// display, not for a trace. Every dialect fills those it has; the rest keeps its default.
 struct ActiveModes {
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   bool is_incremental = false;
   CompensationSide compensation = CompensationSide::Off;
   std::uint16_t work_system = 0;  ///< its code in tenths: 540 is G54; 0: the control has none

@@ -9,7 +9,7 @@ namespace dripline::interpreter {
 
 /// How program coordinates lie on the machine when a block has been executed: datum, shift, ROT,
 /// SCL, mirrored axes and CC of a control's screen. For the position display, not for a trace.
-/// Millimetres and degrees; index as in kAllAxes. A control fills the members it has, the rest
+/// Millimeters and degrees; index as in kAllAxes. A control fills the members it has, the rest
 /// keeps its default.
 struct CoordinateFrame {
   using Values = std::array<double, kAxisCount>;
@@ -30,7 +30,7 @@ struct CoordinateFrame {
   /// but X, Y and Z unchanged. `program_of` gives the program coordinates of machine coordinates.
   template <class ProgramOf>
   void learn(ProgramOf program_of) {
-    constexpr double kFar = 1000;  // millimetres: far apart, cancellation costs fewer digits
+    constexpr double kFar = 1000;  // millimeters: far apart, cancellation costs fewer digits
     base_ = program_of(Values{});
     for (std::size_t column = 0; column < 3; ++column) {
       Values at{};

@@ -40,7 +40,7 @@ struct Dialect {
   Result<std::unique_ptr<Interpreter>> (*make)(const Setup& setup, ProgramSource& source,
                                                EventSink& sink);
   /// Units of the control's own memory at power on: of a setup file that names none.
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   MachineKind machine = MachineKind::Mill;
   FeedOverrideSwitch feed_override_switch = {};
   bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START goes on

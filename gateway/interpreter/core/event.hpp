@@ -11,7 +11,7 @@
 #include "protocol/base/units.hpp"
 
 /// The actions of a program, as plain structs, in execution order.
-/// Lengths are machine lengths in millimetres (a lathe's X is the radius), whatever the program's
+/// Lengths are machine lengths in millimeters (a lathe's X is the radius), whatever the program's
 /// units; the writer of a trace converts back. string_views live until the sink's function returns.
 /// No event of an ordinary motion block allocates.
 namespace dripline::interpreter {
@@ -27,7 +27,7 @@ inline bool is_rotary(Axis axis) {
   return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
 
-/// A point of the machine. Linear axes hold millimetres, rotary axes degrees; `linear` and `rotary`
+/// A point of the machine. Linear axes hold millimeters, rotary axes degrees; `linear` and `rotary`
 /// state the unit. An axis is marked when it has moved since the start of the program or takes part
 /// in this move.
 class Position {
@@ -43,7 +43,7 @@ class Position {
     axes_.set(index(axis));
   }
   bool has(Axis axis) const { return axes_.test(index(axis)); }
-  /// Millimetres or degrees: for loops over all axes.
+  /// Millimeters or degrees: for loops over all axes.
   double raw(Axis axis) const { return value_[index(axis)]; }
   void set_raw(Axis axis, double value) {
     value_[index(axis)] = value;
@@ -65,7 +65,7 @@ class Position {
   std::bitset<kAxisCount> axes_;
 };
 
-enum class Units : std::uint8_t { Inch, Millimetre };
+enum class Units : std::uint8_t { Inch, Millimeter };
 enum class Plane : std::uint8_t { XY, ZX, YZ };
 enum class Turn : std::uint8_t {
   Clockwise,
@@ -79,7 +79,7 @@ enum class OutputDevice : std::uint8_t { File, Port1, Port2, Screen, Printer };
 struct ProgramHeader {
   std::string_view control;              ///< the dialect's name
   std::optional<std::string_view> name;  ///< as the program calls itself, e.g. O0100
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   bool x_is_diameter = false;
 };
 

@@ -39,7 +39,7 @@ Result<Position> read_position(std::string_view key, const OptionValue& option, 
     const auto number = as_number(entry.value);
     if (!axis || !number) return wrong_kind(key, entry.value, kAxesExpected);
     const double scale =
-        units == Units::Inch && !is_rotary(*axis) ? Length::kMillimetresPerInch : 1.0;
+        units == Units::Inch && !is_rotary(*axis) ? Length::kMillimetersPerInch : 1.0;
     position.set_raw(*axis, *number * scale);
   }
   return position;

@@ -65,7 +65,7 @@ class Options {
 
  private:
   OptionTable table_;
-  Units units_ = Units::Millimetre;
+  Units units_ = Units::Millimeter;
 };
 
 }  // namespace dripline::interpreter

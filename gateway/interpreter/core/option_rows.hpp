@@ -79,7 +79,7 @@ Result<void> assign(const Result<Read>& read, Value& value) {
   return {};
 }
 
-// One value each, which keeps what it has when the key is absent. A length is in millimetres.
+// One value each, which keeps what it has when the key is absent. A length is in millimeters.
 Result<void> read_value(const Options& options, const OptionKey& key, double& value);
 Result<void> read_value(const Options& options, const OptionKey& key, Position& value);
 Result<void> read_value(const Options& options, const OptionKey& key,

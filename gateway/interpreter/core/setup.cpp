@@ -21,7 +21,7 @@ void read_units(Table& file) {
   file.read("units", "expected \"in\" or \"mm\"", [&](const toml::node& node) {
     const auto value = node.value<std::string_view>();
     if (value != "in" && value != "mm") return false;
-    file.reading().units = value == "in" ? Units::Inch : Units::Millimetre;
+    file.reading().units = value == "in" ? Units::Inch : Units::Millimeter;
     return true;
   });
 }

@@ -29,7 +29,7 @@ struct ToolRecord {
   Length radius_wear;
   int tip = 0;                ///< lathe tool type
   std::optional<int> pocket;  ///< its pocket in the tool changer's magazine
-  bool is_special = false;    ///< takes its neighbours' pockets too, and keeps its own
+  bool is_special = false;    ///< takes its neighbors' pockets too, and keeps its own
 };
 
 struct OffsetRecord {
@@ -61,12 +61,12 @@ struct Setup {
 /// Reads a setup file's text; lengths are in the file's `units`, or in `units` when it names none
 /// (a dialect's own, see `Dialect::units`). Errors: Syntax, with the key and its line; an unknown
 /// key is an error.
-Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimetre);
+Result<Setup> parse_setup(std::string_view toml, Units units = Units::Millimeter);
 
 /// The contents of a control's memory, as the server stores them: `units`, `tool`, `offset`,
 /// `variable` and `control` of a setup file, and nothing else. The description of the machine
 /// (start, probe, answers ...) stays with its gateway. Errors: as parse_setup.
-Result<Setup> parse_control_data(std::string_view toml, Units units = Units::Millimetre);
+Result<Setup> parse_control_data(std::string_view toml, Units units = Units::Millimeter);
 /// Replaces the same tables of `setup` by those of `data`. Its options, if any, replace all
 /// options.
 void use_control_data(Setup data, Setup& setup);

@@ -6,7 +6,7 @@
 
 namespace dripline::machine::impl {
 
-/// A point by axis number: millimetres or, for rotary axes, degrees.
+/// A point by axis number: millimeters or, for rotary axes, degrees.
 using Coordinates = std::array<double, interpreter::kAxisCount>;
 
 /// Takes over the axes that `position` has; the others stay.
@@ -29,7 +29,7 @@ struct Range {
   double low, high;
 };
 
-/// The geometry of one move: from, to, and the path between. `length` is in millimetres; of a move
+/// The geometry of one move: from, to, and the path between. `length` is in millimeters; of a move
 /// of rotary axes only, in degrees. Value type; pure.
 struct Path {
   Coordinates from{}, to{};

@@ -27,7 +27,7 @@ class TcpChannel final : public Channel {
     if (errno == EAGAIN || errno == EINTR) return std::size_t{0};
     return fail(Errc::Io, "{}: {}", name_, std::strerror(errno));
   }
-  /// Bytes without the network's acknowledgement do not show the state of the line.
+  /// Bytes without the network's acknowledgment do not show the state of the line.
   std::optional<std::size_t> unsent() const override { return std::nullopt; }
   Result<std::optional<wire::InputLines>> input_lines() override {
     return std::optional<wire::InputLines>();

@@ -33,17 +33,17 @@ void XmodemLine::receive(std::span<const std::byte> bytes, LineTime now) {
 void XmodemLine::take(std::byte character, LineTime now) {
   const char c = static_cast<char>(character);
   if (step_ == Step::InBlock) return take_block(character, now);
-  if (is_cancelled(c, now)) return;
+  if (is_canceled(c, now)) return;
   if (step_ == Step::Idle) return take_idle(c, now);
   if (is_sender_step()) return take_answer(c, now);
   take_block_start(c, now);
 }
 
 /// Two CAN in a row outside a block.
-bool XmodemLine::is_cancelled(char character, LineTime now) {
+bool XmodemLine::is_canceled(char character, LineTime now) {
   const bool was_can = std::exchange(was_can_, character == kCan);
   if (!was_can || !was_can_ || step_ == Step::Idle) return false;
-  fail_transfer({Errc::Denied, "the other end cancelled the transfer (CAN)"}, now);
+  fail_transfer({Errc::Denied, "the other end canceled the transfer (CAN)"}, now);
   return true;
 }
 

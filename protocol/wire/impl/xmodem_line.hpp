@@ -48,7 +48,7 @@ class XmodemLine final : public DisciplineBase {
   bool is_sender_step() const { return step_ >= Step::AwaitStart && step_ <= Step::AwaitEnd; }
 
   void take(std::byte character, LineTime now);
-  bool is_cancelled(char character, LineTime now);
+  bool is_canceled(char character, LineTime now);
   void take_idle(char character, LineTime now);
   void drop_request();
   void say(char character) { queue_control(character); }

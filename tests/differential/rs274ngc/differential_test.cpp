@@ -40,10 +40,10 @@ std::string read_file(const fs::path& path) {
 
 /// The README's list: with an arc after it the peer makes a move that its corners have eaten up,
 /// backwards or nearly all around; we refuse it.
-bool is_listed(const Behaviour& ours, const Behaviour& peer) {
+bool is_listed(const Behavior& ours, const Behavior& peer) {
   if (!ours.complaint.starts_with("NGC0282") || ours.moves.size() >= peer.moves.size())
     return false;
-  Behaviour beginning = peer;
+  Behavior beginning = peer;
   beginning.moves.resize(ours.moves.size());
   beginning.is_accepted = false;
   return difference(ours, beginning, kTolerance).empty();
@@ -84,8 +84,8 @@ class Comparison {
   void compare(const std::string& name, const std::string& text, const fs::path& own) {
     const fs::path file = own / "program.ngc";
     std::ofstream(file, std::ios::binary) << text;
-    const Behaviour peer = run_peer(file, folder_.path() / "tool.tbl");
-    const Behaviour ours = run_ours(text, "tests/differential/rs274ngc/programs");
+    const Behavior peer = run_peer(file, folder_.path() / "tool.tbl");
+    const Behavior ours = run_ours(text, "tests/differential/rs274ngc/programs");
     const std::string what = difference(ours, peer, kTolerance);
     if (what.empty()) return;
     const std::lock_guard lock(mutex_);

@@ -37,17 +37,17 @@ std::string text_of(const Move& move) {
   return text;
 }
 
-void drop_standing_moves(Behaviour& behaviour) {
+void drop_standing_moves(Behavior& behavior) {
   std::vector<Move> kept;
   std::array<double, 6> at{};
-  for (const Move& move : behaviour.moves) {
+  for (const Move& move : behavior.moves) {
     if (move.kind == Move::Kind::Arc || !is_near(at, move.to, kStanding)) kept.push_back(move);
     at = move.to;
   }
-  behaviour.moves = std::move(kept);
+  behavior.moves = std::move(kept);
 }
 
-std::string difference(const Behaviour& ours, const Behaviour& peer, double tolerance) {
+std::string difference(const Behavior& ours, const Behavior& peer, double tolerance) {
   const std::size_t both = std::min(ours.moves.size(), peer.moves.size());
   for (std::size_t i = 0; i < both; ++i) {
     if (is_same(ours.moves[i], peer.moves[i], tolerance)) continue;

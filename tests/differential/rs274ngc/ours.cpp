@@ -41,18 +41,18 @@ class MoveSink final : public EventSink {
   void on_thread(const Thread& event) override { add(Move::Kind::Feed, event.to); }
   void on_arc(const Arc& event) override {
     add(Move::Kind::Arc, event.to);
-    Move& move = behaviour.moves.back();
+    Move& move = behavior.moves.back();
     move.center = {event.center_first.mm(), event.center_second.mm()};
     move.plane = static_cast<int>(event.plane);
     const int circles = static_cast<int>(std::ceil(event.sweep.degrees() / 360 - 1e-6));
     move.circles = event.turn == Turn::Clockwise ? -circles : circles;
   }
   void on_alarm(const Alarm& event) override {
-    behaviour.complaint = fmt::format("{} line {}: {}", event.diagnostic.id, event.diagnostic.line,
-                                      event.diagnostic.text);
+    behavior.complaint = fmt::format("{} line {}: {}", event.diagnostic.id, event.diagnostic.line,
+                                     event.diagnostic.text);
   }
-  void on_end(const End&) override { behaviour.is_accepted = true; }
-  Behaviour behaviour;
+  void on_end(const End&) override { behavior.is_accepted = true; }
+  Behavior behavior;
 
  private:
   std::set<std::uint64_t> curves_;
@@ -61,7 +61,7 @@ class MoveSink final : public EventSink {
     Move move;
     move.kind = kind;
     for (std::size_t i = 0; i < kAxes.size(); ++i) move.to[i] = to.raw(kAxes[i]);
-    behaviour.moves.push_back(move);
+    behavior.moves.push_back(move);
   }
 };
 
@@ -94,7 +94,7 @@ radius = 0.0
 
 }  // namespace
 
-Behaviour run_ours(const std::string& program, const std::filesystem::path& folder) {
+Behavior run_ours(const std::string& program, const std::filesystem::path& folder) {
   const auto dialect = find_dialect("rs274ngc");
   const auto setup = parse_setup(kSetup);
   if (!dialect || !setup) throw std::runtime_error("the dialect or its setup is not there");
@@ -107,9 +107,9 @@ Behaviour run_ours(const std::string& program, const std::filesystem::path& fold
   });
   MoveSink sink(program);
   const auto outcome = run_offline(**dialect, *setup, source, sink);
-  if (!outcome) sink.behaviour.complaint = outcome.error().what;
-  drop_standing_moves(sink.behaviour);
-  return sink.behaviour;
+  if (!outcome) sink.behavior.complaint = outcome.error().what;
+  drop_standing_moves(sink.behavior);
+  return sink.behavior;
 }
 
 }  // namespace dripline::differential

@@ -127,15 +127,15 @@ std::string tool_table() {
 }
 
 /// It keeps its tools in a file in HOME: each folder has its own.
-Behaviour run_peer(const fs::path& program, const fs::path& tools) {
+Behavior run_peer(const fs::path& program, const fs::path& tools) {
   const std::string folder = program.parent_path().string();
   const std::string command =
       fmt::format("cd '{0}' && HOME='{0}' LD_PRELOAD='{1}' '{2}' -g -t '{3}' '{4}' 2>complaint",
                   folder, FULL_PRECISION, kPeer, tools.string(), program.string());
-  Behaviour behaviour;
+  Behavior behavior;
   CallReader calls;
   FILE* output = popen(command.c_str(), "r");
-  if (output == nullptr) return behaviour;
+  if (output == nullptr) return behavior;
   std::array<char, 1024> line{};
   while (fgets(line.data(), line.size(), output) != nullptr) {
     std::string_view text(line.data());
@@ -143,13 +143,13 @@ Behaviour run_peer(const fs::path& program, const fs::path& tools) {
     calls.read(text);
   }
   const int status = pclose(output);
-  behaviour.is_accepted = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  behaviour.moves = std::move(calls.moves);
+  behavior.is_accepted = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  behavior.moves = std::move(calls.moves);
   std::ifstream complaint(program.parent_path() / "complaint");
-  while (std::getline(complaint, behaviour.complaint) && behaviour.complaint == "executing") {
+  while (std::getline(complaint, behavior.complaint) && behavior.complaint == "executing") {
   }
-  drop_standing_moves(behaviour);
-  return behaviour;
+  drop_standing_moves(behavior);
+  return behavior;
 }
 
 }  // namespace dripline::differential

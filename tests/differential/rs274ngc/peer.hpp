@@ -14,9 +14,9 @@ bool has_peer();
 std::string tool_table();
 
 /// Runs the peer on a program file, lengths with nine decimals.
-Behaviour run_peer(const std::filesystem::path& program, const std::filesystem::path& tools);
+Behavior run_peer(const std::filesystem::path& program, const std::filesystem::path& tools);
 
 /// Ours, with the profile `linuxcnc` and the same tools. `folder` holds called files.
-Behaviour run_ours(const std::string& program, const std::filesystem::path& folder);
+Behavior run_ours(const std::string& program, const std::filesystem::path& folder);
 
 }  // namespace dripline::differential

@@ -26,11 +26,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   require(replied <= size + 2);
 
-  std::vector<std::byte> travelling, arrived;
+  std::vector<std::byte> traveling, arrived;
   const Rfc2217Client sender;  // before the binary option is agreed: the harder case
-  sender.encode(input, travelling);
+  sender.encode(input, traveling);
   Rfc2217Client receiver;
-  for (const std::byte byte : travelling) {
+  for (const std::byte byte : traveling) {
     const auto event = receiver.feed(byte);
     if (!event) continue;
     require(std::holds_alternative<std::byte>(*event));

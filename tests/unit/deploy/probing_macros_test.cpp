@@ -14,7 +14,7 @@
 namespace dripline::interpreter {
 namespace {
 
-constexpr double kMicrometre = 0.001;
+constexpr double kMicrometer = 0.001;
 constexpr double kBall = 3;
 
 std::optional<std::string> macro_text(std::string_view name) {
@@ -96,9 +96,9 @@ void expect_value(const std::string& line, const Value& expected) {
   const Value value = value_of(line);
   EXPECT_EQ(value.name, expected.name) << line;
   EXPECT_EQ(value.feature, expected.feature) << line;
-  EXPECT_NEAR(value.nominal, expected.nominal, kMicrometre / 2) << line;
-  EXPECT_NEAR(value.actual, expected.actual, kMicrometre) << line;
-  EXPECT_NEAR(value.deviation, expected.actual - expected.nominal, kMicrometre) << line;
+  EXPECT_NEAR(value.nominal, expected.nominal, kMicrometer / 2) << line;
+  EXPECT_NEAR(value.actual, expected.actual, kMicrometer) << line;
+  EXPECT_NEAR(value.deviation, expected.actual - expected.nominal, kMicrometer) << line;
   EXPECT_EQ(value.is_out, expected.is_out) << line;
 }
 
@@ -118,7 +118,7 @@ TEST(ProbingMacros, SurfaceAlongXIsReportedWithTheBall) {
   ASSERT_EQ(report.lines.size(), 2u);
   EXPECT_EQ(report.lines[0].substr(0, 7), "SURFACE");
   expect_value(report.lines[1], {"X", 7, 25, 25.012, 0, 1});
-  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 10, kMicrometre) << "back at the start";
+  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 10, kMicrometer) << "back at the start";
 }
 
 TEST(ProbingMacros, SurfaceAlongYFromThePositiveSide) {
@@ -149,8 +149,8 @@ TEST(ProbingMacros, BoreIsFoundOffItsNominalCenter) {
   expect_value(report.lines[1], {"X", 12, 80, 80.018, 0, 0});
   expect_value(report.lines[2], {"Y", 12, 45, 44.973, 0, 1});
   expect_value(report.lines[3], {"D", 12, 40, 40.031, 0, 1});
-  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 80.018, kMicrometre) << "in the center";
-  EXPECT_NEAR(report.at.linear(Axis::Z).mm(), 10, kMicrometre);
+  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 80.018, kMicrometer) << "in the center";
+  EXPECT_NEAR(report.at.linear(Axis::Z).mm(), 10, kMicrometer);
 }
 
 TEST(ProbingMacros, ABoreFarOffIsStillExact) {
@@ -172,7 +172,7 @@ TEST(ProbingMacros, BossIsTouchedFromAbove) {
   expect_value(report.lines[1], {"X", 3, -20, -20.4, 0, 1});
   expect_value(report.lines[2], {"Y", 3, 10, 10.3, 0, 1});
   expect_value(report.lines[3], {"D", 3, 25, 24.987, 0, 0});
-  EXPECT_NEAR(report.at.linear(Axis::Z).mm(), 5, kMicrometre);
+  EXPECT_NEAR(report.at.linear(Axis::Z).mm(), 5, kMicrometer);
 }
 
 TEST(ProbingMacros, WebAcrossX) {
@@ -257,15 +257,15 @@ TEST(ProbingMacros, TheWorkOffsetTakesOverTheDeviation) {
   ASSERT_EQ(report.alarm, "");
   ASSERT_EQ(report.lines.size(), 4u);
   expect_value(report.lines[1], {"X", 1, 10, 10.25, 0, 0});
-  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 60.25, kMicrometre);
-  EXPECT_NEAR(report.at.linear(Axis::Y).mm(), 39.5, kMicrometre);
+  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 60.25, kMicrometer);
+  EXPECT_NEAR(report.at.linear(Axis::Y).mm(), 39.5, kMicrometer);
 }
 
 TEST(ProbingMacros, IncrementalModeComesBack) {
   const Report report =
       run({plane('X', 20), "{ X = 10.0, Y = 0.0, Z = 0.0 }"}, "G91\nG65P9711X23.S1.\nG0X5.");
   ASSERT_EQ(report.alarm, "");
-  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 15, kMicrometre);
+  EXPECT_NEAR(report.at.linear(Axis::X).mm(), 15, kMicrometer);
 }
 
 struct Refusal {

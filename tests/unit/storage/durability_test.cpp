@@ -127,7 +127,7 @@ class Killed : public StoreTest {
     }
   }
 
-  /// Kills the child `delay` after its first acknowledgement; returns the last one.
+  /// Kills the child `delay` after its first acknowledgment; returns the last one.
   Acknowledged kill_writer(std::chrono::microseconds delay) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);

@@ -59,7 +59,7 @@ class Editor {
   }
 
   /// Consecutive numbers stay so, as in the control's memory; others stay as they are, and what is
-  /// put in has the number of what it replaces, or finds one between its neighbours.
+  /// put in has the number of what it replaces, or finds one between its neighbors.
   Result<void> assign_numbers() {
     numbers_.assign(steps_.size(), kNoNumber);
     if (!program_.is_numbered()) return {};

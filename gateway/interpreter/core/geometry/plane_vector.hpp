@@ -7,7 +7,7 @@
 namespace dripline::interpreter {
 
 /// A point or a direction in a plane: along its first and second axis (`PlaneAxes`), in
-/// millimetres or, where it is a direction, of length 1.
+/// millimeters or, where it is a direction, of length 1.
 struct PlaneVector {
   double first = 0;
   double second = 0;

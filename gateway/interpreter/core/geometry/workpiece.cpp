@@ -7,7 +7,7 @@
 namespace dripline::interpreter {
 namespace {
 
-/// Millimetres: rounding of a position that went through inches and offsets stays far below it.
+/// Millimeters: rounding of a position that went through inches and offsets stays far below it.
 constexpr double kOnSurface = 1e-6;
 
 /// A straight move; t = 0 is its start and t = 1 its end.
@@ -15,7 +15,7 @@ struct Move {
   const Position& from;
   const Position& to;
   ProbeUntil until;
-  double length;  ///< millimetres over X, Y, Z
+  double length;  ///< millimeters over X, Y, Z
 
   double start(Axis axis) const { return from.linear(axis).mm(); }
   double delta(Axis axis) const { return to.linear(axis).mm() - from.linear(axis).mm(); }
@@ -61,7 +61,7 @@ std::optional<double> meet(const ProbeCylinder& cylinder, const Move& move) {
   return on_move(move, (-half_b + root) / a);
 }
 
-/// Odd number of outline pieces above the point (towards +Z) = inside.
+/// Odd number of outline pieces above the point (toward +Z) = inside.
 bool has_material(const ProbeProfile& profile, double x, double z) {
   bool inside = false;
   for (std::size_t i = 1; i < profile.points.size(); ++i) {

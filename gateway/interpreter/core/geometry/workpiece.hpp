@@ -39,7 +39,7 @@ class Workpiece {
   /// start when it begins inside a profile. Release: where it first leaves the surface it starts on
   /// or after. A surface with material on either side is met and left by any crossing. With no
   /// such point the probe is not tripped and `at` is the end of the move. Positions within a
-  /// millionth of a millimetre of a surface are on it.
+  /// millionth of a millimeter of a surface are on it.
   ProbeResult probe(const Position& from, const Position& to, ProbeUntil until) const;
 
  private:

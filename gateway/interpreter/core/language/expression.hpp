@@ -66,7 +66,7 @@ Computed square_root(double value);
 Computed natural_logarithm(double value);
 Computed exponential(double value);
 Computed absolute(double value);
-Computed integer_part(double value);  ///< towards zero
+Computed integer_part(double value);  ///< toward zero
 Computed rounded(double value);       ///< halves away from zero
 
 /// Walks an expression by rank. `Terms` supplies:

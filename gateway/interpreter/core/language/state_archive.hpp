@@ -30,7 +30,7 @@ inline constexpr Enum kLast = static_cast<Enum>(0xFF);
 template <>
 inline constexpr Axis kLast<Axis> = Axis::W;
 template <>
-inline constexpr Units kLast<Units> = Units::Millimetre;
+inline constexpr Units kLast<Units> = Units::Millimeter;
 template <>
 inline constexpr Plane kLast<Plane> = Plane::YZ;
 template <>

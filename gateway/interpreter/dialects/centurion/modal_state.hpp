@@ -14,7 +14,8 @@
 
 /// Everything that stays from one block to the next. Lengths are in program units (`units` says
 /// which), X is a radius, positions are machine coordinates with the tool length left out, unless
-/// a comment states otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones there.
+/// a comment states otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones
+/// there.
 namespace dripline::interpreter::centurion {
 
 enum class MotionMode : std::uint8_t { Rapid, Line, Clockwise, Counterclockwise };
@@ -160,7 +161,7 @@ struct ModalState {
   bool nose_is_stale = false;     ///< something that `nose` depends on may have changed
   bool uses_compensator = false;  ///< from the first G41, G42 or G65 on
   /// A start elsewhere than at the first block (start_search.hpp): where the machine is, where
-  /// the program would have moved it (machine millimetres, X a radius), and the axes it moved.
+  /// the program would have moved it (machine millimeters, X a radius), and the axes it moved.
   bool is_searching = false;
   Point searched_from;
   Point searched_to;
@@ -179,7 +180,7 @@ struct ModalState {
   PatternCycle pattern;                    ///< of G70-G73, while one runs
   std::vector<ModalState> before_pattern;  ///< one while a pattern is read: what it must not change
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
   double active_feed() const { return feed[modes.is_feed_per_revolution]; }
 };
 

@@ -67,7 +67,7 @@ struct ControlOptions {
 };
 
 /// Reads the options. Errors: Syntax, Unsupported (an option this control does not have, or has
-/// but this version does not honour).
+/// but this version does not honor).
 Result<ControlOptions> read_options(const Setup& setup);
 
 }  // namespace dripline::interpreter::centurion

@@ -85,7 +85,7 @@ void Run::deliver_header() {
   report_blank();
 }
 
-/// The bar reaches from the face at Z0 towards the chuck, about the program's X0 (manual:
+/// The bar reaches from the face at Z0 toward the chuck, about the program's X0 (manual:
 /// graphics).
 void Run::report_blank() {
   const double size = parameters[kMaterialLength], diameter = parameters[kMaterialDiameter];

@@ -72,7 +72,7 @@ Result<void> read_start_codes(const Options& options, const OptionKey& key, C& c
                   code);
     }
     if (code == 20) control.start_units = Units::Inch;
-    if (code == 21) control.start_units = Units::Millimetre;
+    if (code == 21) control.start_units = Units::Millimeter;
     control.start_g.push_back(static_cast<std::uint8_t>(code));
   }
   if (control.start_units == Units::Inch) {
@@ -175,7 +175,7 @@ constexpr std::array kRows{
         read_model},
     row<&C::calculator_point>(
         "calculator_point", kFlag,
-        "a number without a point is in millimetres or inches, not increments"),
+        "a number without a point is in millimeters or inches, not increments"),
     row<&C::has_tool_changer>(
         "tool_changer", kFlag,
         "false: M06 stops the spindle and waits until the operator has changed"),

@@ -15,13 +15,13 @@ enum class CallForm : std::uint8_t { EightDigits, L, Both };
 enum class OffsetMemory : std::uint8_t { A, B, C };
 
 /// What a machine's builder and operator have set: the `[control]` options and the panel's
-/// switches. Lengths in millimetres.
+/// switches. Lengths in millimeters.
 struct ControlOptions {
   Model model = Model::M16;
   bool calculator_point = false;
   bool has_tool_changer = true;  ///< false: M06 stops for the operator's hands
   int decimals_mm = 3;           ///< of the least increment; inches have one more
-  Units start_units = Units::Millimetre;
+  Units start_units = Units::Millimeter;
   std::vector<std::uint8_t> start_g;
   RepeatAddress repeat_address = RepeatAddress::Both;
   CallForm call_form = CallForm::Both;

@@ -66,7 +66,7 @@ struct Run : BlockRun {
   std::size_t work_system() const;  ///< index of Coordinates::work
   void update_special();
 
-  /// A word's number as millimetres; finer than the least increment is cut, computed is rounded.
+  /// A word's number as millimeters; finer than the least increment is cut, computed is rounded.
   double length(const Word& word) const {
     const Increments& in = increments;
     double value = word.value;
@@ -81,7 +81,7 @@ struct Run : BlockRun {
   }
   /// As degrees.
   double angle(const Word& word) const;
-  /// Of a coordinate: millimetres or degrees.
+  /// Of a coordinate: millimeters or degrees.
   double coordinate(Axis axis, const Word& word) const {
     return is_rotary(axis) ? angle(word) : length(word);
   }
@@ -95,7 +95,7 @@ struct Run : BlockRun {
   }
   /// G09 of the block, G61 in force: a cutting feed comes to rest at its end.
   bool rests_at_end() const { return block.parts.one_shot == 9 || state.g[kPathGroup] == 61; }
-  /// Millimetres to program units, for macro variables.
+  /// Millimeters to program units, for macro variables.
   double in_units(Axis axis, double raw) const {
     return is_rotary(axis) ? raw : raw / increments.mm_per_unit;
   }

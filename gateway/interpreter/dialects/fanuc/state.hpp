@@ -10,7 +10,7 @@
 #include "gateway/interpreter/dialects/fanuc/execution/g_codes.hpp"
 #include "gateway/interpreter/dialects/fanuc/reading/text_cursor.hpp"
 
-/// Everything that stays from one block to the next. Lengths are millimetres, angles degrees;
+/// Everything that stays from one block to the next. Lengths are millimeters, angles degrees;
 /// positions are machine coordinates of the programmed point, the tool's length left out, unless
 /// said otherwise. `visit` (snapshot.cpp) lists the members of ModalState: add new ones there.
 namespace dripline::interpreter::fanuc {
@@ -34,7 +34,7 @@ inline constexpr double kNull = std::numeric_limits<double>::quiet_NaN();
 struct SpindleModes {
   SpindleState state = SpindleState::Off;
   double revolutions = 0;  ///< last S under G97
-  double surface = 0;      ///< last S under G96, millimetres a minute
+  double surface = 0;      ///< last S under G96, millimeters a minute
   double limit = 0;        ///< G92 S; 0 = none
 };
 
@@ -169,7 +169,7 @@ struct ModalState {
   bool is_transformed = false;    ///< scaling or rotation
   bool uses_compensator = false;  ///< from the first G41 or G42 on
   bool is_special = false;        ///< a block of axis words is more than a straight move or an arc
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   std::array<double, 2> feed{};  ///< per minute, per revolution
 
   SpindleModes spindle;
@@ -203,7 +203,7 @@ struct ModalState {
   Jump jump;
   Counters limits;
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
   bool is_polar() const { return g[kPolarGroup] == 16; }
   bool is_incremental() const { return g[kDistanceGroup] == 91; }
   bool is_per_revolution() const { return g[kFeedGroup] == 95; }

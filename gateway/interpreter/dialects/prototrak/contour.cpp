@@ -139,7 +139,7 @@ double distance(XY a, XY b) {
 }
 
 double join_tolerance(bool is_metric) {
-  return is_metric ? 0.01 : 0.0001 * Length::kMillimetresPerInch;
+  return is_metric ? 0.01 : 0.0001 * Length::kMillimetersPerInch;
 }
 
 XY direction_at_start(const Element& element) {

@@ -23,7 +23,7 @@ class EventLine {
   std::string print();
 
  private:
-  double units(double mm) const { return event_.is_metric ? mm : mm / Length::kMillimetresPerInch; }
+  double units(double mm) const { return event_.is_metric ? mm : mm / Length::kMillimetersPerInch; }
   void word(std::string_view address, double mm, std::string_view tag = "") {
     text_ += fmt::format(" {}{}{}", address, number(units(mm), event_.is_metric ? 2 : 4), tag);
   }

@@ -271,7 +271,7 @@ bool Receiver::fill_rectangle(const BlockWords& block, ProgramEvent& event) {
 bool Receiver::fill_circle(const BlockWords& block, ProgramEvent& event) {
   const XY from = reference();
   std::int64_t direction = 1, holes = 0;
-  const double least = modal_.is_metric ? 0.01 : 0.0005 * Length::kMillimetresPerInch;
+  const double least = modal_.is_metric ? 0.01 : 0.0005 * Length::kMillimetersPerInch;
   if (!require(block, {XC, YC, R}) || !coordinate(block, XC, from.x, event.begin.x) ||
       !coordinate(block, YC, from.y, event.begin.y) || !size(block, R, least, event.radius) ||
       !size(block, FC, 0, event.finish_cut) || !integer(block, DR, 1, 2, direction) ||
@@ -292,7 +292,7 @@ bool Receiver::store(ProgramEvent event) {
   if (program_.events.size() >= kMaxEvents) {
     return fail(Fault::MemoryFull, fmt::format("more than {} events", kMaxEvents));
   }
-  const double default_feed = modal_.is_metric ? 25.0 : Length::kMillimetresPerInch;
+  const double default_feed = modal_.is_metric ? 25.0 : Length::kMillimetersPerInch;
   event.is_metric = modal_.is_metric;
   event.feed = modal_.has_feed ? modal_.feed : default_feed;
   event.side = modal_.side;

@@ -164,7 +164,7 @@ bool Executor::begin_repeat(const ProgramEvent& event) {
 
 bool Executor::check_arc(const ProgramEvent& event) {
   if (event.kind != EventKind::Arc) return true;
-  const double tolerance = event.is_metric ? 0.02 : 0.001 * Length::kMillimetresPerInch;
+  const double tolerance = event.is_metric ? 0.02 : 0.001 * Length::kMillimetersPerInch;
   const double last = distance(event.end, event.center);
   if (event.radius > kNoise && std::fabs(event.radius - last) <= tolerance) return true;
   return fail(Fault::ArcRadii,
@@ -332,7 +332,7 @@ void Executor::cut(const Element& element, double feed) {
 void Executor::tell_units(const ProgramEvent& event) {
   if (event.is_metric == state_.is_metric) return;
   state_.is_metric = event.is_metric;
-  path_.on_units({origin_, event.is_metric ? Units::Millimetre : Units::Inch});
+  path_.on_units({origin_, event.is_metric ? Units::Millimeter : Units::Inch});
 }
 
 bool Executor::fail(const DiagnosticRow& fault, std::string_view detail) {

@@ -78,7 +78,7 @@ void ProtoTrakInterpreter::deliver_header() {
   header.control = "prototrak-plus";
   const std::string name = fmt::format("{}", program_.part_number);
   if (program_.has_part_number) header.name = name;
-  header.units = program_.is_metric ? Units::Millimetre : Units::Inch;
+  header.units = program_.is_metric ? Units::Millimeter : Units::Inch;
   sink_.on_program(header);
   for (const Notice& notice : receiver_.notices()) {
     sink_.on_warning(

@@ -26,7 +26,7 @@ struct XY {
   double x = 0, y = 0;
 };
 
-/// One event. Lengths are millimetres whatever its unit, feeds mm per minute, all absolute.
+/// One event. Lengths are millimeters whatever its unit, feeds mm per minute, all absolute.
 struct ProgramEvent {
   EventKind kind = EventKind::Position;
   bool is_metric = false;
@@ -52,7 +52,7 @@ struct ProgramEvent {
   std::int64_t sequence = -1;
 
   /// A length in the event's own unit, for people.
-  double shown(double mm) const { return is_metric ? mm : mm / Length::kMillimetresPerInch; }
+  double shown(double mm) const { return is_metric ? mm : mm / Length::kMillimetersPerInch; }
   bool is_cut() const { return kind == EventKind::Mill || kind == EventKind::Arc; }
 };
 

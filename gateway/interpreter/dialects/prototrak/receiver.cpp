@@ -170,7 +170,7 @@ bool Receiver::BlockWords::has_g(int code) const {
 // Numbers.
 
 double Receiver::largest() const {
-  return modal_.is_metric ? 9999.99 : 99.9999 * Length::kMillimetresPerInch;
+  return modal_.is_metric ? 9999.99 : 99.9999 * Length::kMillimetersPerInch;
 }
 
 /// To the control's resolution, half away from zero.
@@ -188,7 +188,7 @@ bool Receiver::dimension(const BlockWords& block, Address address, double& mm) {
   if (word == nullptr) return true;
   take(address);
   const double written = rounded(*word, word->number.value(modal_.is_metric ? 2 : 4));
-  const double value = modal_.is_metric ? written : written * Length::kMillimetresPerInch;
+  const double value = modal_.is_metric ? written : written * Length::kMillimetersPerInch;
   if (std::fabs(value) > largest() * (1 + 1e-12)) {
     return fail(Fault::Range, fmt::format("{}{} is over {}", name_of(address), written,
                                           modal_.is_metric ? 9999.99 : 99.9999));
@@ -299,7 +299,7 @@ bool Receiver::apply_modal_words(const BlockWords& block) {
     if (feed < least || feed > most) {
       return fail(Fault::Range, fmt::format("F{} is not {} to {}", feed, least, most));
     }
-    modal_.feed = modal_.is_metric ? feed : feed * Length::kMillimetresPerInch;
+    modal_.feed = modal_.is_metric ? feed : feed * Length::kMillimetersPerInch;
     modal_.has_feed = true;
   }
   std::int64_t tool = modal_.tool;

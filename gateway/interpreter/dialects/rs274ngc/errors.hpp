@@ -208,10 +208,10 @@ struct ErrorCode {
       "call; a label alone ends by m99, and is called by m98"};
   static constexpr DiagnosticRow Abort{"NGC0310", "Program aborted"};
   static constexpr DiagnosticRow ThreadK{"NGC0320",
-                                         "K word missing or not positive with synchronised motion"};
+                                         "K word missing or not positive with synchronized motion"};
   static constexpr DiagnosticRow ThreadSpindle{"NGC0321",
-                                               "Spindle not turning in synchronised motion"};
-  static constexpr DiagnosticRow ThreadF{"NGC0322", "F word used with synchronised motion"};
+                                               "Spindle not turning in synchronized motion"};
+  static constexpr DiagnosticRow ThreadF{"NGC0322", "F word used with synchronized motion"};
   static constexpr DiagnosticRow ThreadWords{"NGC0323",
                                              "Words missing or out of range with threading cycle"};
   static constexpr DiagnosticRow SplinePlane{"NGC0330", "Splines need the xy plane"};

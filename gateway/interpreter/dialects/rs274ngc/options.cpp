@@ -58,8 +58,8 @@ Result<ControlOptions> read_options(const Setup& setup) {
   }
   control.block_skip = setup.switches.block_skip;
   control.optional_stop = setup.switches.optional_stop;
-  if (setup.units.value_or(Units::Millimetre) == Units::Inch) {
-    control.mm_per_machine_unit = Length::kMillimetresPerInch;
+  if (setup.units.value_or(Units::Millimeter) == Units::Inch) {
+    control.mm_per_machine_unit = Length::kMillimetersPerInch;
   }
   return control;
 }
@@ -179,7 +179,7 @@ Result<void> load_memory(const Setup& setup, const ControlOptions& options, Stat
     return fail(Errc::Unsupported, "variable #5220: {} is not a coordinate system, 1 to 9", system);
   }
   state.system = static_cast<std::uint8_t>(system);
-  state.units = setup.units.value_or(Units::Millimetre);
+  state.units = setup.units.value_or(Units::Millimeter);
   load_active_offsets(options, parameters, state);
   for (const Axis axis : kAllAxes) state.machine.set_raw(axis, setup.start.raw(axis));
   state.machine.unmark_all();

@@ -12,7 +12,7 @@
 
 namespace dripline::interpreter::rs274ngc {
 
-/// A row of the tool table; millimetres.
+/// A row of the tool table; millimeters.
 struct Tool {
   int number = 0;
   Axes length{};

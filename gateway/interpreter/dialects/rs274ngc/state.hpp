@@ -10,7 +10,7 @@
 #include "gateway/interpreter/core/language/line_reader.hpp"
 
 /// Everything that stays from one line to the next. Coordinates are program coordinates in
-/// millimetres and degrees whatever the units in force; bare numbers (feed, cycle words) stay in
+/// millimeters and degrees whatever the units in force; bare numbers (feed, cycle words) stay in
 /// the units they were written in, as this control keeps them. `visit` (snapshot.cpp) lists the
 /// members of State: add new ones there.
 namespace dripline::interpreter::rs274ngc {
@@ -111,7 +111,7 @@ struct SavedModes {
   bool is_valid = false;
   bool restores_at_return = false;  ///< M73
   Modes modes;
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   std::uint8_t system = 1;
   double feed = 0;
   SpindleModes spindle;
@@ -168,7 +168,7 @@ struct State {
   TextPlace at;
   std::int64_t sequence = Origin::kNone;
 
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   Axes position{};
   bool is_displaced = false;  ///< the tool may be elsewhere: the next move is one in any case
   Position machine;           ///< the same point in machine coordinates; the axes that have moved
@@ -199,7 +199,7 @@ struct State {
   SavedModes saved;
 
   double mm_per_unit() const {
-    return units == Units::Inch ? dripline::Length::kMillimetresPerInch : 1.0;
+    return units == Units::Inch ? dripline::Length::kMillimetersPerInch : 1.0;
   }
   double& operator[](Axis axis) { return position[index_of(axis)]; }
   double operator[](Axis axis) const { return position[index_of(axis)]; }

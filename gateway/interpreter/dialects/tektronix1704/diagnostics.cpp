@@ -37,7 +37,7 @@ constexpr std::array kRows{
     FaultRow{FeedOutOfRange, {"TEK0302", "feedrate out of range"}},
     FaultRow{DwellTooLong, {"TEK0303", "dwell out of range"}},
     FaultRow{DwellWithoutF, {"TEK0304", "dwell without F"}},
-    FaultRow{Synchronisation, {"TEK0402", "stop in a mode without deceleration"}},
+    FaultRow{Synchronization, {"TEK0402", "stop in a mode without deceleration"}},
     FaultRow{Turn, {"TEK0401", "direction changes by more than 30 degrees without a stop"}},
     FaultRow{TerminalMove, {"TEK0402", "last move before a stop has no deceleration"}},
     FaultRow{QuillAfterMove, {"TEK0403", "quill moves after a block without deceleration"}},

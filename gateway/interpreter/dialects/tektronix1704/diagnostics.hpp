@@ -32,7 +32,7 @@ enum class Fault : std::uint8_t {
   FeedOutOfRange,
   DwellTooLong,
   DwellWithoutF,
-  Synchronisation,
+  Synchronization,
   Turn,
   TerminalMove,
   QuillAfterMove,

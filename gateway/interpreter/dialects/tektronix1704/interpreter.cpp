@@ -130,7 +130,7 @@ BlockOutcome TektronixInterpreter::run_mdi_block() {
 
 ActiveModes TektronixInterpreter::modes() const {
   ActiveModes modes;
-  modes.units = run_.options.is_metric() ? Units::Millimetre : Units::Inch;
+  modes.units = run_.options.is_metric() ? Units::Millimeter : Units::Inch;
   modes.is_incremental = run_.state.is_incremental;
   modes.feed = Feed::per_minute(Length::mm(run_.state.last.feed));
   return modes;

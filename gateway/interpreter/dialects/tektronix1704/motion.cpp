@@ -21,7 +21,7 @@ double feed_value(const ControlOptions& options, std::int32_t count) {
   return std::max(count / 2 * 2, 2) * 0.1;
 }
 
-/// Option 1 counts in steps of two; what lies between is rounded towards zero.
+/// Option 1 counts in steps of two; what lies between is rounded toward zero.
 std::int64_t whole_steps(Run& run, std::int64_t count) {
   if (run.options.units != UnitSet::Option1 || count % 2 == 0) return count;
   run.warn(Fault::OddCount, run.origin, 0, fmt::format("{}", count));

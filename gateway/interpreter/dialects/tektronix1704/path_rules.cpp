@@ -57,7 +57,7 @@ bool check_stop(Run& run) {
   LastMove& last = run.state.last;
   if (!last.flows) return true;
   last.flows = false;
-  if (run.options.is_strict) return run.fail(Fault::Synchronisation);
+  if (run.options.is_strict) return run.fail(Fault::Synchronization);
   run.warn(Fault::TerminalMove, last.origin);
   return true;
 }

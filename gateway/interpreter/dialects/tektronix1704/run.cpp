@@ -20,7 +20,7 @@ void Run::deliver_header() {
   state.has_header = true;
   ProgramHeader header;
   header.control = "tektronix-1704";
-  header.units = options.is_metric() ? Units::Millimetre : Units::Inch;
+  header.units = options.is_metric() ? Units::Millimeter : Units::Inch;
   sink.on_program(header);
 }
 

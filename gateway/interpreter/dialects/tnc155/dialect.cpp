@@ -55,7 +55,7 @@ Result<void> load_parameters(const Setup& setup, State& state) {
 
 /// The central tool file has fewer tools than programs may define.
 Result<void> check_tool_store(const Setup& setup) {
-  const auto store = write_tool_store(setup.tools, Units::Millimetre);
+  const auto store = write_tool_store(setup.tools, Units::Millimeter);
   if (!store) return fail(store.error().code, "central_tool_file: {}", store.error().what);
   return {};
 }

@@ -152,7 +152,7 @@ constexpr auto kRows = in_table(
         row<&C::m89_modal>("m89_modal", kFlag, "M89 calls the cycle at every block"),
         row<&C::m06_stop>("m06_stop", kFlag, "M06 stops the program"),
         // Spindle and feed
-        row<&C::spindle_coded>("spindle", "analogue|coded",
+        row<&C::spindle_coded>("spindle", "analog|coded",
                                "coded: speeds of spindle_table only, rounded up"),
         Row{{"spindle_table",
              kWholes,

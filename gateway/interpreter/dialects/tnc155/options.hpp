@@ -17,7 +17,7 @@ enum class ProgramStart : std::uint8_t {
 };
 
 /// What the machine builder, the software version or a choice of ours decides. Lengths are
-/// millimetres, feeds millimetres per minute.
+/// millimeters, feeds millimeters per minute.
 struct ControlOptions {
   ControlVersion version;  ///< which control it is: what it has not is refused
 

@@ -20,7 +20,7 @@ namespace dripline::interpreter::tnc155 {
 /// A TOOL DEF the run has not come to, and the units of its program.
 struct DefinitionAhead {
   Block block;
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
 };
 
 /// One run: the state that the files of this folder work on. Functions that cannot continue return
@@ -66,7 +66,7 @@ struct Run : BlockRun {
     const double held = state.q[static_cast<std::size_t>(value.number)];
     return value.is_negated ? -held : held;
   }
-  /// As millimetres, a rotary axis's as degrees.
+  /// As millimeters, a rotary axis's as degrees.
   double coordinate(Axis axis, const Value& value) const {
     return is_rotary(axis) ? number(value) : number(value) * state.mm_per_unit();
   }

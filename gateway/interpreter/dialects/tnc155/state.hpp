@@ -12,7 +12,7 @@
 #include "gateway/interpreter/dialects/tnc155/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/block_reader.hpp"
 
-/// The state that is kept from one block to the next. Lengths are millimetres, angles degrees.
+/// The state that is kept from one block to the next. Lengths are millimeters, angles degrees.
 /// `visit` (snapshot.cpp) lists the members of State: add new ones there.
 namespace dripline::interpreter::tnc155 {
 
@@ -159,7 +159,7 @@ struct State {
   std::int32_t number_due = Block::kNone;  ///< its number, where that is known
   ReadingState reading;
   std::int64_t program_number = -1;  ///< of the program that was started
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
 
   Position machine;  ///< as events say, before radius compensation; marked: moved so far
   std::array<double, kAxisCount> nominal{};  ///< program coordinates
@@ -173,7 +173,7 @@ struct State {
   CoolantModes coolant;
   /// F in force, by what moves: an inch program states it in tenths of an inch for linear axes and
   /// in degrees for a rotary axis alone. 0: none yet.
-  double feed = 0;         ///< millimetres per minute
+  double feed = 0;         ///< millimeters per minute
   double rotary_feed = 0;  ///< degrees per minute
 
   Compensation compensation = Compensation::Off;
@@ -202,7 +202,7 @@ struct State {
   bool is_restart = false;      ///< after GOTO
   bool has_positioned = false;  ///< the first positioning of the run was executed
 
-  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetresPerInch : 1.0; }
+  double mm_per_unit() const { return units == Units::Inch ? Length::kMillimetersPerInch : 1.0; }
   bool is_compensating() const {
     return compensation == Compensation::Left || compensation == Compensation::Right;
   }

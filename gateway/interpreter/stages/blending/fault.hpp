@@ -27,6 +27,6 @@ enum class FaultKind : std::uint8_t {
 using Fault = look_ahead::ContourFault<FaultKind>;
 
 /// For a diagnostic: what is wrong, with value and limit in these units.
-std::string describe(const Fault& fault, Units units = Units::Millimetre);
+std::string describe(const Fault& fault, Units units = Units::Millimeter);
 
 }  // namespace dripline::interpreter::blending

@@ -8,7 +8,7 @@ namespace dripline::interpreter::compensation {
 
 namespace {
 
-/// Rounds to a tenth of a micrometre, below the resolution of any control.
+/// Rounds to a tenth of a micrometer, below the resolution of any control.
 std::string rounded(Length length) {
   std::string text = fmt::format("{:.4f}", length.mm());
   text.erase(text.find_last_not_of('0') + 1);

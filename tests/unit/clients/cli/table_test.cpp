@@ -17,7 +17,7 @@ TEST(Table, AlignsColumnsAndLeavesNoBlanksAtTheEnd) {
             "O0200  12.0 MB  -\n");
 }
 
-TEST(Table, ColoursOnlyWhenAsked) {
+TEST(Table, ColorsOnlyWhenAsked) {
   Table table({{"STATE"}});
   table.add({Cell("alarmed", Style::Bad)});
   EXPECT_EQ(table.render(true), "\x1b[1mSTATE\x1b[0m\n\x1b[31malarmed\x1b[0m\n");

@@ -150,7 +150,7 @@ TEST_P(DncOfflineRefusal, ExitsWithTwo) {
   dnc.write("a.nc", "G0 X1\nM30\n");
   dnc.write("ask.nc", "INPUT (DIAMETER)P1\nM30\n");
   dnc.write("riddle.txt", "hello world\n");
-  dnc.write("wrong.toml", "colour = 1\n");
+  dnc.write("wrong.toml", "color = 1\n");
   for (const char* verb : {"check", "trace"}) {
     std::vector<std::string> arguments{verb};
     arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusalCase{
             "missing_setup", {"--control", "centurion", "--setup", "no.toml", "a.nc"}, "no.toml"},
         RefusalCase{
-            "unknown_key", {"--control", "centurion", "--setup", "wrong.toml", "a.nc"}, "colour"},
+            "unknown_key", {"--control", "centurion", "--setup", "wrong.toml", "a.nc"}, "color"},
         RefusalCase{"no_answer_left", {"--control", "centurion", "ask.nc"}, "DIAMETER"}),
     [](const auto& i) { return std::string{i.param.name}; });
 

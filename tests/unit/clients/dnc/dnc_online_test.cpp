@@ -58,7 +58,7 @@ TEST_F(DncOnline, ListsEveryPage) {
   EXPECT_EQ(list.at("programs").size(), 250u);
 }
 
-TEST_F(DncOnline, TablesHaveNoColoursInAPipe) {
+TEST_F(DncOnline, TablesHaveNoColorsInAPipe) {
   server.set_machine(machine_json("lathe-1"));
   const auto list = dnc({"machine", "list"});
   EXPECT_EQ(list.status, 0) << list.err;

@@ -1,4 +1,4 @@
-// `dnc port ...` and the judgement of held revisions: the real executable against a fake server.
+// `dnc port ...` and the judgment of held revisions: the real executable against a fake server.
 #include <gtest/gtest.h>
 #include <csignal>
 

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{"unknown_verb", {"dance"}, 2, "dance"},
         UsageCase{"group_without_verb", {"program"}, 2, "subcommand is required"},
         UsageCase{"missing_argument", {"program", "pull"}, 2, "See dnc program pull --help."},
-        UsageCase{"unknown_option", {"run", "list", "--colour", "red"}, 2, "--colour"},
+        UsageCase{"unknown_option", {"run", "list", "--color", "red"}, 2, "--color"},
         UsageCase{"wrong_number", {"run", "start", "m", "p", "--revision", "two"}, 2, "two"},
         UsageCase{"wrong_format", {"report", "export", "r", "--format", "xml"}, 2, "xml"},
         UsageCase{"follow_and_wait", {"run", "start", "m", "p", "--follow", "--wait"}, 2, "--wait"},

@@ -76,7 +76,7 @@ TEST(ApiJson, KeepsTheDocumentedOrder) {
 
 TEST(ApiJson, IgnoresMembersItDoesNotKnow) {
   auto json = test_support::run_json("r1", "active");
-  json["colour"] = "blue";
+  json["color"] = "blue";
   EXPECT_TRUE(from_json<client::Run>(json));
 }
 

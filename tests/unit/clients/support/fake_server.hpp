@@ -52,7 +52,7 @@ class FakeServer {
   /// Sends an event to those who listen.
   void publish(const std::string& name, const nlohmann::json& data);
   /// Answers "METHOD PATH" with this body; of /ports..., /port-templates, setups, records and the
-  /// judgement of revisions nothing is answered otherwise.
+  /// judgment of revisions nothing is answered otherwise.
   void set_answer(const std::string& call, int status, const std::string& body);
   void set_answer(const std::string& call, const nlohmann::json& body) {
     set_answer(call, 200, body.dump());

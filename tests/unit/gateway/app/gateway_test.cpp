@@ -257,10 +257,10 @@ TEST(Gateway, RefusesAStartWithASetupItCannotRead) {
   Shop shop;
   shop.push("O1", "END\n");
   auto command = shop.start_command("O1");
-  command.setup = "[[tool]]\nnumber = 4\ncolour = 1\n";
+  command.setup = "[[tool]]\nnumber = 4\ncolor = 1\n";
   const auto result = shop.send(command);
   EXPECT_FALSE(result.accepted);
-  EXPECT_NE(result.reason.find("colour"), std::string::npos) << result.reason;
+  EXPECT_NE(result.reason.find("color"), std::string::npos) << result.reason;
   EXPECT_NE(result.reason.find("server's setup"), std::string::npos) << result.reason;
 }
 

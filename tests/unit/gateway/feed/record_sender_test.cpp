@@ -96,7 +96,7 @@ TEST_F(RecordSenderTest, AFullNetworkIsTriedAgainSoon) {
   EXPECT_EQ(sent, (std::vector<std::uint64_t>{1, 2}));
 }
 
-TEST_F(RecordSenderTest, AcknowledgementsOfAnotherEpochMeanNothing) {
+TEST_F(RecordSenderTest, AcknowledgmentsOfAnotherEpochMeanNothing) {
   RecordSender sender = make();
   append(2);
   sender.on_ack({"lathe-1", outbox.epoch() + 1, 2}, now);

@@ -40,7 +40,7 @@ TEST(Travel, OfAnArcCountsItsWholeWay) {
   for (const bool bulges_out : {false, true}) {
     TestMachine test(small_lathe());
     test.machine.begin(Program::at(bulges_out ? 40 : 60, 5));
-    // Half a turn counter-clockwise, seen with Z to the right and X upwards: from above it goes
+    // Half a turn counterclockwise, seen with Z to the right and X upwards: from above it goes
     // through smaller Z, from below through greater Z, out to 15.
     test.program.arc(bulges_out ? 60 : 40, 5, 5, 50, 180, 600);
     test.run_all();

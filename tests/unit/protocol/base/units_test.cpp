@@ -11,7 +11,7 @@ namespace {
 static_assert(!std::is_convertible_v<double, Length> && !std::is_convertible_v<Length, double>);
 static_assert(!std::is_convertible_v<Length, Angle>);
 
-TEST(Length, AnInchIsExactly25Point4Millimetres) {
+TEST(Length, AnInchIsExactly25Point4Millimeters) {
   EXPECT_EQ(Length::inch(1), Length::mm(25.4));
   EXPECT_DOUBLE_EQ((Length::inch(0.1) + Length::mm(2)).mm(), 4.54);
 }

@@ -70,7 +70,7 @@ TEST(CenturionPage, TakesOnlyWhatThePageHas) {  // CEN-197
     ASSERT_FALSE(done) << key << " " << value;
     EXPECT_NE(done.error().what.find(key), std::string::npos) << done.error().what;
   }
-  EXPECT_EQ(set_page_value(page, "colour", "3").error().code, Errc::NotFound);
+  EXPECT_EQ(set_page_value(page, "color", "3").error().code, Errc::NotFound);
 }
 
 TEST(CenturionPage, ListsTheSettingsOfThePageForALine) {  // CEN-197, CEN-198, CEN-199

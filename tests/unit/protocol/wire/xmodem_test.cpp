@@ -160,7 +160,7 @@ TEST(XmodemSender, StopsWhenTheReceiverCancels) {
   line.hear(kCan);
   EXPECT_EQ(line.events(), "");
   line.hear(kCan);
-  EXPECT_THAT(line.events(), HasSubstr("failed denied: the other end cancelled"));
+  EXPECT_THAT(line.events(), HasSubstr("failed denied: the other end canceled"));
   EXPECT_EQ(line.say_now(), "");
 }
 
@@ -220,7 +220,7 @@ TEST(XmodemHost, DropsTheRequestOfAReceiverThatIsSilent) {
   EXPECT_EQ(line.events(), "wants a program\nwants a program\n") << "each sequence is reported";
 }
 
-TEST(XmodemHost, RefusesByCancelling) {
+TEST(XmodemHost, RefusesByCanceling) {
   TestedLine line(xmodem_line(), Role::Host);
   line.hear("C");
   ASSERT_TRUE(line.line->refuse("no such program", line.now));

@@ -105,7 +105,7 @@ class OpenApi : public ApiTest {
     EXPECT_EQ(get(path + "?run=r9").status, 404);
     EXPECT_EQ(get("/api/v1/machines/absent/memory").status, 404);
   }
-  void expect_judgement_described() {
+  void expect_judgment_described() {
     for (const std::string number : {"1", "2"}) {
       const auto upload = programs_->begin(
           {.program = "O3", .control = "centurion", .comment = {}, .is_held = true}, "mill-3");
@@ -194,7 +194,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   expect_setups_described();
   expect_memory_described();
   expect_ports_described();
-  expect_judgement_described();
+  expect_judgment_described();
   expect_described("POST", "/api/v1/programs/{name}/copy",
                    post("/api/v1/programs/O2/copy", {{"to", "O20"}, {"revision", 1}}));
   expect_described("POST", "/api/v1/programs/{name}/rename",

@@ -38,7 +38,7 @@ TEST_F(SetupRoutes, RefuseWhatTheControlWouldNotTake) {
   EXPECT_EQ(refused.status, 400);
   EXPECT_NE(body(refused).find("wrong"), std::string::npos);
   EXPECT_EQ(put("lathe-1/setup?control=tnc155", "a = 1").status, 409) << "it is a centurion";
-  EXPECT_EQ(put("lathe-1/setup?colour=red", "a = 1").status, 400);
+  EXPECT_EQ(put("lathe-1/setup?color=red", "a = 1").status, 400);
   EXPECT_EQ(get("/api/v1/machines/lathe-1/setup").status, 404);
 }
 

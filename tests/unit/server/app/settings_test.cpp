@@ -52,7 +52,7 @@ TEST(Settings, OfAFileAreCheckedByKeyTypeAndRange) {
     return applied ? std::string("taken") : applied.error().what;
   };
   EXPECT_EQ(says("\nlease-ms = 500"), "taken");
-  EXPECT_NE(says("\ncolour = 1").find("line 2: key 'colour' is not known"), std::string::npos);
+  EXPECT_NE(says("\ncolor = 1").find("line 2: key 'color' is not known"), std::string::npos);
   EXPECT_NE(says("lease-ms = \"x\"").find("whole number"), std::string::npos);
   EXPECT_NE(says("http = 1").find("must be a string"), std::string::npos);
   EXPECT_NE(says("dds-domain = 231").find("0 to 230"), std::string::npos);
@@ -104,7 +104,7 @@ TEST(Settings, OfAPortAreRefusedWithLineAndKey) {
 }
 
 TEST(Settings, WithWrongUseEndWithTwo) {
-  EXPECT_EQ(read({"--colour"}).exit_code, 2);
+  EXPECT_EQ(read({"--color"}).exit_code, 2);
   EXPECT_EQ(read({"--dds-domain", "231"}).exit_code, 2);
   EXPECT_EQ(read({"--config", "/nowhere/dncd.toml"}).exit_code, 2);
   const auto help = read({"--help"});

@@ -18,7 +18,7 @@ TEST_F(PortServiceTest, SendsAProgramAndCountsWhatLeftAndNothingElse) {
   ASSERT_TRUE(wait_state(run->id, RunState::Completed));
   const auto stored = store_->runs.find(run->id);
   EXPECT_EQ(stored->counters.sent, text.size());
-  EXPECT_EQ(stored->counters.accepted, 0u);  // such a line has no acknowledgement
+  EXPECT_EQ(stored->counters.accepted, 0u);  // such a line has no acknowledgment
   EXPECT_EQ(stored->counters.executed, 0u);  // and no report of what was executed
   EXPECT_TRUE(stored->started);
   EXPECT_EQ(records_of(run->id, "run_started").size(), 1u);

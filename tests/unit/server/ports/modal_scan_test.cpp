@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "G68 X0 Y0 R30.\n"},
         ModalCase{"cycle", "fanuc", {"G81 X0 Z-5. R1. F50"}, {"X5."}, "G81 (line 1), F50 (line 1)"},
         ModalCase{
-            "cycle_cancelled", "fanuc", {"G81 Z-5. R1. F50", "G80"}, {"G0 X5.", "G1X6.F2"}, ""},
+            "cycle_canceled", "fanuc", {"G81 Z-5. R1. F50", "G80"}, {"G0 X5.", "G1X6.F2"}, ""},
         ModalCase{"call_and_variable",
                   "fanuc",
                   {"M98 P100", "#1=5", "N3 IF[#1 GT 2]GOTO 9"},

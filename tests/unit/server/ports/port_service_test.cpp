@@ -47,7 +47,7 @@ TEST_F(PortServiceTest, RefusesBadPortsAndChangesNothing) {
   };
   EXPECT_EQ(code([](auto& port) { port.address = "pigeon://roof"; }), Errc::Syntax);
   EXPECT_EQ(code([](auto& port) { port.line_template = "abacus"; }), Errc::NotFound);
-  EXPECT_EQ(code([](auto& port) { port.settings.emplace_back("colour", "red"); }), Errc::NotFound);
+  EXPECT_EQ(code([](auto& port) { port.settings.emplace_back("color", "red"); }), Errc::NotFound);
   EXPECT_EQ(code([](auto& port) { port.settings = {{"baud", "1"}}; }), Errc::LimitExceeded);
   EXPECT_EQ(code([](auto& port) {
               port.settings = {{"flow", "xmodem"}, {"data_bits", "7"}};

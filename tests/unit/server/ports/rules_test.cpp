@@ -90,7 +90,7 @@ action = "report"
 
 TEST(Rules, AreRefusedWithLineAndWord) {
   EXPECT_NE(error_of("[[rule]]\naction = \"fly\"").find("line 2: action 'fly'"), std::string::npos);
-  EXPECT_NE(error_of("[[rule]]\ncolour = \"red\"\naction = \"ignore\"").find("'colour'"),
+  EXPECT_NE(error_of("[[rule]]\ncolor = \"red\"\naction = \"ignore\"").find("'color'"),
             std::string::npos);
   EXPECT_NE(error_of("[[rule]]\nname = \"a\"").find("no action"), std::string::npos);
   EXPECT_NE(error_of("[[rule]]\nmatches = \"(\"\naction = \"ignore\"").find("line 2: matches"),

@@ -67,7 +67,7 @@ bool check_pocket(Run& run) {
                   fmt::format("T{:02} is in none of {} pockets", tool, pockets));
 }
 
-/// X goes to the tool change position, the machine is signalled, and without a changer the program
+/// X goes to the tool change position, the machine is signaled, and without a changer the program
 /// waits for the operator (manual: M6). The spindle is locked until then; the machine decides what
 /// that means while it rotates.
 bool change_tool(Run& run) {

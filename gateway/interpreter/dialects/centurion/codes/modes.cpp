@@ -15,7 +15,7 @@ void change_units(Run& run, Units units) {
   ModalState& state = run.state;
   if (state.units == units) return;
   const double factor =
-      units == Units::Millimetre ? Length::kMillimetresPerInch : 1 / Length::kMillimetresPerInch;
+      units == Units::Millimeter ? Length::kMillimetersPerInch : 1 / Length::kMillimetersPerInch;
   Transformation& how = state.transformation;
   for (Point* point : {&state.position, &state.previous, &state.origin, &state.floating_zero,
                        &state.local_zero, &state.last_arc_center, &state.reference_via.at,
@@ -28,8 +28,8 @@ void change_units(Run& run, Units units) {
         &state.retained.center_x, &state.retained.center_z}) {
     *value *= factor;
   }
-  constexpr double kFeetPerMeter = 1000 / (12 * Length::kMillimetresPerInch);
-  state.spindle.surface *= units == Units::Millimetre ? 1 / kFeetPerMeter : kFeetPerMeter;
+  constexpr double kFeetPerMeter = 1000 / (12 * Length::kMillimetersPerInch);
+  state.spindle.surface *= units == Units::Millimeter ? 1 / kFeetPerMeter : kFeetPerMeter;
   run.parameters.convert_tables(factor);
   refresh_tool(run);
   state.units = units;
@@ -75,7 +75,7 @@ bool set_data_mode(Run& run, const GRow& row) {
 }
 
 bool set_units(Run& run, const GRow& row) {
-  change_units(run, row.code == 20 ? Units::Inch : Units::Millimetre);
+  change_units(run, row.code == 20 ? Units::Inch : Units::Millimeter);
   return true;
 }
 

@@ -81,7 +81,7 @@ bool read_pecks(Run& run, const Hole& hole, Pecks& pecks) {
   if (!(hole.bottom < hole.clearance)) {
     return run.fail(
         ErrorCode::ParameterOutOfRange, 0,
-        fmt::format("G83 drills towards -Z: Z{} is not below R{}", hole.bottom, hole.clearance));
+        fmt::format("G83 drills toward -Z: Z{} is not below R{}", hole.bottom, hole.clearance));
   }
   if (!cycle_step_word(run, Address::Q, kPeckIncrement, pecks.increment)) return false;
   if (!cycle_length_word(run, Address::E, kPeckClearance, pecks.clearance)) return false;

@@ -70,7 +70,7 @@ bool read_stock(Run& run, Address address, double& stock) {
 }
 
 /// Without an end and a step it is one column of high-speed pecks; the sign of D is then
-/// the direction in which the tool backs off; else it backs off towards the start.
+/// the direction in which the tool backs off; else it backs off toward the start.
 bool read_width(Run& run, const GrooveKind& kind, Groove& groove) {
   const Words& words = run.block.words;
   groove.has_width = words.has_any(set_of(kind.end, kind.step));
@@ -87,8 +87,8 @@ bool read_width(Run& run, const GrooveKind& kind, Groove& groove) {
   groove.end = read_place(run, kind.end, kind.end_parameter, groove.start, !kind.cuts_along_x);
   if (!cycle_step_word(run, kind.step, kStepOver, groove.step)) return false;
   if (has_relief) run.parameters[kRelief] = words[Address::D];
-  const double towards = run.options.groove_relief_goes_on ? 1 : -1;
-  groove.relief = towards * groove.across() * run.parameters[kRelief];
+  const double toward = run.options.groove_relief_goes_on ? 1 : -1;
+  groove.relief = toward * groove.across() * run.parameters[kRelief];
   return true;
 }
 

@@ -8,7 +8,7 @@
 /// The contour that roughing cuts down to, seen along the direction of the cuts. Pure.
 namespace dripline::interpreter::centurion {
 
-/// Lengths closer than this are one, in millimetres.
+/// Lengths closer than this are one, in millimeters.
 inline constexpr double kSameLength = 1e-6;
 
 /// `depth` grows out of the work, `along` grows with the cut: all four kinds of turning and of
@@ -20,7 +20,7 @@ struct ProfilePoint {
 
 class ProfileFrame {
  public:
-  /// `out`: +1 where the work is towards smaller positions. `cut`: the direction of the cuts.
+  /// `out`: +1 where the work is toward smaller positions. `cut`: the direction of the cuts.
   ProfileFrame(bool is_facing, int out, int cut) : is_facing_(is_facing), out_(out), cut_(cut) {}
   ProfilePoint of(const PlanePoint& point) const {
     return is_facing_ ? ProfilePoint{out_ * point.z, cut_ * point.x}

@@ -19,7 +19,7 @@ double word_or_parameter(Run& run, Address address, int number);
 
 /// The pull-out at the end of a thread: P103 long, P104 degrees from straight out (manual: G92).
 struct ThreadChamfer {
-  double along = 0;  ///< before the end, towards the start
+  double along = 0;  ///< before the end, toward the start
   double out = 0;
 };
 bool read_chamfer(Run& run, ThreadChamfer& chamfer);

@@ -65,7 +65,7 @@ Result<Line> read_line(std::string_view raw, std::size_t number) {
       text.front() == 'O')
     return line;
   if (text == "G20" || text == "G21") {
-    line.units = text == "G20" ? Units::Inch : Units::Millimetre;
+    line.units = text == "G20" ? Units::Inch : Units::Millimeter;
     return line;
   }
   const auto equals = text.find('=');

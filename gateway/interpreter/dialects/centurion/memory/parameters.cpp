@@ -89,7 +89,7 @@ std::optional<double> mode_status(const ModalState& state, int number) {
       return 0;  // a cycle ends with its block
     case 267:
       return state.units == Units::Inch ? kPulsesPerInch
-                                        : kPulsesPerInch / Length::kMillimetresPerInch;
+                                        : kPulsesPerInch / Length::kMillimetersPerInch;
     case 370:
       return state.tool.active;
     case 311:
@@ -99,7 +99,7 @@ std::optional<double> mode_status(const ModalState& state, int number) {
     case 313:
       return flag(state.modes.is_surface_speed);
     case 315:
-      return flag(state.units == Units::Millimetre);
+      return flag(state.units == Units::Millimeter);
     case 316:
       return flag(state.transformation.scales);
     case 317:

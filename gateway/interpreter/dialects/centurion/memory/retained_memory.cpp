@@ -51,7 +51,7 @@ bool CenturionInterpreter::read_memory(std::vector<double>& values) {
   Parameters shown = known_memory_;
   if (run_.state.units != memory_units_) {
     const bool is_inch = memory_units_ == Units::Inch;
-    shown.convert_tables(is_inch ? 1 / Length::kMillimetresPerInch : Length::kMillimetresPerInch);
+    shown.convert_tables(is_inch ? 1 / Length::kMillimetersPerInch : Length::kMillimetersPerInch);
     for (int number = kFirstDataParameter; number < kParameterCount; ++number)
       shown[number] = without_noise(shown[number]);
   }

@@ -27,7 +27,7 @@ struct CenterArc {
   Point center;
   bool is_clockwise = false;
 };
-/// Degrees travelled, in (0, 360]; 360 when start and end are the same.
+/// Degrees traveled, in (0, 360]; 360 when start and end are the same.
 double sweep_of(const CenterArc& arc);
 
 }  // namespace dripline::interpreter::centurion

@@ -13,7 +13,7 @@ namespace {
 
 /// The wider of the manual's tables of ranges: 99999.9999 inch, 99999.999 mm; X as a diameter.
 constexpr double kMaxInches = 99999.9999;
-constexpr double kMaxMillimetres = 99999.999;
+constexpr double kMaxMillimeters = 99999.999;
 
 /// R and AB from a pole, which is the current point unless the block names one (manual: polar
 /// lines).
@@ -197,7 +197,7 @@ void machine_feed_to(Run& run, const Point& machine, AxesNamed named) {
 }
 
 bool check_target(Run& run, const Point& to) {
-  const double limit = run.state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
+  const double limit = run.state.units == Units::Inch ? kMaxInches : kMaxMillimeters;
   if (std::fabs(to.x) * 2 <= limit && std::fabs(to.z) <= limit) [[likely]]
     return true;
   return run.fail(ErrorCode::TooManyDigits, motion_column(run),

@@ -8,7 +8,7 @@
 
 namespace dripline::interpreter::centurion {
 
-/// A rectangle of the machine, millimetres, X a radius.
+/// A rectangle of the machine, millimeters, X a radius.
 struct TravelArea {
   double min_x = 0, max_x = 0;
   double min_z = 0, max_z = 0;
@@ -20,7 +20,7 @@ struct TravelFault {
   std::string detail;
 };
 
-/// Of each axis, millimetres per minute; 0 is none.
+/// Of each axis, millimeters per minute; 0 is none.
 struct MaximumFeed {
   double x = 0;
   double z = 0;

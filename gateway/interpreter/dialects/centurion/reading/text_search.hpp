@@ -39,7 +39,7 @@ class TextSearch {
 
   explicit TextSearch(TextCursor& cursor) : cursor_(cursor) {}
 
-  /// The first block labelled N `label` in the program that `from` is in (manual: GOTO).
+  /// The first block labeled N `label` in the program that `from` is in (manual: GOTO).
   Outcome find_label(const TextPosition& from, std::uint32_t label, TextPosition& found);
   /// The program O `number` in the text that was started: a file may hold several.
   Outcome find_program(std::uint32_t number, TextPosition& found);

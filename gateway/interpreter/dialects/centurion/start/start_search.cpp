@@ -32,10 +32,10 @@ std::optional<StartAt::Kind> kind_of_letter(char letter) {
   }
 }
 
-Position place(const Point& millimetres) {
+Position place(const Point& millimeters) {
   Position position;
-  position.set(Axis::X, Length::mm(millimetres.x));
-  position.set(Axis::Z, Length::mm(millimetres.z));
+  position.set(Axis::X, Length::mm(millimeters.x));
+  position.set(Axis::Z, Length::mm(millimeters.z));
   return position;
 }
 

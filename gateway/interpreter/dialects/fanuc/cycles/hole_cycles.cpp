@@ -86,7 +86,7 @@ std::span<const Step> steps_of(std::uint8_t code) {
   }
 }
 
-/// Of a thread that a rigid tap cuts, millimetres.
+/// Of a thread that a rigid tap cuts, millimeters.
 constexpr double kMaxPitch = 500;
 
 /// Feeds of one block, so that a step never delivers without bound.

@@ -19,7 +19,7 @@ namespace {
 
 void change_units(Run& run) {
   ModalState& state = run.state;
-  const Units units = state.g[kUnitsGroup] == 20 ? Units::Inch : Units::Millimetre;
+  const Units units = state.g[kUnitsGroup] == 20 ? Units::Inch : Units::Millimeter;
   if (units == state.units) return;
   state.units = units;
   run.update_increments();
@@ -73,7 +73,7 @@ bool apply_modes(Run& run) {
     if (state.is_cycle() && !block.parts.begins_cycle &&
         state.g[kPlaneGroup] != block.g[kPlaneGroup]) {
       return run.fail(ErrorCode::IllegalPlane, block.parts.g_column,
-                      "a hole cycle is cancelled before its axis changes");
+                      "a hole cycle is canceled before its axis changes");
     }
     state.g[kPlaneGroup] = block.g[kPlaneGroup];
   }

@@ -6,7 +6,7 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kMillimetresPerFoot = 12 * Length::kMillimetresPerInch;
+constexpr double kMillimetersPerFoot = 12 * Length::kMillimetersPerInch;
 constexpr double kMaxSpeed = 20000;
 
 bool is_turning(SpindleState state) {
@@ -189,7 +189,7 @@ bool apply_speed(Run& run) {
   if (run.block.parts.one_shot == 92) {
     spindle.limit = speed;
   } else if (is_surface) {
-    spindle.surface = speed * (state.units == Units::Inch ? kMillimetresPerFoot : 1000);
+    spindle.surface = speed * (state.units == Units::Inch ? kMillimetersPerFoot : 1000);
   } else {
     spindle.revolutions = speed;
   }

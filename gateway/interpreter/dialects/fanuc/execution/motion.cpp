@@ -10,8 +10,8 @@
 namespace dripline::interpreter::fanuc {
 namespace {
 
-constexpr double kMaxMillimetres = 99999.999;
-constexpr double kMaxInches = 9999.9999 * Length::kMillimetresPerInch;
+constexpr double kMaxMillimeters = 99999.999;
+constexpr double kMaxInches = 9999.9999 * Length::kMillimetersPerInch;
 
 bool refuse_range(Run& run, Axis axis, double value) {
   return run.fail(ErrorCode::TooManyDigits, run.block.words.first_column(set_of_axis(axis)),
@@ -56,7 +56,7 @@ bool read_transformed_target(Run& run, Position& to) {
   const Words& words = run.block.words;
   Point3 point = program_position(run);
   const Point3 before = point;
-  const double most = run.state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
+  const double most = run.state.units == Units::Inch ? kMaxInches : kMaxMillimeters;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!words.has(kWordOfAxis[i]) || is_polar_word(run.state, i)) continue;
     const double value = run.length(words[kWordOfAxis[i]]);
@@ -67,7 +67,7 @@ bool read_transformed_target(Run& run, Position& to) {
   const Point3 work = run.state.is_transformed ? transform(run.state, point) : point;
   for (std::size_t i = 0; i < 3; ++i) {
     const double raw = run.state.origin[i] + work[i];
-    if (!(std::fabs(raw) <= kMaxMillimetres * 10)) {
+    if (!(std::fabs(raw) <= kMaxMillimeters * 10)) {
       return run.fail(ErrorCode::ScaledOverflow, words.first_column(kAxisWords));
     }
     const auto axis = static_cast<Axis>(i);
@@ -117,7 +117,7 @@ bool read_target(Run& run, Position& to) {
     if (!read_transformed_target(run, to)) return false;
     left &= ~set_of(X, Y, Z);
   }
-  const double most = state.units == Units::Inch ? kMaxInches : kMaxMillimetres;
+  const double most = state.units == Units::Inch ? kMaxInches : kMaxMillimeters;
   const auto take = [&](Axis axis, Address address) {
     const double value = run.coordinate(axis, words[address]);
     if (!(std::fabs(value) <= most)) [[unlikely]]

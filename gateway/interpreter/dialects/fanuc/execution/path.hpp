@@ -20,7 +20,7 @@ inline void arrive(Run& run, const Position& to) {
   run.state.limits = {};
 }
 
-/// A point of an arc, by the angle travelled from its start.
+/// A point of an arc, by the angle traveled from its start.
 Position point_on_arc(const Arc& arc, const Position& from, double degrees);
 
 }  // namespace dripline::interpreter::fanuc

@@ -27,7 +27,7 @@ void for_each_variable(State& state, const ControlOptions& options, Visit visit)
   visit(CellName{"#", 3902}, state.counters[kRequired]);
 }
 
-/// In millimetres and degrees.
+/// In millimeters and degrees.
 template <class AnyMemory, class Visit>
 void for_each_offset(AnyMemory& memory, Visit visit) {
   for (std::size_t system = 0; system < kWorkCount; ++system) {

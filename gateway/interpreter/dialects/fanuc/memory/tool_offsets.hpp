@@ -21,7 +21,7 @@ double read_register(const OffsetRegister& cell);
 /// `column` is where a warning points.
 void write_register(Run& run, const OffsetRegister& cell, double value, std::uint32_t column);
 
-/// Geometry and wear together, in millimetres. 0 for number 0.
+/// Geometry and wear together, in millimeters. 0 for number 0.
 double length_of_offset(const Run& run, int number);
 double radius_of_offset(const Run& run, int number);
 

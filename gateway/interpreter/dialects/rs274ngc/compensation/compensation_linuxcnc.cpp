@@ -159,7 +159,7 @@ struct Entry {
 };
 
 /// A path straight back leads into a valley, not around a point, where the arc beside it (the next
-/// move, or else the held one) bulges towards the tool.
+/// move, or else the held one) bulges toward the tool.
 bool turns_back_inside(const Run& run, std::optional<Turn> next_turn) {
   if (next_turn) return !is_inside(run, *next_turn);
   const auto* arc = std::get_if<Arc>(&run.held.events().front());

@@ -158,7 +158,7 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
   if (inside && radius <= tool_radius) return run.fail(ErrorCode::CompArcRadius, 0);
   const double wanted = inside ? radius - tool_radius : radius + tool_radius;
   const double off = std::fabs(distance(center, tool) - wanted);
-  const double most = run.state.units == Units::Inch ? 0.0002 * Length::kMillimetresPerInch : 0.002;
+  const double most = run.state.units == Units::Inch ? 0.0002 * Length::kMillimetersPerInch : 0.002;
   if (off > most) {
     return run.fail(
         ErrorCode::ArcRadiusDiffers, 0,

@@ -5,7 +5,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 
 /// The two methods of compensation, chosen by the profile; private to compensation*.cpp. Points are
-/// program coordinates along the axes of the plane, in millimetres.
+/// program coordinates along the axes of the plane, in millimeters.
 namespace dripline::interpreter::rs274ngc {
 
 bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);

@@ -33,7 +33,7 @@ CycleAxes axes_in(Plane plane) {
   }
 }
 
-/// One line's cycle while it is made. Millimetres, program coordinates.
+/// One line's cycle while it is made. Millimeters, program coordinates.
 class CycleRun {
  public:
   CycleRun(Run& run, const CycleRow& row)

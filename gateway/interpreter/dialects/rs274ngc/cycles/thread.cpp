@@ -22,16 +22,16 @@ void thread_to(Run& run, const Target& target, double lead_mm) {
   run.events().on_thread({run.origin, to, Length::mm(lead_mm), {}});
 }
 
-bool check_synchronised(Run& run) {
+bool check_synchronized(Run& run) {
   const Words& words = run.block.words;
   if (words.has('F')) return run.fail_word(ErrorCode::ThreadF, 'F');
   if (!(words.value_or('K', 0) > 0)) return run.fail_word(ErrorCode::ThreadK, 'K');
   if (!is_turning(run)) return run.fail(ErrorCode::ThreadSpindle, 0);
   if (!shifts_moves(run)) return true;
-  return run.fail(ErrorCode::CompNotAllowed, 0, "a synchronised move");
+  return run.fail(ErrorCode::CompNotAllowed, 0, "a synchronized move");
 }
 
-/// G76 in millimetres (words of 16.5). Depths count from the peak, across the drive line.
+/// G76 in millimeters (words of 16.5). Depths count from the peak, across the drive line.
 struct ThreadCycle {
   double pitch, peak, first_depth, full_depth, degression, angle, taper_length;
   int spring_passes, taper;
@@ -148,8 +148,8 @@ class ThreadPasses {
 
 }  // namespace
 
-bool synchronised_move(Run& run, int g_code) {
-  if (!check_synchronised(run)) return false;
+bool synchronized_move(Run& run, int g_code) {
+  if (!check_synchronized(run)) return false;
   Target target;
   if (!read_target(run, target)) return false;
   const double lead = run.mm(run.block.words['K']);

@@ -6,7 +6,7 @@
 namespace dripline::interpreter::rs274ngc {
 
 /// G33: K of travel per revolution. G33.1: there and back, the spindle reversed.
-bool synchronised_move(Run& run, int g_code);
+bool synchronized_move(Run& run, int g_code);
 
 /// G76: a thread in many passes, in the ZX plane.
 bool thread_cycle(Run& run);

@@ -36,11 +36,11 @@ struct Tolerance {
 Tolerance tolerance(const Run& run) {
   const bool is_inch = run.state.units == Units::Inch;
   if (!run.is_linuxcnc())
-    return {is_inch ? 0.0002 * Length::kMillimetresPerInch : 0.002, 0, 0, 0, 0};
-  return {is_inch ? 0.00283 * Length::kMillimetresPerInch : 0.0283, 0.001,
-          is_inch ? 0.283 * Length::kMillimetresPerInch : 2.83,
-          is_inch ? 0.00004 * Length::kMillimetresPerInch : 0.001,
-          is_inch ? 0.00005 * Length::kMillimetresPerInch : 0.00127};
+    return {is_inch ? 0.0002 * Length::kMillimetersPerInch : 0.002, 0, 0, 0, 0};
+  return {is_inch ? 0.00283 * Length::kMillimetersPerInch : 0.0283, 0.001,
+          is_inch ? 0.283 * Length::kMillimetersPerInch : 2.83,
+          is_inch ? 0.00004 * Length::kMillimetersPerInch : 0.001,
+          is_inch ? 0.00005 * Length::kMillimetersPerInch : 0.00127};
 }
 
 /// Of squares, so that nearly all arcs need no root: |a - b| is at most |a^2 - b^2| over the

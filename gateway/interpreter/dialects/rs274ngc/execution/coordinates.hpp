@@ -8,7 +8,7 @@ namespace dripline::interpreter::rs274ngc {
 
 /// Machine coordinates of a program point; no axis is marked as moved that was not.
 Position to_machine(const Run& run, const Axes& program);
-/// The inverse; `machine` in millimetres and degrees.
+/// The inverse; `machine` in millimeters and degrees.
 Axes to_program(const Run& run, const Axes& machine);
 
 /// What the screen shows of offsets and rotation.
@@ -27,7 +27,7 @@ void take_axis_words(Run& run, Axes& axes);
 Axes machine_with_length(const Run& run);
 Axes program_of_machine_with_length(const Run& run, const Axes& machine);
 
-/// A length of the machine's memory in millimetres, and back; rotary axes stay degrees.
+/// A length of the machine's memory in millimeters, and back; rotary axes stay degrees.
 double from_memory(const Run& run, Axis axis, double value);
 double to_memory(const Run& run, Axis axis, double mm);
 

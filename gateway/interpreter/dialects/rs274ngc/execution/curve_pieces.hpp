@@ -8,7 +8,7 @@
 /// Curves of the plane as straight pieces.
 namespace dripline::interpreter::rs274ngc {
 
-/// The point of a curve at a value of its parameter; millimetres.
+/// The point of a curve at a value of its parameter; millimeters.
 using Curve = std::function<PlanePoint(double)>;
 
 /// Adds points along `curve` between two values of its parameter, the first left out: straight

@@ -59,7 +59,7 @@ bool execute_motion_code(Run& run, int code) {
       return make_nurbs(run);
     case 330:
     case 331:
-      return synchronised_move(run, code);
+      return synchronized_move(run, code);
     case 760:
       return thread_cycle(run);
     case 800:

@@ -23,7 +23,7 @@ void show_spindle(Run& run) {
   event.origin = run.origin;
   event.state = spindle.state;
   if (spindle.is_surface) {
-    const bool is_inch = run.state.units == Units::Inch;  // feet or metres a minute
+    const bool is_inch = run.state.units == Units::Inch;  // feet or meters a minute
     event.surface_speed =
         is_inch ? Length::inch(12 * spindle.speed) : Length::mm(1000 * spindle.speed);
     if (spindle.most > 0) event.max_revolutions = spindle.most;

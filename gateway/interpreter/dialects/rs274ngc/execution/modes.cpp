@@ -24,7 +24,7 @@ bool select_plane(Run& run, int code) {
 }
 
 bool select_units(Run& run, int code) {
-  const Units units = code == 200 ? Units::Inch : Units::Millimetre;
+  const Units units = code == 200 ? Units::Inch : Units::Millimeter;
   if (is_compensating(run) && !run.is_linuxcnc()) return run.fail(ErrorCode::CompUnits, 0);
   change_units(run, units);
   return true;

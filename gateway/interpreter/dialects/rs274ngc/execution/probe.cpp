@@ -25,7 +25,7 @@ bool check_probe(Run& run, const Target& target) {
   }
   // the later program refuses only what is no move
   const double least = run.is_linuxcnc()            ? 1e-9
-                       : state.units == Units::Inch ? 0.01 * Length::kMillimetresPerInch
+                       : state.units == Units::Inch ? 0.01 * Length::kMillimetersPerInch
                                                     : 0.254;
   if (std::sqrt(squares) < least) return run.fail(ErrorCode::ProbeTooClose, 0);
   return true;

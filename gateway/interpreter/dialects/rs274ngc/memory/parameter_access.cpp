@@ -101,7 +101,7 @@ constexpr std::array kSystemNames{
                [](R run) { return double{static_cast<double>(run.state.modes.motion)}; }},
     SystemName{"_plane", plane_code},
     SystemName{"_ccomp", radius_mode},
-    SystemName{"_metric", [](R run) { return flag(run.state.units == Units::Millimetre); }},
+    SystemName{"_metric", [](R run) { return flag(run.state.units == Units::Millimeter); }},
     SystemName{"_imperial", [](R run) { return flag(run.state.units == Units::Inch); }},
     SystemName{"_absolute", [](R run) { return flag(!run.state.modes.is_incremental); }},
     SystemName{"_incremental", [](R run) { return flag(run.state.modes.is_incremental); }},

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-/// The longest side of a blank, millimetres.
+/// The longest side of a blank, millimeters.
 constexpr double kLongestSide = 14'000;
 
 bool take_minimum(Run& run, const Block& block) {

@@ -10,7 +10,7 @@ namespace {
 Pace feeding(const Run& run, double feed) {
   constexpr double kTenthsPerInch = 10;
   const bool is_inch = run.state.units == Units::Inch;
-  return {false, feed, is_inch ? feed * kTenthsPerInch / Length::kMillimetresPerInch : feed};
+  return {false, feed, is_inch ? feed * kTenthsPerInch / Length::kMillimetersPerInch : feed};
 }
 
 /// The moves of a hole do not lie in the plane, unless the rotation of another plane tilts them.

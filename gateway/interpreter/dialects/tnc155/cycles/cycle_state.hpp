@@ -8,8 +8,8 @@
 
 namespace dripline::interpreter::tnc155 {
 
-/// A complete definition of a machining cycle (1-5, 12). Lengths are millimetres with
-/// their signs, feeds millimetres per minute, dwells seconds.
+/// A complete definition of a machining cycle (1-5, 12). Lengths are millimeters with
+/// their signs, feeds millimeters per minute, dwells seconds.
 struct MachiningCycle {
   std::uint8_t number = 0;  ///< 0: none was defined
   double clearance = 0;     ///< set-up

@@ -15,10 +15,10 @@ namespace {
 enum Machining : std::uint8_t { kPecking = 1, kTapping, kSlot, kPocket, kCircle, kProgram = 12 };
 
 bool check_signs(Run& run, const MachiningCycle& cycle) {
-  const double towards = cycle.depth;
+  const double toward = cycle.depth;
   const bool has_pecks = cycle.number != kTapping;
   const bool good =
-      towards != 0 && cycle.clearance * towards >= 0 && (!has_pecks || cycle.peck * towards > 0);
+      toward != 0 && cycle.clearance * toward >= 0 && (!has_pecks || cycle.peck * toward > 0);
   if (good) return true;
   const std::string pecking = has_pecks ? fmt::format(", PECKING {}", cycle.peck) : "";
   return run.fail(ErrorCode::WrongSign,

@@ -23,20 +23,20 @@ SpindleState reversed(SpindleState state) {
 }  // namespace
 
 void drill_by_pecks(CycleMotion& motion, const MachiningCycle& cycle) {
-  const double towards = cycle.depth < 0 ? -1 : 1;
+  const double toward = cycle.depth < 0 ? -1 : 1;
   const double surface = motion.start_height() + cycle.clearance;
   const double bottom = surface + cycle.depth;
   const double stop = stop_distance(cycle.depth);
   double depth = surface;
-  for (int peck = 0; towards * (bottom - depth) > 0; ++peck) {
+  for (int peck = 0; toward * (bottom - depth) > 0; ++peck) {
     if (peck > 0) {
       motion.rapid_to_height(motion.start_height());
-      const double before = depth - towards * stop;
-      const bool is_above_start = towards * (before - motion.start_height()) < 0;
+      const double before = depth - toward * stop;
+      const bool is_above_start = toward * (before - motion.start_height()) < 0;
       motion.rapid_to_height(is_above_start ? motion.start_height() : before);
     }
     depth += cycle.peck;
-    if (towards * (depth - bottom) >= 0) depth = bottom;
+    if (toward * (depth - bottom) >= 0) depth = bottom;
     motion.feed_to_height(depth, cycle.feed);
   }
   motion.dwell(cycle.dwell);

@@ -36,7 +36,7 @@ void run_ring(CycleMotion& motion, int long_place, Ring ring, Turn turn, double 
   const auto at = [&](double a, double b) {
     return center + along(long_place, ring.begin * a) + along(1 - long_place, ring.begin * b);
   };
-  // Counter-clockwise the first corner is on the left of the long axis' direction, which is the
+  // Counterclockwise the first corner is on the left of the long axis' direction, which is the
   // positive side of the second axis and the negative of the first.
   const double left = long_place == 0 ? 1 : -1;
   const double first = turn == Turn::Counterclockwise ? left : -left;

@@ -16,7 +16,7 @@ constexpr AxisMask bit(Axis axis) {
 /// How fast: rapid, or at a feed.
 struct Pace {
   bool is_rapid = false;
-  double feed = 0;         ///< millimetres per minute
+  double feed = 0;         ///< millimeters per minute
   double rotary_feed = 0;  ///< degrees per minute: of a rotary axis alone
 };
 inline constexpr Pace kRapid{true, 0, 0};

@@ -6,7 +6,7 @@
 namespace dripline::interpreter::tnc155 {
 namespace {
 
-constexpr double kFastest = 15'999;     ///< millimetres per minute
+constexpr double kFastest = 15'999;     ///< millimeters per minute
 constexpr double kFastestInch = 6'299;  ///< tenths of an inch per minute
 constexpr double kTenthsPerInch = 10;
 
@@ -70,7 +70,7 @@ bool read_cycle_feed(Run& run, const Value& word, double& feed) {
   if (!(feed >= 0 && feed <= fastest)) {
     return run.fail(ErrorCode::EntryOutOfRange, fmt::format("F{} is not 0 to {}", feed, fastest));
   }
-  if (is_inch) feed *= Length::kMillimetresPerInch / kTenthsPerInch;
+  if (is_inch) feed *= Length::kMillimetersPerInch / kTenthsPerInch;
   return true;
 }
 

@@ -8,7 +8,7 @@ namespace dripline::interpreter::tnc155 {
 
 /// From program coordinates to the machine's:
 /// machine = datum + basic rotation of (shift + rotation of mirrored and scaled program
-/// coordinates). Raw values: millimetres and degrees; index as in kAllAxes.
+/// coordinates). Raw values: millimeters and degrees; index as in kAllAxes.
 struct Transformation {
   using Values = std::array<double, kAxisCount>;
 

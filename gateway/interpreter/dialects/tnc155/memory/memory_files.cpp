@@ -158,7 +158,7 @@ Result<std::vector<ToolRecord>> read_tool_store(std::string_view text,
     return fail(Errc::Unsupported, "{}", version.lacks(Feature::ToolStore));
   }
   std::vector<ToolRecord> tools;
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   auto read = each_line(text, [&](std::string_view line) -> Result<void> {
     if (is_frame(line)) {
       if (line.ends_with("INCH")) units = Units::Inch;

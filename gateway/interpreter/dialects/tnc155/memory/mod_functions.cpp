@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kPositions[] = {"ACTL", "REF", "LAG", "NOML", "DIST"};
 
-/// `raw`: millimetres, of a rotary axis degrees.
+/// `raw`: millimeters, of a rotary axis degrees.
 std::string coordinate_text(Axis axis, double raw, Units units) {
   if (is_rotary(axis)) return fmt::format("{:+.3f} deg", raw);
   const Length length = Length::mm(raw);

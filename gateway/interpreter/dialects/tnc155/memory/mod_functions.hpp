@@ -17,7 +17,7 @@ enum class PositionDisplay : std::uint8_t { Actual, Reference, Lag, Nominal, Dis
 /// A machine parameter that its builder lets the operator set.
 struct UserParameter {
   int parameter = 0;  ///< its number, MP
-  std::string text;   ///< of the dialogue: "USER PAR. 1" and so on where the builder gave none
+  std::string text;   ///< of the dialog: "USER PAR. 1" and so on where the builder gave none
   double value = 0;
   std::optional<double> least, most;
 };
@@ -29,11 +29,11 @@ std::string range_text(const UserParameter& parameter);
 
 inline constexpr std::size_t kMaxUserParameters = 16;
 inline constexpr std::int64_t kHighestIncrement = 99;
-/// A limit that lies there limits nothing: no axis goes farther. Millimetres or degrees.
+/// A limit that lies there limits nothing: no axis goes farther. Millimeters or degrees.
 inline constexpr double kFarthestLimit = 30'000;
 
 struct ModSettings {
-  Units display_units = Units::Millimetre;
+  Units display_units = Units::Millimeter;
   PositionDisplay position_display = PositionDisplay::Actual;
   bool is_display_large = false;
   int block_increment = 10;      ///< of ISO block numbers; 0: blocks get none
@@ -60,7 +60,7 @@ struct ModFunction {
 /// memory.
 std::vector<ModFunction> mod_functions(const ModSettings& settings, std::size_t vacant);
 
-/// By its dialogue text, its place in the menu (1 to 16), or its machine parameter ("MP173").
+/// By its dialog text, its place in the menu (1 to 16), or its machine parameter ("MP173").
 /// Errors: NotFound, naming those there are.
 Result<std::size_t> find_user_parameter(const ModSettings& settings, std::string_view name);
 

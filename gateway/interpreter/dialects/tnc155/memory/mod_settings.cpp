@@ -10,7 +10,7 @@ namespace dripline::interpreter::tnc155 {
 namespace {
 
 constexpr std::array kBaudRates{110, 150, 300, 600, 1200, 2400, 4800, 9600};
-constexpr std::size_t kLongestText = 80;  ///< of a dialogue; a choice of ours
+constexpr std::size_t kLongestText = 80;  ///< of a dialog; a choice of ours
 
 template <class... Arguments>
 tl::unexpected<Error> refuse(std::string_view key, fmt::format_string<Arguments...> text,
@@ -42,7 +42,7 @@ Result<void> read_display(const Options& options, ModSettings& settings) {
   if (!position) return fail(position.error());
   const auto size = choice(options, "display_size", kSizes);
   if (!size) return fail(size.error());
-  settings.display_units = *units == 0 ? Units::Millimetre : Units::Inch;
+  settings.display_units = *units == 0 ? Units::Millimeter : Units::Inch;
   settings.position_display = static_cast<PositionDisplay>(*position);
   settings.is_display_large = *size == 1;
   return {};

@@ -27,7 +27,7 @@ struct MemoryLimits {
 struct StoredProgram {
   std::int32_t number = 0;  ///< 0 is the central tool store
   Form form = Form::Plain;
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   bool is_protected = false;   ///< against erasing and editing: P, G50
   std::size_t blocks = 0;      ///< all of them, the first and the last included
   std::size_t characters = 0;  ///< what an ISO directory shows

@@ -104,7 +104,7 @@ struct Block {
   std::optional<Turn> turn;
 
   RoundingUse rounding = RoundingUse::Unstated;
-  Units units = Units::Millimetre;  ///< Begin, End
+  Units units = Units::Millimeter;  ///< Begin, End
   bool is_protected = false;        ///< Begin, End
   bool is_maximum = false;          ///< BlankForm
 

@@ -138,7 +138,7 @@ ReadState BlockReader::next_words(ReadingState& state) {
   const ControlVersion& version = options_.version;
   if (!version.takes_all_blocks() && !check_version(version, iso_, fault_)) return complain();
   if (place_.offset == 0 && iso_.program != IsoBlock::kNone && iso_.has(IsoGroup::Unit)) {
-    state.program.units = iso_.code(IsoGroup::Unit) == 70 ? Units::Inch : Units::Millimetre;
+    state.program.units = iso_.code(IsoGroup::Unit) == 70 ? Units::Inch : Units::Millimeter;
     state.program.number = iso_.program;
   }
   move_on();

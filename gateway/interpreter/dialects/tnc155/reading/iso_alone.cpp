@@ -24,7 +24,7 @@ class AloneResolver {
     part.is_protected = block_.has(IsoGroup::Protection);
     part.units = !has_unit                           ? program_.units
                  : block_.code(IsoGroup::Unit) == 70 ? Units::Inch
-                                                     : Units::Millimetre;
+                                                     : Units::Millimeter;
     if (part.kind == BlockKind::Begin) {
       program_.units = part.units;
       program_.number = part.target;

@@ -13,7 +13,7 @@ enum class Form : std::uint8_t { Unknown, Plain, Iso };
 /// The reader's state of one program; a call keeps the caller's.
 struct ProgramForm {
   Form form = Form::Unknown;           ///< detected from the first block that is read
-  Units units = Units::Millimetre;     ///< set by BEGIN PGM and %
+  Units units = Units::Millimeter;     ///< set by BEGIN PGM and %
   std::int32_t number = Block::kNone;  ///< likewise
   friend bool operator==(const ProgramForm&, const ProgramForm&) = default;
 };

@@ -5,7 +5,7 @@
 namespace dripline::interpreter::blending::impl {
 namespace {
 
-/// Millimetres; farther out, or where numbers end, nothing meets.
+/// Millimeters; farther out, or where numbers end, nothing meets.
 constexpr double kFarthest = 1e9;
 
 Blend at_point(PlaneVector point) {

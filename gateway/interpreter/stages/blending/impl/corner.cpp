@@ -6,7 +6,7 @@ namespace dripline::interpreter::blending::impl {
 namespace {
 
 /// Directions that differ by less go straight on: a rounding would be shorter than a thousandth of
-/// a micrometre on every radius below a millimetre.
+/// a micrometer on every radius below a millimeter.
 constexpr double kStraight = 1e-6;
 /// Rounding may make a corner take this much more of an element than there is.
 constexpr double kFits = 1e-6;
@@ -30,7 +30,7 @@ Corner refusal(FaultKind kind, double value = 0, double limit = -1) {
 
 /// The curve of an element at `corner`, moved sideways by `offset` to the left; relative to the
 /// corner. A circle whose radius this eats up is none.
-struct Neighbour {
+struct Neighbor {
   const Element& element;
   PlaneVector corner;
   PlaneVector direction;
@@ -48,7 +48,7 @@ struct Neighbour {
   }
 };
 
-std::optional<PlaneVector> center_between(const Neighbour& a, const Neighbour& b) {
+std::optional<PlaneVector> center_between(const Neighbor& a, const Neighbor& b) {
   if ((a.element.is_arc && a.radius() <= 0) || (b.element.is_arc && b.radius() <= 0))
     return std::nullopt;
   if (!a.element.is_arc && !b.element.is_arc) return meet(a.line(), b.line());
@@ -73,8 +73,8 @@ Corner rounded(double radius, const Policy& policy, const Element& first, const 
     return refusal(FaultKind::Straight);
   }
   const double offset = turn.side() * radius;
-  const Neighbour a{first, at, turn.out, offset};
-  const Neighbour b{second, at, turn.in, offset};
+  const Neighbor a{first, at, turn.out, offset};
+  const Neighbor b{second, at, turn.in, offset};
   const auto center = center_between(a, b);
   if (!center) return refusal(FaultKind::DoesNotFit, radius);
   Corner corner;

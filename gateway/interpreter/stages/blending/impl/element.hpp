@@ -7,10 +7,10 @@
 #include "gateway/interpreter/core/geometry/plane_curves.hpp"
 #include "gateway/interpreter/stages/blending/policy.hpp"
 
-/// Raw doubles inside this folder: millimetres and radians in the plane of the elements.
+/// Raw doubles inside this folder: millimeters and radians in the plane of the elements.
 namespace dripline::interpreter::blending::impl {
 
-/// Moves shorter than a tenth of a nanometre are none: their direction would be rounding noise.
+/// Moves shorter than a tenth of a nanometer are none: their direction would be rounding noise.
 inline constexpr double kNoLength = 1e-7;
 
 /// The shape of the corner at the end of an element.

@@ -7,12 +7,12 @@
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/stages/compensation/policy.hpp"
 
-/// Raw doubles inside this folder: millimetres and radians in the compensated plane. They
+/// Raw doubles inside this folder: millimeters and radians in the compensated plane. They
 /// describe the path of the nose center; the vector to a lathe's tool tip is added when a move is
 /// put out.
 namespace dripline::interpreter::compensation::impl {
 
-/// Moves shorter than a tenth of a nanometre are none: their direction would be rounding noise.
+/// Moves shorter than a tenth of a nanometer are none: their direction would be rounding noise.
 inline constexpr double kNoLength = 1e-7;
 
 /// One inserted move of the path to an element's own compensated start.

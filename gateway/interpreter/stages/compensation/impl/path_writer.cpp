@@ -32,7 +32,7 @@ void PathWriter::move_tool(PlaneVector tip, const Position& others) {
   set_in_plane(state_.sent, axes_, tip);
 }
 
-/// Moves per minute and millimetre of an element that shares its time.
+/// Moves per minute and millimeter of an element that shares its time.
 Feed PathWriter::paced(const Element& element, double own_length) const {
   const LeadIn& lead_in = element.lead_in;
   double total = own_length;
@@ -44,7 +44,7 @@ Feed PathWriter::paced(const Element& element, double own_length) const {
   return Feed::inverse_time(element.feed.moves_per_minute() * total);
 }
 
-/// `feed` of inverse time is per millimetre here.
+/// `feed` of inverse time is per millimeter here.
 void PathWriter::lead_in(const Element& element, const Feed& feed) {
   const bool is_paced = feed.per() == Feed::Per::Move;
   for (std::uint8_t i = 0; i < element.lead_in.count; ++i) {

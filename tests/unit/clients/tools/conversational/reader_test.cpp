@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/tools/conversational/catalogue.hpp"
+#include "clients/tools/conversational/catalog.hpp"
 #include "tests/unit/clients/tools/conversational/posted.hpp"
 
 namespace dripline::conversational {
@@ -88,7 +88,7 @@ TEST(ConversationalReader, TakesTheStarterFile) {
   EXPECT_TRUE(text->starts_with("O0031 (STEPPED PIN)\n"));
 }
 
-TEST(ConversationalCatalogue, ListsEveryEventAndWhatItsFieldsTake) {
+TEST(ConversationalCatalog, ListsEveryEventAndWhatItsFieldsTake) {
   const auto events = describe_events();
   EXPECT_EQ(events.size(), 36u);
   for (const auto& one : events) {

@@ -26,7 +26,7 @@ TurningSimulation turned(const std::string& text, std::optional<SectionExtent> b
   settings.cells_along = 800;
   settings.widths = {{3, 10.0}, {4, 3.0}};
   interpreter::Setup setup;
-  setup.units = interpreter::Units::Millimetre;
+  setup.units = interpreter::Units::Millimeter;
   for (const auto& [number, tip] : {std::pair{1, 3}, {2, 2}, {3, 7}, {4, 8}}) {
     interpreter::ToolRecord tool;
     tool.number = number;
@@ -101,7 +101,7 @@ TEST(Turning, ABladeIsAsWideAsItIs) {
   EXPECT_NEAR(cylinder(40, 80) - grooved.part()->volume(), ring, 0.05 * ring);
 }
 
-/// P156 and P157 say the bar; from the work zero's face towards the chuck.
+/// P156 and P157 say the bar; from the work zero's face toward the chuck.
 TEST(Turning, TheProgramSaysItsBar) {
   const auto simulation = turned("P156=60\nP157=25\nT0101M6\nG0 X20 Z2\nG1 Z-10\nX30\n");
   ASSERT_TRUE(simulation.part());

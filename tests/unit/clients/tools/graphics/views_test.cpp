@@ -98,7 +98,7 @@ TEST(Pictures, ArePngFiles) {
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\1\x2c\0\0\0\xc8", 8)) << "300 x 200";
   EXPECT_EQ(bytes[24], 8) << "bits";
-  EXPECT_EQ(bytes[25], 0) << "grey";
+  EXPECT_EQ(bytes[25], 0) << "gray";
 }
 
 TEST(Printers, KnowTheBytesOfTheirParameters) {
@@ -133,13 +133,13 @@ TEST(Hardcopies, HaveEightRowsALineAndTheUpperInTheHighestBit) {
   EXPECT_EQ(static_cast<unsigned char>(bytes[head + line + 5 + 200]), 0x80);
 }
 
-TEST(Hardcopies, PrintGreyAsAPatternAndWidePicturesSmaller) {
+TEST(Hardcopies, PrintGrayAsAPatternAndWidePicturesSmaller) {
   const Printer printer = find_printer("epson").value();
-  const std::string grey = hardcopy(Picture(1024, 16, 128), printer);
-  ASSERT_EQ(grey.size(), 7u + 5 + 512) << "half as wide and as high";
+  const std::string gray = hardcopy(Picture(1024, 16, 128), printer);
+  ASSERT_EQ(gray.size(), 7u + 5 + 512) << "half as wide and as high";
   int dots = 0;
-  for (std::size_t i = 12; i < grey.size(); ++i) {
-    dots += __builtin_popcount(static_cast<unsigned char>(grey[i]));
+  for (std::size_t i = 12; i < gray.size(); ++i) {
+    dots += __builtin_popcount(static_cast<unsigned char>(gray[i]));
   }
   EXPECT_NEAR(dots, 512 * 8 / 2, 512 * 8 / 10);
 }

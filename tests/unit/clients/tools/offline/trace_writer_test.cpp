@@ -41,7 +41,7 @@ TEST_F(TraceWriterTest, TheHeaderSaysControlNameAndUnits) {
   EXPECT_EQ(written(),
             "{\"event\":\"program\",\"control\":\"centurion\",\"name\":\"O0100\",\"units\":\"in\","
             "\"x\":\"diameter\"}\n");
-  writer.on_program({"tnc155", std::nullopt, Units::Millimetre, false});
+  writer.on_program({"tnc155", std::nullopt, Units::Millimeter, false});
   EXPECT_EQ(written(),
             "{\"event\":\"program\",\"control\":\"tnc155\",\"name\":null,\"units\":\"mm\"}\n");
 }
@@ -120,7 +120,7 @@ TEST_F(TraceWriterTest, TheStartDecidesWhetherTheFirstMoveMoves) {
 
 TEST_F(TraceWriterTest, AChangeOfUnitsConvertsWhatFollows) {
   begin();
-  writer.on_units({at(2), Units::Millimetre});
+  writer.on_units({at(2), Units::Millimeter});
   writer.on_line({at(3), to(1, 2), Feed::per_minute(Length::mm(100))});
   EXPECT_EQ(written(),
             "{\"event\":\"units\",\"line\":2,\"block\":null,\"units\":\"mm\"}\n"

@@ -111,7 +111,7 @@ TEST(Tnc155Editing, MendsAWrongBlock) {
 }
 
 // Numbers with gaps are those of a blockwise transfer: they stay.
-TEST(Tnc155Editing, FindsANumberBetweenItsNeighboursWhereThereAreGaps) {
+TEST(Tnc155Editing, FindsANumberBetweenItsNeighborsWhereThereAreGaps) {
   const std::string text = "0 BEGIN PGM 1 MM\n100 CC\n104 CC\n105 END PGM 1 MM\n";
   const auto edited = edit(text, {{Kind::Insert, 100, 100, "LBL 3"}, {Kind::Delete, 104, 104, ""}});
   ASSERT_TRUE(edited) << edited.error().what;

@@ -18,7 +18,7 @@ Position at(double x, double y, double z) {
   position.set_raw(Axis::Z, z);
   return position;
 }
-Touch towards(Axis axis, ProbeDirection direction, Position from) {
+Touch toward(Axis axis, ProbeDirection direction, Position from) {
   return {from, axis, direction};
 }
 constexpr auto kUp = ProbeDirection::Positive;
@@ -28,20 +28,20 @@ TEST(Touching, FindsASurfaceOrSaysThatThereIsNone) {
   Workpiece workpiece;
   workpiece.add(ProbePlane{Axis::Z, Length::mm(-3)});
   const Stylus stylus{2, 20};
-  const auto found = touch(workpiece, stylus, towards(Axis::Z, kDown, at(1, 2, 10)));
+  const auto found = touch(workpiece, stylus, toward(Axis::Z, kDown, at(1, 2, 10)));
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->raw(Axis::Z), -3, 1e-9);
-  const auto none = touch(workpiece, stylus, towards(Axis::Z, kDown, at(1, 2, 30)));
+  const auto none = touch(workpiece, stylus, toward(Axis::Z, kDown, at(1, 2, 30)));
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().what.find("TOUCH POINT INACCESSIBLE"), std::string::npos);
-  EXPECT_FALSE(touch(workpiece, stylus, towards(Axis::Z, kDown, at(1, 2, -3)))) << "deflected";
+  EXPECT_FALSE(touch(workpiece, stylus, toward(Axis::Z, kDown, at(1, 2, -3)))) << "deflected";
 }
 
 TEST(Surfaces, CountTheTipAlongTheToolAndTheRimAcrossIt) {
   const Stylus stylus{1.5, 100};
-  EXPECT_EQ(touched_coordinate(at(8.5, 0, 0), towards(Axis::X, kUp, {}), stylus, Axis::Z), 10);
-  EXPECT_EQ(touched_coordinate(at(8.5, 0, 0), towards(Axis::X, kDown, {}), stylus, Axis::Z), 7);
-  EXPECT_EQ(touched_coordinate(at(0, 0, -4), towards(Axis::Z, kDown, {}), stylus, Axis::Z), -4);
+  EXPECT_EQ(touched_coordinate(at(8.5, 0, 0), toward(Axis::X, kUp, {}), stylus, Axis::Z), 10);
+  EXPECT_EQ(touched_coordinate(at(8.5, 0, 0), toward(Axis::X, kDown, {}), stylus, Axis::Z), 7);
+  EXPECT_EQ(touched_coordinate(at(0, 0, -4), toward(Axis::Z, kDown, {}), stylus, Axis::Z), -4);
 }
 
 TEST(Calibrations, GiveLengthAndRadius) {
@@ -58,7 +58,7 @@ TEST(BasicRotations, AreTheSidesAngleWhicheverWayItIsTouched) {
   const Position near = at(10, 10 * tangent, 0), far = at(90, 90 * tangent, 0);
   EXPECT_NEAR(*basic_rotation(near, far, Plane::XY, 0), 3, 1e-9);
   EXPECT_NEAR(*basic_rotation(far, near, Plane::XY, 0), 3, 1e-9);
-  // A side along Y, nominally at +90, leans by 3 degrees towards -X.
+  // A side along Y, nominally at +90, leans by 3 degrees toward -X.
   EXPECT_NEAR(*basic_rotation(at(-10 * tangent, 10, 0), at(-90 * tangent, 90, 0), Plane::XY, 90), 3,
               1e-9);
   EXPECT_FALSE(basic_rotation(near, near, Plane::XY, 0));
@@ -68,10 +68,9 @@ TEST(Corners, AreWhereTheWallsMeet) {
   const Stylus stylus{2, 100};
   // Walls y = 20 (touched from below) and x = 50 (touched from the left); the ball's center is 2
   // in front of each.
-  const Side bottom{towards(Axis::Y, kUp, {}), towards(Axis::Y, kUp, {}), at(10, 18, 0),
+  const Side bottom{toward(Axis::Y, kUp, {}), toward(Axis::Y, kUp, {}), at(10, 18, 0),
                     at(40, 18, 0)};
-  const Side left{towards(Axis::X, kUp, {}), towards(Axis::X, kUp, {}), at(48, 30, 0),
-                  at(48, 60, 0)};
+  const Side left{toward(Axis::X, kUp, {}), toward(Axis::X, kUp, {}), at(48, 30, 0), at(48, 60, 0)};
   const auto square = corner(bottom, left, stylus, Plane::XY);
   ASSERT_TRUE(square) << square.error().what;
   EXPECT_NEAR(square->at.first, 50, 1e-9);
@@ -93,10 +92,9 @@ TEST(Corners, OfAWorkpieceThatLiesAskewAreBesideTheTouches) {
   const auto place = [&](double u, double v) {
     return at(50 + u * c - v * s, 20 + u * s + v * c, 0);
   };
-  const Side bottom{towards(Axis::Y, kUp, {}), towards(Axis::Y, kUp, {}), place(10, -2),
+  const Side bottom{toward(Axis::Y, kUp, {}), toward(Axis::Y, kUp, {}), place(10, -2),
                     place(40, -2)};
-  const Side left{towards(Axis::X, kUp, {}), towards(Axis::X, kUp, {}), place(-2, 30),
-                  place(-2, 5)};
+  const Side left{toward(Axis::X, kUp, {}), toward(Axis::X, kUp, {}), place(-2, 30), place(-2, 5)};
   const auto found = corner(bottom, left, stylus, Plane::XY);
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->at.first, 50, 1e-9);
@@ -109,7 +107,7 @@ std::string refusal(ProbingFunction function, std::vector<Touch> touches, Axis t
   return checked ? "" : checked.error().what;
 }
 Touch way(Axis axis, ProbeDirection direction) {
-  return towards(axis, direction, {});
+  return toward(axis, direction, {});
 }
 
 // HD-208, HD-209, HD-211, HD-213: each function has its directions.
@@ -145,33 +143,33 @@ TEST(Surfaces, AreTouchedByTheFourthAxis) {
   workpiece.add(ProbePlane{Axis::Y, Length::mm(20)});
   const Stylus stylus{0, 100};
   // 40 from the axis: at Y 20 the stylus has gone round by 30 degrees, from either side.
-  auto found = touch(workpiece, stylus, towards(Axis::C, kUp, at(40, 0, -5)));
+  auto found = touch(workpiece, stylus, toward(Axis::C, kUp, at(40, 0, -5)));
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->raw(Axis::C), 30, 1e-4);
   EXPECT_EQ(found->raw(Axis::X), 40);
   Position turned = at(40, 0, -5);
   turned.set_raw(Axis::C, 80);
-  found = touch(workpiece, stylus, towards(Axis::C, kDown, turned));
+  found = touch(workpiece, stylus, toward(Axis::C, kDown, turned));
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->raw(Axis::C), 30, 1e-4);
-  EXPECT_NE(touch(workpiece, {0, 20}, towards(Axis::C, kUp, at(40, 0, 0)))
+  EXPECT_NE(touch(workpiece, {0, 20}, toward(Axis::C, kUp, at(40, 0, 0)))
                 .error()
                 .what.find("TOUCH POINT INACCESSIBLE: C+ from C 0 within 20 degrees"),
             std::string::npos);
-  EXPECT_EQ(touch(workpiece, {1, 20}, towards(Axis::C, kUp, at(0, 0.5, 0))).error().code,
+  EXPECT_EQ(touch(workpiece, {1, 20}, toward(Axis::C, kUp, at(0, 0.5, 0))).error().code,
             Errc::LimitExceeded);
   // V goes along Y: from Y 5, V -3 to Y 20.
   Position parallel = at(0, 5, 0);
   parallel.set_raw(Axis::V, -3);
-  found = touch(workpiece, stylus, towards(Axis::V, kUp, parallel));
+  found = touch(workpiece, stylus, toward(Axis::V, kUp, parallel));
   ASSERT_TRUE(found) << found.error().what;
   EXPECT_NEAR(found->raw(Axis::V), 15, 1e-9);
   EXPECT_EQ(found->raw(Axis::Y), 5);
-  EXPECT_NEAR(touched_coordinate(*found, towards(Axis::V, kUp, parallel), {1.5, 100}, Axis::Z),
-              16.5, 1e-9);
+  EXPECT_NEAR(touched_coordinate(*found, toward(Axis::V, kUp, parallel), {1.5, 100}, Axis::Z), 16.5,
+              1e-9);
   // A ball of 2 touches a wall through the axis, 40 from it, asin(2 / 40) before its center is
   // there.
-  EXPECT_NEAR(touched_coordinate(turned, towards(Axis::C, kUp, turned), {2, 100}, Axis::Z),
+  EXPECT_NEAR(touched_coordinate(turned, toward(Axis::C, kUp, turned), {2, 100}, Axis::Z),
               80 + std::asin(0.05) * 180 / Angle::kPi, 1e-9);
 }
 
@@ -201,8 +199,7 @@ TEST(Datums, MakeThePointBeCalledSoUnderABasicRotation) {
 TEST(Surfaces, OfAWorkpieceThatLiesAskewAreCompensatedAcrossThem) {
   Transformation frame;
   frame.basic_rotation = 90;
-  const auto point =
-      touched_point(at(5, 6, 7), towards(Axis::X, kUp, {}), {2, 100}, Axis::Z, frame);
+  const auto point = touched_point(at(5, 6, 7), toward(Axis::X, kUp, {}), {2, 100}, Axis::Z, frame);
   EXPECT_NEAR(point.raw(Axis::X), 5, 1e-9);
   EXPECT_NEAR(point.raw(Axis::Y), 8, 1e-9);
 }
@@ -228,7 +225,7 @@ TEST(Circles, OfASimulatedBoreAreFound) {
   std::vector<Position> touches;
   for (const auto& [axis, direction] : {std::pair(Axis::X, kUp), std::pair(Axis::X, kDown),
                                         std::pair(Axis::Y, kUp), std::pair(Axis::Y, kDown)}) {
-    const auto found = touch(workpiece, stylus, towards(axis, direction, at(12, 3, -5)));
+    const auto found = touch(workpiece, stylus, toward(axis, direction, at(12, 3, -5)));
     ASSERT_TRUE(found) << found.error().what;
     touches.push_back(*found);
   }

@@ -14,7 +14,7 @@ struct Press {
   int strokes = 4;
   double force = 0.5;
   double height = 12.7;  // mm
-  Units units = Units::Millimetre;
+  Units units = Units::Millimeter;
   std::vector<std::int64_t> codes;
 };
 

@@ -10,7 +10,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Setup read(std::string_view toml, Units units = Units::Millimetre) {
+Setup read(std::string_view toml, Units units = Units::Millimeter) {
   auto setup = parse_setup(toml, units);
   EXPECT_TRUE(setup) << setup.error().what;
   return setup ? *std::move(setup) : Setup{};

@@ -38,7 +38,7 @@ X = 1.5
 Z = 2.0
 radius = 0.4
 )",
-                                 Units::Millimetre);
+                                 Units::Millimeter);
   ASSERT_TRUE(setup) << setup.error().what;
   ActiveModes modes = after("G21\nT0505M6\nG10\nP645=.25\nG11\n", *setup);
   EXPECT_NEAR(modes.tool_length_x.mm(), 1.75, 1e-9) << "P645 is the wear in X of offset 5";

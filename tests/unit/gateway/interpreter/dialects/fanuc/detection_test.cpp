@@ -11,7 +11,7 @@ std::string first_candidate(std::string_view head) {
   return found.empty() ? "" : std::string(found.front()->name);
 }
 
-TEST(FanucDetection, MacroProgramsAreRecognised) {
+TEST(FanucDetection, MacroProgramsAreRecognized) {
   EXPECT_EQ(first_candidate("%\nO1234 (PLATE)\nG21 G90 G54\nG43 H1 Z50.\n#101=3.\nM98 P8000\n"),
             "fanuc");
   EXPECT_EQ(first_candidate("O9100\nIF[#1EQ#0]GOTO10\nPOPEN\nDPRNT[X#1[53]]\nPCLOS\nM99\n"),

@@ -32,7 +32,7 @@ TEST_P(FanucSetup, IsRefusedWithTheReason) {
 INSTANTIATE_TEST_SUITE_P(
     , FanucSetup,
     testing::Values(
-        RefusalCase{"unknown_option", "[control]\ncolour = 1", "colour"},
+        RefusalCase{"unknown_option", "[control]\ncolor = 1", "color"},
         RefusalCase{"unknown_model", "[control]\nmodel = \"31i\"", "16M"},
         RefusalCase{"start_in_a_cycle", "[control]\nstart_g = [81]", "G81"},
         RefusalCase{"start_with_no_code", "[control]\nstart_g = [999]", "G999"},

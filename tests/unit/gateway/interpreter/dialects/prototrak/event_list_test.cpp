@@ -15,7 +15,7 @@ const Dialect& control() {
   return **find_dialect("prototrak-plus");
 }
 
-/// Where the tool goes and when it waits, to a hundredth of a millimetre, without places in the
+/// Where the tool goes and when it waits, to a hundredth of a millimeter, without places in the
 /// text.
 class Motion final : public EventSink {
  public:

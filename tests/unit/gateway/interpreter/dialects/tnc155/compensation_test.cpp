@@ -308,7 +308,7 @@ TEST(TncCompensation, ANegativeRadiusSwapsTheSide) {
               ElementsAre("L X0 Y20 F100", "L X0 Y-2 F100", "L X40 Y-2 F100", "L X40 Y30 F100"));
 }
 
-// HD-104: upwards and counter-clockwise, RL: an internal right-hand thread; radius 10 - 2.
+// HD-104: upwards and counterclockwise, RL: an internal right-hand thread; radius 10 - 2.
 TEST(TncCompensation, AHelixIsOffsetAsItsCircle) {
   EXPECT_THAT(path("+2", {"L X+0 Y+0 Z+0 R0 F100", "CC X+0 Y+0", "L X+10 Y-5 RL", "L X+10 Y+0",
                           "CP IPA+720 IZ+6 DR+ RL", "L X+10 Y+5", "L X+0 Y+0 R0"}),

@@ -86,7 +86,7 @@ TEST(TncFlow, ProgramsAreCalled) {
               ElementsAre("R Y1", "R X2 Y1", "R X4 Y1", "R X4 Y2", testing::StartsWith("end ")));
 }
 
-// HD-149: a program in inches called from one in millimetres reads its own numbers as inches.
+// HD-149: a program in inches called from one in millimeters reads its own numbers as inches.
 TEST(TncFlow, ACalledProgramHasItsOwnUnits) {
   PathSetup library;
   library.programs = {{"7", "0 BEGIN PGM 7 INCH\n1 L X+1 R0 F MAX\n2 END PGM 7 INCH\n"}};

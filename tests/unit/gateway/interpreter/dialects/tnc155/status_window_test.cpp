@@ -25,7 +25,7 @@ class WindowRun {
  public:
   explicit WindowRun(const std::vector<std::string>& blocks, const std::string& setup = "")
       : text_(text_of(blocks)), source_(text_) {
-    auto parsed = parse_setup(setup, Units::Millimetre);
+    auto parsed = parse_setup(setup, Units::Millimeter);
     EXPECT_TRUE(parsed) << parsed.error().what;
     auto made = (*find_dialect("tnc155"))->make(*parsed, source_, place_);
     EXPECT_TRUE(made) << made.error().what;

@@ -3,7 +3,7 @@
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "tests/unit/gateway/interpreter/stages/compensation/contour.hpp"
 
-/// Contours for tests of blends: programmed in millimetres in the XY plane, one block per move.
+/// Contours for tests of blends: programmed in millimeters in the XY plane, one block per move.
 namespace dripline::interpreter::blending {
 
 using compensation::Move;

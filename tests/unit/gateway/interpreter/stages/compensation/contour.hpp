@@ -6,7 +6,7 @@
 
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
-/// Contours for tests: programmed in millimetres in the XY plane, one block per move.
+/// Contours for tests: programmed in millimeters in the XY plane, one block per move.
 namespace dripline::interpreter::compensation {
 
 /// A move that came out, from where the one before it ended.

@@ -188,7 +188,7 @@ TEST(Corner, ALatheTipFollowsItsNose) {
                                .radius = Length::mm(0.8),
                                .tip_first = Length::mm(-0.8),
                                .tip_second = Length::mm(-0.8)});
-  // turning towards the chuck at X 10, then facing outwards
+  // turning toward the chuck at X 10, then facing outwards
   contour.line(2, 10).line(-20, 10).line(-20, 15).off().line(5, 20);
   expect_ends(contour.log, {{1.2, 10}, {-20, 10}, {-20, 14.2}, {5, 20}});
 }

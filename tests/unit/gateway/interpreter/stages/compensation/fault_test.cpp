@@ -5,7 +5,7 @@
 namespace dripline::interpreter::compensation {
 namespace {
 
-TEST(Fault, ACurveThatMissesItsNeighbourHasNoIntersection) {
+TEST(Fault, ACurveThatMissesItsNeighborHasNoIntersection) {
   Policy policy;
   policy.outside = OutsideCorner::IntersectCurves;
   Contour contour{policy, {-20, 0}};

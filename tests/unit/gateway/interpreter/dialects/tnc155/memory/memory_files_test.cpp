@@ -23,7 +23,7 @@ TEST(ToolStore, IsWrittenALineATool) {
   tools[0].pocket = 12;
   tools[1].pocket = 20;
   tools[1].is_special = true;
-  EXPECT_EQ(*write_tool_store(tools, Units::Millimetre),
+  EXPECT_EQ(*write_tool_store(tools, Units::Millimeter),
             "0 BEGIN PGM 0 MM\r\n"
             "T3 P12 L+81,250 R+5,000\r\n"
             "T4 SP20 L-2,500 R+10,000\r\n"
@@ -34,7 +34,7 @@ TEST(ToolStore, IsWrittenALineATool) {
 TEST(ToolStore, ComesBackAsItWas) {
   std::vector<ToolRecord> tools{tool(1, 25.4, 12.7), tool(17, 100.0014, 3.175)};
   tools[0].pocket = 7;
-  for (const Units units : {Units::Millimetre, Units::Inch}) {
+  for (const Units units : {Units::Millimeter, Units::Inch}) {
     const std::string text = *write_tool_store(tools, units);
     const auto read = read_tool_store(text);
     ASSERT_TRUE(read) << read.error().what;
@@ -54,7 +54,7 @@ TEST(ToolStore, TakesPointsAndBlanks) {
 }
 
 TEST(ToolStore, HasTheDecimalSignThatTheControlIsSetTo) {
-  EXPECT_EQ(*write_tool_store({tool(7, 1.5, 0.25)}, Units::Millimetre, '.'),
+  EXPECT_EQ(*write_tool_store({tool(7, 1.5, 0.25)}, Units::Millimeter, '.'),
             "0 BEGIN PGM 0 MM\r\nT7 P L+1.500 R+0.250\r\n2 END PGM 0 MM\r\n");
 }
 
@@ -66,7 +66,7 @@ TEST(ToolStore, NamesWhatIsWrong) {
   EXPECT_EQ(twice.error().what, "line 2: tool 5 is there twice");
   EXPECT_FALSE(read_tool_store("T5 P L+1\n"));
   EXPECT_FALSE(read_tool_store("T5 P L+1 R+1 X\n"));
-  EXPECT_EQ(write_tool_store({tool(100, 0, 0)}, Units::Millimetre).error().code,
+  EXPECT_EQ(write_tool_store({tool(100, 0, 0)}, Units::Millimeter).error().code,
             Errc::LimitExceeded);
 }
 

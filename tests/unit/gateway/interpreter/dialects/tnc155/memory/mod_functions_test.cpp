@@ -111,8 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "option user_parameters: 1: value of MP7 is missing"},
         WrongOption{"beyond", one("parameter = 237\nvalue = 1"),
                     "option user_parameters: 1: MP237: there are MP0 to MP236"},
-        WrongOption{"unknown_key", one("parameter = 7\nvalue = 1\ncolour = 2"),
-                    "option user_parameters: 1: colour is nothing a user parameter has; it has "
+        WrongOption{"unknown_key", one("parameter = 7\nvalue = 1\ncolor = 2"),
+                    "option user_parameters: 1: color is nothing a user parameter has; it has "
                     "parameter, text, value, least, most"},
         WrongOption{"out_of_range",
                     one("parameter = 7\nvalue = 9\nleast = 0\nmost = 8\n"

@@ -1,4 +1,4 @@
-#include "clients/tools/conversational/catalogue.hpp"
+#include "clients/tools/conversational/catalog.hpp"
 
 namespace dripline::conversational {
 namespace {
