@@ -5,7 +5,8 @@
 namespace dripline::machine {
 
 void CapabilityFilter::refuse(const interpreter::Origin& origin, std::string_view what) {
-  to_.on_alarm({origin, {"MCH0008", fmt::format("this machine cannot {}", what), origin.line, 1}});
+  out().on_alarm(
+      {origin, {"MCH0008", fmt::format("this machine cannot {}", what), origin.line, 1}});
 }
 
 bool CapabilityFilter::has_feed(const interpreter::Origin& origin, Feed feed) {
@@ -15,23 +16,23 @@ bool CapabilityFilter::has_feed(const interpreter::Origin& origin, Feed feed) {
 }
 
 void CapabilityFilter::on_line(const interpreter::Line& line) {
-  if (has_feed(line.origin, line.feed)) to_.on_line(line);
+  if (has_feed(line.origin, line.feed)) out().on_line(line);
 }
 
 void CapabilityFilter::on_arc(const interpreter::Arc& arc) {
   if (!capabilities_.arcs) return refuse(arc.origin, "move on arcs");
-  if (has_feed(arc.origin, arc.feed)) to_.on_arc(arc);
+  if (has_feed(arc.origin, arc.feed)) out().on_arc(arc);
 }
 
 void CapabilityFilter::on_thread(const interpreter::Thread& thread) {
   if (!capabilities_.threads) return refuse(thread.origin, "cut threads");
-  to_.on_thread(thread);
+  out().on_thread(thread);
 }
 
 void CapabilityFilter::on_dwell(const interpreter::Dwell& dwell) {
   if (dwell.revolutions && !capabilities_.spindle_feedback)
     return refuse(dwell.origin, "dwell per revolution");
-  to_.on_dwell(dwell);
+  out().on_dwell(dwell);
 }
 
 }  // namespace dripline::machine
