@@ -48,6 +48,12 @@ struct OptionKey {
   std::vector<std::string_view> words() const;  ///< of a choice
 };
 
+constexpr OptionKey option(std::string_view key, std::string_view type, std::string_view text,
+                           std::string_view fallback = {}, OptionRange range = {},
+                           std::string_view unit = {}) {
+  return {key, type, text, fallback, range, unit};
+}
+
 /// `Control`: what the dialect reads its options into; its initial values are the defaults.
 template <class Control>
 struct OptionRow : OptionKey {
