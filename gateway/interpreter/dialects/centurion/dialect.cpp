@@ -1,12 +1,13 @@
 #include "gateway/interpreter/dialects/centurion/dialect.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <string>
 
+#include "gateway/interpreter/dialects/centurion/errors.hpp"
 #include "gateway/interpreter/dialects/centurion/interpreter.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/control_memory.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/panel_tables.hpp"
-#include "gateway/interpreter/dialects/centurion/refusal_words.hpp"
 
 namespace dripline::interpreter {
 namespace {
@@ -61,6 +62,26 @@ int likelihood(std::string_view head, std::string_view) {
   return std::min(points, 95);
 }
 
+/// "error 300: program already exists"; empty: the control has no number for it.
+std::string refusal_words(Refusal refusal) {
+  using enum Refusal;
+  constexpr std::array<std::pair<Refusal, int>, 10> kNumbers{{{NameTaken, 300},
+                                                              {BadNumber, 301},
+                                                              {NothingToSelect, 302},
+                                                              {NotSaved, 303},
+                                                              {NotLoaded, 304},
+                                                              {OntoItself, 309},
+                                                              {BadParameters, 311},
+                                                              {MemoryFull, 312},
+                                                              {DiskFull, 101},
+                                                              {NoSuchProgram, 603}}};
+  for (const auto& [known, number] : kNumbers) {
+    if (known == refusal)
+      return fmt::format("error {}: {}", number, error_row_of_number(number).text);
+  }
+  return {};
+}
+
 }  // namespace
 
 const Dialect kCenturionDialect{
@@ -74,6 +95,6 @@ const Dialect kCenturionDialect{
     .waits_at_tool_change = true,  // M6 prompts and waits (manual: M6)
     .panel_tables = &read_panel_tables,
     .options = &list_options,
-    .refusal_words = &centurion::refusal_words};
+    .refusal_words = &refusal_words};
 
 }  // namespace dripline::interpreter

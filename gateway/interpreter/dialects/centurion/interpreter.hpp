@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "gateway/interpreter/core/retained_memory.hpp"
-#include "gateway/interpreter/dialects/centurion/codes/status_window.hpp"
 #include "gateway/interpreter/dialects/centurion/reading/text_search.hpp"
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 #include "gateway/interpreter/dialects/centurion/start/dry_run.hpp"
@@ -17,7 +16,7 @@ class CenturionInterpreter final : public BlockInterpreter<CenturionInterpreter>
   CenturionInterpreter(ControlOptions options, ModalState state, Parameters parameters,
                        ProgramSource& source, EventSink& sink);
 
-  ActiveModes modes() const override { return active_modes(run_); }
+  ActiveModes modes() const override;
   std::vector<MemoryCell> memory_cells() const override;
   bool read_memory(std::vector<double>& values) override;
 

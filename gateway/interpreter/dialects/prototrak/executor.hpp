@@ -4,17 +4,23 @@
 #include <optional>
 #include <vector>
 
-#include "gateway/interpreter/core/event.hpp"
 #include "gateway/interpreter/core/language/loop_guard.hpp"
+#include "gateway/interpreter/core/setup.hpp"
 #include "gateway/interpreter/dialects/prototrak/contour.hpp"
 #include "gateway/interpreter/dialects/prototrak/diagnostics.hpp"
-#include "gateway/interpreter/dialects/prototrak/options.hpp"
 #include "gateway/interpreter/dialects/prototrak/program_event.hpp"
 #include "gateway/interpreter/stages/compensation/compensator.hpp"
 
 namespace dripline::interpreter::prototrak {
 
 inline constexpr std::size_t kMaxNesting = 10;
+
+/// The `[control]` options: how the operator works the machine.
+struct ControlOptions {
+  bool waits = true;  ///< for the operator at positions and at begin and end of a chain of cuts
+};
+/// Errors: Syntax, Unsupported, naming the option.
+Result<ControlOptions> read_options(const Setup& setup);
 
 /// A range of events being executed, several times over.
 struct Frame {

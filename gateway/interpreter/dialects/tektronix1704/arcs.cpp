@@ -1,11 +1,10 @@
-#include "gateway/interpreter/dialects/tektronix1704/arcs.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 
 #include <fmt/format.h>
 #include <bit>
 #include <cmath>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
-#include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/path_rules.hpp"
 
 namespace dripline::interpreter::tektronix1704 {

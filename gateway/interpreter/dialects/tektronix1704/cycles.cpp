@@ -1,8 +1,6 @@
-#include "gateway/interpreter/dialects/tektronix1704/cycles.hpp"
+#include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 
 #include <algorithm>
-
-#include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 
 namespace dripline::interpreter::tektronix1704 {
 namespace {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "gateway/interpreter/dialects/tektronix1704/arcs.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/machine_functions.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/motion.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/path_rules.hpp"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/tektronix1704/arcs.hpp"
-#include "gateway/interpreter/dialects/tektronix1704/cycles.hpp"
 #include "gateway/interpreter/dialects/tektronix1704/path_rules.hpp"
 
 namespace dripline::interpreter::tektronix1704 {

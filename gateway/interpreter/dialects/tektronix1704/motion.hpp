@@ -26,6 +26,15 @@ bool move_depth(Run& run, double to, Pace pace);
 Counts end_point(const Run& run);
 /// Capacity (manual: numbers and units) and travel.
 bool check_point(Run& run, const Counts& point);
+/// The block's arc (arcs.cpp; manual: circular interpolation): within one quadrant, about the
+/// stored center, to an end point whose missing coordinate is zero. Loads center words. False:
+/// alarm.
+bool move_arc(Run& run);
+/// I, J and K alone fill their stores.
+void load_center(Run& run);
+/// The block in a fixed cycle (cycles.cpp; manual: G80 to G89): loads R and Z, positions, and works
+/// the hole as the cycle table says.
+bool run_cycle(Run& run);
 /// The block's motion in the active mode; true without doing anything when it has none.
 bool move_block(Run& run);
 

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
+#include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 
 #include <fmt/core.h>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "gateway/interpreter/dialects/centurion/codes/g_codes.hpp"
 
-#include "gateway/interpreter/dialects/centurion/codes/coordinates.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/modes.hpp"
 #include "gateway/interpreter/dialects/centurion/codes/reference_points.hpp"
 #include "gateway/interpreter/dialects/centurion/cycles/block_cycles.hpp"

@@ -2,8 +2,9 @@
 
 #include "gateway/interpreter/dialects/centurion/run.hpp"
 
-/// What the rows of the G codes (g_codes.cpp) name for codes that have no axis words: the modes,
-/// and G990 to G999. A function that serves several codes looks at the row for which one it is.
+/// What the rows of the G codes (g_codes.cpp) name for codes that do not move: the modes, zeroes
+/// and transformations, and G990 to G999. A function that serves several codes looks at the row for
+/// which one it is.
 namespace dripline::interpreter::centurion {
 
 bool set_motion(Run& run, const GRow& row);
@@ -20,6 +21,18 @@ bool set_path_mode(Run& run, const GRow& row);
 bool set_distance_mode(Run& run, const GRow& row);
 bool set_spindle_unit(Run& run, const GRow& row);
 bool set_feed_unit(Run& run, const GRow& row);
+
+// Zeroes and transformations (coordinates.cpp; manual: G50, G12, G52; mirror, scaling and
+// rotation). The program's position follows.
+bool set_floating_zero(Run& run);
+bool set_local_zero(Run& run);
+bool set_mirror(Run& run);
+bool set_scaling(Run& run);
+bool set_rotation(Run& run);
+bool clear_floating_zero(Run& run, const GRow& row);
+bool end_mirror(Run& run, const GRow& row);
+bool end_scaling(Run& run, const GRow& row);
+bool end_rotation(Run& run, const GRow& row);
 
 /// G990 keeps L user parameters from P on in file Q of the control, G991 restores them; defaults:
 /// P0, L10, Q0 (memory/parameter_files.cpp).

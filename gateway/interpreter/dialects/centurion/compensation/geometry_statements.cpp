@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/centurion/compensation/geometry_statements.hpp"
+#include "gateway/interpreter/dialects/centurion/flow/statements.hpp"
 
 #include <array>
 

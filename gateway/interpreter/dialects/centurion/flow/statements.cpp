@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/centurion/compensation/geometry_statements.hpp"
 #include "gateway/interpreter/dialects/centurion/flow/output_text.hpp"
 #include "gateway/interpreter/dialects/centurion/memory/pins.hpp"
 #include "gateway/interpreter/dialects/centurion/motion/corner_words.hpp"
