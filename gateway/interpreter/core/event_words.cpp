@@ -1,83 +1,41 @@
 #include "gateway/interpreter/core/event_words.hpp"
 
+#include <initializer_list>
+
 namespace dripline::interpreter {
+namespace {
+
+/// `words` are in the order of the enumerators.
+template <class Enum>
+std::string_view word_among(std::initializer_list<std::string_view> words, Enum value) {
+  return words.begin()[static_cast<std::size_t>(value)];
+}
+
+}  // namespace
 
 std::string_view word_of(Units units) {
-  return units == Units::Inch ? "in" : "mm";
+  return word_among({"in", "mm"}, units);
 }
 std::string_view word_of(Turn turn) {
-  return turn == Turn::Clockwise ? "cw" : "ccw";
+  return word_among({"cw", "ccw"}, turn);
 }
 std::string_view word_of(ProbeUntil until) {
-  return until == ProbeUntil::Contact ? "contact" : "release";
+  return word_among({"contact", "release"}, until);
 }
-
 std::string_view word_of(SpindleState state) {
-  switch (state) {
-    case SpindleState::Clockwise:
-      return "cw";
-    case SpindleState::Counterclockwise:
-      return "ccw";
-    case SpindleState::Oriented:
-      return "oriented";
-    case SpindleState::Off:
-      break;
-  }
-  return "off";
+  return word_among({"off", "cw", "ccw", "oriented"}, state);
 }
-
 std::string_view word_of(StopKind kind) {
-  switch (kind) {
-    case StopKind::Optional:
-      return "optional";
-    case StopKind::ToolChange:
-      return "tool_change";
-    case StopKind::Operator:
-      return "operator";
-    case StopKind::Program:
-      break;
-  }
-  return "program";
+  return word_among({"program", "optional", "tool_change", "operator"}, kind);
 }
-
 std::string_view word_of(OutputDevice device) {
-  switch (device) {
-    case OutputDevice::Port1:
-      return "port1";
-    case OutputDevice::Port2:
-      return "port2";
-    case OutputDevice::Screen:
-      return "screen";
-    case OutputDevice::Printer:
-      return "printer";
-    case OutputDevice::File:
-      break;
-  }
-  return "file";
+  return word_among({"file", "port1", "port2", "screen", "printer"}, device);
 }
-
 std::string_view word_of(Feed::Per per) {
-  switch (per) {
-    case Feed::Per::Revolution:
-      return "rev";
-    case Feed::Per::Move:
-      return "move";
-    case Feed::Per::Minute:
-      break;
-  }
-  return "min";
+  return word_among({"min", "rev", "move"}, per);
 }
-
 std::string_view word_of(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return "ZX";
-    case Plane::YZ:
-      return "YZ";
-    case Plane::XY:
-      break;
-  }
-  return "XY";
+  return word_among({"XY", "ZX", "YZ"}, plane);
 }
 
 }  // namespace dripline::interpreter

@@ -9,43 +9,12 @@
 /// implied decimals, tags that override absolute or incremental for one word.
 namespace dripline::interpreter::prototrak {
 
+// clang-format off
 enum class Address : std::uint8_t {
-  XB,
-  YB,
-  XE,
-  YE,
-  XC,
-  YC,
-  XD,
-  YD,
-  XO,
-  YO,
-  HL,
-  PN,
-  CR,
-  TC,
-  FE,
-  FC,
-  DR,
-  LE,
-  RE,
-  X,
-  Y,
-  Z,
-  I,
-  J,
-  K,
-  A,
-  R,
-  F,
-  T,
-  D,
-  N,
-  G,
-  H,
-  M,
-  S,
+  XB, YB, XE, YE, XC, YC, XD, YD, XO, YO, HL, PN, CR, TC, FE, FC, DR, LE, RE,
+  X, Y, Z, I, J, K, A, R, F, T, D, N, G, H, M, S
 };
+// clang-format on
 inline constexpr std::size_t kAddressCount = 35;
 /// In the order of the enum; two-letter ones first, so that the longest match is found first.
 inline constexpr std::array<std::string_view, kAddressCount> kAddressNames{

@@ -81,7 +81,7 @@ bool is_in_one_quadrant(const PlaneArc& arc, double tolerance) {
 }
 
 /// Where the manual leaves open what happens, only `arc_policy = "run"` goes on.
-bool object_to_arc(Run& run, Fault fault, std::string_view detail) {
+bool object_to_arc(Run& run, const DiagnosticRow& fault, std::string_view detail) {
   if (!run.options.runs_bad_arcs) return run.fail(fault, 0, detail);
   run.warn(fault, run.origin, 0, detail);
   return true;

@@ -45,8 +45,8 @@ class LineInHand {
   bool add_digit(const char* at);
   bool is_fitted(Address address) const;
   bool meet_rubbish(const char* at);
-  bool blame(Fault fault, const char* at, std::string_view detail = {});
-  void tell(Fault fault, const char* at, std::string_view detail = {});
+  bool blame(const DiagnosticRow& fault, const char* at, std::string_view detail = {});
+  void tell(const DiagnosticRow& fault, const char* at, std::string_view detail = {});
   std::uint32_t column(const char* at) const { return static_cast<std::uint32_t>(at - begin_) + 1; }
 
   Run& run_;
@@ -57,18 +57,25 @@ class LineInHand {
 
 /// What stands before the next block: nothing of the tape may be lost, so a block is left out
 /// whole.
-bool LineInHand::blame(Fault fault, const char* at, std::string_view detail) {
+bool LineInHand::blame(const DiagnosticRow& fault, const char* at, std::string_view detail) {
   if (!run_.options.skips_bad_blocks) return run_.fail(fault, column(at), detail);
   block_.is_bad = true;
   tell(fault, at, detail);
   return true;
 }
 
+/// Ids end with a number below 500.
+std::size_t number_of(const DiagnosticRow& fault) {
+  std::size_t number = 0;
+  for (const char c : fault.id.substr(3)) number = 10 * number + static_cast<std::size_t>(c - '0');
+  return number;
+}
+
 /// Each fault once a block.
-void LineInHand::tell(Fault fault, const char* at, std::string_view detail) {
-  const std::uint64_t mark = std::uint64_t{1} << static_cast<unsigned>(fault);
-  if ((block_.faults & mark) != 0) return;
-  block_.faults |= mark;
+void LineInHand::tell(const DiagnosticRow& fault, const char* at, std::string_view detail) {
+  const std::size_t number = number_of(fault);
+  if (block_.faults.test(number)) return;
+  block_.faults.set(number);
   run_.warn(fault, run_.origin, column(at), detail);
 }
 

@@ -24,15 +24,12 @@ void Run::deliver_header() {
   sink.on_program(header);
 }
 
-bool Run::fail(Fault fault, std::uint32_t column, std::string_view detail) {
-  return BlockRun::fail(fault_row(fault), column, detail);
+void Run::warn(const DiagnosticRow& fault, const Origin& at, std::uint32_t column,
+               std::string_view detail) {
+  events().on_warning({at, diagnostic(fault, detail, at.line, column)});
 }
 
-void Run::warn(Fault fault, const Origin& at, std::uint32_t column, std::string_view detail) {
-  events().on_warning({at, diagnostic(fault_row(fault), detail, at.line, column)});
-}
-
-bool Run::object(Fault fault, std::uint32_t column, std::string_view detail) {
+bool Run::object(const DiagnosticRow& fault, std::uint32_t column, std::string_view detail) {
   if (options.is_strict) return fail(fault, column, detail);
   warn(fault, origin, column, detail);
   return true;

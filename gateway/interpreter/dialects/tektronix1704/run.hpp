@@ -23,12 +23,13 @@ struct Run : BlockRun {
     return sink;
   }
 
-  /// Gives false. `detail`: which value, which limit.
-  [[gnu::cold]] bool fail(Fault fault, std::uint32_t column = 0, std::string_view detail = {});
-  [[gnu::cold]] void warn(Fault fault, const Origin& at, std::uint32_t column = 0,
+  using BlockRun::fail;
+  [[gnu::cold]] bool fail(const DiagnosticRow& fault) { return fail(fault, 0); }
+  [[gnu::cold]] void warn(const DiagnosticRow& fault, const Origin& at, std::uint32_t column = 0,
                           std::string_view detail = {});
   /// What the manual forbids without naming an effect: told, or an alarm when strict.
-  [[gnu::cold]] bool object(Fault fault, std::uint32_t column = 0, std::string_view detail = {});
+  [[gnu::cold]] bool object(const DiagnosticRow& fault, std::uint32_t column = 0,
+                            std::string_view detail = {});
 
   double machine_mm(std::size_t axis, double program_counts) const {
     const double sign = options.mirror[axis] ? -1 : 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 
@@ -49,7 +50,7 @@ struct BlockInProgress {
   std::int32_t value = 0;
   std::uint8_t digits = 0;       ///< significant
   std::uint32_t characters = 0;  ///< on the tape, end of block included
-  std::uint64_t faults = 0;      ///< told already, a bit each
+  std::bitset<500> faults;       ///< reported already, by the numbers of their ids
   bool is_bad = false;           ///< a fault that leaves the block out
 };
 

@@ -15,19 +15,11 @@ struct WordFormat {
   std::uint8_t digits;  ///< significant ones
   bool is_signed;
 };
-inline constexpr std::array<WordFormat, kAddressCount> kFormats{{{3, false},
-                                                                 {2, false},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {6, true},
-                                                                 {4, false},
-                                                                 {2, false},
-                                                                 {2, false},
-                                                                 {2, false}}};
+inline constexpr WordFormat kSequence{3, false}, kCode{2, false}, kCoordinate{6, true},
+    kFeed{4, false};
+inline constexpr std::array<WordFormat, kAddressCount> kFormats{
+    kSequence,   kCode,       kCoordinate, kCoordinate, kCoordinate, kCoordinate, kCoordinate,
+    kCoordinate, kCoordinate, kFeed,       kCode,       kCode,       kCode};
 
 constexpr std::uint16_t bit(Address address) {
   return static_cast<std::uint16_t>(1u << static_cast<unsigned>(address));

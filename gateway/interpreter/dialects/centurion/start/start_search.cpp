@@ -16,20 +16,10 @@ constexpr std::uint8_t kHasX = 1;
 constexpr std::uint8_t kHasZ = 2;
 
 std::optional<StartAt::Kind> kind_of_letter(char letter) {
-  switch (letter) {
-    case 'N':
-      return StartAt::Kind::Block;
-    case 'T':
-      return StartAt::Kind::Tool;
-    case 'L':
-      return StartAt::Kind::Line;
-    case 'B':
-      return StartAt::Kind::Byte;
-    case '+':
-      return StartAt::Kind::Count;
-    default:
-      return std::nullopt;
-  }
+  constexpr std::string_view kLetters = "NTLB+";  // in the order of the kinds
+  const std::size_t kind = kLetters.find(letter);
+  if (kind == std::string_view::npos) return std::nullopt;
+  return static_cast<StartAt::Kind>(kind);
 }
 
 Position place(const Point& millimeters) {
