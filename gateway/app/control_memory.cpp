@@ -1,10 +1,10 @@
 #include "gateway/app/control_memory.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <cmath>
 
 #include "protocol/dds/message.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -53,9 +53,9 @@ Result<std::vector<interpreter::VariableRecord>> ControlMemory::begin(
       continue;
     }
     const auto place = places_.find(name);
-    spdlog::info("memory: {} is {} by the setup, not {} as it was kept", name,
-                 place == places_.end() ? "gone" : number_text(base_[place->second]),
-                 number_text(now.kept.value));
+    process::log_info("memory: {} is {} by the setup, not {} as it was kept", name,
+                      place == places_.end() ? "gone" : number_text(base_[place->second]),
+                      number_text(now.kept.value));
     cell = cells_.erase(cell);
     has_unstaged_ = has_changed_ = true;
   }

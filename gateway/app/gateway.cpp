@@ -1,8 +1,8 @@
 #include "gateway/app/gateway.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <utility>
+#include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 
@@ -82,8 +82,8 @@ Result<void> Gateway::recover() {
   if (auto fits = check_speed(machine_->capabilities(), parts_.options.speed); !fits) return fits;
   if (!memory_.fault().empty()) {
     run_.last_message = valid_text(memory_.fault(), kMaxReason);
-    spdlog::error("{}: no program is begun until the memory is discarded at the panel {}",
-                  memory_.fault(), run_.label());
+    process::log_error("{}: no program is begun until the memory is discarded at the panel {}",
+                       memory_.fault(), run_.label());
   }
   return loop_.recover();
 }
@@ -101,8 +101,8 @@ void Gateway::on(const dds::BlockData& data, SteadyTime now) {
 }
 
 void Gateway::on(const ServerSeen& server, SteadyTime) {
-  spdlog::info("server {} machine={}", server.is_connected ? "connected" : "gone",
-               parts_.options.machine);
+  process::log_info("server {} machine={}", server.is_connected ? "connected" : "gone",
+                    parts_.options.machine);
   is_connected_ = server.is_connected;
   refused_by_server_.clear();
   sender_.on_server(is_connected_);
@@ -113,7 +113,7 @@ void Gateway::on(const ServerSeen& server, SteadyTime) {
 }
 
 void Gateway::on(const StopRequested& stop, SteadyTime) {
-  spdlog::info("stopping on signal {} machine={}", stop.signal, parts_.options.machine);
+  process::log_info("stopping on signal {} machine={}", stop.signal, parts_.options.machine);
   stop_requested_ = true;
 }
 
@@ -124,12 +124,12 @@ SteadyTime Gateway::turn(SteadyTime now) {
   commands_.send();
   const std::uint64_t unsent = outbox_.unacknowledged();
   if (const auto done = sender_.poll(now); !done) {
-    spdlog::error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
-                  done.error().what);
+    process::log_error("outbox of {} records machine={}: {}", unsent, parts_.options.machine,
+                       done.error().what);
   }
   if (sender_.take_epoch_change()) {
-    spdlog::warn("record numbers begin again, epoch {} machine={}", outbox_.epoch(),
-                 parts_.options.machine);
+    process::log_warning("record numbers begin again, epoch {} machine={}", outbox_.epoch(),
+                         parts_.options.machine);
     announcement_is_due_ = true;
   }
   if (publisher_.is_due(now)) {
@@ -170,8 +170,8 @@ void Gateway::log_rejected(SteadyTime now) {
   constexpr std::chrono::minutes kInterval{1};
   const dds::Rejected dropped = parts_.endpoint.rejected();
   if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
-  spdlog::warn("dropped {} DDS messages, the last: {} {}", dropped.messages - rejected_logged_,
-               dropped.last_reason, run_.label());
+  process::log_warning("dropped {} DDS messages, the last: {} {}",
+                       dropped.messages - rejected_logged_, dropped.last_reason, run_.label());
   rejected_logged_ = dropped.messages;
   next_rejected_log_ = now + kInterval;
 }

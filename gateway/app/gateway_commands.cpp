@@ -1,10 +1,10 @@
-#include <spdlog/spdlog.h>
 #include <utility>
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/feed/pull_feed.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/dds/stop_commands.hpp"
+#include "protocol/process/log.hpp"
 
 /// The gateway's commands: those of the server, and what is done at the machine's own panel.
 namespace dripline::gateway {
@@ -30,20 +30,21 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
   if (command.action == CommandAction::Refuse) return on_refusal(command);
   const bool is_stop = stops(command);
   if (!is_stop && command.session != 0 && command.session != parts_.session) {
-    spdlog::warn("command {} is for another gateway of this name {}", command.id, run_.label());
+    process::log_warning("command {} is for another gateway of this name {}", command.id,
+                         run_.label());
     return;
   }
   const auto known = commands_.find(command.id);
   if (!known) {
-    spdlog::error("command {} cannot be looked up: {} {}", command.id, known.error().what,
-                  run_.label());
+    process::log_error("command {} cannot be looked up: {} {}", command.id, known.error().what,
+                       run_.label());
     if (!is_stop) return;  // its sender tries again
   }
   if (known && *known) return commands_.answer(command.id, **known);
   const Reply reply = carry_out(command, is_stop);
-  spdlog::info("command {} {} {}{}{} {}", command.id, dds::to_string(command.action),
-               reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
-               reply.reason, run_.label());
+  process::log_info("command {} {} {}{}{} {}", command.id, dds::to_string(command.action),
+                    reply.is_accepted ? "accepted" : "refused", reply.reason.empty() ? "" : ": ",
+                    reply.reason, run_.label());
   const bool is_kept = command.action == CommandAction::Start && reply.is_accepted;
   if (!is_kept) keep_answer(command, reply);
   commands_.answer(command.id, reply);
@@ -51,7 +52,8 @@ void Gateway::on(const dds::Command& command, SteadyTime) {
 
 void Gateway::on_refusal(const dds::Command& command) {
   if (std::exchange(refused_by_server_, command.argument) == command.argument) return;
-  spdlog::error("the server does not command this gateway: {} {}", command.argument, run_.label());
+  process::log_error("the server does not command this gateway: {} {}", command.argument,
+                     run_.label());
 }
 
 /// A stop is carried out whenever it arrives and for any session: one stop too many does no harm.
@@ -67,7 +69,7 @@ void Gateway::keep_answer(const dds::Command& command, const Reply& reply) {
   if (!recorder_.is_between_blocks()) return;
   const auto done = run_.session ? recorder_.commit() : outbox_.commit();
   if (!done)
-    spdlog::error("command {} not kept: {} {}", command.id, done.error().what, run_.label());
+    process::log_error("command {} not kept: {} {}", command.id, done.error().what, run_.label());
 }
 
 Reply Gateway::carry_out(const dds::Command& command, bool is_stop) {
@@ -163,12 +165,12 @@ void Gateway::on(const PanelRequest& request, SteadyTime) {
   if (request.command.verb == PanelCommand::Verb::Status)
     return request.answer("ok " + panel_status(status()));
   const Reply reply = carry_out(request.command);
-  spdlog::info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
-               reply.reason.empty() ? "" : ": ", reply.reason, run_.label());
+  process::log_info("panel {}{}{} {}", reply.is_accepted ? "accepted" : "refused",
+                    reply.reason.empty() ? "" : ": ", reply.reason, run_.label());
   // With a run, its records are committed at the end of the block.
   if (!run_.session) {
     if (const auto done = outbox_.commit(); !done)
-      spdlog::error("panel: not on record: {} {}", done.error().what, run_.label());
+      process::log_error("panel: not on record: {} {}", done.error().what, run_.label());
   }
   publisher_.reset();
   std::string answer = reply.is_accepted ? "ok" : "refused";

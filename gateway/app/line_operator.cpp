@@ -1,11 +1,11 @@
 #include "gateway/app/line_operator.hpp"
 
-#include <spdlog/spdlog.h>
 #include <utility>
 
 #include "gateway/report/status_publisher.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 
@@ -94,8 +94,8 @@ void LineOperator::take(LineItem& item) {
       if (state_ == State::Listening) listen_at_ = parts_.clock.steady_now() + kListenAgain;
       return;
     case What::Channel:
-      spdlog::info("line {} {} {}", address(), item.text.empty() ? "is open" : item.text,
-                   parts_.run.label());
+      process::log_info("line {} {} {}", address(), item.text.empty() ? "is open" : item.text,
+                        parts_.run.label());
       fault_ = item.text.empty() ? "" : fmt::format("line: {}", item.text);
       return;
   }
@@ -104,7 +104,7 @@ void LineOperator::take(LineItem& item) {
 /// A fault that lasts is logged once.
 void LineOperator::set_fault(std::string_view reason) {
   const auto text = fmt::format("line: {}", reason);
-  if (std::exchange(fault_, text) != text) spdlog::warn("{} {}", text, parts_.run.label());
+  if (std::exchange(fault_, text) != text) process::log_warning("{} {}", text, parts_.run.label());
 }
 
 void LineOperator::take_text(std::string_view text) {
@@ -149,8 +149,8 @@ bool LineOperator::begin_run() {
   auto feed = std::make_unique<feed::LineFeed>();
   auto* raw = feed.get();
   if (const auto done = parts_.begin_run(run, std::move(feed)); !done) {
-    spdlog::error("program {} from line {} not begun: {} {}", run.program, address(),
-                  done.error().what, parts_.run.label());
+    process::log_error("program {} from line {} not begun: {} {}", run.program, address(),
+                       done.error().what, parts_.run.label());
     parts_.run.last_message = valid_text(done.error().what, kMaxReason);
     return false;
   }
@@ -158,7 +158,7 @@ bool LineOperator::begin_run() {
   feed_ = raw;
   released_ = 0;
   state_ = State::Feeding;
-  spdlog::info("run begins with text from line {} {}", address(), parts_.run.label());
+  process::log_info("run begins with text from line {} {}", address(), parts_.run.label());
   return true;
 }
 
@@ -202,8 +202,8 @@ void LineOperator::print(const interpreter::Output& output) {
                       output.device == OutputDevice::Printer;
   if (!leaves) return;
   if (!parts_.line.send(std::string(output.text) + "\n"))
-    spdlog::error("line {} takes no more output; the records have it {}", address(),
-                  parts_.run.label());
+    process::log_error("line {} takes no more output; the records have it {}", address(),
+                       parts_.run.label());
 }
 
 }  // namespace dripline::gateway

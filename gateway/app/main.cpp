@@ -1,7 +1,7 @@
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -15,6 +15,7 @@
 #include "protocol/base/random.hpp"
 #include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
+#include "protocol/process/log.hpp"
 #include "protocol/process/open_files.hpp"
 #include "protocol/process/settings_reader.hpp"
 #include "protocol/process/stop_signals.hpp"
@@ -115,10 +116,10 @@ Result<std::unique_ptr<feed::ControlLine>> open_line(const GatewayOptions& optio
   if (!options.line) return std::unique_ptr<feed::ControlLine>();
   const auto settings = line_settings_of(*options.line, setup.control);
   if (!settings) return fail(settings.error());
-  spdlog::info("control at the end of line {} template={} {} buffer={} machine={}",
-               options.line->address, options.line->template_name,
-               wire::short_form(options.line->settings), options.line->buffer_bytes,
-               options.machine);
+  process::log_info("control at the end of line {} template={} {} buffer={} machine={}",
+                    options.line->address, options.line->template_name,
+                    wire::short_form(options.line->settings), options.line->buffer_bytes,
+                    options.machine);
   return feed::ControlLine::start({.address = options.line->address,
                                    .settings = *settings,
                                    .buffer_bytes = options.line->buffer_bytes,
@@ -132,8 +133,8 @@ Result<report::Outbox> open_outbox(const StateFolder& folder) {
                        std::filesystem::exists(folder.journal(), error);
   auto outbox = report::Outbox::open(folder.outbox());
   if (!outbox || !is_lost) return outbox;
-  spdlog::error("{} is gone, and with it the records that were not delivered",
-                folder.outbox().string());
+  process::log_error("{} is gone, and with it the records that were not delivered",
+                     folder.outbox().string());
   outbox->memory().stage_fault("what the control has kept is lost with the file " +
                                folder.outbox().filename().string());
   if (const auto done = outbox->commit(); !done) return fail(done.error());
@@ -186,12 +187,13 @@ Result<void> run(const GatewayOptions& options) {
                    .session = new_session(),
                    .line = line->get()});
   if (const auto done = gateway.recover(); !done) return done;
-  spdlog::info(
+  process::log_info(
       "gateway ready machine={} control={} state={} server={} domain={} records={} unattended={}",
       options.machine, options.control, options.state.string(), options.network.server,
       options.network.domain, outbox->unacknowledged(), options.is_unattended ? "yes" : "no");
   const auto done = serve(gateway, inbox, clock, options.has_server);
-  spdlog::info("gateway stopped machine={} records={}", options.machine, outbox->unacknowledged());
+  process::log_info("gateway stopped machine={} records={}", options.machine,
+                    outbox->unacknowledged());
   return done;
 }
 
@@ -283,7 +285,7 @@ int main(int argc, char** argv) {
   }
   dds::send_log_to(process::log_foreign);
   if (const auto done = run(options); !done) {
-    spdlog::critical("{} machine={}", done.error().what, options.machine);
+    process::log_error("{} machine={}", done.error().what, options.machine);
     if (options.log) std::fprintf(stderr, "dncgw: %s\n", done.error().what.c_str());
     return 1;
   }

@@ -1,10 +1,10 @@
 #include "gateway/app/panel_controller.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/dds/stop_commands.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 
@@ -66,7 +66,7 @@ void PanelController::take_tables(const interpreter::Setup& setup) {
   if (tables) {
     tables_ = *std::move(tables);
   } else {
-    spdlog::warn("setup: {} {}", tables.error().what, parts_.run.label());
+    process::log_warning("setup: {} {}", tables.error().what, parts_.run.label());
   }
 }
 
@@ -100,7 +100,8 @@ Reply PanelController::set_emergency_stop(bool is_pressed) {
   if (panel.emergency_stop == is_pressed) return {};
   panel.emergency_stop = is_pressed;
   if (is_pressed) parts_.consent.set_enabled(false);
-  spdlog::warn("emergency stop {} {}", is_pressed ? "pressed" : "released", parts_.run.label());
+  process::log_warning("emergency stop {} {}", is_pressed ? "pressed" : "released",
+                       parts_.run.label());
   if (is_pressed && parts_.run.is_active()) {
     parts_.run.was_emergency_stopped = true;
     parts_.recorder.note_emergency_stop(parts_.machine.status().origin);
@@ -122,7 +123,7 @@ Reply PanelController::set_remote_enable(bool is_enabled) {
   if (parts_.consent.is_given() == is_enabled) return {};
   parts_.consent.set_enabled(is_enabled);
   const std::string text = fmt::format("remote enable {}", is_enabled ? "on" : "off");
-  spdlog::warn("{} {}", text, parts_.run.label());
+  process::log_warning("{} {}", text, parts_.run.label());
   parts_.recorder.note_at_panel(parts_.machine.status().origin, text);
   return {};
 }

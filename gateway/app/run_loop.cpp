@@ -1,9 +1,9 @@
 #include "gateway/app/run_loop.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include "protocol/process/log.hpp"
 
 namespace dripline::gateway {
 
@@ -122,7 +122,7 @@ void RunLoop::run_slice(SteadyTime now) {
   next_sync_ = now + kSyncInterval;
   keep_memory();
   if (const auto done = parts_.journal.sync(); !done)
-    spdlog::warn("{} {}", done.error().what, parts_.run.label());
+    process::log_warning("{} {}", done.error().what, parts_.run.label());
 }
 
 /// Some blocks in, some actions out. False: nothing more can be done in this slice.
@@ -154,7 +154,7 @@ bool RunLoop::wait_for_cycle_start(SteadyTime now) {
 
 void RunLoop::cycle_start() {
   parts_.consent.end_wait();
-  spdlog::info("cycle start {}", parts_.run.label());
+  process::log_info("cycle start {}", parts_.run.label());
   last_step_ = parts_.clock.steady_now();
   (void)parts_.machine.resume();  // from a hold that was commanded meanwhile
 }
@@ -187,8 +187,8 @@ void RunLoop::commit_reports() {
   if (!parts_.outbox.has_staged_records() || !may_commit || !recorder.fault().empty()) return;
   (void)recorder.commit();
   if (recorder.fault().empty()) return;
-  spdlog::error("reports cannot be kept, the machine is held: {} {}", recorder.fault(),
-                parts_.run.label());
+  process::log_error("reports cannot be kept, the machine is held: {} {}", recorder.fault(),
+                     parts_.run.label());
 }
 
 /// True: records cannot be written. The machine is held until they can.
@@ -201,7 +201,7 @@ bool RunLoop::wait_out_fault(SteadyTime now) {
   if (now < next_commit_) return true;
   next_commit_ = now + kCommitRetry;
   if (!parts_.recorder.commit()) return true;
-  spdlog::info("reports are kept again {}", parts_.run.label());
+  process::log_info("reports are kept again {}", parts_.run.label());
   if (std::exchange(is_held_by_fault_, false) && parts_.consent.is_given()) parts_.machine.resume();
   return false;
 }
@@ -245,15 +245,15 @@ void RunLoop::try_to_finish(SteadyTime now) {
   if (!recorder.fault().empty() && now < next_commit_) return;
   next_commit_ = now + kCommitRetry;
   if (const auto done = recorder.commit(); !done) {
-    spdlog::error("the end of the run cannot be kept yet: {} {}", done.error().what,
-                  parts_.run.label());
+    process::log_error("the end of the run cannot be kept yet: {} {}", done.error().what,
+                       parts_.run.label());
     return;
   }
   const bool is_completed = parts_.run.last_execution == dds::Execution::ProgramCompleted;
-  spdlog::info("run ended {}{} executed={} accepted={} sent={} {}",
-               is_completed ? "completed" : "cut off: ", parts_.run.last_message,
-               recorder.executed().executed, recorder.executed().accepted, recorder.executed().sent,
-               parts_.run.label());
+  process::log_info("run ended {}{} executed={} accepted={} sent={} {}",
+                    is_completed ? "completed" : "cut off: ", parts_.run.last_message,
+                    recorder.executed().executed, recorder.executed().accepted,
+                    recorder.executed().sent, parts_.run.label());
   recorder.finish();
   parts_.run.is_ending = false;
   parts_.run.session.reset();
@@ -293,8 +293,8 @@ Result<void> RunLoop::recover() {
   const auto entry = parts_.journal.read();
   if (entry && entry->run == run->run && entry->progress.executed >= progress.executed)
     progress = entry->progress;
-  spdlog::warn("run interrupted at block {} machine={} run={} program={}", progress.executed,
-               parts_.options.machine, run->run, run->program);
+  process::log_warning("run interrupted at block {} machine={} run={} program={}",
+                       progress.executed, parts_.options.machine, run->run, run->program);
   parts_.run.last_execution = dds::Execution::Stopped;
   parts_.run.last_message =
       fmt::format("run {} was interrupted at block {}", run->run, progress.executed);

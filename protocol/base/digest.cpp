@@ -48,8 +48,7 @@ Digest sha256(std::string_view text) {
 std::string Digest::hex() const {
   std::string text;
   text.reserve(2 * kSize);
-  for (const std::byte b : bytes)
-    fmt::format_to(std::back_inserter(text), "{:02x}", std::to_integer<int>(b));
+  for (const std::byte b : bytes) text += fmt::format("{:02x}", std::to_integer<int>(b));
   return text;
 }
 

@@ -17,7 +17,7 @@ std::string one_line(std::string_view text) {
     } else if (c == '\n') {
       line += "\\n";
     } else {
-      fmt::format_to(std::back_inserter(line), "\\x{:02x}", code);
+      line += fmt::format("\\x{:02x}", code);
     }
   }
   return line;

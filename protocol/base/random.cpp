@@ -26,7 +26,7 @@ std::string random_hex(std::size_t bytes) {
   std::vector<unsigned char> random(bytes);
   fill(random.data(), random.size());
   std::string text;
-  for (const unsigned char byte : random) fmt::format_to(std::back_inserter(text), "{:02x}", byte);
+  for (const unsigned char byte : random) text += fmt::format("{:02x}", byte);
   return text;
 }
 

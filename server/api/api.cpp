@@ -1,8 +1,8 @@
 #include "server/api/api.hpp"
 
-#include <spdlog/spdlog.h>
 #include <nlohmann/json.hpp>
 
+#include "protocol/process/log.hpp"
 #include "server/api/routes.hpp"
 #include "server/api/views.hpp"
 
@@ -52,7 +52,7 @@ Response Api::route(Request request) const {
   try {
     return router_.handle(std::move(request));
   } catch (const std::exception& e) {  // no memory, or a defect of ours; the server must not end
-    spdlog::error("request failed: {}", e.what());
+    process::log_error("request failed: {}", e.what());
     return error_response({Errc::Io, "the server could not answer this request"});
   }
 }

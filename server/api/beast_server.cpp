@@ -1,4 +1,3 @@
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "protocol/base/rate_limit.hpp"
+#include "protocol/process/log.hpp"
 #include "server/api/http_server.hpp"
 #include "server/api/impl/http_session.hpp"
 #include "server/api/impl/tls_context.hpp"
@@ -42,8 +42,8 @@ ConnectionTable::Limits seats(const HttpLimits& wanted) {
         std::max<std::size_t>(files.rlim_cur > kOthers ? files.rlim_cur - kOthers : 0, kFewest);
     limits.reserve = std::min(wanted.reserve, left / 8);
     limits.connections = left - limits.reserve;
-    spdlog::warn("{} open files allowed: at most {} connections instead of {}", files.rlim_cur,
-                 limits.connections, wanted.connections);
+    process::log_warning("{} open files allowed: at most {} connections instead of {}",
+                         files.rlim_cur, limits.connections, wanted.connections);
   }
   limits.per_address = std::min(limits.per_address, limits.connections);
   limits.streams = std::min(limits.streams, std::max<std::size_t>(1, limits.connections / 2));
@@ -118,7 +118,7 @@ class BeastServer final : public HttpServer {
         shared_.io.run();
         return;
       } catch (const std::exception& e) {
-        spdlog::error("connection failed: {}", e.what());
+        process::log_error("connection failed: {}", e.what());
       }
     }
   }
@@ -173,9 +173,9 @@ class BeastServer final : public HttpServer {
     const auto left_out = log_limit_.pass(std::chrono::steady_clock::now());
     if (!left_out) return;
     if (*left_out > 0) {
-      spdlog::warn("{} ({} such lines left out before)", what, *left_out);
+      process::log_warning("{} ({} such lines left out before)", what, *left_out);
     } else {
-      spdlog::warn("{}", what);
+      process::log_warning("{}", what);
     }
   }
 

@@ -59,7 +59,7 @@ std::string hex(std::string_view bytes) {
   std::string text;
   text.reserve(2 * bytes.size());
   for (const char c : bytes) {
-    fmt::format_to(std::back_inserter(text), "{:02x}", static_cast<unsigned char>(c));
+    text += fmt::format("{:02x}", static_cast<unsigned char>(c));
   }
   return text;
 }

@@ -6,6 +6,7 @@
 
 #include "protocol/dds/dds_log.hpp"
 #include "protocol/process/daemon_log.hpp"
+#include "protocol/process/log.hpp"
 #include "protocol/process/open_files.hpp"
 #include "protocol/process/stop_signals.hpp"
 #include "server/app/server.hpp"
@@ -57,18 +58,18 @@ int run(const Settings& settings) {
   const auto files = process::require_open_files(process::kServerFiles);
   auto server = files ? Server::start(settings, clock) : fail(files.error());
   if (!server) {
-    spdlog::error("not started: {}", server.error().what);
+    process::log_error("not started: {}", server.error().what);
     // Without a log file the line above is on standard error already.
     if (settings.log.empty()) return server.error().code == Errc::Denied ? kUnsafe : kFailed;
     return complain(server.error());
   }
-  spdlog::info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
+  process::log_info("dncd {} listening at {}", DRIPLINE_VERSION, (*server)->url());
   fmt::print("dncd listening at {}\n", (*server)->url());
   std::fflush(stdout);
   serve_until(signals, **server);
-  spdlog::info("stopping");
+  process::log_info("stopping");
   server->reset();
-  spdlog::info("stopped");
+  process::log_info("stopped");
   spdlog::shutdown();
   return 0;
 }

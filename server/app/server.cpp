@@ -1,12 +1,12 @@
 #include "server/app/server.hpp"
 
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <array>
 #include <atomic>
 #include <thread>
 
 #include "protocol/dds/endpoint.hpp"
+#include "protocol/process/log.hpp"
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
 #include "server/library/audit_trail.hpp"
@@ -48,8 +48,8 @@ Result<void> check_network(const Settings& settings) {
   const auto network = network_options(settings);
   if (auto safe = dds::check_exposure(network); !safe) return safe;
   if (network.is_open_network_allowed)
-    spdlog::warn("DDS on {} has no authentication: keep its network to server and gateways",
-                 network.interface);
+    process::log_warning("DDS on {} has no authentication: keep its network to server and gateways",
+                         network.interface);
   return {};
 }
 
@@ -177,7 +177,7 @@ struct Server::Parts {
     const auto announced = folder.announce(announcement);
     const bool was_announced = is_announced.exchange(announced.has_value());
     if (announced || !was_announced) return;
-    spdlog::error("dnc on this machine needs --server {}: {}", url, announced.error().what);
+    process::log_error("dnc on this machine needs --server {}: {}", url, announced.error().what);
   }
 
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried
@@ -191,17 +191,17 @@ struct Server::Parts {
   }
 
   void check_on() {
-    spdlog::info("the database is big: the search for damage continues beside the work");
+    process::log_info("the database is big: the search for damage continues beside the work");
     check = std::jthread([this](const std::stop_token& stop) {
       const auto done = store->check(std::chrono::hours(24), stop);
       if (!done) {
-        spdlog::critical("the database is damaged, restore a backup: {}", done.error().what);
+        process::log_error("the database is damaged, restore a backup: {}", done.error().what);
         health.report("", {.level = library::Health::Level::Failed,
                            .subject = "damage",
                            .what = "the database is damaged",
                            .detail = done.error().what});
       } else if (*done) {
-        spdlog::info("the database is sound");
+        process::log_info("the database is sound");
       }
     });
   }
@@ -275,9 +275,9 @@ void Server::tidy() {
   const auto dropped = parts_->store->uploads.drop_idle(passed, kUploadLife);
   if (dropped) parts_->tidied = now;
   if (!dropped) {
-    spdlog::warn("abandoned uploads not dropped: {}", dropped.error().what);
+    process::log_warning("abandoned uploads not dropped: {}", dropped.error().what);
   } else if (*dropped > 0) {
-    spdlog::info("dropped {} abandoned uploads", *dropped);
+    process::log_info("dropped {} abandoned uploads", *dropped);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "server/app/state_folder.hpp"
 
 #include <fcntl.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
@@ -12,6 +11,7 @@
 
 #include "protocol/base/private_folder.hpp"
 #include "protocol/base/random.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::app {
 namespace {
@@ -52,7 +52,7 @@ Result<void> replace_private_file(const std::filesystem::path& path, const std::
 Result<StateFolder> StateFolder::open(const std::string& path) {
   const auto closed = make_private_folder(path);
   if (!closed) return fail(closed.error().code, "state {}", closed.error().what);
-  if (!closed->empty()) spdlog::warn("state {}", *closed);
+  if (!closed->empty()) process::log_warning("state {}", *closed);
   return StateFolder(std::filesystem::absolute(path));
 }
 

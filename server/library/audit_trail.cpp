@@ -1,6 +1,5 @@
 #include "server/library/audit_trail.hpp"
-
-#include <spdlog/spdlog.h>
+#include "protocol/process/log.hpp"
 
 namespace dripline::library {
 
@@ -11,8 +10,8 @@ void AuditTrail::write(Change change) {
                                   .subject = std::move(change.subject),
                                   .detail = std::move(change.detail)};
   if (auto written = store_.add(entry); !written) {
-    spdlog::error("audit entry lost who={} action={} subject={}: {}", entry.who, entry.action,
-                  entry.subject, written.error().what);
+    process::log_error("audit entry lost who={} action={} subject={}: {}", entry.who, entry.action,
+                       entry.subject, written.error().what);
   }
 }
 

@@ -1,8 +1,8 @@
 #include "server/library/health_watch.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <sys/statvfs.h>
+#include "protocol/process/log.hpp"
 
 namespace dripline::library {
 namespace {
@@ -61,7 +61,7 @@ void HealthWatch::look() {
     finding.level = is_busy ? Health::Level::Degraded : Health::Level::Failed;
     finding.what = is_busy ? "the store is slow" : "the store cannot be written or read";
     finding.detail = done.error().what;
-    spdlog::error("{}: {}", finding.what, finding.detail);
+    process::log_error("{}: {}", finding.what, finding.detail);
   }
   parts_.health.report("", std::move(finding));
   parts_.health.looked();

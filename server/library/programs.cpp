@@ -1,9 +1,9 @@
 #include "server/library/programs.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
 #include "protocol/base/names.hpp"
+#include "protocol/process/log.hpp"
 #include "server/library/control_words.hpp"
 
 namespace dripline::library {
@@ -99,8 +99,8 @@ Result<Committed> Programs::commit(const std::string& id, const std::optional<Di
   // Numbers only grow: a revision at or below the newest one existed before.
   const bool is_unchanged = before && revision->number <= before->front().number;
   if (!is_unchanged) {
-    spdlog::info("stored program={} revision={} size={} control={} held={}", revision->program,
-                 revision->number, revision->size, revision->control, revision->is_held);
+    process::log_info("stored program={} revision={} size={} control={} held={}", revision->program,
+                      revision->number, revision->size, revision->control, revision->is_held);
     audit_.write({.who = who,
                   .action = "program.store",
                   .subject = revision->program,
@@ -121,14 +121,14 @@ Result<void> Programs::abandon(const std::string& id) {
 Result<storage::Revision> Programs::accept(const std::string& program, std::uint64_t number,
                                            const std::string& who) {
   auto accepted = store_.accept(program, number, who);
-  if (accepted) spdlog::info("accepted program={} revision={} by={}", program, number, who);
+  if (accepted) process::log_info("accepted program={} revision={} by={}", program, number, who);
   return accepted;
 }
 
 Result<void> Programs::reject(const std::string& program, std::uint64_t number,
                               const std::string& who) {
   auto rejected = store_.reject(program, number, who);
-  if (rejected) spdlog::info("rejected program={} revision={} by={}", program, number, who);
+  if (rejected) process::log_info("rejected program={} revision={} by={}", program, number, who);
   return rejected;
 }
 
@@ -155,7 +155,7 @@ Result<void> Programs::remove(const std::string& program, const std::string& who
     }
   }
   if (auto removed = store_.remove(program); !removed) return removed;
-  spdlog::info("removed program={}", program);
+  process::log_info("removed program={}", program);
   audit_.write({.who = who, .action = "program.remove", .subject = program, .detail = {}});
   return {};
 }
@@ -179,14 +179,14 @@ Result<storage::Revision> Programs::copy(const storage::ProgramMove& move,
                                          std::optional<std::uint64_t> number) {
   auto copy = store_.copy(move, number);
   if (!copy) return fail(in_control_words(move, copy.error()));
-  spdlog::info("copied program={} to={} by={}", move.from, move.to, move.who);
+  process::log_info("copied program={} to={} by={}", move.from, move.to, move.who);
   return copy;
 }
 
 Result<void> Programs::rename(const storage::ProgramMove& move) {
   auto renamed = store_.rename(move);
   if (!renamed) return fail(in_control_words(move, renamed.error()));
-  spdlog::info("renamed program={} to={} by={}", move.from, move.to, move.who);
+  process::log_info("renamed program={} to={} by={}", move.from, move.to, move.who);
   return renamed;
 }
 
@@ -237,10 +237,10 @@ Result<void> Programs::determine_control(storage::Upload& upload) {
 tl::unexpected<Error> Programs::drop(const storage::Upload& upload, const Error& error) {
   drop_session(upload.id);
   if (auto dropped = uploads_.abandon(upload.id); !dropped) {
-    spdlog::warn("upload {} of program={} could not be dropped: {}", upload.id, upload.program,
-                 dropped.error().what);
+    process::log_warning("upload {} of program={} could not be dropped: {}", upload.id,
+                         upload.program, dropped.error().what);
   }
-  spdlog::info("refused upload of program={}: {}", upload.program, error.what);
+  process::log_info("refused upload of program={}: {}", upload.program, error.what);
   return fail(error.code, "program '{}' is refused: {}; nothing was changed", upload.program,
               error.what);
 }

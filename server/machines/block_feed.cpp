@@ -1,8 +1,8 @@
 #include "server/machines/block_feed.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
+#include "protocol/process/log.hpp"
 #include "server/machines/called_programs.hpp"
 
 namespace dripline::machines {
@@ -151,9 +151,9 @@ BlockFeed::Turn BlockFeed::send_bytes(dds::BlockRequest request, const Content& 
 }
 
 BlockFeed::Turn BlockFeed::refuse(const dds::BlockRequest& request, const Refusal& refusal) {
-  spdlog::warn("refused blocks machine={} run={} program={} offset={}: {}: {}", request.machine,
-               request.run, request.program, request.offset, dds::to_string(refusal.status),
-               refusal.error.what);
+  process::log_warning("refused blocks machine={} run={} program={} offset={}: {}: {}",
+                       request.machine, request.run, request.program, request.offset,
+                       dds::to_string(refusal.status), refusal.error.what);
   dds::BlockData data = answer_to(request);
   data.status = refusal.status;
   constexpr std::size_t kMaxReason = 256;
@@ -211,8 +211,8 @@ tl::expected<BlockFeed::Content, BlockFeed::Refusal> BlockFeed::look_up(
     const auto status = is_missing ? dds::BlockStatus::NoSuchProgram : status_of(revision.error());
     return refuse_with(status, revision.error());
   }
-  spdlog::info("pinned called program machine={} run={} program={} revision={}", request.machine,
-               run->id, revision->program, revision->number);
+  process::log_info("pinned called program machine={} run={} program={} revision={}",
+                    request.machine, run->id, revision->program, revision->number);
   return Content{.digest = revision->content, .size = revision->size};
 }
 

@@ -1,9 +1,9 @@
 #include "server/machines/machine_registry.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <optional>
 
+#include "protocol/process/log.hpp"
 #include "server/machines/machine_notices.hpp"
 
 namespace dripline::machines {
@@ -52,10 +52,10 @@ void MachineRegistry::on_announce(const dds::Announce& announce) {
   entry.view.protocol = announce.protocol;
   hear(entry, announce.session);
   entry.machine_is_dirty = true;
-  spdlog::info("machine connected machine={} control={} gateway_version={}", announce.machine,
-               announce.control, announce.version);
+  process::log_info("machine connected machine={} control={} gateway_version={}", announce.machine,
+                    announce.control, announce.version);
   if (const auto notice = protocol_notice(announce.protocol); !notice.empty())
-    spdlog::error("machine refused machine={}: {}", announce.machine, notice);
+    process::log_error("machine refused machine={}: {}", announce.machine, notice);
   schedule(entry);
 }
 
@@ -89,7 +89,8 @@ void MachineRegistry::hear(Entry& entry, std::uint64_t session) {
 void MachineRegistry::contest(Entry& entry) {
   const SteadyTime now = parts_.clock.steady_now();
   if (now >= entry.contested_until) {
-    spdlog::error("two gateways claim to be machine={}: stop one of them", entry.view.machine.name);
+    process::log_error("two gateways claim to be machine={}: stop one of them",
+                       entry.view.machine.name);
   }
   entry.contested_until = now + kContested;
 }
@@ -110,9 +111,9 @@ void MachineRegistry::compare_clocks(Entry& entry, const dds::Status& status) {
   const bool is_off = !notice.empty() || (entry.clock_is_off && is_near);
   if (std::exchange(entry.clock_is_off, is_off) == is_off) return;
   if (is_off) {
-    spdlog::warn("{} machine={}", notice, status.machine);
+    process::log_warning("{} machine={}", notice, status.machine);
   } else {
-    spdlog::info("the clocks of gateway and server agree again machine={}", status.machine);
+    process::log_info("the clocks of gateway and server agree again machine={}", status.machine);
   }
 }
 
@@ -144,7 +145,7 @@ void MachineRegistry::on_lost(const std::string& machine) {
   Entry& entry = found->second;
   entry.view.is_connected = false;
   entry.machine_is_dirty = true;
-  spdlog::warn("machine lost machine={}", machine);
+  process::log_warning("machine lost machine={}", machine);
   schedule(entry);
 }
 
@@ -201,7 +202,7 @@ void MachineRegistry::save_machine(const std::string& name) {
     machine = entry.view.machine;
   }
   if (auto saved = parts_.machines.save(machine); !saved) {
-    spdlog::warn("machine not saved machine={}: {}", name, saved.error().what);
+    process::log_warning("machine not saved machine={}: {}", name, saved.error().what);
     const std::lock_guard lock(mutex_);
     entries_.at(name).machine_is_dirty = true;
   }
@@ -224,8 +225,8 @@ void MachineRegistry::save() {
     auto saved = parts_.runs.update_counters(
         {status.machine, status.run, counters, status.line, status.sequence});
     if (!saved && saved.error().code != Errc::NotFound) {
-      spdlog::debug("progress not saved machine={} run={}: {}", status.machine, status.run,
-                    saved.error().what);
+      process::log_debug("progress not saved machine={} run={}: {}", status.machine, status.run,
+                         saved.error().what);
     }
   }
 }

@@ -1,9 +1,9 @@
 #include "server/machines/machine_service.hpp"
 
-#include <spdlog/spdlog.h>
 #include <set>
 
 #include "protocol/dds/stop_commands.hpp"
+#include "protocol/process/log.hpp"
 #include "server/machines/control_memory.hpp"
 #include "server/machines/identifiers.hpp"
 #include "server/machines/machine_notices.hpp"
@@ -140,8 +140,8 @@ void MachineService::log_rejected() {
   const SteadyTime now = clock_.steady_now();
   const dds::Rejected dropped = rejected();
   if (dropped.messages == rejected_logged_ || now < next_rejected_log_) return;
-  spdlog::warn("dropped {} DDS messages, the last: {}", dropped.messages - rejected_logged_,
-               dropped.last_reason);
+  process::log_warning("dropped {} DDS messages, the last: {}", dropped.messages - rejected_logged_,
+                       dropped.last_reason);
   rejected_logged_ = dropped.messages;
   next_rejected_log_ = now + kInterval;
 }
@@ -238,12 +238,12 @@ Result<storage::Run> MachineService::start(const StartRequest& request) {
 Result<storage::Run> MachineService::conclude_start(const storage::Run& run,
                                                     const Result<void>& outcome) {
   if (outcome) {
-    spdlog::info("run started machine={} run={} program={} revision={}", run.machine, run.id,
-                 run.program, run.revision);
+    process::log_info("run started machine={} run={} program={} revision={}", run.machine, run.id,
+                      run.program, run.revision);
     return owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Active, "");
   }
-  spdlog::warn("run not started machine={} run={} program={}: {}", run.machine, run.id, run.program,
-               outcome.error().what);
+  process::log_warning("run not started machine={} run={} program={}: {}", run.machine, run.id,
+                       run.program, outcome.error().what);
   // The server stops before the outcome is known: the next one determines it.
   if (outcome.error().code == Errc::Io) return fail(outcome.error());
   const auto refused = owned_parts_->reconciler.resolve_ordered(run.id, storage::RunState::Refused,
@@ -263,7 +263,8 @@ void MachineService::refuse_stranger(const dds::Announce& announce) {
   command.action = dds::CommandAction::Refuse;
   command.argument = notice;
   if (auto sent = owned_parts_->commands.send(std::move(command)); !sent)
-    spdlog::warn("gateway not notified machine={}: {}", announce.machine, sent.error().what);
+    process::log_warning("gateway not notified machine={}: {}", announce.machine,
+                         sent.error().what);
 }
 
 Result<void> MachineService::check_protocol(const MachineView& view) {
@@ -296,8 +297,8 @@ Result<void> MachineService::command(const CommandRequest& request) {
   command.run = run->id;
   command.argument = request.argument;
   command.value = request.value;
-  spdlog::info("command {} machine={} run={} program={}", dds::to_string(request.action),
-               run->machine, run->id, run->program);
+  process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
+                    run->machine, run->id, run->program);
   return parts->commands.carry_out(std::move(command));
 }
 
@@ -311,7 +312,7 @@ Result<void> MachineService::command_machine(const CommandRequest& request) {
   command.action = request.action;
   command.argument = request.argument;
   command.value = request.value;
-  spdlog::info("command {} machine={}", dds::to_string(request.action), request.machine);
+  process::log_info("command {} machine={}", dds::to_string(request.action), request.machine);
   return owned_parts_->commands.carry_out(std::move(command));
 }
 
@@ -325,16 +326,16 @@ void MachineService::on_late_start(const dds::Command& late) {
 }
 
 void MachineService::abort_unwanted(const storage::Run& run) {
-  spdlog::warn("start accepted too late, aborting machine={} run={} program={}", run.machine,
-               run.id, run.program);
+  process::log_warning("start accepted too late, aborting machine={} run={} program={}",
+                       run.machine, run.id, run.program);
   owned_parts_->blocks.drop(run.machine, run.id);
   dds::Command abort;
   abort.machine = run.machine;
   abort.action = dds::CommandAction::Abort;
   abort.run = run.id;
   if (auto sent = owned_parts_->commands.send(abort); !sent) {
-    spdlog::error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
-                  sent.error().what);
+    process::log_error("abort not sent machine={} run={}: {}", abort.machine, abort.run,
+                       sent.error().what);
   }
 }
 
@@ -346,11 +347,11 @@ void MachineService::on_stored(const storage::RecordBatch& batch) {
     changed.insert(ending.run);
     owned_parts_->reconciler.drop(ending.run);
     owned_parts_->blocks.drop(batch.machine, ending.run);
-    spdlog::info("run ended machine={} run={} state={} executed={} verified={}", batch.machine,
-                 ending.run, storage::to_string(ending.state), ending.counters.executed,
-                 !ending.content_verified   ? "unknown"
-                 : *ending.content_verified ? "yes"
-                                            : "no");
+    process::log_info("run ended machine={} run={} state={} executed={} verified={}", batch.machine,
+                      ending.run, storage::to_string(ending.state), ending.counters.executed,
+                      !ending.content_verified   ? "unknown"
+                      : *ending.content_verified ? "yes"
+                                                 : "no");
   }
   for (const auto& run : changed) announce_run(run);
 }

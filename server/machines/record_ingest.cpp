@@ -1,9 +1,9 @@
 #include "server/machines/record_ingest.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <iterator>
 
+#include "protocol/process/log.hpp"
 #include "server/machines/run_ending.hpp"
 
 namespace dripline::machines {
@@ -104,8 +104,8 @@ void RecordIngest::commit(const std::string& machine) {
     parts_.on_stored(batch);
     succeed(machine, batch.epoch, *stored);
   } else {  // not acknowledged; records after them are not delayed
-    spdlog::error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
-                  stored.error().what);
+    process::log_error("records dropped machine={} epoch={}: {}", machine, batch.epoch,
+                       stored.error().what);
   }
   parts_.pool.post([this, machine] { commit(machine); });
 }
@@ -141,7 +141,7 @@ std::set<std::string> RecordIngest::foreign_runs(const std::vector<dds::Record>&
     ++foreign_;
     const std::lock_guard lock(mutex_);
     if (std::exchange(lanes_[machine].foreign_run, record.run) == record.run) continue;
-    spdlog::error(
+    process::log_error(
         "machine={} reports on run={}, which is another machine's: kept, without any effect on it",
         machine, record.run);
   }
@@ -172,8 +172,8 @@ storage::RecordBatch RecordIngest::to_batch(const std::vector<dds::Record>& reco
       ending->ended = our_time(record);
       batch.endings.push_back(*std::move(ending));
     } else {
-      spdlog::error("end of run not understood machine={} run={} record={}: {}", record.machine,
-                    record.run, record.number, ending.error().what);
+      process::log_error("end of run not understood machine={} run={} record={}: {}",
+                         record.machine, record.run, record.number, ending.error().what);
     }
   }
   return batch;

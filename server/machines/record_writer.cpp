@@ -1,8 +1,8 @@
 #include "server/machines/record_writer.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <utility>
+#include "protocol/process/log.hpp"
 
 namespace dripline::machines {
 
@@ -18,12 +18,12 @@ Result<std::uint64_t> RecordWriter::store(const storage::RecordBatch& batch) {
   }
   if (!stored) {
     if (before.count() == 0) {
-      spdlog::error("records cannot be stored, {} machine={}: {}", parts_.consequence,
-                    parts_.machine, stored.error().what);
+      process::log_error("records cannot be stored, {} machine={}: {}", parts_.consequence,
+                         parts_.machine, stored.error().what);
     }
     if (parts_.on_fault) parts_.on_fault(stored.error().what);
   } else if (before.count() > 0) {
-    spdlog::info("records are stored again machine={}", parts_.machine);
+    process::log_info("records are stored again machine={}", parts_.machine);
     if (parts_.on_fault) parts_.on_fault("");
   }
   return stored;

@@ -1,9 +1,9 @@
 #include "server/machines/run_ending.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
 #include "protocol/dds/record_text.hpp"
+#include "protocol/process/log.hpp"
 
 namespace dripline::machines {
 namespace {
@@ -31,13 +31,13 @@ std::optional<bool> verify(const storage::Store& store, const dds::Record& recor
   const auto ours = prefix_digest(store.programs, *run, text.content_length);
   // When the stored bytes cannot be read, nothing is known of the machine's.
   if (!ours && ours.error().code != Errc::LimitExceeded) {
-    spdlog::error("executed bytes not compared machine={} run={} program={}: {}", record.machine,
-                  record.run, run->program, ours.error().what);
+    process::log_error("executed bytes not compared machine={} run={} program={}: {}",
+                       record.machine, record.run, run->program, ours.error().what);
     return std::nullopt;
   }
   const bool is_same = ours && ours->hex() == text.content_sha256;
   if (!is_same) {
-    spdlog::error(
+    process::log_error(
         "the machine did not execute the revision's bytes machine={} run={} program={}: {}",
         record.machine, record.run, run->program, ours ? "the digests differ" : ours.error().what);
   }

@@ -1,7 +1,7 @@
 #include "server/machines/run_reconciler.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
+#include "protocol/process/log.hpp"
 
 namespace dripline::machines {
 
@@ -90,11 +90,12 @@ void RunReconciler::give_up(const std::string& id) {
   const auto state = was_commanded ? storage::RunState::Refused : storage::RunState::Interrupted;
   const std::string reason = was_commanded ? "the gateway never confirmed the start"
                                            : "the gateway does not know this run any more";
-  spdlog::warn("run given up machine={} run={} program={}: {}", run->machine, id, run->program,
-               reason);
+  process::log_warning("run given up machine={} run={} program={}: {}", run->machine, id,
+                       run->program, reason);
   if (auto set = parts_.runs.set_state(id, state, reason); !set) {
     // Still watched, so this is tried again; otherwise the machine would be busy forever.
-    spdlog::error("run state not stored machine={} run={}: {}", run->machine, id, set.error().what);
+    process::log_error("run state not stored machine={} run={}: {}", run->machine, id,
+                       set.error().what);
     return;
   }
   drop(id);

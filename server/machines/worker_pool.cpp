@@ -1,7 +1,7 @@
 #include "server/machines/worker_pool.hpp"
 
-#include <spdlog/spdlog.h>
 #include <utility>
+#include "protocol/process/log.hpp"
 
 namespace dripline::machines {
 
@@ -50,7 +50,7 @@ void WorkerPool::work() {
     try {
       task();
     } catch (const std::exception& e) {  // memory is exhausted, or a bug
-      spdlog::error("task failed, tried again: {}", e.what());
+      process::log_error("task failed, tried again: {}", e.what());
       post_after(kRetry, std::move(task));
     }
   }

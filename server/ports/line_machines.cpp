@@ -1,8 +1,8 @@
 #include "server/ports/line_machines.hpp"
 
-#include <spdlog/spdlog.h>
 #include <future>
 
+#include "protocol/process/log.hpp"
 #include "server/ports/control_protocol.hpp"
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/programs/program_head.hpp"
@@ -178,8 +178,8 @@ Result<void> LineMachines::command(const machines::CommandRequest& request) {
                 "machine '{}' is on a serial line: it takes hold, resume and abort, not {}",
                 run->machine, dds::to_string(request.action));
   }
-  spdlog::info("command {} machine={} run={} program={}", dds::to_string(request.action),
-               run->machine, run->id, run->program);
+  process::log_info("command {} machine={} run={} program={}", dds::to_string(request.action),
+                    run->machine, run->id, run->program);
   auto done = wait_for<void>(std::move(answer), "run " + run->id);
   on_change(run->machine);
   return done;

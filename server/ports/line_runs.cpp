@@ -1,8 +1,7 @@
 #include "server/ports/line_runs.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "protocol/dds/record_text.hpp"
+#include "protocol/process/log.hpp"
 #include "server/machines/control_memory.hpp"
 #include "server/machines/identifiers.hpp"
 #include "server/ports/programs/program_stream.hpp"
@@ -128,23 +127,23 @@ void LineRuns::started(const storage::Run& run, LineRecords& records) {
   entry.record.text = dds::encode(dds::RunStartText{
       .program = run.program, .revision = run.content.hex(), .control = run.control});
   entry.beginning = storage::RunBeginning{.run = run.id, .started = clock_.now()};
-  spdlog::info("run started over a line machine={} run={} program={} revision={}", run.machine,
-               run.id, run.program, run.revision);
+  process::log_info("run started over a line machine={} run={} program={} revision={}", run.machine,
+                    run.id, run.program, run.revision);
   records.add({std::move(entry)});
 }
 
 void LineRuns::refused(const storage::Run& run, const Error& error) {
-  spdlog::warn("run not started over a line machine={} run={} program={}: {}", run.machine, run.id,
-               run.program, error.what);
+  process::log_warning("run not started over a line machine={} run={} program={}: {}", run.machine,
+                       run.id, run.program, error.what);
   auto set = store_.runs.set_state(run.id, storage::RunState::Refused, error.what);
-  if (!set) spdlog::error("run={} not marked as refused: {}", run.id, set.error().what);
+  if (!set) process::log_error("run={} not marked as refused: {}", run.id, set.error().what);
 }
 
 void LineRuns::progressed(const std::string& machine, const SendProgress& progress) {
   // Repeated soon by the next one.
   auto saved = store_.runs.update_counters({machine, progress.id, to_counters(progress), 0, -1});
   if (!saved) {
-    spdlog::debug("progress not saved run={}: {}", progress.id, saved.error().what);
+    process::log_debug("progress not saved run={}: {}", progress.id, saved.error().what);
   }
 }
 
@@ -155,9 +154,9 @@ void LineRuns::ended(const SendEnd& end, LineRecords& records) {
   ending.counters = to_counters(end.progress);
   ending.reason = end.outcome == SendOutcome::Completed ? std::string(kCompleted) : end.reason;
   ending.ended = clock_.now();
-  spdlog::info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
-               storage::to_string(ending.state), ending.counters.sent, ending.counters.accepted,
-               ending.reason);
+  process::log_info("run ended over a line run={} state={} sent={} accepted={}: {}", ending.run,
+                    storage::to_string(ending.state), ending.counters.sent,
+                    ending.counters.accepted, ending.reason);
   records.add({ending_entry(ending)});
 }
 

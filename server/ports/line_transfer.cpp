@@ -1,10 +1,10 @@
 #include "server/ports/line_transfer.hpp"
 
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 #include <future>
 
 #include "protocol/base/random.hpp"
+#include "protocol/process/log.hpp"
 #include "server/library/control_words.hpp"
 #include "server/ports/control_protocol.hpp"
 #include "server/ports/line_runs.hpp"
@@ -162,8 +162,8 @@ Result<PortTransfer> send_programs(const std::shared_ptr<PortLine>& line,
     line->begin(job, answer);
   });
   if (!begun) return fail(begun.error());
-  spdlog::info("programs sent without a run port={} id={} {}", port.port.name, job->id,
-               fmt::join(job->programs, ", "));
+  process::log_info("programs sent without a run port={} id={} {}", port.port.name, job->id,
+                    fmt::join(job->programs, ", "));
   return PortTransfer{.id = job->id, .programs = job->programs, .size = job->size};
 }
 

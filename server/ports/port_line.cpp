@@ -1,8 +1,8 @@
 #include "server/ports/port_line.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
+#include "protocol/process/log.hpp"
 #include "server/ports/programs/program_stream.hpp"
 
 namespace dripline::ports {
@@ -96,7 +96,7 @@ void PortLine::open() {
     return;
   }
   fault_ = driver.error().what;
-  spdlog::error("port={} cannot be used: {}", parts_.port.name, fault_);
+  process::log_error("port={} cannot be used: {}", parts_.port.name, fault_);
 }
 
 void PortLine::close(const std::string& reason) {
@@ -133,8 +133,8 @@ void PortLine::on_channel(const Error* lost) {
       refresh();
     });
   }
-  spdlog::info("port={} machine={} {}", parts_.port.name, parts_.port.machine,
-               lost != nullptr ? "has no line: " + lost->what : "is open");
+  process::log_info("port={} machine={} {}", parts_.port.name, parts_.port.machine,
+                    lost != nullptr ? "has no line: " + lost->what : "is open");
   parts_.strand.post([on_change = parts_.listener.on_change] { on_change(); });
 }
 
@@ -272,7 +272,7 @@ void PortLine::refuse(const std::string& reason) {
   }
   with_line([reason](wire::Discipline& line, wire::LineTime now) {
     if (auto refused = line.refuse(reason, now); !refused) {
-      spdlog::warn("refusal not sent: {}", refused.error().what);
+      process::log_warning("refusal not sent: {}", refused.error().what);
     }
   });
 }
@@ -381,7 +381,7 @@ void PortLine::on_request(const wire::TransferRequest& request) {
 }
 
 void PortLine::on_fault(const Error& error) {
-  spdlog::warn("port={} machine={}: {}", parts_.port.name, parts_.port.machine, error.what);
+  process::log_warning("port={} machine={}: {}", parts_.port.name, parts_.port.machine, error.what);
   set_fault(error.what);
   note(error.what);
 }

@@ -1,11 +1,11 @@
 #include "server/ports/port_service.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <cstdint>
 #include <future>
 
 #include "protocol/base/names.hpp"
+#include "protocol/process/log.hpp"
 #include "protocol/serial/address.hpp"
 #include "server/ports/control_protocol.hpp"
 #include "server/ports/line_transfer.hpp"
@@ -54,7 +54,7 @@ Result<void> PortService::begin(const std::vector<storage::Port>& configured) {
     auto entry = prepare(port);
     if (!entry) {
       const std::string why = entry.error().what;
-      spdlog::error("port={} cannot be used: {}", port.name, why);
+      process::log_error("port={} cannot be used: {}", port.name, why);
       entry = Entry{};
       entry->port = port;
       entry->fault = fmt::format("cannot be used as it is stored: {}", why);

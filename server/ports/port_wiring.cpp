@@ -1,6 +1,6 @@
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
+#include "protocol/process/log.hpp"
 #include "server/ports/line_runs.hpp"
 #include "server/ports/port_service.hpp"
 #include "server/ports/port_settings.hpp"
@@ -58,7 +58,7 @@ PortService::Machine PortService::machine_of(const std::string& name, std::uint6
                         .records = std::make_shared<LineRecords>(std::move(parts))};
   strand.post([this, name, records = machine.records] {
     if (auto ended = line_machines_.runs().give_up_unfinished(name, *records); !ended) {
-      spdlog::error("unfinished runs not ended machine={}: {}", name, ended.error().what);
+      process::log_error("unfinished runs not ended machine={}: {}", name, ended.error().what);
     }
   });
   return machines_.emplace(name, machine).first->second;

@@ -9,9 +9,7 @@ namespace dripline::cli {
 std::string_view VisibleText::take(std::string_view piece) {
   constexpr unsigned char kLead = 0xc2;  // of U+0080 to U+00BF in UTF-8
   text_.clear();
-  const auto escape = [&](unsigned char c) {
-    fmt::format_to(std::back_inserter(text_), "\\x{:02x}", c);
-  };
+  const auto escape = [&](unsigned char c) { text_ += fmt::format("\\x{:02x}", c); };
   for (const char c : piece) {
     const auto byte = static_cast<unsigned char>(c);
     const bool ends_two = std::exchange(is_after_c2_, false);

@@ -60,8 +60,8 @@ void TapeListing::list(std::span<const std::byte> rows, std::string& text) {
     end_blanks(text);
     const TapeRow read = decode_row(code_, row);
     const std::size_t begun = text.size();
-    fmt::format_to(std::back_inserter(text), "{:>10}  {}  {:02X}  {:<3}  {}", row_, holes(row),
-                   static_cast<unsigned>(row), shown(read), meaning(read.kind));
+    text += fmt::format("{:>10}  {}  {:02X}  {:<3}  {}", row_, holes(row),
+                        static_cast<unsigned>(row), shown(read), meaning(read.kind));
     while (text.size() > begun && text.back() == ' ') text.pop_back();
     text += '\n';
   }
@@ -70,8 +70,7 @@ void TapeListing::list(std::span<const std::byte> rows, std::string& text) {
 void TapeListing::end_blanks(std::string& text) {
   const std::uint64_t count = std::exchange(blanks_, 0);
   if (count == 0) return;
-  fmt::format_to(std::back_inserter(text), "{:>10}  {}  00       blank, {} rows\n", first_blank_,
-                 holes(0), count);
+  text += fmt::format("{:>10}  {}  00       blank, {} rows\n", first_blank_, holes(0), count);
 }
 
 }  // namespace dripline::wire

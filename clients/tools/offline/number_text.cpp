@@ -63,7 +63,7 @@ void append_escaped(std::string& out, char c) {
       break;
   }
   if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-    fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned>(c));
+    out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
   } else {
     out += c;
   }

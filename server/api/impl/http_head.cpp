@@ -120,11 +120,10 @@ Result<Request> to_request(const RequestHead& head) {
 
 std::string head_text(const Response& response, const Framing& framing) {
   std::string text;
-  const auto to = std::back_inserter(text);
-  fmt::format_to(to, "HTTP/1.1 {} {}\r\nDate: {}\r\nX-Content-Type-Options: nosniff\r\n",
-                 response.status, reason_of(response.status), date_text());
+  text += fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\nX-Content-Type-Options: nosniff\r\n",
+                      response.status, reason_of(response.status), date_text());
   const auto add = [&](std::string_view name, std::string_view value) {
-    if (is_safe(name) && is_safe(value)) fmt::format_to(to, "{}: {}\r\n", name, value);
+    if (is_safe(name) && is_safe(value)) text += fmt::format("{}: {}\r\n", name, value);
   };
   if (!response.content_type.empty()) add("Content-Type", response.content_type);
   for (const auto& [name, value] : response.headers) add(name, value);

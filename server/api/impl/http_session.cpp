@@ -1,7 +1,6 @@
 #include "server/api/impl/http_session.hpp"
 
 #include <netinet/tcp.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <algorithm>
 #include <boost/asio/awaitable.hpp>
@@ -14,6 +13,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
+#include "protocol/process/log.hpp"
 #include "server/api/impl/http_head.hpp"
 #include "server/api/impl/transport.hpp"
 
@@ -238,7 +238,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       try {
         made = work();
       } catch (const std::exception& e) {  // no memory, or a defect of ours
-        spdlog::error("request failed: {}", e.what());
+        process::log_error("request failed: {}", e.what());
       }
       work = nullptr;
       auto& io = self->shared_.io;
@@ -319,7 +319,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       if (!piece) co_return false;
       if (!*piece) {
         // The client notices the missing end of the body.
-        spdlog::error("answer broken off: {}", piece->error().what);
+        process::log_error("answer broken off: {}", piece->error().what);
         co_return false;
       }
       if (!**piece) break;
@@ -412,7 +412,7 @@ awaitable<void> run(HttpShared& shared, std::shared_ptr<Session> session, Seat s
   try {
     co_await session->serve(seat);
   } catch (const std::exception& e) {  // the failure of one connection must not end the others
-    spdlog::error("connection failed: {}", e.what());
+    process::log_error("connection failed: {}", e.what());
   }
   session->close();
   shared.sessions.erase(seat.id());

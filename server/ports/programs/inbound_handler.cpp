@@ -1,10 +1,9 @@
 #include "server/ports/programs/inbound_handler.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include "gateway/interpreter/registry.hpp"
 #include "protocol/base/one_line.hpp"
 #include "protocol/dds/message.hpp"
+#include "protocol/process/log.hpp"
 #include "server/library/control_words.hpp"
 
 namespace dripline::ports {
@@ -144,8 +143,8 @@ void InboundHandler::end_program(const std::string& head) {
 void InboundHandler::store_program(const std::string& name) {
   const auto stored = program_->store(name);
   if (!stored) {
-    spdlog::error("uploaded program not stored machine={}: {}", parts_.machine,
-                  stored.error().what);
+    process::log_error("uploaded program not stored machine={}: {}", parts_.machine,
+                       stored.error().what);
     const bool is_full = stored.error().code == Errc::Io;
     return report(library::with_control_words(
                       {stored.error().code, "program not stored: " + stored.error().what},

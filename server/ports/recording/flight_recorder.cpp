@@ -1,7 +1,7 @@
 #include "server/ports/recording/flight_recorder.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
+#include "protocol/process/log.hpp"
 
 namespace dripline::ports {
 namespace {
@@ -94,7 +94,7 @@ void FlightRecorder::flush() {
   for (const auto& entry : fresh) on_entry_(entry);
   if (!file_) return;
   if (auto written = file_->write(fresh); !written) {
-    spdlog::warn("port={}: {}", options_.port, written.error().what);
+    process::log_warning("port={}: {}", options_.port, written.error().what);
   }
 }
 

@@ -1,10 +1,10 @@
 #include "server/ports/requests/remote_request_handler.hpp"
 
-#include <spdlog/spdlog.h>
 #include <algorithm>
 
 #include "gateway/interpreter/core/called_program_names.hpp"
 #include "protocol/base/random.hpp"
+#include "protocol/process/log.hpp"
 #include "server/library/control_words.hpp"
 #include "server/machines/start_point.hpp"
 #include "server/ports/line_runs.hpp"
@@ -50,8 +50,8 @@ Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) 
 }
 
 void RemoteRequestHandler::carry_out(RuleAction action, const std::string& argument) {
-  spdlog::info("call from the control machine={} action={} argument={}", parts_.machine,
-               to_string(action), argument);
+  process::log_info("call from the control machine={} action={} argument={}", parts_.machine,
+                    to_string(action), argument);
   if (action == RuleAction::Send) send(argument, false);
   if (action == RuleAction::Directory) send_listing(false);
   if (action == RuleAction::Restart) restart(argument);
@@ -80,7 +80,8 @@ void RemoteRequestHandler::leave(const wire::TransferRequest& request) const {
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
   const PortRequest asked{.since = {}, .program = request.name, .answer = {}};
-  spdlog::info("port={} machine={}: {}", line->port().name, parts_.machine, request_words(asked));
+  process::log_info("port={} machine={}: {}", line->port().name, parts_.machine,
+                    request_words(asked));
   line->note(request_words(asked));
   if (parts_.refuses) line->refuse("NO RUN WAITS");
 }
@@ -199,7 +200,7 @@ Result<void> RemoteRequestHandler::list_offers() {
 
 void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
                                   library::Refusal refusal) const {
-  spdlog::warn("call from the control refused machine={}: {}", parts_.machine, why);
+  process::log_warning("call from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
   line->note("refused: " + why);
@@ -230,7 +231,7 @@ void RemoteRequestHandler::put_on_line(SendJob job) const {
   job.kind = JobKind::Answer;
   job.id = fmt::format("answer-{}", random_hex(4));
   line->begin(std::move(job), [machine = parts_.machine](const Result<void>& begun) {
-    if (!begun) spdlog::warn("answer not sent machine={}: {}", machine, begun.error().what);
+    if (!begun) process::log_warning("answer not sent machine={}: {}", machine, begun.error().what);
   });
 }
 

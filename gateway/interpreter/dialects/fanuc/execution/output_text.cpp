@@ -121,10 +121,10 @@ void append_decimal(std::string& text, double value, const DecimalField& field) 
   }
   if (field.whole > 0 || field.expands) {
     const bool pads = field.blanks_for_zeros && field.whole > 0;
-    fmt::format_to(std::back_inserter(text), "{:>{}}", whole, pads ? field.whole : 1);
+    text += fmt::format("{:>{}}", whole, pads ? field.whole : 1);
   }
   if (field.decimals > 0) {
-    fmt::format_to(std::back_inserter(text), ".{:0{}}", fraction, field.decimals);
+    text += fmt::format(".{:0{}}", fraction, field.decimals);
   }
 }
 
@@ -134,7 +134,7 @@ void append_binary(std::string& text, double value, int decimals) {
   const double low = std::fmod(scaled, 4294967296.0);
   const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(low));
   for (int shift = 24; shift >= 0; shift -= 8) {
-    fmt::format_to(std::back_inserter(text), "\\x{:02X}", bits >> shift & 0xFF);
+    text += fmt::format("\\x{:02X}", bits >> shift & 0xFF);
   }
 }
 
