@@ -25,7 +25,7 @@ void Context::print(std::string_view text) const {
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-void add_json_flag(CLI::App& command, Context& context) {
+void add_json_flag(Command command, Context& context) {
   command.add_flag("--json", context.wants_json, "Print JSON instead of text for people");
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "clients/cli/command_line.hpp"
 #include "clients/cli/exit_status.hpp"
 #include "clients/cli/text/table.hpp"
 #include "clients/lib/client.hpp"
@@ -31,7 +31,7 @@ class Context {
 };
 
 /// Adds `--json` to a command.
-void add_json_flag(CLI::App& command, Context& context);
+void add_json_flag(Command command, Context& context);
 
 /// How long transfers continue while the server does not answer; Ctrl-C ends the waiting.
 client::RetryPolicy retry_policy();

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 
+#include "clients/cli/command_line.hpp"
 #include "clients/cli/commands.hpp"
 
 namespace {
@@ -84,25 +85,26 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "dnc " DRIPLINE_VERSION);
   app.require_subcommand(1);
   add_connection_options(app, context);
-  add_program_commands(app, context);
-  add_machine_commands(app, context);
-  add_run_commands(app, context);
-  add_port_commands(app, context);
-  add_setup_commands(app, context);
-  add_memory_commands(app, context);
-  add_report_commands(app, context);
-  add_server_commands(app, context);
-  add_check_command(app, context);
-  add_trace_command(app, context);
-  add_edit_command(app, context);
-  add_forecast_command(app, context);
-  add_touch_command(app, context);
-  add_graphics_command(app, context);
-  add_approximate_command(app, context);
-  add_convert_command(app, context);
-  add_conversational_commands(app, context);
-  add_chart_command(app, context);
-  add_extract_command(app, context);
+  const Command dnc(&app);
+  add_program_commands(dnc, context);
+  add_machine_commands(dnc, context);
+  add_run_commands(dnc, context);
+  add_port_commands(dnc, context);
+  add_setup_commands(dnc, context);
+  add_memory_commands(dnc, context);
+  add_report_commands(dnc, context);
+  add_server_commands(dnc, context);
+  add_check_command(dnc, context);
+  add_trace_command(dnc, context);
+  add_edit_command(dnc, context);
+  add_forecast_command(dnc, context);
+  add_touch_command(dnc, context);
+  add_graphics_command(dnc, context);
+  add_approximate_command(dnc, context);
+  add_convert_command(dnc, context);
+  add_conversational_commands(dnc, context);
+  add_chart_command(dnc, context);
+  add_extract_command(dnc, context);
   app.footer(kFooter);  // after the verbs, which would inherit it
   let_options_follow(app);
   try {

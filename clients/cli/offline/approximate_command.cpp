@@ -69,31 +69,31 @@ int approximate(Context& context, const ApproximateCommand& command) {
 
 }  // namespace
 
-void add_approximate_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
+void add_approximate_command(Command app, Context& context) {
+  auto command = app.add_subcommand(
       "approximate", "Approximate an arc by straight lines, for controls without arcs");
   auto options = std::make_shared<ApproximateCommand>();
-  command->add_option("--radius", options->radius, "Radius of the arc")->required();
-  command->add_option("--tolerance", options->tolerance, "Largest distance between lines and arc")
-      ->required();
-  command->add_option("--x", options->x, "X of the center [0]");
-  command->add_option("--y", options->y, "Y of the center [0]");
-  command->add_option("--from", options->from, "Angle of the start point, degrees from +X [0]");
-  command->add_option("--sweep", options->sweep,
-                      "Included angle in degrees, counterclockwise positive [90]");
+  command.add_option("--radius", options->radius, "Radius of the arc").required();
+  command.add_option("--tolerance", options->tolerance, "Largest distance between lines and arc")
+      .required();
+  command.add_option("--x", options->x, "X of the center [0]");
+  command.add_option("--y", options->y, "Y of the center [0]");
+  command.add_option("--from", options->from, "Angle of the start point, degrees from +X [0]");
+  command.add_option("--sweep", options->sweep,
+                     "Included angle in degrees, counterclockwise positive [90]");
   command
-      ->add_option("--method", options->method,
-                   "Lines inside (chord), outside (tangent) or across (secant) [chord]")
-      ->check(CLI::IsMember({"chord", "tangent", "secant"}));
-  command->add_option("--decimals", options->decimals, "Decimals of coordinates [4]")
-      ->check(CLI::Range(0, 8));
-  command->add_flag("--blocks", options->as_blocks,
-                    "Print blocks in whole counts (tektronix-1704), not a table");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("--method", options->method,
+                  "Lines inside (chord), outside (tangent) or across (secant) [chord]")
+      .check(one_of({"chord", "tangent", "secant"}));
+  command.add_option("--decimals", options->decimals, "Decimals of coordinates [4]")
+      .check(in_range(0, 8));
+  command.add_flag("--blocks", options->as_blocks,
+                   "Print blocks in whole counts (tektronix-1704), not a table");
+  add_json_flag(command, context);
+  command.footer(
       "All lengths are in one unit of your choice.\n\nExample:\n  dnc approximate --x 1 --y 3 "
       "--radius 0.5 --from 270 --sweep 180 --tolerance 0.0005 --method secant --blocks");
-  command->callback([&context, options] { context.status = approximate(context, *options); });
+  command.callback([&context, options] { context.status = approximate(context, *options); });
 }
 
 }  // namespace dripline::cli

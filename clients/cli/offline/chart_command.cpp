@@ -64,16 +64,16 @@ int show_chart(const Context& context, const ChartCommand& command) {
 
 }  // namespace
 
-void add_chart_command(CLI::App& app, Context& context) {
-  auto* command =
+void add_chart_command(Command app, Context& context) {
+  auto command =
       app.add_subcommand("chart", "Show the help pages of a Centurion control (charts.dat)");
   auto options = std::make_shared<ChartCommand>();
-  command->add_option("INDEX", options->index, "charts.dat; the pages are in the same folder")
-      ->required();
-  command->add_option("PAGE", options->page, "Show the page of this line of the index");
-  command->add_flag("--whole", options->is_whole, "Show more than the 16 lines the control shows");
-  command->footer("No server is needed.\n\nExample:\n  dnc chart charts.dat 5");
-  command->callback([&context, options] { context.status = show_chart(context, *options); });
+  command.add_option("INDEX", options->index, "charts.dat; the pages are in the same folder")
+      .required();
+  command.add_option("PAGE", options->page, "Show the page of this line of the index");
+  command.add_flag("--whole", options->is_whole, "Show more than the 16 lines the control shows");
+  command.footer("No server is needed.\n\nExample:\n  dnc chart charts.dat 5");
+  command.callback([&context, options] { context.status = show_chart(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -168,20 +168,20 @@ int check(Context& context, const CheckCommand& command) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Context& context) {
-  auto* command =
+void add_check_command(Command app, Context& context) {
+  auto command =
       app.add_subcommand("check", "Check a program: warnings, alarm, lengths, time, extents");
   auto options = std::make_shared<CheckCommand>();
-  add_offline_options(*command, *options);
+  add_offline_options(command, *options);
   command
-      ->add_option("--to", options->to,
-                   "Stop after the first block with this number (120, N120) or on "
-                   "this line (L7), and show the state of the machine there")
-      ->type_name("BLOCK");
-  command->add_flag("--stops", options->lists_stops,
-                    "List the blocks at which the program waits for the operator");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("--to", options->to,
+                  "Stop after the first block with this number (120, N120) or on "
+                  "this line (L7), and show the state of the machine there")
+      .type_name("BLOCK");
+  command.add_flag("--stops", options->lists_stops,
+                   "List the blocks at which the program waits for the operator");
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
       "folder;\nwarnings, alarms and stops in one name its file. The check continues over "
       "stops, and ends a program that\nrepeats without end with an alarm.\n"
@@ -190,7 +190,7 @@ void add_check_command(CLI::App& app, Context& context) {
       "is an alarm.\n\nExit status: 0 the end was reached, or the block of --to; 1 an alarm, or "
       "that block was not met;\n2 usage, unreadable file, unknown control.\n\nExamples:\n  dnc "
       "check --control centurion shaft.nc\n  dnc check --to 40 15.h\n  dnc check --stops 15.h");
-  command->callback([&context, options] { context.status = check(context, *options); });
+  command.callback([&context, options] { context.status = check(context, *options); });
 }
 
 }  // namespace dripline::cli

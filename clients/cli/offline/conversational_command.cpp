@@ -138,47 +138,47 @@ int list_events(Context& context, const ConversationalCommand& command) {
 
 using Options = std::shared_ptr<ConversationalCommand>;
 
-void add_post(CLI::App& group, Context& context, const Options& options) {
-  auto* post_verb = group.add_subcommand("post", "Write the program of an event file");
-  post_verb->add_option("FILE", options->file, "TOML with [[event]] tables, or the same as JSON")
-      ->required();
-  post_verb->add_option("-o,--output", options->output,
-                        "File to write [standard output]; it is written whole or not at all");
-  post_verb->add_flag(
+void add_post(Command group, Context& context, const Options& options) {
+  auto post_verb = group.add_subcommand("post", "Write the program of an event file");
+  post_verb.add_option("FILE", options->file, "TOML with [[event]] tables, or the same as JSON")
+      .required();
+  post_verb.add_option("-o,--output", options->output,
+                       "File to write [standard output]; it is written whole or not at all");
+  post_verb.add_flag(
       "--printed-crest-formula", options->has_printed_crest_formula,
       "Compute threads by their crest as the manual prints it, not as geometry has it");
-  post_verb->callback([&context, options] { context.status = post(*options); });
+  post_verb.callback([&context, options] { context.status = post(*options); });
 }
 
-void add_events(CLI::App& group, Context& context, const Options& options) {
-  auto* events = group.add_subcommand("events", "List the events with their fields and limits");
-  events->add_option("TYPE", options->event, "List only this event, e.g. drill");
-  add_json_flag(*events, context);
-  events->footer("Limits are those of inch programs; --json has both.");
-  events->callback([&context, options] { context.status = list_events(context, *options); });
+void add_events(Command group, Context& context, const Options& options) {
+  auto events = group.add_subcommand("events", "List the events with their fields and limits");
+  events.add_option("TYPE", options->event, "List only this event, e.g. drill");
+  add_json_flag(events, context);
+  events.footer("Limits are those of inch programs; --json has both.");
+  events.callback([&context, options] { context.status = list_events(context, *options); });
 }
 
-void add_new(CLI::App& group, Context& context, const Options& options) {
-  auto* starter = group.add_subcommand("new", "Write a small job with comments, to start from");
-  starter->add_option("--program", options->program, "O number of the program [1]")
-      ->check(CLI::Range(1, 9999));
-  starter->add_option("-o,--output", options->output, "File to write [standard output]");
-  starter->callback([&context, options] {
+void add_new(Command group, Context& context, const Options& options) {
+  auto starter = group.add_subcommand("new", "Write a small job with comments, to start from");
+  starter.add_option("--program", options->program, "O number of the program [1]")
+      .check(in_range(1, 9999));
+  starter.add_option("-o,--output", options->output, "File to write [standard output]");
+  starter.callback([&context, options] {
     context.status = write_text(options->output, conversational::starter_file(options->program));
   });
 }
 
 }  // namespace
 
-void add_conversational_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand(
+void add_conversational_commands(Command app, Context& context) {
+  auto group = app.add_subcommand(
       "conversational", "Make programs from events, as the screens of the Centurion lathe do");
-  group->require_subcommand(1);
+  group.require_subcommand(1);
   const auto options = std::make_shared<ConversationalCommand>();
-  add_post(*group, context, options);
-  add_events(*group, context, options);
-  add_new(*group, context, options);
-  group->footer(
+  add_post(group, context, options);
+  add_events(group, context, options);
+  add_new(group, context, options);
+  group.footer(
       "Example:\n  dnc conversational new --program 400 -o pin.toml\n"
       "  dnc conversational post pin.toml -o O0400\n  dnc check --control centurion O0400");
 }

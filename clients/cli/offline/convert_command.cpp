@@ -267,9 +267,9 @@ int convert(Context& context, const ConvertCommand& command) {
   return convert_to(context, command, *from, *file);
 }
 
-void add_options(CLI::App& command, ConvertCommand& options) {
+void add_options(Command command, ConvertCommand& options) {
   auto codes = names_of(kCodes);
-  command.add_option("IN", options.input, "Tape image or program text")->required();
+  command.add_option("IN", options.input, "Tape image or program text").required();
   command.add_option("-o,--output", options.output, "File to write; - for standard output");
   auto targets = codes;
   targets.push_back("plain");
@@ -277,15 +277,15 @@ void add_options(CLI::App& command, ConvertCommand& options) {
       .add_option("--to", options.to,
                   "Write eia, iso, or ascii (program text; the default); for a TNC 151/155 "
                   "program: iso or plain")
-      ->check(CLI::IsMember(targets));
+      .check(one_of(targets));
   codes.push_back("auto");
   command.add_option("--from", options.from, "Read eia, iso, ascii, or auto (detected from IN)")
-      ->check(CLI::IsMember(codes));
+      .check(one_of(codes));
   command.add_flag("--list", options.is_listing, "List IN row by row with its holes, as text");
   command
       .add_option("--eob", options.end_of_block,
                   "Set the end of block of ISO and ASCII: lf, cr, crlf, lfcr, lfcrcr")
-      ->check(CLI::IsMember(names_of(kEndsOfBlock)));
+      .check(one_of(names_of(kEndsOfBlock)));
   command.add_option("--leader", options.leader,
                      "Punch this many blank rows in front, 10 to an inch [tapes: 100]");
   command.add_option("--trailer", options.trailer,
@@ -307,7 +307,7 @@ void add_options(CLI::App& command, ConvertCommand& options) {
       .add_option("--increment", options.increment,
                   "TNC programs: step of ISO block numbers, 0: no numbers [block_increment of "
                   "--setup, else 10]")
-      ->check(CLI::Range(0, 99));
+      .check(in_range(0, 99));
   command.add_option(
       "--setup", options.setup,
       "TNC programs: TOML file with the options of the control (decimal_sign, "
@@ -317,13 +317,13 @@ void add_options(CLI::App& command, ConvertCommand& options) {
 
 }  // namespace
 
-void add_convert_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
+void add_convert_command(Command app, Context& context) {
+  auto command = app.add_subcommand(
       "convert",
       "Convert tape images between EIA, ISO and program text, or TNC programs between their forms");
   auto options = std::make_shared<ConvertCommand>();
-  add_options(*command, *options);
-  command->footer(
+  add_options(command, *options);
+  command.footer(
       "No server is needed. A tape is read as a control reads it: nothing applies before the first "
       "end of block; deletes and blanks are left out.\n\nA program that begins with BEGIN PGM is "
       "plain language of a HEIDENHAIN TNC 151/155: --to iso makes it the control's ISO form "
@@ -333,8 +333,8 @@ void add_convert_command(CLI::App& app, Context& context) {
       "the program cannot be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
       "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
       "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso");
-  command->callback([&context, command, options] {
-    options->has_to = command->count("--to") != 0;
+  command.callback([&context, command, options] {
+    options->has_to = command.get_option("--to").count() != 0;
     context.status = convert(context, *options);
   });
 }

@@ -257,7 +257,7 @@ int edit(Context& context, const EditCommand& command) {
   return kExitOk;
 }
 
-void add_place_options(CLI::App& command, EditedText::Place& place) {
+void add_place_options(Command command, EditedText::Place& place) {
   command.add_option("FILE", place.file, "NC program to edit in place");
   command.add_option("--program", place.program,
                      "Edit a program of the server; the change becomes its next revision");
@@ -269,66 +269,65 @@ void add_place_options(CLI::App& command, EditedText::Place& place) {
                    "Edit even a program that is protected against editing");
 }
 
-void add_word_options(CLI::App& command, EditCommand& options) {
+void add_word_options(Command command, EditCommand& options) {
   command
       .add_option("--set", options.values,
                   "Set a word of a block: 4 F250, 4 \"IX+2.5\", 2 \"TOOL CALL 3\"")
-      ->type_name("BLOCK WORD")
-      ->allow_extra_args(false);
+      .type_name("BLOCK WORD")
+      .allow_extra_args(false);
   command
       .add_option("--leave-out", options.omissions,
                   "Remove a word from a block; the value in force stays (NO ENT)")
-      ->type_name("BLOCK ADDRESS")
-      ->allow_extra_args(false);
+      .type_name("BLOCK ADDRESS")
+      .allow_extra_args(false);
   command
       .add_option("--shorten", options.shortenings,
                   "Remove a word of a block and all after it (END)")
-      ->type_name("BLOCK ADDRESS")
-      ->allow_extra_args(false);
+      .type_name("BLOCK ADDRESS")
+      .allow_extra_args(false);
   command
       .add_option("--find", options.wanted,
                   "List the blocks that have a word with this address: X, IX, F, \"TOOL CALL\"; "
                   "Q finds every use")
-      ->type_name("ADDRESS")
-      ->allow_extra_args(false);
+      .type_name("ADDRESS")
+      .allow_extra_args(false);
 }
 
 }  // namespace
 
-void add_edit_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
+void add_edit_command(Command app, Context& context) {
+  auto command = app.add_subcommand(
       "edit", "Edit a program: delete, replace, insert and renumber blocks, change words");
   auto options = std::make_shared<EditCommand>();
-  add_place_options(*command, options->place);
-  command->add_option("--delete", options->deletions, "Delete blocks: 7, or 5..7")
-      ->type_name("BLOCKS")
-      ->allow_extra_args(false);
-  command->add_option("--replace", options->replacements, "Replace blocks by this text")
-      ->type_name("BLOCKS TEXT")
-      ->allow_extra_args(false);
+  add_place_options(command, options->place);
+  command.add_option("--delete", options->deletions, "Delete blocks: 7, or 5..7")
+      .type_name("BLOCKS")
+      .allow_extra_args(false);
+  command.add_option("--replace", options->replacements, "Replace blocks by this text")
+      .type_name("BLOCKS TEXT")
+      .allow_extra_args(false);
   command
-      ->add_option("--insert-after", options->insertions,
-                   "Insert text after a block; several lines are several blocks")
-      ->type_name("BLOCK TEXT")
-      ->allow_extra_args(false);
-  add_word_options(*command, *options);
-  auto* renumber =
+      .add_option("--insert-after", options->insertions,
+                  "Insert text after a block; several lines are several blocks")
+      .type_name("BLOCK TEXT")
+      .allow_extra_args(false);
+  add_word_options(command, *options);
+  auto renumber =
       command
-          ->add_option("--renumber", options->increment,
-                       "Renumber all blocks as the control does; in ISO with this step, 0: no "
-                       "numbers [block_increment of --setup, else 10]")
-          ->expected(0, 1)
-          ->check(CLI::Range(0, 99))
-          ->type_name("STEP");
-  command->add_option("--setup", options->setup,
-                      "TOML file with the options of the control (block_increment)");
-  auto* protects = command->add_flag("--protect", options->protects,
-                                     "Protect the program against editing (P, G50)");
-  command->add_flag("--unprotect", options->unprotects, "Remove that protection")
-      ->excludes(protects);
-  command->add_flag("--dry-run", options->is_trial, "Show the change without writing it");
-  add_json_flag(*command, context);
-  command->footer(
+          .add_option("--renumber", options->increment,
+                      "Renumber all blocks as the control does; in ISO with this step, 0: no "
+                      "numbers [block_increment of --setup, else 10]")
+          .expected(0, 1)
+          .check(in_range(0, 99))
+          .type_name("STEP");
+  command.add_option("--setup", options->setup,
+                     "TOML file with the options of the control (block_increment)");
+  auto protects = command.add_flag("--protect", options->protects,
+                                   "Protect the program against editing (P, G50)");
+  command.add_flag("--unprotect", options->unprotects, "Remove that protection").excludes(protects);
+  command.add_flag("--dry-run", options->is_trial, "Show the change without writing it");
+  add_json_flag(command, context);
+  command.footer(
       "All numbers are those before the edit. Blocks of a tnc155 program are named by block "
       "number;\n"
       "inserted text is read as the control reads it and written in its layout, and the blocks "
@@ -341,8 +340,8 @@ void add_edit_command(CLI::App& app, Context& context) {
       "--insert-after 9 \"L X+10 R0 F MAX M\"\n  dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc "
       "edit 15.h --find \"TOOL CALL\"\n  dnc edit --program 15.h --replace 4 \"TOOL CALL 2 Z "
       "S800\" --comment \"new tool\"");
-  command->callback([&context, options, renumber] {
-    options->renumbers = renumber->count() > 0;
+  command.callback([&context, options, renumber] {
+    options->renumbers = renumber.count() > 0;
     context.status = edit(context, *options);
   });
 }

@@ -75,16 +75,15 @@ int extract(const Context& context, const ExtractCommand& command) {
 
 }  // namespace
 
-void add_extract_command(CLI::App& app, Context& context) {
-  auto* command =
-      app.add_subcommand("extract", "Split a text with several programs at its O lines");
+void add_extract_command(Command app, Context& context) {
+  auto command = app.add_subcommand("extract", "Split a text with several programs at its O lines");
   auto options = std::make_shared<ExtractCommand>();
-  command->add_option("FILE", options->input, "Text that a control or another computer sent")
-      ->required();
-  command->add_option("-o,--output", options->folder, "Folder for O0001 and so on [.]");
-  command->add_flag("--replace", options->replaces, "Overwrite files that exist");
-  command->footer("No server is needed.\n\nExample:\n  dnc extract received.txt -o programs");
-  command->callback([&context, options] { context.status = extract(context, *options); });
+  command.add_option("FILE", options->input, "Text that a control or another computer sent")
+      .required();
+  command.add_option("-o,--output", options->folder, "Folder for O0001 and so on [.]");
+  command.add_flag("--replace", options->replaces, "Overwrite files that exist");
+  command.footer("No server is needed.\n\nExample:\n  dnc extract received.txt -o programs");
+  command.callback([&context, options] { context.status = extract(context, *options); });
 }
 
 }  // namespace dripline::cli

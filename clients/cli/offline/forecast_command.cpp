@@ -150,31 +150,31 @@ int forecast(Context& context, const ForecastCommand& command) {
 
 }  // namespace
 
-void add_forecast_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
+void add_forecast_command(Command app, Context& context) {
+  auto command = app.add_subcommand(
       "forecast", "Find the blocks that would starve on a slow line or tape reader");
   auto options = std::make_shared<ForecastCommand>();
-  add_offline_options(*command, options->program);
-  command->add_option(
+  add_offline_options(command, options->program);
+  command.add_option(
       "--line", options->line,
       "The line: a port template (dnc port templates) or a short form, e.g. 9600e72");
   command
-      ->add_option("--cps", options->characters_per_second,
-                   "Characters per second, instead of --line")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--start-ms", options->start_ms,
-                      "Start time of a reader before each block [tape readers 10, else 0]");
-  command->add_option("--buffer", options->buffer,
-                      "Characters the control holds ahead [0: the next block]");
-  command->add_option("--limit", options->limit, "Blocks to list [20]");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("--cps", options->characters_per_second,
+                  "Characters per second, instead of --line")
+      .check(positive_number());
+  command.add_option("--start-ms", options->start_ms,
+                     "Start time of a reader before each block [tape readers 10, else 0]");
+  command.add_option("--buffer", options->buffer,
+                     "Characters the control holds ahead [0: the next block]");
+  command.add_option("--limit", options->limit, "Blocks to list [20]");
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. Times are without acceleration.\n\nExit status: 0 no block starves, 1 "
       "some do or the program alarms, 2 usage.\n\nExample:\n  dnc forecast --control "
       "tektronix-1704 --line tektronix1704-eia part.nc\n  dnc forecast --line 4800e71 --buffer "
       "4096 "
       "surface.nc");
-  command->callback([&context, options] { context.status = forecast(context, *options); });
+  command.callback([&context, options] { context.status = forecast(context, *options); });
 }
 
 }  // namespace dripline::cli

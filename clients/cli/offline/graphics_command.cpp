@@ -237,84 +237,84 @@ int show(Context& context, const GraphicsCommand& command) {
                   : show_milled(context, command, *program);
 }
 
-void add_turning_options(CLI::App& command, GraphicsCommand& options) {
+void add_turning_options(Command command, GraphicsCommand& options) {
   constexpr const char* kGroup = "Lathe programs";
-  command.add_flag("--path", options.shows_path, "Draw the tool path over the part")->group(kGroup);
+  command.add_flag("--path", options.shows_path, "Draw the tool path over the part").group(kGroup);
   command.add_flag("--limits", options.shows_limits, "Draw the setup's travel limits")
-      ->group(kGroup);
-  command.add_flag("--zone", options.shows_zone, "Draw the setup's safe zone")->group(kGroup);
+      .group(kGroup);
+  command.add_flag("--zone", options.shows_zone, "Draw the setup's safe zone").group(kGroup);
   command
       .add_flag("--front-turret", options.has_front_turret,
                 "Draw +X downwards, as a setup's front_turret does")
-      ->group(kGroup);
+      .group(kGroup);
   command
       .add_option("--tool-width", options.tool_widths,
                   "Diameter of a drill, width of a blade, by offset, e.g. 5=10; may be repeated")
-      ->group(kGroup);
+      .group(kGroup);
   command
       .add_option("--insert", options.insert_degrees,
                   "Angle between the edges of tools of types 1 to 4 [55]")
-      ->check(CLI::Range(10.0, 87.0))
-      ->group(kGroup);
+      .check(in_range(10.0, 87.0))
+      .group(kGroup);
 }
 
-void add_view_options(CLI::App& command, GraphicsCommand& options) {
+void add_view_options(Command command, GraphicsCommand& options) {
   command
       .add_option("--view", options.view,
                   "Mill: solid, plan or planes (plan and two sections) [solid];\n"
                   "lathe: half (section above, outside below), full, section or path [half]")
-      ->check(CLI::IsMember({"solid", "plan", "planes", "half", "full", "section", "path"}));
+      .check(one_of({"solid", "plan", "planes", "half", "full", "section", "path"}));
   command.add_option("--shades", options.shades, "Shades of depth in a plan: 5 or 17 [17]")
-      ->check(CLI::IsMember({5, 17}));
+      .check(one_of_numbers({5, 17}));
   command
       .add_option("--arrangement", options.arrangement,
                   "Arrangement of planes: din (first angle) or us (third angle) [din]")
-      ->check(CLI::IsMember({"din", "us"}));
+      .check(one_of({"din", "us"}));
   command.add_option("--section", options.section,
                      "Position of the section planes, e.g. X40,Y20 [middle]");
   command.add_option("--rotate", options.rotation,
                      "Rotate the solid view, degrees about the vertical [-30]");
   command.add_option("--tilt", options.tilt, "Tilt the solid view: 5 (front) to 90 (top) [35]")
-      ->check(CLI::Range(5.0, 90.0));
+      .check(in_range(5.0, 90.0));
   command.add_option("--magnify", options.detail,
                      "Draw only this part of the blank, e.g. X10:40,Y0:30");
   command.add_option("--size", options.size, "Cells along the longer side [512, lathe 1024]")
-      ->check(CLI::Range(8, 4096));
+      .check(in_range(8, 4096));
 }
 
 }  // namespace
 
-void add_graphics_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand("graphics", "Cut the blank with a program and draw the part");
+void add_graphics_command(Command app, Context& context) {
+  auto command = app.add_subcommand("graphics", "Cut the blank with a program and draw the part");
   auto options = std::make_shared<GraphicsCommand>();
-  add_offline_options(*command, options->program);
-  command->add_option("-o,--output", options->output, "Write the picture to this PNG file");
-  command->add_option("--heights", options->heights,
-                      "Write the surface as numbers to this JSON file");
-  command->add_option("--hardcopy", options->print,
-                      "Write the picture as bytes for a matrix printer");
+  add_offline_options(command, options->program);
+  command.add_option("-o,--output", options->output, "Write the picture to this PNG file");
+  command.add_option("--heights", options->heights,
+                     "Write the surface as numbers to this JSON file");
+  command.add_option("--hardcopy", options->print,
+                     "Write the picture as bytes for a matrix printer");
   command
-      ->add_option("--printer", options->printer,
-                   "epson or ti-850 [that of the setup's MP 226 to 233, else epson]")
-      ->check(CLI::IsMember({"epson", "ti-850"}));
-  add_view_options(*command, *options);
-  add_turning_options(*command, *options);
-  command->add_option(
+      .add_option("--printer", options->printer,
+                  "epson or ti-850 [that of the setup's MP 226 to 233, else epson]")
+      .check(one_of({"epson", "ti-850"}));
+  add_view_options(command, *options);
+  add_turning_options(command, *options);
+  command.add_option(
       "--blank", options->blank,
       "Blank in place of the program's own, e.g. X0:100,Y0:80,Z-20:0; on a lathe X are\n"
       "diameters, from a tube's bore or 0: X0:50,Z-80:0");
-  command->add_option("--spindle", options->spindle, "Tool axis, with --blank [Z]")
-      ->check(CLI::IsMember({"X", "Y", "Z"}));
+  command.add_option("--spindle", options->spindle, "Tool axis, with --blank [Z]")
+      .check(one_of({"X", "Y", "Z"}));
   command
-      ->add_option("--tool-radius", options->tool_radius,
-                   "Radius of tools that neither the program nor the setup describes")
-      ->check(CLI::PositiveNumber);
-  command->add_flag("--inch", options->is_inch,
-                    "Read the lengths of this command as inches, not mm");
-  command->add_flag("--helices", options->shows_helices,
-                    "Draw helices too, which the TNC 155 leaves out");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("--tool-radius", options->tool_radius,
+                  "Radius of tools that neither the program nor the setup describes")
+      .check(positive_number());
+  command.add_flag("--inch", options->is_inch,
+                   "Read the lengths of this command as inches, not mm");
+  command.add_flag("--helices", options->shows_helices,
+                   "Draw helices too, which the TNC 155 leaves out");
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. A mill's cutter is a flat-ended cylinder, a lathe's tool has the nose "
       "and\n"
       "type of the setup's table; rapid moves cut too. A TNC whose setup names model and software\n"
@@ -322,7 +322,7 @@ void add_graphics_command(CLI::App& app, Context& context) {
       "Exit status: 0 drawn, 1 the program alarms (drawn up to there), 2 usage or no blank.\n\n"
       "Example:\n  dnc graphics pocket.h -o pocket.png --view planes --section X40,Y25\n  dnc "
       "graphics shaft.nc --setup lathe.toml -o shaft.png --view half --path");
-  command->callback([&context, options] { context.status = show(context, *options); });
+  command.callback([&context, options] { context.status = show(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "clients/cli/exit_status.hpp"
 #include "clients/cli/offline/offline_program.hpp"
 
 namespace dripline::cli {
 
 /// FILE, --control and --setup, as both offline verbs take them.
-inline void add_offline_options(CLI::App& command, OfflineCommand& options) {
-  command.add_option("FILE", options.file, "The NC program")->required();
+inline void add_offline_options(Command command, OfflineCommand& options) {
+  command.add_option("FILE", options.file, "The NC program").required();
   command.add_option("--control", options.control,
                      "Its control, e.g. centurion (default: found out from the text and name)");
   command.add_option("--setup", options.setup,

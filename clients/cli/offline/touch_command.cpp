@@ -274,31 +274,31 @@ int run_touch(Context& context, const TouchCommand& command) {
   return kExitOk;
 }
 
-void add_touch_options(CLI::App& command, TouchCommand& options) {
-  command.add_option("--setup", options.setup, "TOML file with the workpiece: [probe]")->required();
+void add_touch_options(Command command, TouchCommand& options) {
+  command.add_option("--setup", options.setup, "TOML file with the workpiece: [probe]").required();
   command.add_option("--ball", options.ball, "Effective radius of the stylus [0]")
-      ->check(CLI::NonNegativeNumber);
+      .check(non_negative_number());
   command.add_option("--travel", options.travel, "Longest probe stroke [100 mm]")
-      ->check(CLI::PositiveNumber);
+      .check(positive_number());
   command.add_option("--tool-axis", options.tool_axis, "X, Y or Z [Z]")
-      ->check(CLI::IsMember({"X", "Y", "Z"}));
-  const CLI::Validator is_number(
+      .check(one_of({"X", "Y", "Z"}));
+  const Check is_number(
       [](std::string& text) {
         return text.find_first_of("nN") == std::string::npos ? "" : text + " is no number";
       },
       "");  // the parser takes inf and nan for numbers
   command.add_option("--ring", options.ring, "Radius of the ring gauge, for the function radius")
-      ->check(is_number);
+      .check(is_number);
   command
       .add_option("--nominal", options.nominal,
                   "Nominal angle of the side, for the function rotation [0]")
-      ->check(is_number);
+      .check(is_number);
   command
       .add_option("--datum", options.values,
                   "Set the datum: coordinates of the measured point, e.g. 50,10 [0]")
-      ->delimiter(',')
-      ->check(is_number)
-      ->allow_extra_args(false);
+      .delimiter(',')
+      .check(is_number)
+      .allow_extra_args(false);
   command.add_flag("--boss", options.is_boss, "Probe the circle from outside");
   command.add_flag("--rotation-touches", options.takes_rotation_touches,
                    "Corner: the first side is where the setup's basic rotation was touched");
@@ -307,23 +307,23 @@ void add_touch_options(CLI::App& command, TouchCommand& options) {
 
 }  // namespace
 
-void add_touch_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand(
+void add_touch_command(Command app, Context& context) {
+  auto command = app.add_subcommand(
       "touch", "The TNC 155's touch probe functions on the workpiece of a setup file");
   auto options = std::make_shared<TouchCommand>();
   command
-      ->add_option("FUNCTION", options->function,
-                   "length, radius (calibration), rotation, surface, corner, circle")
-      ->required()
-      ->check(CLI::IsMember({"length", "radius", "rotation", "surface", "corner", "circle"}));
+      .add_option("FUNCTION", options->function,
+                  "length, radius (calibration), rotation, surface, corner, circle")
+      .required()
+      .check(one_of({"length", "radius", "rotation", "surface", "corner", "circle"}));
   command
-      ->add_option(
+      .add_option(
           "TOUCH", options->touches,
           "Axis, direction and start of each, e.g. X+:10,20,-5; C+:40,0,-5,90 begins at C 90")
-      ->required();
-  add_touch_options(*command, *options);
-  add_json_flag(*command, context);
-  command->footer(
+      .required();
+  add_touch_options(command, *options);
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. Circle and radius take the touches in the order +, - of the first "
       "axis, "
       "then of\nthe second; a corner two of each side. With a basic rotation in the setup the "
@@ -334,7 +334,7 @@ void add_touch_command(CLI::App& app, Context& context) {
       "not measurable, 2 usage.\n\nExamples:\n  dnc touch circle --setup bore.toml --ball 2 "
       "X+:50,40,-5 X-:50,40,-5 Y+:50,40,-5 Y-:50,40,-5\n  dnc touch corner --setup vice.toml "
       "--rotation-touches --datum 0,0 X+:-20,15,-5 X+:-20,35,-5");
-  command->callback([&context, options] { context.status = run_touch(context, *options); });
+  command.callback([&context, options] { context.status = run_touch(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -49,21 +49,20 @@ int print_listing(const OfflineCommand& command) {
 
 }  // namespace
 
-void add_trace_command(CLI::App& app, Context& context) {
-  auto* command =
-      app.add_subcommand("trace", "Print what a program does, one JSON object per line");
+void add_trace_command(Command app, Context& context) {
+  auto command = app.add_subcommand("trace", "Print what a program does, one JSON object per line");
   auto options = std::make_shared<OfflineCommand>();
-  add_offline_options(*command, *options);
+  add_offline_options(command, *options);
   auto events = std::make_shared<bool>(false);
-  command->add_flag("--events,--listing", *events,
-                    "Print the program in the control's own form: the events that a "
-                    "prototrak-plus stores, the planning sheet of a tektronix-1704");
-  command->footer(
+  command.add_flag("--events,--listing", *events,
+                   "Print the program in the control's own form: the events that a "
+                   "prototrak-plus stores, the planning sheet of a tektronix-1704");
+  command.footer(
       "No server is needed. Positions are in the program's units. Called programs come from the "
       "setup's\nlibrary, or from FILE's folder.\n\nExit status: 0 the end was reached, 1 an alarm "
       "(the last object), 2 usage, unreadable file, unknown control.\n\nExample:\n  dnc trace "
       "--control centurion --setup lathe.toml shaft.nc");
-  command->callback([&context, options, events] {
+  command.callback([&context, options, events] {
     context.status = *events ? print_listing(*options) : trace(*options);
   });
 }

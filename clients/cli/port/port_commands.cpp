@@ -114,9 +114,9 @@ int apply_file(Context& context, const std::string& path) {
   return kExitOk;
 }
 
-std::shared_ptr<PortCommand> add_port_options(CLI::App& command, Context& context) {
+std::shared_ptr<PortCommand> add_port_options(Command command, Context& context) {
   auto options = std::make_shared<PortCommand>();
-  command.add_option("NAME", options->port.name, "The port")->required();
+  command.add_option("NAME", options->port.name, "The port").required();
   command.add_option("--machine", options->machine, "Machine at the other end of the line");
   command.add_option("--address", options->address,
                      "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT");
@@ -130,123 +130,123 @@ std::shared_ptr<PortCommand> add_port_options(CLI::App& command, Context& contex
   return options;
 }
 
-void add_add(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("add", "Set up the serial line to a machine");
-  auto options = add_port_options(*command, context);
-  command->get_option("--machine")->required();
-  command->get_option("--address")->required();
-  command->add_flag("--disabled", options->is_disabled, "Set it up, but leave the line closed");
-  command->footer(
+void add_add(Command group, Context& context) {
+  auto command = group.add_subcommand("add", "Set up the serial line to a machine");
+  auto options = add_port_options(command, context);
+  command.get_option("--machine").required();
+  command.get_option("--address").required();
+  command.add_flag("--disabled", options->is_disabled, "Set it up, but leave the line closed");
+  command.footer(
       "Examples:\n  dnc port add line-3 --machine mill-3 --address /dev/ttyUSB0 --template tnc155\n"
       "  dnc port add line-4 --machine mill-4 --address rfc2217://10.0.0.9:4001 \\\n"
       "      --template centurion 19200e72 line_delay_ms=20");
-  command->callback([&context, options] { context.status = add(context, *options); });
+  command.callback([&context, options] { context.status = add(context, *options); });
 }
 
-void add_set(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("set", "Change settings of a port");
-  auto options = add_port_options(*command, context);
-  command->add_flag("--no-rules", options->has_no_rules, "Remove its rules");
-  command->footer(
+void add_set(Command group, Context& context) {
+  auto command = group.add_subcommand("set", "Change settings of a port");
+  auto options = add_port_options(command, context);
+  command.add_flag("--no-rules", options->has_no_rules, "Remove its rules");
+  command.footer(
       "KEY= removes a setting of the port, so that its template's applies again. An open line is "
       "closed\nand opened again.\n\nExample:\n  dnc port set line-3 baud=4800 eob=");
-  command->callback([&context, options] { context.status = change(context, *options); });
+  command.callback([&context, options] { context.status = change(context, *options); });
 }
 
 using NamedAction = int (*)(Context&, const std::string&);
-CLI::App* add_by_name(CLI::App& group, Context& context, const char* verb, const char* help,
-                      NamedAction action) {
-  auto* command = group.add_subcommand(verb, help);
+Command add_by_name(Command group, Context& context, const char* verb, const char* help,
+                    NamedAction action) {
+  auto command = group.add_subcommand(verb, help);
   auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "The port")->required();
-  command->callback([&context, name, action] { context.status = action(context, *name); });
+  command.add_option("NAME", *name, "The port").required();
+  command.callback([&context, name, action] { context.status = action(context, *name); });
   return command;
 }
 
-void add_templates(CLI::App& group, Context& context) {
-  auto* command =
+void add_templates(Command group, Context& context) {
+  auto command =
       group.add_subcommand("templates", "List the lines of known controls, or show one in full");
   auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "The template (default: list them)");
-  add_json_flag(*command, context);
-  command->callback([&context, name] { context.status = list_templates(context, *name); });
+  command.add_option("NAME", *name, "The template (default: list them)");
+  add_json_flag(command, context);
+  command.callback([&context, name] { context.status = list_templates(context, *name); });
 }
 
-void add_apply(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("apply", "Set up the ports of a TOML file");
+void add_apply(Command group, Context& context) {
+  auto command = group.add_subcommand("apply", "Set up the ports of a TOML file");
   auto path = std::make_shared<std::string>();
-  command->add_option("FILE", *path, "TOML file with a [[port]] for each port")->required();
-  add_json_flag(*command, context);
-  command->footer(
+  command.add_option("FILE", *path, "TOML file with a [[port]] for each port").required();
+  add_json_flag(command, context);
+  command.footer(
       "Ports of the same name are replaced, others stay. deploy/examples/ports.toml shows every "
       "key.");
-  command->callback([&context, path] { context.status = apply_file(context, *path); });
+  command.callback([&context, path] { context.status = apply_file(context, *path); });
 }
 
-void add_test_rules(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("test-rules", "Show which rule a text matches, and why");
+void add_test_rules(Command group, Context& context) {
+  auto command = group.add_subcommand("test-rules", "Show which rule a text matches, and why");
   auto names = std::make_shared<std::pair<std::string, std::string>>();
-  command->add_option("NAME", names->first, "The port")->required();
-  command->add_option("FILE", names->second, "Text as the control would send it")->required();
-  add_json_flag(*command, context);
-  command->footer("Nothing is done: no program is sent or stored.");
-  command->callback(
+  command.add_option("NAME", names->first, "The port").required();
+  command.add_option("FILE", names->second, "Text as the control would send it").required();
+  add_json_flag(command, context);
+  command.footer("Nothing is done: no program is sent or stored.");
+  command.callback(
       [&context, names] { context.status = test_rules(context, names->first, names->second); });
 }
 
-void add_monitor(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("monitor", "Watch a line until Ctrl-C");
+void add_monitor(Command group, Context& context) {
+  auto command = group.add_subcommand("monitor", "Watch a line until Ctrl-C");
   auto options = std::make_shared<MonitorCommand>();
-  command->add_option("NAME", options->name, "The port")->required();
-  command->add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
-  command->add_flag("--json", context.wants_json, "Print one JSON object per line");
-  command->footer(
+  command.add_option("NAME", options->name, "The port").required();
+  command.add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
+  command.add_flag("--json", context.wants_json, "Print one JSON object per line");
+  command.footer(
       "Each line: time, direction (→ to the control, ← from it, ! an error, ~ modem lines, = "
       "the\nstate of the line), and the characters; <DC3> and its like are control characters. "
       "Watching "
       "changes\nnothing on the line.");
-  command->callback([&context, options] { context.status = monitor_port(context, *options); });
+  command.callback([&context, options] { context.status = monitor_port(context, *options); });
 }
 
-void add_recording(CLI::App& group, Context& context) {
-  auto* command =
+void add_recording(Command group, Context& context) {
+  auto command =
       group.add_subcommand("recording", "Show what passed over a line in the last minutes");
   auto options = std::make_shared<RecordingCommand>();
-  command->add_option("NAME", options->name, "The port")->required();
-  command->add_option("-o,--output", options->output,
-                      "Save it as JSON lines, - for standard output");
-  command->add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
-  add_json_flag(*command, context);
-  command->callback([&context, options] { context.status = show_recording(context, *options); });
+  command.add_option("NAME", options->name, "The port").required();
+  command.add_option("-o,--output", options->output,
+                     "Save it as JSON lines, - for standard output");
+  command.add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
+  add_json_flag(command, context);
+  command.callback([&context, options] { context.status = show_recording(context, *options); });
 }
 
 }  // namespace
 
-void add_port_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("port", "Serial lines to machines");
-  group->require_subcommand(1);
-  add_add(*group, context);
-  add_set(*group, context);
-  auto* list = group->add_subcommand("list", "List all ports with the state of their lines");
-  add_json_flag(*list, context);
-  list->callback([&context] { context.status = list_ports(context); });
-  add_json_flag(*add_by_name(*group, context, "show", "One port", show_port), context);
-  add_by_name(*group, context, "remove", "Close a line and remove the port", remove);
-  add_json_flag(*add_by_name(*group, context, "enable", "Open the line", enable), context);
-  add_json_flag(*add_by_name(*group, context, "disable", "Close the line, keep the port", disable),
+void add_port_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("port", "Serial lines to machines");
+  group.require_subcommand(1);
+  add_add(group, context);
+  add_set(group, context);
+  auto list = group.add_subcommand("list", "List all ports with the state of their lines");
+  add_json_flag(list, context);
+  list.callback([&context] { context.status = list_ports(context); });
+  add_json_flag(add_by_name(group, context, "show", "One port", show_port), context);
+  add_by_name(group, context, "remove", "Close a line and remove the port", remove);
+  add_json_flag(add_by_name(group, context, "enable", "Open the line", enable), context);
+  add_json_flag(add_by_name(group, context, "disable", "Close the line, keep the port", disable),
                 context);
-  add_templates(*group, context);
-  add_apply(*group, context);
-  add_json_flag(*add_by_name(*group, context, "test", "Test a line without a program", test_port),
+  add_templates(group, context);
+  add_apply(group, context);
+  add_json_flag(add_by_name(group, context, "test", "Test a line without a program", test_port),
                 context);
-  add_test_rules(*group, context);
-  add_monitor(*group, context);
-  add_recording(*group, context);
-  add_port_transfer_commands(*group, context);
-  add_port_doctor_command(*group, context);
-  add_port_replay_command(*group, context);
-  add_port_page_command(*group, context);
-  add_port_parameters_command(*group, context);
+  add_test_rules(group, context);
+  add_monitor(group, context);
+  add_recording(group, context);
+  add_port_transfer_commands(group, context);
+  add_port_doctor_command(group, context);
+  add_port_replay_command(group, context);
+  add_port_page_command(group, context);
+  add_port_parameters_command(group, context);
 }
 
 }  // namespace dripline::cli

@@ -99,23 +99,23 @@ int run_doctor(Context& context, const DoctorCommand& command) {
 
 }  // namespace
 
-void add_port_doctor_command(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand(
+void add_port_doctor_command(Command group, Context& context) {
+  auto command = group.add_subcommand(
       "doctor", "Find the settings and the faults of a line from what its control punches out");
   auto options = std::make_shared<DoctorCommand>();
   command
-      ->add_option("ADDRESS", options->address,
-                   "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT; not one in use")
-      ->required();
-  command->add_option("--listen", options->listen, "Seconds to listen (default: 30)")
-      ->check(CLI::Range(1U, kMaxListen));
-  command->add_flag("--send-nothing", options->sends_nothing, "Do not try XOFF");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("ADDRESS", options->address,
+                  "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT; not one in use")
+      .required();
+  command.add_option("--listen", options->listen, "Seconds to listen (default: 30)")
+      .check(in_range(1U, kMaxListen));
+  command.add_flag("--send-nothing", options->sends_nothing, "Do not try XOFF");
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. Start it, then let the control punch out a program of some length, "
       "again\nif need be: one rate after the other is tried until the text reads as a program.\n"
       "\nExit status: 0 the settings were found, 1 not; what was heard is printed in both cases.");
-  command->callback([&context, options] { context.status = run_doctor(context, *options); });
+  command.callback([&context, options] { context.status = run_doctor(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -82,21 +82,21 @@ int line_of_page(Context& context, const PageCommand& command) {
 
 }  // namespace
 
-void add_port_page_command(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand(
+void add_port_page_command(Command group, Context& context) {
+  auto command = group.add_subcommand(
       "page", "Convert the serial page of a Centurion to a line, or a line to the page");
   auto options = std::make_shared<PageCommand>();
-  auto* file = command->add_option("FILE", options->file, "Page, as `--for` prints it");
-  auto* line = command->add_option("--for", options->line, "Template or short form of a line");
-  command->add_option("--set", options->changes, "Settings of that line, KEY=VALUE")->needs(line);
-  command->add_flag("--secondary", options->is_secondary,
-                    "The line is connected to the secondary port");
-  file->excludes(line);
-  add_json_flag(*command, context);
-  command->footer(
+  auto file = command.add_option("FILE", options->file, "Page, as `--for` prints it");
+  auto line = command.add_option("--for", options->line, "Template or short form of a line");
+  command.add_option("--set", options->changes, "Settings of that line, KEY=VALUE").needs(line);
+  command.add_flag("--secondary", options->is_secondary,
+                   "The line is connected to the secondary port");
+  file.excludes(line);
+  add_json_flag(command, context);
+  command.footer(
       "Examples:\n  dnc port page --for centurion > page.toml   # what to dial in at the control\n"
       "  dnc port page page.toml                     # template and settings for dnc port add");
-  command->callback([&context, options] {
+  command.callback([&context, options] {
     const bool has_line = !options->line.empty();
     if (!has_line && options->file.empty()) {
       context.status = refuse(Error{Errc::Syntax, "port page needs FILE or --for LINE"});

@@ -193,25 +193,25 @@ int run(Context& context, const ParametersCommand& command) {
 
 }  // namespace
 
-void add_port_parameters_command(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand(
+void add_port_parameters_command(Command group, Context& context) {
+  auto command = group.add_subcommand(
       "parameters",
       "The interface of a TNC 151/155 by its machine parameters: the line that fits them,\n"
       "the parameters for a line, or whether a port is set as its control is");
   auto options = std::make_shared<ParametersCommand>();
-  auto* file = command->add_option("FILE", options->file,
-                                   "A setup (TOML), or parameters as the control sends them: MP0: "
-                                   "...");
-  auto* line = command->add_option("--for", options->line, "Template or short form of a line");
-  command->add_option("--set", options->changes, "Settings of that line, KEY=VALUE")->needs(line);
-  auto* port = command->add_option("--port", options->port,
-                                   "Compare this port with FILE, or with its machine's setup");
-  auto* baud = command->add_option(
-      "--baud", options->baud, "Baud rate of the control (MOD) [the setup's baud_rate, or 2400]");
-  baud->excludes(line);
-  line->excludes(file)->excludes(port);
-  add_json_flag(*command, context);
-  command->footer(
+  auto file = command.add_option("FILE", options->file,
+                                 "A setup (TOML), or parameters as the control sends them: MP0: "
+                                 "...");
+  auto line = command.add_option("--for", options->line, "Template or short form of a line");
+  command.add_option("--set", options->changes, "Settings of that line, KEY=VALUE").needs(line);
+  auto port = command.add_option("--port", options->port,
+                                 "Compare this port with FILE, or with its machine's setup");
+  auto baud = command.add_option("--baud", options->baud,
+                                 "Baud rate of the control (MOD) [the setup's baud_rate, or 2400]");
+  baud.excludes(line);
+  line.excludes(file).excludes(port);
+  add_json_flag(command, context);
+  command.footer(
       "MP 71 and 218 to 224 apply; the letter in headings is the setup's heading_letter, else that "
       "of MP 218,\nelse %. Only --port needs a server.\n\n"
       "Exit status: 0 well, 1 the port is set otherwise, 2 usage, or a value no line can have.\n\n"
@@ -219,7 +219,7 @@ void add_port_parameters_command(CLI::App& group, Context& context) {
       "port "
       "add\n  dnc port parameters --for tnc155-bcc > mp  # what to set at the control\n"
       "  dnc port parameters --port line-3          # does the port fit its machine's setup?");
-  command->callback([&context, options] { context.status = run(context, *options); });
+  command.callback([&context, options] { context.status = run(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -192,28 +192,28 @@ int run_replay(Context& context, const ReplayCommand& command) {
 
 }  // namespace
 
-void add_port_replay_command(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand(
+void add_port_replay_command(Command group, Context& context) {
+  auto command = group.add_subcommand(
       "replay", "Play a recorded line against a simulated control, and show where it differs");
   auto options = std::make_shared<ReplayCommand>();
-  command->add_option("RECORDING", options->file, "JSON lines, see dnc port recording -o")
-      ->required();
+  command.add_option("RECORDING", options->file, "JSON lines, see dnc port recording -o")
+      .required();
   command
-      ->add_option("--against", options->control,
-                   "The control: a template (dnc port templates) or a dialect")
-      ->required();
-  command->add_option("--dialect", options->dialect,
-                      "Whose interpreter runs what arrives (default: the template's)");
-  command->add_option("SETTING", options->settings,
-                      "KEY=VALUE instead of the template's, or a line such as 9600e72");
-  add_json_flag(*command, context);
-  command->footer(
+      .add_option("--against", options->control,
+                  "The control: a template (dnc port templates) or a dialect")
+      .required();
+  command.add_option("--dialect", options->dialect,
+                     "Whose interpreter runs what arrives (default: the template's)");
+  command.add_option("SETTING", options->settings,
+                     "KEY=VALUE instead of the template's, or a line such as 9600e72");
+  add_json_flag(command, context);
+  command.footer(
       "No server is needed. What was sent goes to the simulated control, and its answers are "
       "compared\nwith the recorded ones where a protocol decides them (XMODEM, HEIDENHAIN "
       "blockwise); what the\ncontrol sent goes to a simulated host.\n\nExit status: 0 no "
       "deviation, 1 there are some, 2 the recording cannot be read.\n\nExample:\n  dnc port "
       "recording line-3 -o night.jsonl\n  dnc port replay night.jsonl --against tnc155-bcc");
-  command->callback([&context, options] { context.status = run_replay(context, *options); });
+  command.callback([&context, options] { context.status = run_replay(context, *options); });
 }
 
 }  // namespace dripline::cli

@@ -118,15 +118,14 @@ int stop(Context& context, const std::string& port) {
   return kExitOk;
 }
 
-void add_send(CLI::App& group, Context& context) {
-  auto* command =
-      group.add_subcommand("send", "Send programs to the control's memory, as one text");
+void add_send(Command group, Context& context) {
+  auto command = group.add_subcommand("send", "Send programs to the control's memory, as one text");
   auto options = std::make_shared<SendCommand>();
-  command->add_option("PORT", options->port, "The port")->required();
-  command->add_option("PROGRAM", options->programs, "Program, or NAME@REVISION")->required();
-  command->add_flag("--no-wait", options->is_left, "Do not wait for the end");
-  add_json_flag(*command, context);
-  command->footer(
+  command.add_option("PORT", options->port, "The port").required();
+  command.add_option("PROGRAM", options->programs, "Program, or NAME@REVISION").required();
+  command.add_flag("--no-wait", options->is_left, "Do not wait for the end");
+  add_json_flag(command, context);
+  command.footer(
       "The control must be ready to receive. One program is sent unchanged. Several are sent one "
       "after "
       "the\nother, each from its O line (or with one made from its name), framed once as the "
@@ -135,31 +134,31 @@ void add_send(CLI::App& group, Context& context) {
       "is "
       "no "
       "run.\n\nExample:\n  dnc port send line-2 O0100 O0200 O0300@4");
-  command->callback([&context, options] { context.status = send(context, *options); });
+  command.callback([&context, options] { context.status = send(context, *options); });
 }
 
-void add_receive(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("receive", "Ask the control for a program (XMODEM)");
+void add_receive(Command group, Context& context) {
+  auto command = group.add_subcommand("receive", "Ask the control for a program (XMODEM)");
   auto options = std::make_shared<ReceiveCommand>();
-  command->add_option("PORT", options->port, "The port")->required();
-  command->add_flag("--no-wait", options->is_left, "Do not wait for it");
-  command->footer(
+  command.add_option("PORT", options->port, "The port").required();
+  command.add_flag("--no-wait", options->is_left, "Do not wait for it");
+  command.footer(
       "Over XMODEM the receiver begins: this makes the server ask while the operator starts to "
       "send. "
       "It\nbecomes a held revision, one for each O number where the port extracts programs. All "
       "other lines\naccept what their control sends at any time.");
-  command->callback([&context, options] { context.status = receive(context, *options); });
+  command.callback([&context, options] { context.status = receive(context, *options); });
 }
 
 }  // namespace
 
-void add_port_transfer_commands(CLI::App& group, Context& context) {
+void add_port_transfer_commands(Command group, Context& context) {
   add_send(group, context);
   add_receive(group, context);
-  auto* command = group.add_subcommand("stop", "End a transfer that belongs to no run");
+  auto command = group.add_subcommand("stop", "End a transfer that belongs to no run");
   auto name = std::make_shared<std::string>();
-  command->add_option("PORT", *name, "The port")->required();
-  command->callback([&context, name] { context.status = stop(context, *name); });
+  command.add_option("PORT", *name, "The port").required();
+  command.callback([&context, name] { context.status = stop(context, *name); });
 }
 
 }  // namespace dripline::cli

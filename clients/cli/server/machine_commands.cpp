@@ -76,48 +76,46 @@ int set_switch(Context& context, const SwitchCommand& command) {
   return kExitOk;
 }
 
-void add_switch(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("switch", "Set a switch of a machine's panel");
+void add_switch(Command group, Context& context) {
+  auto command = group.add_subcommand("switch", "Set a switch of a machine's panel");
   auto options = std::make_shared<SwitchCommand>();
-  command->add_option("MACHINE", options->machine, "The machine")->required();
-  command->add_option("NAME", options->name, kSwitchHelp)->required();
-  command->add_option("STATE", options->state, "on or off")
-      ->required()
-      ->check(CLI::IsMember({"on", "off"}));
-  command->footer(
+  command.add_option("MACHINE", options->machine, "The machine").required();
+  command.add_option("NAME", options->name, kSwitchHelp).required();
+  command.add_option("STATE", options->state, "on or off").required().check(one_of({"on", "off"}));
+  command.footer(
       "It works with or without a run; dnc run switch does the same for the machine of a "
       "run.\n\nExample:\n  dnc machine switch mill-1 emergency_stop off");
-  command->callback([&context, options] { context.status = set_switch(context, *options); });
+  command.callback([&context, options] { context.status = set_switch(context, *options); });
 }
 
 }  // namespace
 
-void add_machine_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("machine", "Machines and what they do now");
-  group->require_subcommand(1);
+void add_machine_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("machine", "Machines and what they do now");
+  group.require_subcommand(1);
 
-  auto* list = group->add_subcommand("list", "List all machines that ever connected");
-  add_json_flag(*list, context);
-  list->callback([&context] { context.status = list_machines(context); });
+  auto list = group.add_subcommand("list", "List all machines that ever connected");
+  add_json_flag(list, context);
+  list.callback([&context] { context.status = list_machines(context); });
 
   auto name = std::make_shared<std::string>();
-  auto* status = group->add_subcommand("status", "Show everything known of a machine");
-  status->add_option("NAME", *name, "The machine")->required();
-  add_json_flag(*status, context);
-  status->callback([&context, name] { context.status = show_status(context, *name); });
+  auto status = group.add_subcommand("status", "Show everything known of a machine");
+  status.add_option("NAME", *name, "The machine").required();
+  add_json_flag(status, context);
+  status.callback([&context, name] { context.status = show_status(context, *name); });
 
-  add_switch(*group, context);
+  add_switch(group, context);
 
   auto watched = std::make_shared<std::string>();
-  auto* watch = group->add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");
-  watch->add_option("NAME", *watched, "The machine (default: all)");
-  watch->add_flag("--json", context.wants_json, "Print each change as one JSON object per line");
-  watch->footer(
+  auto watch = group.add_subcommand("watch", "Follow a machine, or all, until Ctrl-C");
+  watch.add_option("NAME", *watched, "The machine (default: all)");
+  watch.add_flag("--json", context.wants_json, "Print each change as one JSON object per line");
+  watch.footer(
       "On a terminal one live line per machine; in a pipe one line for each change of what it "
       "executes\nor reports, and of its counters every five seconds. Watching changes nothing at "
       "the "
       "machine.\n\nExample:\n  dnc machine watch lathe-1");
-  watch->callback([&context, watched] { context.status = watch_machines(context, *watched); });
+  watch.callback([&context, watched] { context.status = watch_machines(context, *watched); });
 }
 
 }  // namespace dripline::cli

@@ -233,55 +233,55 @@ int clear(Context& context, const MemoryCommand& command) {
 
 using Action = int (*)(Context&, const MemoryCommand&);
 
-std::pair<CLI::App*, std::shared_ptr<MemoryCommand>> add_verb(CLI::App& group, Context& context,
-                                                              const char* name, const char* help,
-                                                              Action action) {
-  auto* verb = group.add_subcommand(name, help);
+std::pair<Command, std::shared_ptr<MemoryCommand>> add_verb(Command group, Context& context,
+                                                            const char* name, const char* help,
+                                                            Action action) {
+  auto verb = group.add_subcommand(name, help);
   auto options = std::make_shared<MemoryCommand>();
-  verb->add_option("MACHINE", options->machine, "The machine")->required();
-  verb->callback([&context, options, action] { context.status = action(context, *options); });
+  verb.add_option("MACHINE", options->machine, "The machine").required();
+  verb.callback([&context, options, action] { context.status = action(context, *options); });
   return {verb, options};
 }
 
 }  // namespace
 
-void add_memory_commands(CLI::App& app, Context& context) {
-  auto* group =
+void add_memory_commands(Command app, Context& context) {
+  auto group =
       app.add_subcommand("memory", "Memory that a control keeps from programs: variables, offsets");
-  group->require_subcommand(1);
-  group->footer(
+  group.require_subcommand(1);
+  group.footer(
       "It is reported at the end of each run that changed it. At the next start what is kept wins "
       "over the "
       "setup,\nexcept where the setup was changed since. Restoring and clearing make a new "
       "version of the\nsetup, which takes effect at the next start.");
 
   constexpr const char* kFilter = "List only names that contain this text";
-  auto [showing, show_options] = add_verb(*group, context, "show", "Show what it keeps now", show);
-  showing->add_option("--run", show_options->run, kRunHelp);
-  showing->add_option("--filter", show_options->filter, kFilter);
-  add_json_flag(*showing, context);
+  auto [showing, show_options] = add_verb(group, context, "show", "Show what it keeps now", show);
+  showing.add_option("--run", show_options->run, kRunHelp);
+  showing.add_option("--filter", show_options->filter, kFilter);
+  add_json_flag(showing, context);
 
-  auto [listing, unused] = add_verb(*group, context, "list", "The runs that changed it", list);
+  auto [listing, unused] = add_verb(group, context, "list", "The runs that changed it", list);
   (void)unused;
-  add_json_flag(*listing, context);
+  add_json_flag(listing, context);
 
   auto [comparing, compare_options] =
-      add_verb(*group, context, "compare", "Show the difference from what a run left", compare);
-  comparing->add_option("RUN", compare_options->run, kRunHelp)->required();
-  comparing->add_option("--filter", compare_options->filter, kFilter);
+      add_verb(group, context, "compare", "Show the difference from what a run left", compare);
+  comparing.add_option("RUN", compare_options->run, kRunHelp).required();
+  comparing.add_option("--filter", compare_options->filter, kFilter);
 
   auto [restoring, restore_options] = add_verb(
-      *group, context, "restore", "Restore what a run left, of this or another machine", restore);
-  restoring->add_option("RUN", restore_options->run, kRunHelp)->required();
-  restoring->add_option("--filter", restore_options->filter, kFilter);
-  restoring->add_option("-m,--comment", restore_options->comment, "Why, for the list of setups");
-  add_json_flag(*restoring, context);
+      group, context, "restore", "Restore what a run left, of this or another machine", restore);
+  restoring.add_option("RUN", restore_options->run, kRunHelp).required();
+  restoring.add_option("--filter", restore_options->filter, kFilter);
+  restoring.add_option("-m,--comment", restore_options->comment, "Why, for the list of setups");
+  add_json_flag(restoring, context);
 
   auto [clearing, clear_options] =
-      add_verb(*group, context, "clear", "Begin again with what the setup gives", clear);
-  clearing->add_option("--filter", clear_options->filter, kFilter);
-  clearing->add_option("-m,--comment", clear_options->comment, "Why, for the list of setups");
-  add_json_flag(*clearing, context);
+      add_verb(group, context, "clear", "Begin again with what the setup gives", clear);
+  clearing.add_option("--filter", clear_options->filter, kFilter);
+  clearing.add_option("-m,--comment", clear_options->comment, "Why, for the list of setups");
+  add_json_flag(clearing, context);
 }
 
 }  // namespace dripline::cli

@@ -163,114 +163,114 @@ int reject_revision(Context& context, const RevisionCommand& command) {
   return kExitOk;
 }
 
-void add_judgment(CLI::App& group, Context& context, const char* verb, const char* help,
+void add_judgment(Command group, Context& context, const char* verb, const char* help,
                   int (*action)(Context&, const RevisionCommand&)) {
-  auto* command = group.add_subcommand(verb, help);
+  auto command = group.add_subcommand(verb, help);
   auto options = std::make_shared<RevisionCommand>();
-  command->add_option("NAME", options->program, "The program")->required();
-  command->add_option("REV", options->revision, "Its revision")->required();
-  command->footer(
+  command.add_option("NAME", options->program, "The program").required();
+  command.add_option("REV", options->revision, "Its revision").required();
+  command.footer(
       "A program that an operator punched out at a control is stored as a held revision: it is "
       "listed\nand can be pulled, but no run takes it before it is accepted. The decision is "
       "in "
       "the audit\ntrail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o punched.nc\n  dnc "
       "program accept O0200 3");
-  command->callback([&context, options, action] { context.status = action(context, *options); });
+  command.callback([&context, options, action] { context.status = action(context, *options); });
 }
 
-void add_push(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("push", "Store FILE as a program, or as its next revision");
+void add_push(Command group, Context& context) {
+  auto command = group.add_subcommand("push", "Store FILE as a program, or as its next revision");
   auto options = std::make_shared<PushCommand>();
-  command->add_option("FILE", options->file, "The NC program")->required();
-  command->add_option("--name", options->name, "Name in the library (default: FILE's name)");
-  command->add_option(
+  command.add_option("FILE", options->file, "The NC program").required();
+  command.add_option("--name", options->name, "Name in the library (default: FILE's name)");
+  command.add_option(
       "--control", options->control,
       "The control it is written for, e.g. centurion (default: the server finds out)");
-  command->add_option("--comment", options->comment, "Say what changed; kept with the revision");
-  command->add_flag("--force", options->overrides_protection,
-                    "Also where the program there is protected against change (tnc155: P, G50)");
-  add_json_flag(*command, context);
-  command->footer(
+  command.add_option("--comment", options->comment, "Say what changed; kept with the revision");
+  command.add_flag("--force", options->overrides_protection,
+                   "Also where the program there is protected against change (tnc155: P, G50)");
+  add_json_flag(command, context);
+  command.footer(
       "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
       "breaks,\nit continues where the server stopped receiving. The same content again makes no "
       "new "
       "revision.\n\nExample:\n  dnc program push shaft.nc --name O0200 --control centurion "
       "--comment \"deeper groove\"");
-  command->callback([&context, options] { context.status = push(context, *options); });
+  command.callback([&context, options] { context.status = push(context, *options); });
 }
 
-void add_pull(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("pull", "Fetch a program's content");
+void add_pull(Command group, Context& context) {
+  auto command = group.add_subcommand("pull", "Fetch a program's content");
   auto options = std::make_shared<PullCommand>();
-  command->add_option("NAME", options->name, "The program")->required();
-  command->add_option("-o,--output", options->output,
-                      "File to write, - for standard output (default: NAME here)");
-  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
-  command->footer(
+  command.add_option("NAME", options->name, "The program").required();
+  command.add_option("-o,--output", options->output,
+                     "File to write, - for standard output (default: NAME here)");
+  command.add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command.footer(
       "FILE appears only when all of it is there and its SHA-256 is right. On standard output the "
       "bytes\ncome first and the check last: look at the exit status.\n\nExample:\n  dnc program "
       "pull O0200 --revision 3 -o shaft.nc");
-  command->callback([&context, options] { context.status = pull(context, *options); });
+  command.callback([&context, options] { context.status = pull(context, *options); });
 }
 
-void add_show(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("show", "One program and all its revisions");
+void add_show(Command group, Context& context) {
+  auto command = group.add_subcommand("show", "One program and all its revisions");
   auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "The program")->required();
-  add_json_flag(*command, context);
-  command->callback([&context, name] { context.status = show_program(context, *name); });
+  command.add_option("NAME", *name, "The program").required();
+  add_json_flag(command, context);
+  command.callback([&context, name] { context.status = show_program(context, *name); });
 }
 
-void add_remove(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("remove", "Take a program out of the library");
+void add_remove(Command group, Context& context) {
+  auto command = group.add_subcommand("remove", "Take a program out of the library");
   auto options = std::make_shared<RemoveCommand>();
-  command->add_option("NAME", options->name, "The program")->required();
-  command->add_flag("--force", options->overrides_protection,
-                    "Also a program that is protected against erasing (tnc155: P, G50)");
-  command->callback([&context, options] { context.status = remove_program(context, *options); });
+  command.add_option("NAME", options->name, "The program").required();
+  command.add_flag("--force", options->overrides_protection,
+                   "Also a program that is protected against erasing (tnc155: P, G50)");
+  command.callback([&context, options] { context.status = remove_program(context, *options); });
 }
 
-void add_copy(CLI::App& group, Context& context) {
-  auto* command =
+void add_copy(Command group, Context& context) {
+  auto command =
       group.add_subcommand("copy", "Make a new program of another one's latest revision");
   auto options = std::make_shared<MoveCommand>();
-  command->add_option("NAME", options->from, "The program")->required();
-  command->add_option("NEW", options->to, "Name of the copy; no program may have it")->required();
-  command->add_option("--revision", options->revision, "Which revision (default: the latest)");
-  command->footer(
+  command.add_option("NAME", options->from, "The program").required();
+  command.add_option("NEW", options->to, "Name of the copy; no program may have it").required();
+  command.add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command.footer(
       "The copy begins with that revision as its first; its source is in its comment "
       "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
-  command->callback([&context, options] { context.status = copy_program(context, *options); });
+  command.callback([&context, options] { context.status = copy_program(context, *options); });
 }
 
-void add_rename(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("rename", "Give a program another name");
+void add_rename(Command group, Context& context) {
+  auto command = group.add_subcommand("rename", "Give a program another name");
   auto options = std::make_shared<MoveCommand>();
-  command->add_option("NAME", options->from, "The program")->required();
-  command->add_option("NEW", options->to, "Its new name; no program may have it")->required();
-  command->footer(
+  command.add_option("NAME", options->from, "The program").required();
+  command.add_option("NEW", options->to, "Its new name; no program may have it").required();
+  command.footer(
       "All its revisions, runs and reports go with it. It is refused while a run uses the program "
       "or a\nrevision from a machine waits for acceptance. The text stays as it is: an O number in "
       "it too.\n\nExample:\n  dnc program rename O0200 O0210");
-  command->callback([&context, options] { context.status = rename_program(context, *options); });
+  command.callback([&context, options] { context.status = rename_program(context, *options); });
 }
 
 }  // namespace
 
-void add_program_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("program", "Programs in the server's library");
-  group->require_subcommand(1);
-  add_push(*group, context);
-  add_pull(*group, context);
-  auto* list = group->add_subcommand("list", "All programs with their latest revision");
-  add_json_flag(*list, context);
-  list->callback([&context] { context.status = list_programs(context); });
-  add_show(*group, context);
-  add_judgment(*group, context, "accept", "Put a held revision in force", accept_revision);
-  add_judgment(*group, context, "reject", "Hide a held revision for ever", reject_revision);
-  add_remove(*group, context);
-  add_copy(*group, context);
-  add_rename(*group, context);
+void add_program_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("program", "Programs in the server's library");
+  group.require_subcommand(1);
+  add_push(group, context);
+  add_pull(group, context);
+  auto list = group.add_subcommand("list", "All programs with their latest revision");
+  add_json_flag(list, context);
+  list.callback([&context] { context.status = list_programs(context); });
+  add_show(group, context);
+  add_judgment(group, context, "accept", "Put a held revision in force", accept_revision);
+  add_judgment(group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_remove(group, context);
+  add_copy(group, context);
+  add_rename(group, context);
 }
 
 }  // namespace dripline::cli

@@ -188,46 +188,45 @@ int export_report(Context& context, const ExportCommand& command) {
 constexpr const char* kReportHelp =
     "Run: its id, the beginning of it, or latest; or a machine: what it printed outside any run";
 
-void add_export(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("export", "Write a run's report lines for other programs");
+void add_export(Command group, Context& context) {
+  auto command = group.add_subcommand("export", "Write a run's report lines for other programs");
   auto options = std::make_shared<ExportCommand>();
   options->format = "text";
-  command->add_option("RUN|MACHINE", options->run, kReportHelp)->required();
-  command->add_option("--format", options->format, "text, csv or json (default: text)")
-      ->check(CLI::IsMember({"text", "csv", "json"}));
-  command->add_option("-o,--output", options->output,
-                      "File to write, - for standard output (default: -)");
-  command->footer(
+  command.add_option("RUN|MACHINE", options->run, kReportHelp).required();
+  command.add_option("--format", options->format, "text, csv or json (default: text)")
+      .check(one_of({"text", "csv", "json"}));
+  command.add_option("-o,--output", options->output,
+                     "File to write, - for standard output (default: -)");
+  command.footer(
       "text holds exactly the lines that the machine put out, in order; csv and json add time, "
       "device\nand place.\n\nExample:\n  dnc report export latest --format csv -o profile.csv");
-  command->callback([&context, options] { context.status = export_report(context, *options); });
+  command.callback([&context, options] { context.status = export_report(context, *options); });
 }
 
 }  // namespace
 
-void add_report_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("report", "Output of machines: DPRNT and other lines");
-  group->require_subcommand(1);
+void add_report_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("report", "Output of machines: DPRNT and other lines");
+  group.require_subcommand(1);
 
-  auto* list_command = group->add_subcommand(
+  auto list_command = group.add_subcommand(
       "list", "Runs that reported lines, newest first, and machines that printed outside runs");
   auto options = std::make_shared<ListCommand>();
-  list_command->add_option("--machine", options->query.machine, "Only of this machine");
-  list_command->add_option("--program", options->query.program, "Only of this program");
-  list_command->add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
-  add_json_flag(*list_command, context);
-  list_command->callback([&context, options] { context.status = list(context, *options); });
+  list_command.add_option("--machine", options->query.machine, "Only of this machine");
+  list_command.add_option("--program", options->query.program, "Only of this program");
+  list_command.add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
+  add_json_flag(list_command, context);
+  list_command.callback([&context, options] { context.status = list(context, *options); });
 
   auto shown = std::make_shared<ShowCommand>();
-  auto* show_command =
-      group->add_subcommand("show", "Print the report of a run, or a machine's own");
-  show_command->add_option("RUN|MACHINE", shown->run, kReportHelp)->required();
-  show_command->add_flag("--raw", shown->is_raw,
-                         "On a terminal, too, print control characters instead of \\x1b");
-  add_json_flag(*show_command, context);
-  show_command->callback([&context, shown] { context.status = show(context, *shown); });
+  auto show_command = group.add_subcommand("show", "Print the report of a run, or a machine's own");
+  show_command.add_option("RUN|MACHINE", shown->run, kReportHelp).required();
+  show_command.add_flag("--raw", shown->is_raw,
+                        "On a terminal, too, print control characters instead of \\x1b");
+  add_json_flag(show_command, context);
+  show_command.callback([&context, shown] { context.status = show(context, *shown); });
 
-  add_export(*group, context);
+  add_export(group, context);
 }
 
 }  // namespace dripline::cli

@@ -128,42 +128,41 @@ int watch(Context& context, const std::string& reference) {
   return watch_run(context, *client, *run, WatchStyle::Live);
 }
 
-void add_start(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("start", "Start a program on a machine");
+void add_start(Command group, Context& context) {
+  auto command = group.add_subcommand("start", "Start a program on a machine");
   auto options = std::make_shared<StartCommand>();
-  command->add_option("MACHINE", options->request.machine, "The machine")->required();
-  command->add_option("PROGRAM", options->request.program, "The program in the library")
-      ->required();
-  command->add_option("--revision", options->request.revision,
-                      "Which revision (default: the latest)");
-  command->add_option(
+  command.add_option("MACHINE", options->request.machine, "The machine").required();
+  command.add_option("PROGRAM", options->request.program, "The program in the library").required();
+  command.add_option("--revision", options->request.revision,
+                     "Which revision (default: the latest)");
+  command.add_option(
       "--from", options->request.from,
       "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or after blocks "
       "(+25)");
-  auto* send = command->add_flag_callback(
+  auto send = command.add_flag_callback(
       "--send-head", [options] { options->request.head = "send"; },
       "On a serial line: send the words before the beginning that the rest relies on first (units, "
       "feed, tool ...)");
   command
-      ->add_flag_callback(
+      .add_flag_callback(
           "--modes-set", [options] { options->request.head = "set"; },
           "On a serial line: they are in force at the control, nothing is sent for them")
-      ->excludes(send);
+      .excludes(send);
   command
-      ->add_option(
+      .add_option(
           "--memory", options->request.memory,
           "With --from at a gateway: look through the skipped part with the control's memory "
           "(variables, offsets) as it was at the begin of the machine's last run of this "
           "revision, or as it is now, so that the skipped part applies once more")
-      ->check(CLI::IsMember({"begin", "now"}));
-  command->add_option("--pass", options->request.pass,
-                      "With --from at a gateway: start at this pass of the block (loops, "
-                      "subprograms)");
-  auto* follow = command->add_flag("--follow", options->follows, "Follow the run to its end");
-  command->add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
-      ->excludes(follow);
-  add_json_flag(*command, context);
-  command->footer(
+      .check(one_of({"begin", "now"}));
+  command.add_option("--pass", options->request.pass,
+                     "With --from at a gateway: start at this pass of the block (loops, "
+                     "subprograms)");
+  auto follow = command.add_flag("--follow", options->follows, "Follow the run to its end");
+  command.add_flag("--wait", options->waits, "Wait for its end and print only the outcome")
+      .excludes(follow);
+  add_json_flag(command, context);
+  command.footer(
       "On a serial line a run with --from is refused while the rest of the program relies on words "
       "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
       "send.\nAt a gateway the program is looked through: a start that would lose what the control "
@@ -174,46 +173,46 @@ void add_start(CLI::App& group, Context& context) {
       "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
       "ends\nthe watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 "
       "--follow");
-  command->callback([&context, options] { context.status = start(context, *options); });
+  command.callback([&context, options] { context.status = start(context, *options); });
 }
 
-void add_list(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("list", "List runs, newest first");
+void add_list(Command group, Context& context) {
+  auto command = group.add_subcommand("list", "List runs, newest first");
   auto options = std::make_shared<ListCommand>();
-  command->add_option("--machine", options->query.machine, "List only runs of this machine");
-  command->add_option("--program", options->query.program, "List only runs of this program");
-  command->add_option("--state", options->query.state,
-                      "List only runs in this state: ordered, active, completed, aborted, alarmed, "
-                      "interrupted, refused");
-  command->add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
-  add_json_flag(*command, context);
-  command->callback([&context, options] { context.status = list(context, *options); });
+  command.add_option("--machine", options->query.machine, "List only runs of this machine");
+  command.add_option("--program", options->query.program, "List only runs of this program");
+  command.add_option("--state", options->query.state,
+                     "List only runs in this state: ordered, active, completed, aborted, alarmed, "
+                     "interrupted, refused");
+  command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
+  add_json_flag(command, context);
+  command.callback([&context, options] { context.status = list(context, *options); });
 }
 
 }  // namespace
 
-void add_run_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("run", "Run programs on machines");
-  group->require_subcommand(1);
-  add_start(*group, context);
-  add_list(*group, context);
+void add_run_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("run", "Run programs on machines");
+  group.require_subcommand(1);
+  add_start(group, context);
+  add_list(group, context);
 
   auto shown = std::make_shared<std::string>();
-  auto* show_command = group->add_subcommand("show", "Show everything known of a run");
-  show_command->add_option("ID", *shown, kRunHelp)->required();
-  add_json_flag(*show_command, context);
-  show_command->callback([&context, shown] { context.status = show(context, *shown); });
+  auto show_command = group.add_subcommand("show", "Show everything known of a run");
+  show_command.add_option("ID", *shown, kRunHelp).required();
+  add_json_flag(show_command, context);
+  show_command.callback([&context, shown] { context.status = show(context, *shown); });
 
-  add_run_control_commands(*group, context);
+  add_run_control_commands(group, context);
 
   auto watched = std::make_shared<std::string>();
-  auto* watch_command = group->add_subcommand("watch", "Follow a run to its end");
-  watch_command->add_option("ID", *watched, kRunHelp)->required();
-  watch_command->add_flag("--json", context.wants_json,
-                          "Print each change as one JSON object per line");
-  watch_command->footer(
+  auto watch_command = group.add_subcommand("watch", "Follow a run to its end");
+  watch_command.add_option("ID", *watched, kRunHelp).required();
+  watch_command.add_flag("--json", context.wants_json,
+                         "Print each change as one JSON object per line");
+  watch_command.footer(
       "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run continues).");
-  watch_command->callback([&context, watched] { context.status = watch(context, *watched); });
+  watch_command.callback([&context, watched] { context.status = watch(context, *watched); });
 }
 
 }  // namespace dripline::cli

@@ -37,61 +37,59 @@ client::CommandRequest plain(std::string action) {
   return {std::move(action), {}, {}, {}};
 }
 
-void add_plain(CLI::App& group, Context& context, const std::string& action, const char* help) {
-  auto* command = group.add_subcommand(action, help);
+void add_plain(Command group, Context& context, const std::string& action, const char* help) {
+  auto command = group.add_subcommand(action, help);
   auto run = std::make_shared<std::string>();
-  command->add_option("ID", *run, kRunHelp)->required();
-  command->callback(
+  command.add_option("ID", *run, kRunHelp).required();
+  command.callback(
       [&context, run, action] { context.status = give(context, *run, {plain(action)}); });
 }
 
-void add_answer(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("answer", "Answer the question a run waits with");
+void add_answer(Command group, Context& context) {
+  auto command = group.add_subcommand("answer", "Answer the question a run waits with");
   auto options = std::make_shared<RunControlCommand>();
-  command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("TEXT", options->text, "Text that the operator would type")->required();
-  command->footer("Example:\n  dnc run answer latest 16.4856");
-  command->callback([&context, options] {
+  command.add_option("ID", options->run, kRunHelp).required();
+  command.add_option("TEXT", options->text, "Text that the operator would type").required();
+  command.footer("Example:\n  dnc run answer latest 16.4856");
+  command.callback([&context, options] {
     client::CommandRequest request = plain("answer");
     request.text = options->text;
     context.status = give(context, options->run, {request});
   });
 }
 
-void add_switch(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("switch", "Set a switch of the machine's panel");
+void add_switch(Command group, Context& context) {
+  auto command = group.add_subcommand("switch", "Set a switch of the machine's panel");
   auto options = std::make_shared<RunControlCommand>();
-  command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("NAME", options->name, kSwitchHelp)->required();
-  command->add_option("STATE", options->state, "on or off")
-      ->required()
-      ->check(CLI::IsMember({"on", "off"}));
-  command->footer(
+  command.add_option("ID", options->run, kRunHelp).required();
+  command.add_option("NAME", options->name, kSwitchHelp).required();
+  command.add_option("STATE", options->state, "on or off").required().check(one_of({"on", "off"}));
+  command.footer(
       "emergency_stop brakes at once, switches spindle and coolant off and keeps the run from "
       "continuing; "
       "when\nit is off again the run ends as aborted. It can be released by dnc machine switch "
       "too.\n\nExample:\n  dnc run switch latest single_block on");
-  command->callback([&context, options] {
+  command.callback([&context, options] {
     context.status =
         give(context, options->run, {switch_command(options->name, options->state == "on")});
   });
 }
 
-void add_handwheel(CLI::App& group, Context& context) {
+void add_handwheel(Command group, Context& context) {
   constexpr int kMaxClicks = 1000;
-  auto* command = group.add_subcommand("handwheel", "Turn the handwheel that drives the program");
+  auto command = group.add_subcommand("handwheel", "Turn the handwheel that drives the program");
   auto options = std::make_shared<RunControlCommand>();
-  command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("CLICKS", options->clicks, "Number of clicks, forward")
-      ->required()
-      ->check(CLI::Range(1, kMaxClicks));
-  command->footer(
+  command.add_option("ID", options->run, kRunHelp).required();
+  command.add_option("CLICKS", options->clicks, "Number of clicks, forward")
+      .required()
+      .check(in_range(1, kMaxClicks));
+  command.footer(
       "In handwheel mode a program moves only as far as the handwheel is turned; the feed switch "
       "sets "
       "the\ndistance per click.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
       "handwheel "
       "latest 200");
-  command->callback([&context, options] {
+  command.callback([&context, options] {
     client::CommandRequest request = plain("handwheel");
     request.value = options->clicks;
     context.status = give(context, options->run, {request});
@@ -113,19 +111,19 @@ int give_overrides(Context& context, const RunControlCommand& command) {
   return kExitUsage;
 }
 
-void add_override(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("override", "Set feed, rapid or spindle override");
+void add_override(Command group, Context& context) {
+  auto command = group.add_subcommand("override", "Set feed, rapid or spindle override");
   auto options = std::make_shared<RunControlCommand>();
-  const CLI::Range percent(0.0, 1000.0);
-  command->add_option("ID", options->run, kRunHelp)->required();
-  command->add_option("--feed", options->feed, "Percent of the programmed feed")->check(percent);
-  command->add_option("--rapid", options->rapid, "Percent of rapid traverse")->check(percent);
-  command->add_option("--spindle", options->spindle, "Percent of the programmed speed")
-      ->check(percent);
-  command->footer(
+  const Check percent = in_range(0.0, 1000.0);
+  command.add_option("ID", options->run, kRunHelp).required();
+  command.add_option("--feed", options->feed, "Percent of the programmed feed").check(percent);
+  command.add_option("--rapid", options->rapid, "Percent of rapid traverse").check(percent);
+  command.add_option("--spindle", options->spindle, "Percent of the programmed speed")
+      .check(percent);
+  command.footer(
       "The machine has its own limits and refuses what is beyond them.\n\nExample:\n  dnc run "
       "override latest --feed 80 --rapid 25");
-  command->callback([&context, options] { context.status = give_overrides(context, *options); });
+  command.callback([&context, options] { context.status = give_overrides(context, *options); });
 }
 
 }  // namespace
@@ -149,7 +147,7 @@ std::string command_text(const client::CommandRequest& command) {
   return text;
 }
 
-void add_run_control_commands(CLI::App& group, Context& context) {
+void add_run_control_commands(Command group, Context& context) {
   add_plain(group, context, "hold", "Feed hold: stop moving, keep the place");
   add_plain(group, context, "resume", "Go on after a hold, a stop or a single block");
   add_plain(group, context, "abort", "End a run for good");

@@ -14,6 +14,6 @@ client::CommandRequest switch_command(std::string name, bool is_on);
 std::string command_text(const client::CommandRequest& command);
 
 /// Adds hold, resume, abort, answer, switch and override to the group `run`.
-void add_run_control_commands(CLI::App& group, Context& context);
+void add_run_control_commands(Command group, Context& context);
 
 }  // namespace dripline::cli

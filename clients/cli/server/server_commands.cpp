@@ -44,12 +44,12 @@ int show_status(Context& context) {
 
 }  // namespace
 
-void add_server_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("server", "The server itself");
-  group->require_subcommand(1);
-  auto* status = group->add_subcommand("status", "Show version, uptime and counts");
-  add_json_flag(*status, context);
-  status->callback([&context] { context.status = show_status(context); });
+void add_server_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("server", "The server itself");
+  group.require_subcommand(1);
+  auto status = group.add_subcommand("status", "Show version, uptime and counts");
+  add_json_flag(status, context);
+  status.callback([&context] { context.status = show_status(context); });
 }
 
 }  // namespace dripline::cli

@@ -191,7 +191,7 @@ int take_pockets(Context& context, const ChangeCommand& command) {
   return save(context, *client, *setup, changes, comment);
 }
 
-void add_verb(CLI::App& command, Context& context, const std::shared_ptr<ChangeCommand>& options,
+void add_verb(Command command, Context& context, const std::shared_ptr<ChangeCommand>& options,
               int (*action)(Context&, const ChangeCommand&)) {
   command.add_option("-m,--comment", options->comment, "Give a reason; shown in the list");
   add_json_flag(command, context);
@@ -213,30 +213,30 @@ int report_saved(Context& context, const client::Setup& setup) {
   return kExitOk;
 }
 
-void add_setup_changes(CLI::App& group, Context& context) {
-  auto* parameter = group.add_subcommand("parameter", "Set a user parameter of a TNC");
+void add_setup_changes(Command group, Context& context) {
+  auto parameter = group.add_subcommand("parameter", "Set a user parameter of a TNC");
   auto options = std::make_shared<ChangeCommand>();
-  parameter->add_option("MACHINE", options->machine, "The machine")->required();
+  parameter.add_option("MACHINE", options->machine, "The machine").required();
   parameter
-      ->add_option("PARAMETER", options->parameter,
-                   "Text, number in the menu (1 to 16), or machine parameter: MP173")
-      ->required();
-  parameter->add_option("VALUE", options->value, "A number within its range")->required();
-  parameter->footer(
+      .add_option("PARAMETER", options->parameter,
+                  "Text, number in the menu (1 to 16), or machine parameter: MP173")
+      .required();
+  parameter.add_option("VALUE", options->value, "A number within its range").required();
+  parameter.footer(
       "Only what [[control.user_parameters]] lists can be set; dnc setup show has the list. The "
       "newest setup\ngets a next version in which nothing else has changed.\n\nExamples:\n  dnc "
       "setup parameter mill-3 \"FEED LIMIT\" 3000\n  dnc setup parameter mill-3 MP173 1");
-  add_verb(*parameter, context, options, &set_parameter);
+  add_verb(parameter, context, options, &set_parameter);
 
-  auto* pockets = group.add_subcommand(
+  auto pockets = group.add_subcommand(
       "pockets", "Take over the pockets of a random tool changer from the newest run");
   auto taken = std::make_shared<ChangeCommand>();
-  pockets->add_option("MACHINE", taken->machine, "The machine")->required();
-  pockets->footer(
+  pockets.add_option("MACHINE", taken->machine, "The machine").required();
+  pockets.footer(
       "With random_changer a run reports each pocket that changes, and all of them at its end "
       "(T5 P8; pocket 0\nis the spindle). They become the next version of the setup: refused while "
       "a run is active, and when the\nsetup has changed since the run began.");
-  add_verb(*pockets, context, taken, &take_pockets);
+  add_verb(pockets, context, taken, &take_pockets);
 }
 
 }  // namespace dripline::cli

@@ -159,26 +159,26 @@ int import_form(const ImportCommand& command) {
   return put_out(output, *setup, "a setup");
 }
 
-void add_import(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand(
+void add_import(Command group, Context& context) {
+  auto command = group.add_subcommand(
       "import", "Make a setup from the text of a control: TNC tools or MP, Centurion parameters");
   auto options = std::make_shared<ImportCommand>();
   command
-      ->add_option("FILE", options->file,
-                   "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
-      ->required();
-  command->add_option("--setup", options->setup,
-                      "TOML file whose [control] names the TNC's model and software; what that "
-                      "control lacks is refused");
-  command->add_option("--map", options->map,
-                      "Centurion: which of its numbers from P200 on is which of Dripline's "
-                      "(deploy/examples/centurion-parameters.map)");
-  command->add_option("-o,--output", options->output,
-                      "TOML file to write, - for standard output [-]");
-  command->footer(
+      .add_option("FILE", options->file,
+                  "A TNC's program 0 or its list MP0: ..., or P... = values between G10 and G11")
+      .required();
+  command.add_option("--setup", options->setup,
+                     "TOML file whose [control] names the TNC's model and software; what that "
+                     "control lacks is refused");
+  command.add_option("--map", options->map,
+                     "Centurion: which of its numbers from P200 on is which of Dripline's "
+                     "(deploy/examples/centurion-parameters.map)");
+  command.add_option("-o,--output", options->output,
+                     "TOML file to write, - for standard output [-]");
+  command.footer(
       "No server is needed. A Centurion's numbers of tables and pages are not known: without --map "
       "only\nwhat dnc setup export has written, or P0 to P199, is taken.");
-  command->callback([&context, options] { context.status = import_form(*options); });
+  command.callback([&context, options] { context.status = import_form(*options); });
 }
 
 /// The old text becomes the newest revision: nothing is ever lost.
@@ -196,92 +196,91 @@ int restore(Context& context, const SetupCommand& command) {
 using SetupAction = int (*)(Context&, const SetupCommand&);
 
 struct Verb {
-  CLI::App* command;
+  Command command;
   std::shared_ptr<SetupCommand> options;
 };
-Verb add_verb(CLI::App& group, Context& context, const char* name, const char* help,
+Verb add_verb(Command group, Context& context, const char* name, const char* help,
               SetupAction action) {
   Verb verb{group.add_subcommand(name, help), std::make_shared<SetupCommand>()};
-  verb.command->add_option("MACHINE", verb.options->machine, "The machine")->required();
-  verb.command->callback(
+  verb.command.add_option("MACHINE", verb.options->machine, "The machine").required();
+  verb.command.callback(
       [&context, options = verb.options, action] { context.status = action(context, *options); });
   return verb;
 }
 
 void add_saving_options(Verb& verb, Context& context) {
-  verb.command->add_option("-m,--comment", verb.options->comment,
-                           "Give a reason; shown in the list");
-  verb.command->add_option("--control", verb.options->control,
-                           "Control of a machine that was never connected, e.g. tnc155");
-  add_json_flag(*verb.command, context);
+  verb.command.add_option("-m,--comment", verb.options->comment,
+                          "Give a reason; shown in the list");
+  verb.command.add_option("--control", verb.options->control,
+                          "Control of a machine that was never connected, e.g. tnc155");
+  add_json_flag(verb.command, context);
 }
 
 }  // namespace
 
-void add_setup_commands(CLI::App& app, Context& context) {
-  auto* group = app.add_subcommand("setup", "Tool tables, offsets and parameters of machines");
-  group->require_subcommand(1);
-  group->footer(
+void add_setup_commands(Command app, Context& context) {
+  auto group = app.add_subcommand("setup", "Tool tables, offsets and parameters of machines");
+  group.require_subcommand(1);
+  group.footer(
       "A setup is a TOML file with [[tool]], [[offset]], [[variable]] and [control]. The server "
       "checks it\nfor the machine's control, keeps every version, and sends the newest with each "
       "start of a program.");
 
   auto listing =
-      add_verb(*group, context, "list", "List the versions of a setup, newest first", list);
-  listing.command->add_option("--limit", listing.options->limit,
-                              "List at most this many, 0 for all [20]");
-  add_json_flag(*listing.command, context);
+      add_verb(group, context, "list", "List the versions of a setup, newest first", list);
+  listing.command.add_option("--limit", listing.options->limit,
+                             "List at most this many, 0 for all [20]");
+  add_json_flag(listing.command, context);
 
-  auto showing = add_verb(*group, context, "show", "Show the tables of a setup", show);
-  showing.command->add_option("-r,--revision", showing.options->revision, "Version [newest]");
-  showing.command->add_option("--control", showing.options->control,
-                              "Control of a machine that was never connected, e.g. tnc155");
+  auto showing = add_verb(group, context, "show", "Show the tables of a setup", show);
+  showing.command.add_option("-r,--revision", showing.options->revision, "Version [newest]");
+  showing.command.add_option("--control", showing.options->control,
+                             "Control of a machine that was never connected, e.g. tnc155");
   showing.command
-      ->add_option("--holds", showing.options->holds,
-                   "A TNC: programs of the server that its memory has, for its vacant blocks")
-      ->type_name("PROGRAM");
-  showing.command->footer(
+      .add_option("--holds", showing.options->holds,
+                  "A TNC: programs of the server that its memory has, for its vacant blocks")
+      .type_name("PROGRAM");
+  showing.command.footer(
       "For a TNC also its MOD functions in the control's order, and the user parameters.");
-  add_json_flag(*showing.command, context);
+  add_json_flag(showing.command, context);
 
-  auto pushing = add_verb(*group, context, "push", "Store a file as the machine's setup", push);
-  pushing.command->add_option("FILE", pushing.options->file, "TOML")->required();
-  pushing.command->add_option("--base", pushing.options->base,
-                              "Push only if this is still the newest version, 0: none yet");
+  auto pushing = add_verb(group, context, "push", "Store a file as the machine's setup", push);
+  pushing.command.add_option("FILE", pushing.options->file, "TOML").required();
+  pushing.command.add_option("--base", pushing.options->base,
+                             "Push only if this is still the newest version, 0: none yet");
   add_saving_options(pushing, context);
-  pushing.command->footer(
-      "Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
+  pushing.command.footer("Example:\n  dnc setup push mill-3 mill-3-tools.toml -m \"new cutter 4\"");
 
-  auto pulling = add_verb(*group, context, "pull", "Fetch a setup's text", pull);
-  pulling.command->add_option("-r,--revision", pulling.options->revision, "Version [newest]");
-  pulling.command->add_option("-o,--output", pulling.options->file,
-                              "File to write, - for standard output [-]");
+  auto pulling = add_verb(group, context, "pull", "Fetch a setup's text", pull);
+  pulling.command.add_option("-r,--revision", pulling.options->revision, "Version [newest]");
+  pulling.command.add_option("-o,--output", pulling.options->file,
+                             "File to write, - for standard output [-]");
 
-  auto exporting = add_verb(*group, context, "export",
+  auto exporting = add_verb(group, context, "export",
                             "As the control takes it: a TNC's tools (its program 0); a Centurion's "
                             "parameters (G10), with --map in its own numbers",
                             export_form);
-  exporting.command->add_option("--control", exporting.options->control,
-                                "tnc155 or centurion [the machine's]");
-  exporting.command->add_flag("--parameters", exporting.options->wants_parameters,
-                              "TNC: export the machine parameters instead: MP0: ...");
-  exporting.command->add_option("--map", exporting.options->map,
-                                "Centurion: its numbers, filled in by its builder "
-                                "(deploy/examples/centurion-parameters.map)");
-  exporting.command->footer(
+  exporting.command.add_option("--control", exporting.options->control,
+                               "tnc155 or centurion [the machine's]");
+  exporting.command.add_flag("--parameters", exporting.options->wants_parameters,
+                             "TNC: export the machine parameters instead: MP0: ...");
+  exporting.command.add_option("--map", exporting.options->map,
+                               "Centurion: its numbers, filled in by its builder "
+                               "(deploy/examples/centurion-parameters.map)");
+  exporting.command.footer(
       "A Centurion's numbers from P500 on are not known. Without --map they are Dripline's own: a "
       "backup\nfor dnc setup import, which overwrites other parameters on a real control. Never "
       "send it to one.");
-  exporting.command->add_option("-r,--revision", exporting.options->revision, "Version [newest]");
-  exporting.command->add_option("-o,--output", exporting.options->file,
-                                "File to write, - for standard output [-]");
-  add_import(*group, context);
-  add_setup_options(*group, context);
+  exporting.command.add_option("-r,--revision", exporting.options->revision, "Version [newest]");
+  exporting.command.add_option("-o,--output", exporting.options->file,
+                               "File to write, - for standard output [-]");
+  add_import(group, context);
+  add_setup_options(group, context);
 
-  add_setup_changes(*group, context);
+  add_setup_changes(group, context);
 
-  auto restoring = add_verb(*group, context, "restore", "Make an old version the newest", restore);
-  restoring.command->add_option("REVISION", restoring.options->revision, "Which")->required();
+  auto restoring = add_verb(group, context, "restore", "Make an old version the newest", restore);
+  restoring.command.add_option("REVISION", restoring.options->revision, "Which").required();
   add_saving_options(restoring, context);
 }
 

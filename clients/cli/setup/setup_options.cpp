@@ -109,14 +109,14 @@ std::string options_reference() {
   return text;
 }
 
-void add_setup_options(CLI::App& group, Context& context) {
-  auto* command = group.add_subcommand("options", "List the options of [control]");
+void add_setup_options(Command group, Context& context) {
+  auto command = group.add_subcommand("options", "List the options of [control]");
   auto options = std::make_shared<OptionsCommand>();
-  command->add_option("CONTROL", options->control, "Only those of this control, e.g. tnc155");
-  command->add_flag("--markdown", options->wants_markdown, "Write deploy/docs/options.md");
-  add_json_flag(*command, context);
-  command->footer("No server is needed.\nExample:\n  dnc setup options fanuc");
-  command->callback([&context, options] { context.status = list_options(context, *options); });
+  command.add_option("CONTROL", options->control, "Only those of this control, e.g. tnc155");
+  command.add_flag("--markdown", options->wants_markdown, "Write deploy/docs/options.md");
+  add_json_flag(command, context);
+  command.footer("No server is needed.\nExample:\n  dnc setup options fanuc");
+  command.callback([&context, options] { context.status = list_options(context, *options); });
 }
 
 }  // namespace dripline::cli

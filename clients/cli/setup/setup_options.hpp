@@ -10,6 +10,6 @@ namespace dripline::cli {
 std::string options_reference();
 
 /// `dnc setup options`.
-void add_setup_options(CLI::App& group, Context& context);
+void add_setup_options(Command group, Context& context);
 
 }  // namespace dripline::cli
