@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include "protocol/serial/impl/descriptor.hpp"
+#include "protocol/base/descriptor.hpp"
 #include "protocol/wire/discipline.hpp"
 
 namespace dripline::serial {

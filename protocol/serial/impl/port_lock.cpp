@@ -15,7 +15,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "protocol/serial/impl/descriptor.hpp"
+#include "protocol/base/descriptor.hpp"
 
 namespace dripline::serial {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "protocol/base/descriptor.hpp"
 #include "protocol/serial/address.hpp"
-#include "protocol/serial/impl/descriptor.hpp"
 
 namespace dripline::serial {
 

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "protocol/serial/impl/descriptor.hpp"
+#include "protocol/base/descriptor.hpp"
 #include "protocol/serial/impl/parity_marks.hpp"
 #include "protocol/serial/impl/port_lock.hpp"
 #include "protocol/serial/impl/tty_settings.hpp"

@@ -3,7 +3,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace dripline::serial {
+namespace dripline {
 
 /// Owns a file descriptor; -1: none.
 class Descriptor {
@@ -25,4 +25,4 @@ class Descriptor {
   int number_ = -1;
 };
 
-}  // namespace dripline::serial
+}  // namespace dripline
