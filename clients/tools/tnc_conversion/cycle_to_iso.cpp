@@ -1,8 +1,8 @@
 #include "clients/tools/tnc_conversion/cycle_to_iso.hpp"
 
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_words.hpp"
 
 namespace dripline::tnc_conversion {
 

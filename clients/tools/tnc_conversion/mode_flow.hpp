@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "clients/tools/tnc_conversion/program_text.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_modes.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/reading_state.hpp"
 
 namespace dripline::tnc_conversion {
 

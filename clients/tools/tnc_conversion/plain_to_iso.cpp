@@ -6,7 +6,7 @@
 #include "clients/tools/tnc_conversion/cycle_to_iso.hpp"
 #include "clients/tools/tnc_conversion/rounding_use.hpp"
 #include "clients/tools/tnc_conversion/start_plane.hpp"
-#include "gateway/interpreter/dialects/tnc155/reading/iso_words.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 
 namespace dripline::tnc_conversion {
 

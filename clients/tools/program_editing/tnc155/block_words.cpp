@@ -245,7 +245,7 @@ const BlockWord* spindle_axis(const std::vector<BlockWord>& words) {
 std::uint8_t group_of(std::string_view address) {
   int code = address.size() < 3 ? 1000 : 0;
   for (const char c : address.substr(1)) code = std::min(code * 10 + (c - '0'), 1000);
-  return code > 99 ? kIllegalCode : group_of_code(code);
+  return code > 99 ? kIllegalCode : kGroupsOfCodes[static_cast<std::size_t>(code)];
 }
 
 }  // namespace

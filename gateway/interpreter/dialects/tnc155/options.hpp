@@ -54,7 +54,7 @@ struct ControlOptions {
   double spindle_minimum = 0;
   double spindle_maximum = 30'000;
 
-  /// A feed with linear and rotary axes together is that of the way of all of them (software 03
+  /// A feed with linear and rotary axes together is that of the path of all of them (software 03
   /// and later); off: that of the rotary axis.
   bool contour_feed = true;
   double circle_tolerance = 0.016;  ///< radii of an arc's start and end may differ by so much

@@ -16,6 +16,13 @@
 /// `visit` (snapshot.cpp) lists the members of State: add new ones there.
 namespace dripline::interpreter::tnc155 {
 
+using AxisValues = std::array<double, kAxisCount>;
+inline AxisValues values_of(const Position& position) {
+  AxisValues values{};
+  for (const Axis axis : kAllAxes) values[static_cast<std::size_t>(axis)] = position.raw(axis);
+  return values;
+}
+
 inline constexpr int kParameterCount = 100;  ///< Q0 to Q99
 inline constexpr int kLastTool = 254;
 inline constexpr int kLastLabel = 254;
@@ -161,8 +168,8 @@ struct State {
   std::int64_t program_number = -1;  ///< of the program that was started
   Units units = Units::Millimeter;
 
-  Position machine;  ///< as events say, before radius compensation; marked: moved so far
-  std::array<double, kAxisCount> nominal{};  ///< program coordinates
+  Position machine;      ///< as events say, before radius compensation; marked: moved so far
+  AxisValues nominal{};  ///< program coordinates
   Transformation transformation;
 
   Plane plane = Plane::XY;

@@ -15,8 +15,7 @@ bool take_minimum(Run& run, const Block& block) {
   blank = {};
   blank.has_minimum = true;
   if (block.axis) blank.axis = *block.axis;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& corner = block.coordinates[i];
+  for (const Coordinate& corner : block.words()) {
     if (corner.axis > Axis::Z || corner.is_incremental) {
       return run.fail(ErrorCode::BlankFormIncorrect, "the MIN corner is X, Y and Z, absolute");
     }
@@ -80,8 +79,7 @@ bool define_blank(Run& run, const Block& block) {
     event.min.set_raw(static_cast<Axis>(i), blank.minimum[i]);
     event.max.set_raw(static_cast<Axis>(i), blank.minimum[i]);
   }
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& corner = block.coordinates[i];
+  for (const Coordinate& corner : block.words()) {
     if (corner.axis > Axis::Z) {
       return run.fail(ErrorCode::BlankFormIncorrect, "the MAX corner is X, Y and Z");
     }

@@ -58,8 +58,7 @@ bool transform(Run& run, const Transformation& changed) {
 bool shift_datum(Run& run, const Block& block) {
   run.ledger.take_all();
   Transformation changed = run.state.transformation;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& word = block.coordinates[i];
+  for (const Coordinate& word : block.words()) {
     double& shift = changed.shift[static_cast<std::size_t>(word.axis)];
     shift = run.coordinate(word.axis, word.value) + (word.is_incremental ? shift : 0);
   }
@@ -70,19 +69,13 @@ bool mirror(Run& run, const Block& block) {
   run.ledger.take_all();
   // The same axis is reported in whatever order the axes were programmed.
   const ActiveTool& tool = run.state.tool;
-  const auto names = [&](Axis axis) {
-    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-      if (block.coordinates[i].axis == axis) return true;
-    }
-    return false;
-  };
-  if (tool.is_called && names(tool.axis)) {
+  if (tool.is_called && block.names(tool.axis)) {
     return run.fail(ErrorCode::MirrorOnToolAxis, std::string(1, letter(tool.axis)));
   }
   Transformation changed = run.state.transformation;
   changed.mirrored = {};
   for (const Axis axis : kAllAxes) {
-    if (!names(axis)) continue;
+    if (!block.names(axis)) continue;
     if (axis > Axis::Z) {
       return run.fail(ErrorCode::WrongAxis, fmt::format("{} is not mirrored", letter(axis)));
     }

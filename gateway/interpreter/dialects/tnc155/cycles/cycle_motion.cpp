@@ -25,9 +25,7 @@ void stand_where_the_tool_is(Run& run) {
   State& state = run.state;
   interrupt_contour(run);
   state.machine = run.compensator.sent();
-  AxisValues machine{};
-  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = state.machine.raw(static_cast<Axis>(i));
-  state.nominal = state.transformation.to_program(machine);
+  state.nominal = state.transformation.to_program(values_of(state.machine));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/tnc155/cycles/machining_cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycle_motion.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"

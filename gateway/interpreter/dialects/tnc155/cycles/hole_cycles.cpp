@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "gateway/interpreter/core/override_inhibit.hpp"
-#include "gateway/interpreter/dialects/tnc155/cycles/machining_cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycle_motion.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
 
 namespace dripline::interpreter::tnc155 {

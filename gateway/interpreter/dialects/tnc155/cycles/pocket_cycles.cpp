@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/tnc155/cycles/machining_cycles.hpp"
+#include "gateway/interpreter/dialects/tnc155/cycles/cycle_motion.hpp"
 
 namespace dripline::interpreter::tnc155 {
 namespace {

@@ -49,12 +49,6 @@ bool begin_probing(Run& run, const Block& block) {
   return run.ask(question);
 }
 
-AxisValues values_of(const Position& position) {
-  AxisValues values{};
-  for (std::size_t i = 0; i < kAxisCount; ++i) values[i] = position.raw(static_cast<Axis>(i));
-  return values;
-}
-
 /// The probed coordinate: at the tip of the stylus along the tool axis, at the rim of its ball
 /// across it.
 double measured(const Run& run, const Position& at) {

@@ -1,13 +1,12 @@
 #include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
 
 #include <fmt/core.h>
+#include <array>
 
 #include "gateway/interpreter/dialects/tnc155/cycles/cycles.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/contour.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/flow.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/tnc155/execution/motion.hpp"
-#include "gateway/interpreter/dialects/tnc155/execution/q_parameters.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/start_search.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/target.hpp"
 #include "gateway/interpreter/dialects/tnc155/execution/tools.hpp"
@@ -117,51 +116,43 @@ bool function(Run& run, const Block& block) {
   return !is_true(run, block) || jump_to_label(run, block.target);
 }
 
-bool dispatch(Run& run, const Block& block) {
-  switch (block.kind) {
-    case BlockKind::Line:
-    case BlockKind::PolarLine:
-    case BlockKind::Arc:
-    case BlockKind::PolarArc:
-    case BlockKind::TangentArc:
-    case BlockKind::SingleAxis:
-      return positioning(run, block);
-    case BlockKind::Begin:
-      return begin_program(run, block);
-    case BlockKind::End:
-      end_program(run, false);
-      return true;
-    case BlockKind::ToolDefinition:
-      return define_tool(run, block);
-    case BlockKind::ToolCall:
-      return call_tool(run, block);
-    case BlockKind::Stop:
-      return stop_block(run, block);
-    case BlockKind::Rounding:
-      return check_circle_plane(run) && make_blend(run, block);
-    case BlockKind::Chamfer:
-      return make_blend(run, block);
-    case BlockKind::Center:
-      return set_pole(run, block);
-    case BlockKind::Label:
-      return meet_label(run, block);
-    case BlockKind::LabelCall:
-      return call_label(run, block);
-    case BlockKind::ProgramCall:
-      return call_program(run, block.target);
-    case BlockKind::Function:
-      return function(run, block);
-    case BlockKind::CycleDefinition:
-      return define_cycle(run, block);
-    case BlockKind::CycleCall:
-      return cycle_call(run, block);
-    case BlockKind::BlankForm:
-      return define_blank(run, block);
-    case BlockKind::Probe:
-      return probe(run, block);
-  }
+bool end_by_block(Run& run, const Block&) {
+  end_program(run, false);
   return true;
 }
+
+bool round(Run& run, const Block& block) {
+  return check_circle_plane(run) && make_blend(run, block);
+}
+
+bool call(Run& run, const Block& block) {
+  return call_program(run, block.target);
+}
+
+/// In the order of BlockKind.
+constexpr std::array<bool (*)(Run&, const Block&), static_cast<std::size_t>(BlockKind::Probe) + 1>
+    kExecute{begin_program,
+             end_by_block,
+             define_tool,
+             call_tool,
+             stop_block,
+             positioning /* Line */,
+             positioning /* PolarLine */,
+             make_blend /* Chamfer */,
+             set_pole,
+             positioning /* Arc */,
+             positioning /* PolarArc */,
+             positioning /* TangentArc */,
+             round,
+             positioning /* SingleAxis */,
+             meet_label,
+             call_label,
+             call,
+             function,
+             define_cycle,
+             cycle_call,
+             define_blank,
+             probe};
 
 [[gnu::cold, gnu::noinline]] bool refuse_left_words(Run& run, const Block& block) {
   const std::string words = language::listed(run.ledger.left(), [&](std::size_t i) {
@@ -183,7 +174,7 @@ bool execute(Run& run, const Block& block) {
   if (needs_check(block) && !check_words(run, block)) [[unlikely]]
     return false;
   run.ledger.open((1u << block.coordinate_count) - 1);
-  if (!dispatch(run, block)) return false;
+  if (!kExecute[static_cast<std::size_t>(block.kind)](run, block)) return false;
   return run.ledger.left() == 0 || refuse_left_words(run, block);
 }
 

@@ -112,20 +112,13 @@ void stop(Run& run, StopKind kind) {
 bool begin_m(Run& run, int m) {
   switch (m) {
     case 3:
-      turn_spindle(run, SpindleState::Clockwise);
-      return true;
     case 4:
-      turn_spindle(run, SpindleState::Counterclockwise);
+    case 13:
+    case 14:
+      turn_spindle(run, m % 10 == 3 ? SpindleState::Clockwise : SpindleState::Counterclockwise);
+      if (m > 10) switch_coolant(run, true);
       return true;
     case 8:
-      switch_coolant(run, true);
-      return true;
-    case 13:
-      turn_spindle(run, SpindleState::Clockwise);
-      switch_coolant(run, true);
-      return true;
-    case 14:
-      turn_spindle(run, SpindleState::Counterclockwise);
       switch_coolant(run, true);
       return true;
     case 94:

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/execution/motion.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
@@ -18,8 +18,7 @@ bool is_machine_block(const Block& block) {
 Target machine_target(Run& run, const Block& block) {
   run.ledger.take_all();
   Target target;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& word = block.coordinates[i];
+  for (const Coordinate& word : block.words()) {
     double value = run.coordinate(word.axis, word.value);
     if (word.is_incremental) {
       value += run.state.machine.raw(word.axis);
@@ -38,9 +37,7 @@ bool check_start(Run& run, const Block& block, const Target& target) {
     return true;
   const ProgramStart rule = state.is_restart ? ProgramStart::Complete : run.options.program_start;
   bool is_incremental = block.is_radius_incremental || block.is_angle_incremental;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    is_incremental |= block.coordinates[i].is_incremental;
-  }
+  for (const Coordinate& word : block.words()) is_incremental |= word.is_incremental;
   const bool has_one = (target.named & (target.named - 1)) == 0;
   if ((rule != ProgramStart::Any && is_incremental) ||
       (rule == ProgramStart::Complete && has_one)) {
@@ -104,10 +101,9 @@ bool read_arc_end(Run& run, const Block& block, Target& target) {
                                 block.m));
   }
   const Target wanted = machine_target(run, block);
-  AxisValues machine{};
+  AxisValues machine = values_of(state.machine);
   for (std::size_t i = 0; i < kAxisCount; ++i) {
-    const bool is_named = (wanted.named >> i & 1u) != 0;
-    machine[i] = is_named ? wanted.at[i] : state.machine.raw(static_cast<Axis>(i));
+    if ((wanted.named >> i & 1u) != 0) machine[i] = wanted.at[i];
   }
   const AxisValues program = state.transformation.to_program(machine);
   target.named = wanted.named;

@@ -139,9 +139,7 @@ void machine_line_to(Run& run, const Target& target, const Pace& pace) {
   }
   move.feed = feed_to(run, target, to, pace);
   output(run, move, pace.is_rapid);
-  AxisValues machine{};
-  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] = to.raw(static_cast<Axis>(i));
-  const AxisValues nominal = state.transformation.to_program(machine);
+  const AxisValues nominal = state.transformation.to_program(values_of(to));
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     if (state.transformation.is_special || (target.named >> i & 1u) != 0) {
       state.nominal[i] = nominal[i];

@@ -6,7 +6,6 @@
 /// the probe move with; the rules of compensation and corners are contour.hpp's.
 namespace dripline::interpreter::tnc155 {
 
-using AxisValues = std::array<double, kAxisCount>;
 /// Bit per axis, as in kAllAxes.
 using AxisMask = std::uint16_t;
 constexpr AxisMask bit(Axis axis) {

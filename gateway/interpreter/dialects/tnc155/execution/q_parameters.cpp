@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/execution/q_parameters.hpp"
+#include "gateway/interpreter/dialects/tnc155/execution/execution.hpp"
 
 #include <fmt/core.h>
 #include <cmath>

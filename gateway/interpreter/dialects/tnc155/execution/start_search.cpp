@@ -54,17 +54,11 @@ std::string join(const std::vector<std::string>& reasons) {
   return text;
 }
 
-void add_axes(std::string& text, const std::array<double, kAxisCount>& values) {
+void add_axes(std::string& text, const AxisValues& values) {
   for (const Axis axis : kAllAxes) {
     const double value = values[static_cast<std::size_t>(axis)];
     if (value != 0) text += fmt::format(" {}{:+.3f}", letter(axis), value);
   }
-}
-
-std::array<double, kAxisCount> values_of(const Position& position) {
-  std::array<double, kAxisCount> values{};
-  for (const Axis axis : kAllAxes) values[static_cast<std::size_t>(axis)] = position.raw(axis);
-  return values;
 }
 
 void add_transformation(std::string& text, const Transformation& now) {

@@ -54,8 +54,7 @@ bool read_polar(Run& run, const Block& block, Target& target) {
   polar = {true, true, radius, angle};
   run.ledger.take_all();
   set_in_plane(state, target, pole_in_plane(state) + radius * unit_vector(angle));
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& word = block.coordinates[i];
+  for (const Coordinate& word : block.words()) {
     double value = run.coordinate(word.axis, word.value);
     if (word.is_incremental) value += state.nominal_of(word.axis);
     target.set(word.axis, value);

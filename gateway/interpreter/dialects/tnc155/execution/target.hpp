@@ -8,8 +8,7 @@ namespace dripline::interpreter::tnc155 {
 /// Takes the block's coordinates over into `target`, incremental ones from the nominal position.
 inline void read_coordinates(Run& run, const Block& block, Target& target) {
   run.ledger.take_all();
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& word = block.coordinates[i];
+  for (const Coordinate& word : block.words()) {
     double value = run.coordinate(word.axis, word.value);
     if (word.is_incremental) value += run.state.nominal_of(word.axis);
     target.set(word.axis, value);

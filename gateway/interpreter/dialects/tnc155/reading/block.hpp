@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "gateway/interpreter/core/event.hpp"
 
@@ -87,6 +89,11 @@ struct Block {
   /// Everything not programmed.
   void clear(BlockKind new_kind);
   void add(Coordinate coordinate) { coordinates[coordinate_count++] = coordinate; }
+  std::span<const Coordinate> words() const { return {coordinates.data(), coordinate_count}; }
+  bool names(Axis wanted) const {
+    return std::ranges::any_of(words(),
+                               [=](const Coordinate& word) { return word.axis == wanted; });
+  }
   friend bool operator==(const Block&, const Block&) = default;
 
   BlockKind kind = BlockKind::Line;

@@ -38,32 +38,22 @@ constexpr std::array kProgram{CyclePart{Name, "PGM CALL"}, CyclePart{Program, "P
 }  // namespace
 
 std::span<const CyclePart> cycle_parts(int cycle) {
-  switch (cycle) {
-    case 1:
-      return kPecking;
-    case 2:
-      return kTapping;
-    case 3:
-      return kSlot;
-    case 4:
-      return kPocket;
-    case 5:
-      return kCircularPocket;
-    case 7:
-      return kShift;
-    case 8:
-      return kMirror;
-    case 9:
-      return kDwell;
-    case 10:
-      return kRotation;
-    case 11:
-      return kScaling;
-    case 12:
-      return kProgram;
-    default:
-      return {};
-  }
+  static constexpr std::array<std::span<const CyclePart>, 13> kCycles{{{},
+                                                                       kPecking,
+                                                                       kTapping,
+                                                                       kSlot,
+                                                                       kPocket,
+                                                                       kCircularPocket,
+                                                                       {},
+                                                                       kShift,
+                                                                       kMirror,
+                                                                       kDwell,
+                                                                       kRotation,
+                                                                       kScaling,
+                                                                       kProgram}};
+  return cycle >= 0 && cycle < static_cast<int>(kCycles.size())
+             ? kCycles[static_cast<std::size_t>(cycle)]
+             : kCycles[0];
 }
 
 }  // namespace dripline::interpreter::tnc155

@@ -43,36 +43,17 @@ Form detect_form(std::string_view head) {
   std::size_t next = 1;
   while (next < line.size() && is_blank_or_control(line[next])) ++next;
   const char second = next < line.size() ? line[next] : '\0';
-  switch (line.front()) {
-    case 'L':  // L15.8 calls a label, a length has a comma or a sign
-      while (next < line.size() && is_decimal(line[next])) ++next;
-      return is_decimal(second) && (next == line.size() || line[next] != ',') ? Form::Iso
-                                                                              : Form::Plain;
-    case 'X':
-    case 'Y':
-    case 'Z':
-    case 'A':
-    case 'B':
-    case 'C':
-    case 'U':
-    case 'V':
-    case 'W':
-      return Form::Plain;
-    case 'I':
-      return is_decimal(second) || second == '+' || second == '-' ? Form::Iso : Form::Plain;
-    case 'D':
-    case 'T':
-    case 'S':
-    case 'M':
-    case 'F':
-    case 'H':
-    case 'R':
-    case 'J':
-    case 'K':
-      return Form::Iso;
-    default:
-      return Form::Unknown;
+  const char first = line.front();
+  if (first == 'L') {  // L15.8 calls a label, a length has a comma or a sign
+    while (next < line.size() && is_decimal(line[next])) ++next;
+    const bool is_label = is_decimal(second) && (next == line.size() || line[next] != ',');
+    return is_label ? Form::Iso : Form::Plain;
   }
+  if (first == 'I')
+    return is_decimal(second) || second == '+' || second == '-' ? Form::Iso : Form::Plain;
+  if (std::string_view("XYZABCUVW").find(first) != std::string_view::npos) return Form::Plain;
+  const bool is_iso = std::string_view("DTSMFHRJK").find(first) != std::string_view::npos;
+  return is_iso ? Form::Iso : Form::Unknown;
 }
 
 }  // namespace dripline::interpreter::tnc155

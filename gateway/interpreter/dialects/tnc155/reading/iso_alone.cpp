@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/tnc155/reading/iso_alone.hpp"
+#include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
 
 #include <fmt/format.h>
 

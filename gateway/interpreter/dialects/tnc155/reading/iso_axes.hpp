@@ -48,4 +48,25 @@ constexpr std::optional<std::uint8_t> plane_of_axis(Axis axis) {
   return std::nullopt;
 }
 
+// Words put into an ISO block, as the conversion from plain language does.
+
+inline Value whole(std::int32_t number) {
+  return Value::steps(number * Value::kStepsPerUnit);
+}
+
+inline void set_slot(IsoBlock& iso, IsoSlot slot, const Value& value, bool is_incremental) {
+  iso.set(slot, value, is_incremental ? Distance::Incremental : Distance::Absolute);
+}
+
+inline void set_coordinates(IsoBlock& iso, const Block& block) {
+  for (const Coordinate& coordinate : block.words()) {
+    set_slot(iso, slot_of_axis(coordinate.axis), coordinate.value, coordinate.is_incremental);
+  }
+}
+
+inline void set_parameter(IsoBlock& iso, std::size_t number, const IsoParameter& parameter) {
+  iso.parameters = static_cast<std::uint8_t>(iso.parameters | 1u << number);
+  iso.cycle[number] = parameter;
+}
+
 }  // namespace dripline::interpreter::tnc155

@@ -105,4 +105,9 @@ bool read_iso_block(const char* begin, const char* end, const ProgramForm& form,
 bool resolve(const IsoBlock& block, bool is_first, ReadingState& state, BlockParts& parts,
              Fault& fault);
 
+/// Resolves the blocks whose words must be alone in their block: %, D functions, label calls.
+/// Arguments and result as of `resolve`.
+bool resolve_alone(const IsoBlock& block, bool is_first, ProgramForm& program, BlockParts& parts,
+                   Fault& fault);
+
 }  // namespace dripline::interpreter::tnc155

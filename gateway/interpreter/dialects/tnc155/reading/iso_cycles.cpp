@@ -1,6 +1,8 @@
 #include "gateway/interpreter/dialects/tnc155/reading/iso_cycles.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <array>
 
 #include "gateway/interpreter/dialects/tnc155/reading/cycle_names.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
@@ -171,6 +173,25 @@ bool add_rotation(const IsoBlock& block, unsigned incremental, BlockParts& parts
   return true;
 }
 
+struct CodeRow {
+  int code;
+  CycleCode cycle;
+};
+/// Of two codes for one cycle that for the clockwise direction is first.
+constexpr std::array kCodes{CodeRow{83, {1, {}}},
+                            CodeRow{84, {2, {}}},
+                            CodeRow{74, {3, {}}},
+                            CodeRow{75, {4, Turn::Clockwise}},
+                            CodeRow{76, {4, Turn::Counterclockwise}},
+                            CodeRow{77, {5, Turn::Clockwise}},
+                            CodeRow{78, {5, Turn::Counterclockwise}},
+                            CodeRow{54, {7, {}}},
+                            CodeRow{28, {8, {}}},
+                            CodeRow{4, {9, {}}},
+                            CodeRow{73, {10, {}}},
+                            CodeRow{72, {11, {}}},
+                            CodeRow{39, {12, {}}}};
+
 }  // namespace
 
 unsigned slots_of_cycle(int code) {
@@ -179,40 +200,17 @@ unsigned slots_of_cycle(int code) {
 }
 
 CycleCode cycle_of_code(int code) {
-  switch (code) {
-    case 83:
-      return {1, {}};
-    case 84:
-      return {2, {}};
-    case 74:
-      return {3, {}};
-    case 75:
-      return {4, Turn::Clockwise};
-    case 76:
-      return {4, Turn::Counterclockwise};
-    case 77:
-      return {5, Turn::Clockwise};
-    case 78:
-      return {5, Turn::Counterclockwise};
-    case 54:
-      return {7, {}};
-    case 28:
-      return {8, {}};
-    case 4:
-      return {9, {}};
-    case 73:
-      return {10, {}};
-    case 72:
-      return {11, {}};
-    default:
-      return {12, {}};
-  }
+  const auto* at = std::find_if(kCodes.begin(), kCodes.end(),
+                                [code](const CodeRow& row) { return row.code == code; });
+  return at->cycle;
 }
 
 int code_of_cycle(int cycle, std::optional<Turn> turn) {
-  static constexpr std::array kCodes{0, 83, 84, 74, 75, 77, 0, 54, 28, 4, 73, 72, 39};
-  const bool is_second = turn == Turn::Counterclockwise && (cycle == 4 || cycle == 5);
-  return kCodes[static_cast<std::size_t>(cycle)] + (is_second ? 1 : 0);
+  const auto* at = std::find_if(kCodes.begin(), kCodes.end(), [&](const CodeRow& row) {
+    const bool is_first = turn != Turn::Counterclockwise || row.cycle.turn != Turn::Clockwise;
+    return row.cycle.cycle == cycle && is_first;
+  });
+  return at->code;
 }
 
 bool add_cycle(const IsoBlock& block, unsigned incremental, Units units, BlockParts& parts,

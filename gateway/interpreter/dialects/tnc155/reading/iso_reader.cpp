@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <string_view>
 
 #include "gateway/interpreter/dialects/tnc155/reading/iso_axes.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/iso_block.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kMaxCodes = 8;
 constexpr int kProgramDigits = 8;
+constexpr std::string_view kSlotLetters = "IJKXYZABCUVWRH";  ///< in the order of IsoSlot
 
 /// Reads the words of one block, in any order.
 class IsoReader {
@@ -29,32 +31,11 @@ class IsoReader {
   bool read_word(char letter) {
     const char* start = cursor_.at();
     cursor_.advance();
+    if (const std::size_t slot = kSlotLetters.find(letter); slot != std::string_view::npos)
+      return read_slot(slot, letter);
     switch (letter) {
       case 'G':
         return read_g(start);
-      case 'X':
-      case 'Y':
-      case 'Z':
-        return read_slot(
-            static_cast<std::size_t>(IsoSlot::X) + static_cast<std::size_t>(letter - 'X'), letter);
-      case 'I':
-      case 'J':
-      case 'K':
-        return read_slot(static_cast<std::size_t>(letter - 'I'), letter);
-      case 'A':
-      case 'B':
-      case 'C':
-        return read_slot(
-            static_cast<std::size_t>(IsoSlot::A) + static_cast<std::size_t>(letter - 'A'), letter);
-      case 'U':
-      case 'V':
-      case 'W':
-        return read_slot(
-            static_cast<std::size_t>(IsoSlot::U) + static_cast<std::size_t>(letter - 'U'), letter);
-      case 'R':
-        return read_slot(static_cast<std::size_t>(IsoSlot::R), letter);
-      case 'H':
-        return read_slot(static_cast<std::size_t>(IsoSlot::H), letter);
       case 'N':
         return read_once(block_.number, 0, kMaxBlockNumber, "N", start);
       case 'T':

@@ -9,10 +9,6 @@
 namespace dripline::interpreter::tnc155::plain {
 namespace {
 
-bool ends(TextCursor& cursor) {
-  return cursor.is_at_end() ? true : cursor.unexpected();
-}
-
 /// After the F.
 bool read_needed_feed(TextCursor& cursor, Block& block) {
   return cursor.read_value(block.feed, feed_range(cursor.form()), "F");
@@ -26,9 +22,7 @@ bool read_side(TextCursor& cursor, Block& block) {
 bool read_axes(TextCursor& cursor, Block& block) {
   while (is_axis_letter(cursor.peek())) {
     const Axis axis = axis_of_letter(cursor.peek());
-    for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-      if (block.coordinates[i].axis == axis) return cursor.wrong("an axis is programmed twice");
-    }
+    if (block.names(axis)) return cursor.wrong("an axis is programmed twice");
     if (block.coordinate_count == Block::kMaxCoordinates) {
       return cursor.wrong("more than 4 axes");
     }
@@ -121,7 +115,7 @@ bool read_reference_plane(TextCursor& cursor, Block& block) {
   } else if (!cursor.take('-')) {
     return cursor.missing("probing direction");
   }
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_operand(TextCursor& cursor, Value& value) {
@@ -136,9 +130,9 @@ bool read_calculation(TextCursor& cursor, Block& block) {
   const bool is_unary = block.function >= 5 && block.function <= 7;
   if (is_unary && !cursor.take(name)) return cursor.wrong(fmt::format("{} is missing", name));
   if (!read_operand(cursor, block.first)) return false;
-  if (is_unary || block.function == 0) return ends(cursor);
+  if (is_unary || block.function == 0) return cursor.ends();
   if (!cursor.take(name)) return cursor.wrong(fmt::format("{} is missing", name));
-  return read_operand(cursor, block.second) && ends(cursor);
+  return read_operand(cursor, block.second) && cursor.ends();
 }
 
 bool read_jump(TextCursor& cursor, Block& block) {
@@ -152,7 +146,7 @@ bool read_jump(TextCursor& cursor, Block& block) {
   const char* start = (cursor.peek(), cursor.at());
   if (!cursor.read_integer(block.target, 0, kMaxLabel, "GOTO LBL")) return false;
   if (block.target == 0) return cursor.wrong(ErrorCode::JumpToLabelZero, start, "GOTO LBL 0");
-  return ends(cursor);
+  return cursor.ends();
 }
 
 }  // namespace
@@ -174,7 +168,7 @@ bool read_cycle(TextCursor& cursor, Block& block) {
   block.part = static_cast<std::uint8_t>(part);
   const CyclePart& row = parts[static_cast<std::size_t>(part)];
   if (has_word(row.field) && !read_word(cursor, row)) return false;
-  return read_field(cursor, block, row) && ends(cursor);
+  return read_field(cursor, block, row) && cursor.ends();
 }
 
 bool read_blank_form(TextCursor& cursor, Block& block, bool has_def) {
@@ -192,7 +186,7 @@ bool read_blank_form(TextCursor& cursor, Block& block, bool has_def) {
                           "the MIN corner is not incremental");
     }
   }
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_probe(TextCursor& cursor, Block& block) {
@@ -201,7 +195,7 @@ bool read_probe(TextCursor& cursor, Block& block) {
   if (!cursor.take("0.1")) return cursor.missing("TCH PROBE");
   block.part = 1;
   if (!read_coordinates(cursor, block, 3)) return false;
-  return block.coordinate_count > 0 ? ends(cursor) : cursor.missing("TCH PROBE 0.1");
+  return block.coordinate_count > 0 ? cursor.ends() : cursor.missing("TCH PROBE 0.1");
 }
 
 bool read_function(TextCursor& cursor, Block& block) {

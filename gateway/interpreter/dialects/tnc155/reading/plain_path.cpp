@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <algorithm>
+#include <string_view>
 
 #include "gateway/interpreter/dialects/tnc155/reading/plain_parts.hpp"
 #include "gateway/interpreter/dialects/tnc155/reading/ranges.hpp"
@@ -44,11 +46,7 @@ bool read_coordinate(TextCursor& cursor, Block& block) {
   if (!is_axis_letter(c)) return cursor.unexpected();
   cursor.advance();
   coordinate.axis = axis_of_letter(c);
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    if (block.coordinates[i].axis == coordinate.axis) {
-      return cursor.wrong(fmt::format("{} is programmed twice", c));
-    }
-  }
+  if (block.names(coordinate.axis)) return cursor.wrong(fmt::format("{} is programmed twice", c));
   const Range& range = coordinate_range(cursor.form(), coordinate.axis);
   if (!cursor.read_value(coordinate.value, range, {&c, 1})) return false;
   block.add(coordinate);
@@ -70,25 +68,10 @@ namespace {
 
 /// After the R.
 bool read_compensation(TextCursor& cursor, Block& block) {
-  switch (cursor.peek()) {
-    case '0':
-      block.compensation = Compensation::Off;
-      break;
-    case 'L':
-      block.compensation = Compensation::Left;
-      break;
-    case 'R':
-      block.compensation = Compensation::Right;
-      break;
-    case '+':
-      block.compensation = Compensation::Longer;
-      break;
-    case '-':
-      block.compensation = Compensation::Shorter;
-      break;
-    default:
-      return true;  // "not programmed"
-  }
+  constexpr std::string_view kLetters = "0LR+-";  // in the order of Compensation from Off on
+  const std::size_t at = kLetters.find(cursor.peek());
+  if (at == std::string_view::npos) return true;  // "not programmed"
+  block.compensation = static_cast<Compensation>(static_cast<std::size_t>(Compensation::Off) + at);
   cursor.advance();
   return true;
 }
@@ -154,10 +137,8 @@ void take_kind_of_coordinates(TextCursor& cursor) {
 }
 
 bool are_linear(const Block& block) {
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    if (is_rotary(block.coordinates[i].axis)) return false;
-  }
-  return true;
+  return std::none_of(block.words().begin(), block.words().end(),
+                      [](const Coordinate& word) { return is_rotary(word.axis); });
 }
 
 }  // namespace
@@ -166,7 +147,7 @@ bool read_line(TextCursor& cursor, Block& block) {
   if (cursor.is_value_next()) {
     block.kind = BlockKind::Chamfer;
     if (!cursor.read_value(block.radius, radius_range(cursor.form()), "L")) return false;
-    return cursor.is_at_end() ? true : cursor.unexpected();
+    return cursor.ends();
   }
   block.kind = BlockKind::Line;
   return read_coordinates(cursor, block, 3) && read_straight_tail(cursor, block);
@@ -183,7 +164,7 @@ bool read_center(TextCursor& cursor, Block& block) {
   if (!are_linear(block)) {
     return cursor.wrong(ErrorCode::WrongAxis, cursor.at(), "CC takes linear axes");
   }
-  return cursor.is_at_end() ? true : cursor.unexpected();
+  return cursor.ends();
 }
 
 bool read_arc(TextCursor& cursor, Block& block) {
@@ -210,7 +191,7 @@ bool read_rounding(TextCursor& cursor, Block& block) {
   block.kind = BlockKind::Rounding;
   cursor.take('R');
   if (!cursor.read_value(block.radius, radius_range(cursor.form()), "RND")) return false;
-  return cursor.is_at_end() ? true : cursor.unexpected();
+  return cursor.ends();
 }
 
 bool read_single_axis(TextCursor& cursor, Block& block) {

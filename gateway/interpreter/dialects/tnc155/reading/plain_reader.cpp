@@ -8,10 +8,6 @@ namespace {
 
 using namespace plain;
 
-bool ends(TextCursor& cursor) {
-  return cursor.is_at_end() ? true : cursor.unexpected();
-}
-
 /// After BEGIN or END.
 bool read_frame(TextCursor& cursor, Block& block, BlockKind kind) {
   block.kind = kind;
@@ -23,7 +19,7 @@ bool read_frame(TextCursor& cursor, Block& block, BlockKind kind) {
     return cursor.missing("MM or INCH");
   }
   block.is_protected = cursor.take('P');
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_tool_definition(TextCursor& cursor, Block& block) {
@@ -32,7 +28,7 @@ bool read_tool_definition(TextCursor& cursor, Block& block) {
   const Range& range = coordinate_range(cursor.form());
   if (cursor.take('L') && !cursor.read_value(block.length, range, "L")) return false;
   if (cursor.take('R') && !cursor.read_value(block.radius, range, "R")) return false;
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_tool_call(TextCursor& cursor, Block& block) {
@@ -47,18 +43,18 @@ bool read_tool_call(TextCursor& cursor, Block& block) {
     cursor.advance();
   }
   if (cursor.take('S') && !cursor.read_value(block.spindle, kSpindleSpeed, "S")) return false;
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_stop(TextCursor& cursor, Block& block, BlockKind kind) {
   block.kind = kind;
   if (cursor.take('M') && !read_m(cursor, block)) return false;
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_label(TextCursor& cursor, Block& block) {
   block.kind = BlockKind::Label;
-  return cursor.read_integer(block.target, 0, kMaxLabel, "LBL") && ends(cursor);
+  return cursor.read_integer(block.target, 0, kMaxLabel, "LBL") && cursor.ends();
 }
 
 bool read_label_call(TextCursor& cursor, Block& block) {
@@ -66,18 +62,18 @@ bool read_label_call(TextCursor& cursor, Block& block) {
   const char* start = (cursor.peek(), cursor.at());
   if (!cursor.read_integer(block.target, 0, kMaxLabel, "CALL LBL")) return false;
   if (block.target == 0) return cursor.wrong(ErrorCode::JumpToLabelZero, start, "CALL LBL 0");
-  if (!cursor.take("REP") || !cursor.is_digit_next()) return ends(cursor);
+  if (!cursor.take("REP") || !cursor.is_digit_next()) return cursor.ends();
   if (!cursor.read_integer(block.repeats, 0, kMaxRepeats, "REP")) return false;
   block.repeats_left = block.repeats;
   if (cursor.take('/') && !cursor.read_integer(block.repeats_left, 0, block.repeats, "REP")) {
     return false;
   }
-  return ends(cursor);
+  return cursor.ends();
 }
 
 bool read_program_call(TextCursor& cursor, Block& block) {
   block.kind = BlockKind::ProgramCall;
-  return cursor.read_integer(block.target, 0, kMaxProgram, "CALL PGM") && ends(cursor);
+  return cursor.read_integer(block.target, 0, kMaxProgram, "CALL PGM") && cursor.ends();
 }
 
 /// After a C.

@@ -134,6 +134,8 @@ class TextCursor {
     return wrong(ErrorCode::BlockFormatIncorrect, at_, std::move(detail));
   }
   [[gnu::cold]] bool missing(std::string_view name);
+  /// The block is over; a fault where it is not.
+  bool ends() { return is_at_end() || unexpected(); }
   /// There is text where the block should end.
   [[gnu::cold]] bool unexpected();
 

@@ -16,8 +16,7 @@ struct Demand {
 
 std::string axes_text(const Block& block) {
   std::string text;
-  for (std::size_t i = 0; i < block.coordinate_count; ++i)
-    text += letter(block.coordinates[i].axis);
+  for (const Coordinate& word : block.words()) text += letter(word.axis);
   return text;
 }
 

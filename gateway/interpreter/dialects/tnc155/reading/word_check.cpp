@@ -24,11 +24,10 @@ bool check_value(Run& run, std::string_view name, const Value& value, const Rang
 
 /// The axes come first, in whatever order the words were programmed.
 bool check_coordinates(Run& run, const Block& block) {
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    if (!check_axis(run, block.coordinates[i].axis)) return false;
+  for (const Coordinate& word : block.words()) {
+    if (!check_axis(run, word.axis)) return false;
   }
-  for (std::size_t i = 0; i < block.coordinate_count; ++i) {
-    const Coordinate& word = block.coordinates[i];
+  for (const Coordinate& word : block.words()) {
     const char name = letter(word.axis);
     const Range& range = coordinate_range(run.state.reading.program, word.axis);
     if (!check_value(run, {&name, 1}, word.value, range)) return false;
