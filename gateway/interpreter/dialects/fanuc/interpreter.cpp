@@ -104,7 +104,7 @@ bool FanucInterpreter::begin_other_block() {
     return true;
   }
   const bool is_next_program = head.kind == BlockHead::Kind::Program && at.code_seen;
-  return (head.kind != BlockHead::Kind::Percent && !is_next_program) || departure_end(run_);
+  return (head.kind != BlockHead::Kind::Percent && !is_next_program) || fail_at_end_of_record(run_);
 }
 
 /// No block is visible: more text is needed, the record is over, or it cannot continue.
@@ -113,7 +113,7 @@ BlockOutcome FanucInterpreter::meet_line_state(TextCursor::State state) {
   if (run_.block.parts.stage == Stage::Start) place_origin(run_.state.at);
   switch (state) {
     case TextCursor::State::EndOfText:
-      departure_end(run_);
+      fail_at_end_of_record(run_);
       break;
     case TextCursor::State::TooLong:
       run_.fail(ErrorCode::LineTooLong, 0, fmt::format("more than {} characters", kMaxLineBytes));

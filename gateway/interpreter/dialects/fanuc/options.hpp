@@ -31,7 +31,7 @@ struct ControlOptions {
   double peck_return = 0.1;      ///< d of G73
   double peck_clearance = 1;     ///< d of G83
   double peck_tap_return = 0.1;  ///< d of a peck in rigid tapping
-  bool peck_tap_leaves = false;  ///< the tap turns out to R between pecks, else back by d
+  bool peck_tap_leaves = false;  ///< the tap retracts to R between pecks, else back by d
   double shift_first = 1;        ///< direction of G76 and G87 along the plane's axes
   double shift_second = 0;
   AxisValues single_direction{};

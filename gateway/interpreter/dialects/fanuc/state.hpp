@@ -103,7 +103,7 @@ struct CallFrame {
   CallKind kind = CallKind::Subprogram;
   TextPosition back;
   TextPosition entry;
-  Locals arguments{};  ///< the locals of each pass anew
+  Locals arguments{};  ///< the locals of each pass
   std::uint32_t passes_left = 0;
   std::uint8_t loop_base = 0;     ///< loops of the caller are out of reach
   std::int8_t modal_active = -1;  ///< of the caller
@@ -139,7 +139,7 @@ struct Jump {
   Locals arguments{};
 };
 
-/// Since the machine last moved, dwelt or waited for somebody.
+/// Since the machine last moved, dwelt or waited for the operator.
 struct Counters {
   std::uint64_t jumps_back = 0;
   std::uint64_t blocks_after_jumps = 0;
@@ -159,7 +159,7 @@ struct ModalState {
   bool has_header = false;
   bool is_port_open = false;
   bool told_lower_case = false;
-  bool speed_changed = false;  ///< within a block: S differs from what the spindle was told
+  bool speed_changed = false;  ///< within a block: S differs from the speed of the spindle
   std::uint64_t blocks = 0;
   TextPosition at;
 
@@ -214,7 +214,7 @@ struct ModalState {
   }
 };
 
-/// The control's memory that a program can change and that is not on the way of ordinary motion.
+/// The control's memory that a program can change and that ordinary motion does not read.
 struct Memory {
   ToolOffsets tools;
   Coordinates coordinates;

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 

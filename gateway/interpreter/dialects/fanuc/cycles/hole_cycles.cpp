@@ -1,22 +1,22 @@
-#include "gateway/interpreter/dialects/fanuc/cycles/hole_cycles.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/execution.hpp"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/core/override_inhibit.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {
 
 /// One thing a cycle does at its hole.
 enum class Step : std::uint8_t {
+  None,
   RapidToRetract,
   FeedToBottom,
   PeckWithBreak,    ///< feeds by Q, d back between
@@ -36,54 +36,35 @@ enum class Step : std::uint8_t {
 };
 
 using enum Step;
-constexpr std::array kPeckBreak{RapidToRetract, PeckWithBreak, RapidToReturn};
-constexpr std::array kPeckRetract{RapidToRetract, PeckWithRetract, RapidToReturn};
-constexpr std::array kDrill{RapidToRetract, FeedToBottom, RapidToReturn};
-constexpr std::array kCounterbore{RapidToRetract, FeedToBottom, Dwell, RapidToReturn};
-constexpr std::array kTap{RapidToRetract,   Clockwise,     FeedToBottom, SpindleOff, Dwell,
-                          Counterclockwise, FeedToRetract, Dwell,        Clockwise,  RapidToReturn};
-constexpr std::array kLeftTap{
-    RapidToRetract, Counterclockwise, FeedToBottom, SpindleOff,       Dwell,
-    Clockwise,      FeedToRetract,    Dwell,        Counterclockwise, RapidToReturn};
-constexpr std::array kFineBore{RapidToRetract, FeedToBottom,  Dwell,     Orient,
-                               ShiftAway,      RapidToReturn, ShiftBack, FormerDirection};
-constexpr std::array kBore{RapidToRetract, FeedToBottom, FeedToRetract, RapidToReturn};
-constexpr std::array kBoreStop{RapidToRetract, FeedToBottom, SpindleOff, RapidToReturn,
-                               FormerDirection};
-constexpr std::array kBackBore{Orient,          ShiftAway,      RapidToRetract, ShiftBack,
-                               FormerDirection, FeedToBottom,   Dwell,          Orient,
-                               ShiftAway,       RapidToInitial, ShiftBack,      FormerDirection};
-constexpr std::array kByHand{RapidToRetract, FeedToBottom, Dwell,
-                             SpindleOff,     ByHand,       FormerDirection};
-constexpr std::array kBoreDwell{RapidToRetract, FeedToBottom, Dwell, FeedToRetract, RapidToReturn};
+struct CycleRow {
+  std::uint8_t code;
+  std::array<Step, 12> steps;
+};
+constexpr std::array kCycles{
+    CycleRow{73, {RapidToRetract, PeckWithBreak, RapidToReturn}},
+    CycleRow{74,
+             {RapidToRetract, Counterclockwise, FeedToBottom, SpindleOff, Dwell, Clockwise,
+              FeedToRetract, Dwell, Counterclockwise, RapidToReturn}},
+    CycleRow{76,
+             {RapidToRetract, FeedToBottom, Dwell, Orient, ShiftAway, RapidToReturn, ShiftBack,
+              FormerDirection}},
+    CycleRow{81, {RapidToRetract, FeedToBottom, RapidToReturn}},
+    CycleRow{82, {RapidToRetract, FeedToBottom, Dwell, RapidToReturn}},
+    CycleRow{83, {RapidToRetract, PeckWithRetract, RapidToReturn}},
+    CycleRow{84,
+             {RapidToRetract, Clockwise, FeedToBottom, SpindleOff, Dwell, Counterclockwise,
+              FeedToRetract, Dwell, Clockwise, RapidToReturn}},
+    CycleRow{85, {RapidToRetract, FeedToBottom, FeedToRetract, RapidToReturn}},
+    CycleRow{86, {RapidToRetract, FeedToBottom, SpindleOff, RapidToReturn, FormerDirection}},
+    CycleRow{87,
+             {Orient, ShiftAway, RapidToRetract, ShiftBack, FormerDirection, FeedToBottom, Dwell,
+              Orient, ShiftAway, RapidToInitial, ShiftBack, FormerDirection}},
+    CycleRow{88, {RapidToRetract, FeedToBottom, Dwell, SpindleOff, ByHand, FormerDirection}},
+    CycleRow{89, {RapidToRetract, FeedToBottom, Dwell, FeedToRetract, RapidToReturn}}};
 
-std::span<const Step> steps_of(std::uint8_t code) {
-  switch (code) {
-    case 73:
-      return kPeckBreak;
-    case 74:
-      return kLeftTap;
-    case 76:
-      return kFineBore;
-    case 82:
-      return kCounterbore;
-    case 83:
-      return kPeckRetract;
-    case 84:
-      return kTap;
-    case 85:
-      return kBore;
-    case 86:
-      return kBoreStop;
-    case 87:
-      return kBackBore;
-    case 88:
-      return kByHand;
-    case 89:
-      return kBoreDwell;
-    default:
-      return kDrill;
-  }
+const CycleRow& cycle_row(std::uint8_t code) {
+  return *std::find_if(kCycles.begin(), kCycles.end(),
+                       [code](const CycleRow& row) { return row.code == code; });
 }
 
 /// Of a thread that a rigid tap cuts, millimeters.
@@ -91,10 +72,6 @@ constexpr double kMaxPitch = 500;
 
 /// Feeds of one block, so that a step never delivers without bound.
 constexpr double kMaxPecks = 100'000;
-
-std::size_t place(Axis axis) {
-  return static_cast<std::size_t>(axis);
-}
 
 bool is_tapping(std::uint8_t code) {
   return code == 74 || code == 84;
@@ -118,7 +95,7 @@ class Hole {
   bool make() {
     const std::uint8_t code = run_.state.g[kCycleGroup];
     const bool is_tap = is_tapping(code);
-    for (const Step step : steps_of(code)) {
+    for (const Step step : cycle_row(code).steps) {
       if (is_tap && step == RapidToReturn) lock(lock_after_tap(override_inhibit(run_)));
       if (!perform(step)) return false;
       if (is_tap && step == RapidToRetract) lock(tapping_lock(run_.origin));
@@ -151,15 +128,15 @@ class Hole {
     at_[place(axes_.normal)] = level;
     return thread_to(run_, machine_point(run_, at_), Length::mm(pitch), {});
   }
-  /// By Q at a time when there is one: between the strokes the tap turns back by d, or out to R.
+  /// By Q at a time when there is one: between the strokes the tap retracts by d, or to R.
   bool tap_down() {
     if (!pecks_in_tap(run_)) return tap(data().bottom);
     const SpindleState in = run_.state.spindle.state;
     const SpindleState out =
         in == SpindleState::Clockwise ? SpindleState::Counterclockwise : SpindleState::Clockwise;
-    const double way = data().bottom - data().retract;
-    const double sign = way < 0 ? -1 : 1;
-    const double count = std::ceil(std::fabs(way) / data().depth - 1e-9);
+    const double travel = data().bottom - data().retract;
+    const double sign = travel < 0 ? -1 : 1;
+    const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
     for (double n = 1; n < count; ++n) {
       const double depth = n * data().depth;
       const double back =
@@ -189,14 +166,10 @@ class Hole {
 
   bool perform(Step step) {
     switch (step) {
-      case RapidToRetract: {
-        if (run_.state.g[kCycleGroup] != 87) return rapid(data().retract);
-        // The tool stays shifted on its way down.
-        Position to = run_.state.position;
-        at_[place(axes_.normal)] = data().retract;
-        to.set_raw(axes_.normal, machine_point(run_, at_).raw(axes_.normal));
-        return rapid_to(run_, to);
-      }
+      case None:
+        return true;
+      case RapidToRetract:  // for G87 the tool stays shifted on its path down
+        return run_.state.g[kCycleGroup] != 87 ? rapid(data().retract) : out(data().retract);
       case FeedToBottom:
         return run_.state.is_rigid_tapping ? tap_down() : feed(data().bottom);
       case PeckWithBreak:
@@ -244,10 +217,10 @@ class Hole {
   }
 
   bool peck(bool to_retract) {
-    const double way = data().bottom - data().retract;
-    const double sign = way < 0 ? -1 : 1;
+    const double travel = data().bottom - data().retract;
+    const double sign = travel < 0 ? -1 : 1;
     const double back = to_retract ? run_.options.peck_clearance : run_.options.peck_return;
-    const double count = std::ceil(std::fabs(way) / data().depth - 1e-9);
+    const double count = std::ceil(std::fabs(travel) / data().depth - 1e-9);
     for (double n = 1; n < count; ++n) {
       const double depth = data().retract + sign * n * data().depth;
       if (!feed(depth)) return false;
@@ -370,9 +343,7 @@ bool position_hole(Run& run, Point3& at) {
   const PlaneAxes axes = axes_of(run.state.plane());
   Position to;
   if (!read_target(run, to)) return false;
-  Point3 work{};
-  for (std::size_t i = 0; i < 3; ++i) work[i] = to.raw(static_cast<Axis>(i)) - run.state.origin[i];
-  Point3 point = run.state.is_transformed ? transform_back(run.state, work) : work;
+  Point3 point = program_point(run.state, to);
   point[place(axes.normal)] = program_position(run)[place(axes.normal)];
   Position over = machine_point(run, point);
   for (const Axis axis : {Axis::A, Axis::B, Axis::C, Axis::U, Axis::V, Axis::W}) {

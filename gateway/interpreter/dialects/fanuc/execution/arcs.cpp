@@ -4,7 +4,6 @@
 
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -12,20 +11,11 @@ namespace {
 
 constexpr double kSamePoint = 1e-6;
 
-/// A point of the plane in the order of its axes.
-using Flat = PlaneVector;
-
-std::size_t place(Axis axis) {
-  return static_cast<std::size_t>(axis);
-}
-double distance(const Flat& a, const Flat& b) {
-  return length(a - b);
-}
-bool is_same_point(const Flat& a, const Flat& b) {
+bool is_same_point(PlaneVector a, PlaneVector b) {
   return dot(a - b, a - b) <= kSamePoint * kSamePoint;
 }
 
-double sweep_of(const Flat& start, const Flat& end, const Flat& center, Turn turn) {
+double sweep_of(PlaneVector start, PlaneVector end, PlaneVector center, Turn turn) {
   if (is_same_point(start, end)) return 360;
   double sweep = turn_between(start - center, end - center) * (180.0 / Angle::kPi);
   if (turn == Turn::Clockwise) sweep = -sweep;
@@ -38,10 +28,10 @@ struct ArcWords {
   Turn turn = Turn::Clockwise;
   Point3 start{};
   Point3 end{};
-  Flat center;
+  PlaneVector center;
 };
 
-Flat flat(const ArcWords& arc, const Point3& point) {
+PlaneVector flat(const ArcWords& arc, const Point3& point) {
   return {point[place(arc.axes.first)], point[place(arc.axes.second)]};
 }
 
@@ -49,9 +39,9 @@ constexpr std::array<Address, 3> kOffsetOf{I, J, K};
 
 /// The center of an arc of radius R; the short one when R > 0.
 bool center_by_radius(Run& run, double radius, ArcWords& arc) {
-  const Flat start = flat(arc, arc.start);
-  const Flat end = flat(arc, arc.end);
-  const double chord = distance(start, end);
+  const PlaneVector start = flat(arc, arc.start);
+  const PlaneVector end = flat(arc, arc.end);
+  const double chord = length(start - end);
   double size = std::fabs(radius);
   if (chord / 2 > size) {
     const double missing = chord / 2 - size;
@@ -63,7 +53,7 @@ bool center_by_radius(Run& run, double radius, ArcWords& arc) {
     size = chord / 2;
   }
   const double height = std::sqrt(std::max(0.0, size * size - chord * chord / 4));
-  // The center of a short counterclockwise arc lies to the left of the way from start to end.
+  // The center of a short counterclockwise arc lies to the left of the line from start to end.
   const double side = (radius > 0) == (arc.turn == Turn::Clockwise) ? -height : height;
   const double along_first = (end.first - start.first) / chord;
   const double along_second = (end.second - start.second) / chord;
@@ -72,11 +62,11 @@ bool center_by_radius(Run& run, double radius, ArcWords& arc) {
   return true;
 }
 
-/// The radii at both ends differ by no more than `limit`, told without roots: |a - b| is at most
+/// The radii at both ends differ by no more than `limit`, found without roots: |a - b| is at most
 /// |a^2 - b^2| over the larger. False says nothing.
 bool surely_agree(const ArcWords& arc, double limit) {
-  const Flat at_start = flat(arc, arc.start) - arc.center;
-  const Flat at_end = flat(arc, arc.end) - arc.center;
+  const PlaneVector at_start = flat(arc, arc.start) - arc.center;
+  const PlaneVector at_end = flat(arc, arc.end) - arc.center;
   const double start_square = dot(at_start, at_start);
   const double end_square = dot(at_end, at_end);
   const double off = start_square - end_square;
@@ -98,8 +88,8 @@ bool center_by_offsets(Run& run, ArcWords& arc) {
   }
   const double limit = run.options.arc_error;
   if (limit <= 0 || surely_agree(arc, limit)) return true;
-  const double error = std::fabs(distance(arc.center, flat(arc, arc.start)) -
-                                 distance(arc.center, flat(arc, arc.end)));
+  const double error = std::fabs(length(arc.center - flat(arc, arc.start)) -
+                                 length(arc.center - flat(arc, arc.end)));
   if (error > limit) {
     return run.fail(ErrorCode::RadiusTolerance, words.first_column(kCenterWords),
                     fmt::format("the end is off by {:.6g}", run.in_units(Axis::X, error)));
@@ -123,9 +113,9 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
   const auto in_machine = [&](Axis axis) {
     return center[place(axis)] + state.origin[place(axis)];
   };
-  const Flat middle{in_machine(words.axes.first), in_machine(words.axes.second)};
-  const Flat start{state.position.raw(words.axes.first), state.position.raw(words.axes.second)};
-  const Flat stop{end.raw(words.axes.first), end.raw(words.axes.second)};
+  const PlaneVector middle{in_machine(words.axes.first), in_machine(words.axes.second)};
+  const PlaneVector start = in_plane(state.position, words.axes);
+  const PlaneVector stop = in_plane(end, words.axes);
   Arc arc{.origin = run.origin,
           .to = end,
           .center_first = Length::mm(middle.first),
@@ -136,8 +126,8 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
           .feed = run.active_feed(),
           .rests = run.rests_at_end()};
   if (!state.is_transformed) return arc_to(run, arc);
-  const double radius = distance(middle, start);
-  const double reach = distance(middle, stop);
+  const double radius = length(middle - start);
+  const double reach = length(middle - stop);
   const double error = std::fabs(radius - reach);
   if (error <= std::fmax(run.options.arc_error, kSamePoint) || reach == 0) return arc_to(run, arc);
   arc.rests = false;  // the line to the end does
@@ -148,7 +138,7 @@ bool emit(Run& run, const ArcWords& words, const Position& end) {
 
 /// G45 to G48 on a quarter: the radius grows or shrinks with the end.
 bool offset_arc(Run& run, ArcWords& arc, Position& end) {
-  const Flat start = flat(arc, arc.start);
+  const PlaneVector start = flat(arc, arc.start);
   const double sweep = sweep_of(start, flat(arc, arc.end), arc.center, arc.turn);
   constexpr double kClose = 1e-3;
   const bool is_quarter = std::fabs(sweep - 90) < kClose || std::fabs(sweep - 270) < kClose;
@@ -158,10 +148,10 @@ bool offset_arc(Run& run, ArcWords& arc, Position& end) {
   const Position plain = end;
   if (!offset_target(run, end)) return false;
   const double change = std::fabs(end.raw(arc.axes.first) - plain.raw(arc.axes.first));
-  const double way = plain.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
+  const double travel = plain.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
   const double moved = end.raw(arc.axes.first) - run.state.position.raw(arc.axes.first);
-  const double grown = std::fabs(moved) < std::fabs(way) ? -change : change;
-  const double radius = distance(arc.center, start);
+  const double grown = std::fabs(moved) < std::fabs(travel) ? -change : change;
+  const double radius = length(arc.center - start);
   const double factor = (radius + grown) / radius;
   if (!(factor > 0)) return run.fail(ErrorCode::OffsetArc, run.block.parts.g_column);
   arc.center = {start.first + (arc.center.first - start.first) * factor,
@@ -188,9 +178,7 @@ bool move_on_arc(Run& run) {
   arc.axes = axes_of(state.plane());
   arc.turn = state.g[kMotionGroup] == 2 ? Turn::Clockwise : Turn::Counterclockwise;
   arc.start = program_position(run);
-  const Point3 work_end{end.raw(Axis::X) - state.origin[0], end.raw(Axis::Y) - state.origin[1],
-                        end.raw(Axis::Z) - state.origin[2]};
-  arc.end = state.is_transformed ? transform_back(state, work_end) : work_end;
+  arc.end = program_point(state, end);
   if (words.has(R) && run.length(words[R]) != 0) {
     if (is_same_point(flat(arc, arc.start), flat(arc, arc.end))) {
       run.warn(WarningCode::ArcWithoutMove, words.column(R));

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>

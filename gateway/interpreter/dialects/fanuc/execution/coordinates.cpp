@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {

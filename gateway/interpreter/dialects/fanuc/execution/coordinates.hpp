@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// Work coordinates and what shifts them: G10, G22, G23, G52, G54 to G59, G92.
@@ -13,5 +15,29 @@ bool set_position(Run& run);
 bool set_data(Run& run);
 /// G22, G23.
 bool set_stroke_zone(Run& run);
+
+// Scaling (G51) and rotation (G68), transformation.cpp: program coordinates to those that the
+// offsets are added to.
+
+/// X, Y, Z.
+using Point3 = std::array<double, 3>;
+constexpr std::size_t place(Axis axis) {
+  return static_cast<std::size_t>(axis);
+}
+/// The point without the offsets in force, before scaling and rotation.
+Point3 program_point(const ModalState& state, const Position& at);
+
+Point3 transform(const ModalState& state, Point3 point);
+Point3 transform_back(const ModalState& state, Point3 point);
+/// The present place in program coordinates before both.
+Point3 program_position(const Run& run);
+/// What the screen shows of offsets, scaling and rotation.
+CoordinateFrame frame_of(const Run& run);
+/// Arcs change their direction: an odd number of mirrored axes in the plane.
+bool is_plane_mirrored(const ModalState& state, Plane plane);
+
+/// G50, G51, G68, G69. False: an alarm.
+bool apply_scaling(Run& run);
+bool apply_rotation(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

@@ -4,14 +4,11 @@
 #include <bit>
 
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
-#include "gateway/interpreter/dialects/fanuc/cycles/hole_cycles.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/calls.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/flow.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/reference.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/statements.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -219,19 +216,10 @@ bool execute_one_shot(Run& run) {
   }
 }
 
+/// G09, G45 to G48 and G60 only change the move of their block.
 bool is_data_code(std::uint8_t one_shot) {
-  switch (one_shot) {
-    case Block::kNoCode:
-    case 9:
-    case 45:
-    case 46:
-    case 47:
-    case 48:
-    case 60:
-      return false;
-    default:
-      return true;
-  }
+  return one_shot != Block::kNoCode && one_shot != 9 && one_shot != 60 &&
+         (one_shot < 45 || one_shot > 48);
 }
 
 bool execute_motion(Run& run) {

@@ -56,7 +56,7 @@ void open_goto(Run& run, std::uint32_t number) {
 }
 
 /// M99 of the main program: from its head again, or to a block.
-bool round_corner(Run& run, std::uint32_t number) {
+bool restart_main_program(Run& run, std::uint32_t number) {
   ModalState& state = run.state;
   if (run.options.is_dnc) {
     if (number != 0) return run.fail(ErrorCode::MacroInDnc, 0, "M99 P");
@@ -76,7 +76,7 @@ bool round_corner(Run& run, std::uint32_t number) {
 
 bool return_from_call(Run& run, std::uint32_t number) {
   ModalState& state = run.state;
-  if (state.calls.empty()) return round_corner(run, number);
+  if (state.calls.empty()) return restart_main_program(run, number);
   CallFrame& frame = state.calls.back();
   const std::uint32_t set = run.block.parts.passes_left;
   if (set != Block::kKeepPasses) frame.passes_left = set;
@@ -274,7 +274,7 @@ BlockOutcome take_jump(Run& run, TextSearch& search) {
   return result;
 }
 
-bool departure_end(Run& run) {
+bool fail_at_end_of_record(Run& run) {
   return run.fail(ErrorCode::EndOfRecord, 0);
 }
 

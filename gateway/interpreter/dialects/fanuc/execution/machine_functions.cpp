@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <array>
 
 namespace dripline::interpreter::fanuc {
 namespace {
@@ -59,21 +60,8 @@ void change_tool(Run& run) {
 }
 
 bool acts_after(const Run& run, int code) {
-  switch (code) {
-    case 0:
-    case 1:
-    case 2:
-    case 5:
-    case 9:
-    case 30:
-    case 98:
-    case 99:
-    case 198:
-    case 199:
-      return true;
-    default:
-      break;
-  }
+  constexpr std::array kAfter{0, 1, 2, 5, 9, 30, 98, 99, 198, 199};
+  if (std::find(kAfter.begin(), kAfter.end(), code) != kAfter.end()) return true;
   // `before_m` lists what this builder outputs before the motion: all the rest when it is empty.
   const auto& before = run.options.before_m;
   const bool is_builders =
@@ -156,7 +144,7 @@ OverrideInhibit override_inhibit(const Run& run) {
   return lock;
 }
 
-/// Before the program's first event the header tells it.
+/// Before the program's first event the header reports it.
 void show_override_inhibit(Run& run) {
   if (run.state.has_header) run.events().on_override_inhibit(override_inhibit(run));
 }
@@ -201,7 +189,7 @@ bool apply_speed(Run& run) {
 bool apply_before_motion(Run& run) {
   if (run.block.words.has(T) && !select_tool(run)) return false;
   perform_all(run, false);
-  // A new speed of a spindle that already turns.
+  // A new speed of a spindle that is already running.
   if (run.state.speed_changed && is_turning(run.state.spindle.state)) {
     turn_spindle(run, run.state.spindle.state);
   }

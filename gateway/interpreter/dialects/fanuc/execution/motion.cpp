@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "gateway/interpreter/core/geometry/plane_vector.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 namespace dripline::interpreter::fanuc {
@@ -237,9 +236,9 @@ bool offset_target(Run& run, Position& to) {
   for (std::size_t i = 0; i < kAxisCount; ++i) {
     if (!words.has(kWordOfAxis[i])) continue;
     const auto axis = static_cast<Axis>(i);
-    const double way = to.raw(axis) - state.position.raw(axis);
-    double sign = way > 0 ? 1 : -1;
-    if (way == 0) {
+    const double travel = to.raw(axis) - state.position.raw(axis);
+    double sign = travel > 0 ? 1 : -1;
+    if (travel == 0) {
       if (!state.is_incremental()) continue;
       sign = words[kWordOfAxis[i]].is_negative ? -1 : 1;
     }

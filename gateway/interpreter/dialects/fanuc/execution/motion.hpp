@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/fanuc/run.hpp"
 
 /// Where a block's words lead, and G00, G01, G31, G33, G53, G60.
@@ -19,7 +19,7 @@ bool move(Run& run);
 /// Rapid to `to`, from one direction when the block says G60.
 bool position_to(Run& run, const Position& to);
 bool move_in_machine_coordinates(Run& run);
-/// G45 to G48: lengthens or shortens the way.
+/// G45 to G48: lengthens or shortens the travel.
 bool offset_target(Run& run, Position& to);
 /// Asks; the answer comes to finish_skip.
 bool start_skip(Run& run);
@@ -33,5 +33,29 @@ bool check_feed(Run& run);
 
 /// G02, G03; arcs.cpp.
 bool move_on_arc(Run& run);
+
+// How all motion reaches the sink (path.cpp): stroke limits and imaginary axes. `to` is in
+// machine coordinates, its marks say which axes have moved or are named. False: an alarm, before
+// the move. The present position follows.
+
+bool rapid_to(Run& run, const Position& to);
+bool line_to(Run& run, const Position& to, const Feed& feed);
+bool thread_to(Run& run, const Position& to, Length lead, std::optional<Angle> start);
+bool arc_to(Run& run, const Arc& arc);
+
+/// Whether the straight path there keeps out of what is forbidden; else alarm OT500.
+bool check_stroke(Run& run, const Position& to);
+/// The tool is here, by whatever path.
+inline void arrive(Run& run, const Position& to) {
+  run.state.position = to;
+  run.state.limits = {};
+}
+
+/// A point of an arc, by the angle traveled from its start.
+Position point_on_arc(const Arc& arc, const Position& from, double degrees);
+
+/// G27 to G30, by the block's one-shot code: reference points, which are machine coordinates;
+/// reference.cpp.
+bool execute_reference(Run& run);
 
 }  // namespace dripline::interpreter::fanuc

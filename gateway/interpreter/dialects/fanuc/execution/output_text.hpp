@@ -19,9 +19,9 @@ struct DecimalField {
   bool blanks_for_zeros = true;
   bool expands = false;  ///< digits that do not fit are printed, not lost
 };
-/// DPRNT's way: sign, then blanks or nothing for leading zeros, digits that do not fit are lost.
+/// As DPRNT does: sign, then blanks or nothing for leading zeros, digits that do not fit are lost.
 void append_decimal(std::string& text, double value, const DecimalField& field);
-/// BPRNT's way: 32 bits, high byte first; bytes as \xNN.
+/// As BPRNT does: 32 bits, high byte first; bytes as \xNN.
 void append_binary(std::string& text, double value, int decimals);
 
 }  // namespace dripline::interpreter::fanuc

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -34,20 +34,20 @@ bool is_limited(const Run& run) {
   return run.options.has_limits || run.state.zone.is_on;
 }
 
-/// The part of the way that lies within the box, by clipping axis after axis.
+/// The part of the path that lies within the box, by clipping axis after axis.
 bool crosses(const StrokeZone& zone, const Position& from, const Position& to) {
   double begin = 0;
   double end = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Axis>(i);
     const double start = from.raw(axis);
-    const double way = to.raw(axis) - start;
-    if (way == 0) {
+    const double travel = to.raw(axis) - start;
+    if (travel == 0) {
       if (start <= zone.low[i] || start >= zone.high[i]) return false;
       continue;
     }
-    double enter = (zone.low[i] - start) / way;
-    double leave = (zone.high[i] - start) / way;
+    double enter = (zone.low[i] - start) / travel;
+    double leave = (zone.high[i] - start) / travel;
     if (enter > leave) std::swap(enter, leave);
     begin = std::max(begin, enter);
     end = std::min(end, leave);
@@ -56,7 +56,7 @@ bool crosses(const StrokeZone& zone, const Position& from, const Position& to) {
   return true;
 }
 
-bool check_way(Run& run, const Position& from, const Position& to) {
+bool check_path(Run& run, const Position& from, const Position& to) {
   const ControlOptions& options = run.options;
   for (std::size_t i = 0; options.has_limits && i < 3; ++i) {
     const auto axis = static_cast<Axis>(i);
@@ -66,7 +66,7 @@ bool check_way(Run& run, const Position& from, const Position& to) {
                     fmt::format("{} {} is beyond stroke limit 1", letter(axis), at));
   }
   if (run.state.zone.is_on && crosses(run.state.zone, from, to)) {
-    return run.fail(ErrorCode::OverTravel, 0, "the way enters the zone of G22");
+    return run.fail(ErrorCode::OverTravel, 0, "the path enters the zone of G22");
   }
   return true;
 }
@@ -76,7 +76,7 @@ bool check_arc(Run& run, const Arc& arc) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(arc.sweep.degrees() / kPieceDegrees)));
   for (int piece = 1; piece <= pieces; ++piece) {
     const Position to = point_on_arc(arc, run.state.position, arc.sweep.degrees() * piece / pieces);
-    if (!check_way(run, from, to)) return false;
+    if (!check_path(run, from, to)) return false;
     from = to;
   }
   return true;
@@ -118,12 +118,12 @@ Position point_on_arc(const Arc& arc, const Position& from, double degrees) {
 }
 
 bool check_stroke(Run& run, const Position& to) {
-  return !is_limited(run) || check_way(run, run.state.position, to);
+  return !is_limited(run) || check_path(run, run.state.position, to);
 }
 
 bool rapid_to(Run& run, const Position& to) {
   if (same_place(run.state.position, to)) return true;
-  if (is_limited(run) && !check_way(run, run.state.position, to)) return false;
+  if (is_limited(run) && !check_path(run, run.state.position, to)) return false;
   run.events().on_rapid({run.origin, to});
   for (const Axis axis : kAllAxes) {
     if (is_imaginary(run.state, axis)) {
@@ -136,7 +136,7 @@ bool rapid_to(Run& run, const Position& to) {
 
 bool line_to(Run& run, const Position& to, const Feed& feed) {
   if (same_place(run.state.position, to)) return true;
-  if (is_limited(run) && !check_way(run, run.state.position, to)) return false;
+  if (is_limited(run) && !check_path(run, run.state.position, to)) return false;
   if (run.state.imaginary != 0) [[unlikely]] {
     const Position from = held(run.state, run.state.position);
     const Position real = held(run.state, to);

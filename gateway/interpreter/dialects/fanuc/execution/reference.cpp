@@ -1,4 +1,3 @@
-#include "gateway/interpreter/dialects/fanuc/execution/reference.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
@@ -6,7 +5,6 @@
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
 #include "gateway/interpreter/dialects/fanuc/compensation/cutter_compensation.hpp"
 #include "gateway/interpreter/dialects/fanuc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/fanuc/execution/path.hpp"
 
 namespace dripline::interpreter::fanuc {
 namespace {

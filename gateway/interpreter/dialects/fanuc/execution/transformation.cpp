@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/fanuc/execution/transformation.hpp"
+#include "gateway/interpreter/dialects/fanuc/execution/coordinates.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -12,16 +12,16 @@ namespace {
 constexpr double kLeastFactor = 0.001;
 constexpr double kMaxFactor = 999.999;
 
-std::size_t place(Axis axis) {
-  return static_cast<std::size_t>(axis);
-}
-
 void rotate(const Rotation& rotation, double sine, Point3& point) {
   const PlaneAxes axes = axes_of(rotation.plane);
   const double first = point[place(axes.first)] - rotation.first;
   const double second = point[place(axes.second)] - rotation.second;
   point[place(axes.first)] = rotation.first + first * rotation.cosine - second * sine;
   point[place(axes.second)] = rotation.second + first * sine + second * rotation.cosine;
+}
+
+double scaled(const Scaling& scaling, std::size_t i, double at) {
+  return scaling.center[i] + scaling.factor[i] * (at - scaling.center[i]);
 }
 
 /// P and I J K: thousandths without a point.
@@ -71,13 +71,12 @@ bool begin_rotation(Run& run) {
   }
   const Point3 present = program_position(run);
   constexpr std::array<Address, 3> kCenter{X, Y, Z};
-  // Under scaling the center is scaled as any point is; a mirror image turns the other way.
+  // Under scaling the center is scaled as any point is; a mirror image reverses the rotation.
   const auto center = [&](Axis axis) {
     const std::size_t i = place(axis);
     const Address address = kCenter[i];
     const double at = words.has(address) ? run.length(words[address]) : present[i];
-    if (state.g[kScalingGroup] != 51) return at;
-    return state.scaling.center[i] + state.scaling.factor[i] * (at - state.scaling.center[i]);
+    return state.g[kScalingGroup] == 51 ? scaled(state.scaling, i, at) : at;
   };
   Rotation rotation;
   rotation.plane = state.plane();
@@ -101,10 +100,7 @@ bool begin_rotation(Run& run) {
 
 Point3 transform(const ModalState& state, Point3 point) {
   if (state.g[kScalingGroup] == 51) {
-    const Scaling& scaling = state.scaling;
-    for (std::size_t i = 0; i < 3; ++i) {
-      point[i] = scaling.center[i] + scaling.factor[i] * (point[i] - scaling.center[i]);
-    }
+    for (std::size_t i = 0; i < 3; ++i) point[i] = scaled(state.scaling, i, point[i]);
   }
   if (state.g[kRotationGroup] == 68) rotate(state.rotation, state.rotation.sine, point);
   return point;
@@ -121,10 +117,14 @@ Point3 transform_back(const ModalState& state, Point3 point) {
   return point;
 }
 
+Point3 program_point(const ModalState& state, const Position& at) {
+  Point3 work{};
+  for (std::size_t i = 0; i < 3; ++i) work[i] = at.raw(static_cast<Axis>(i)) - state.origin[i];
+  return state.is_transformed ? transform_back(state, work) : work;
+}
+
 Point3 program_position(const Run& run) {
-  const Point3 work{run.work_position(Axis::X), run.work_position(Axis::Y),
-                    run.work_position(Axis::Z)};
-  return run.state.is_transformed ? transform_back(run.state, work) : work;
+  return program_point(run.state, run.state.position);
 }
 
 CoordinateFrame frame_of(const Run& run) {

@@ -57,6 +57,12 @@ bool is_offset_or_counter(std::string_view name) {
   return !name.starts_with('#') || (name.size() == 5 && name[1] == '3');
 }
 
+tl::unexpected<Error> refuse_variable(std::string_view name, const ControlOptions& options) {
+  return fail(Errc::Unsupported,
+              "variable {}: this control has #1 to #33, #100 to #{} and #500 to #{}", name,
+              options.last_common, options.last_kept);
+}
+
 /// Cells of the control's memory by their names (retained_memory.hpp).
 Result<void> load_cells(const Setup& setup, const ControlOptions& options, ModalState& state,
                         Memory& memory) {
@@ -69,9 +75,7 @@ Result<void> load_cells(const Setup& setup, const ControlOptions& options, Modal
     for_each_offset(memory, visit);
   });
   if (unknown.empty()) return {};
-  return fail(Errc::Unsupported,
-              "variable {}: this control has #1 to #33, #100 to #{} and #500 to #{}",
-              unknown.begin()->first, options.last_common, options.last_kept);
+  return refuse_variable(unknown.begin()->first, options);
 }
 
 Result<void> load_variable(const VariableRecord& variable, const ControlOptions& options,
@@ -79,18 +83,11 @@ Result<void> load_variable(const VariableRecord& variable, const ControlOptions&
   const std::string_view name = variable.name;
   if (is_offset_or_counter(name)) return {};
   const auto number = parse_decimal(name.substr(name.starts_with('#') ? 1 : 0));
-  if (!name.starts_with('#') || !number || number->scale != 0 || number->digits < 0 ||
-      number->digits > options.last_kept) {
-    return fail(Errc::Unsupported,
-                "variable {}: this control has #1 to #33, #100 to #{} and #500 to #{}", name,
-                options.last_common, options.last_kept);
-  }
-  double* cell = common_variable(state, options, static_cast<int>(number->digits));
-  if (cell == nullptr) {
-    return fail(Errc::Unsupported,
-                "variable {}: this control has #1 to #33, #100 to #{} and #500 to #{}", name,
-                options.last_common, options.last_kept);
-  }
+  const bool is_number = name.starts_with('#') && number && number->scale == 0 &&
+                         number->digits >= 0 && number->digits <= options.last_kept;
+  double* cell =
+      is_number ? common_variable(state, options, static_cast<int>(number->digits)) : nullptr;
+  if (cell == nullptr) return refuse_variable(name, options);
   *cell = variable.value;
   return {};
 }

@@ -4,7 +4,8 @@
 #include "gateway/interpreter/dialects/fanuc/options.hpp"
 #include "gateway/interpreter/dialects/fanuc/state.hpp"
 
-/// What the control keeps when a program is over (spec 11.2, 11.9, 8): #500 and up, tool offsets,
+/// What the control keeps when a program is over (16/18 operator's manual: offset memory,
+/// custom macro): #500 and up, tool offsets,
 /// work offsets, part counters and settings, by battery; #100 and up until power off, where reset
 /// (and with it M02 and M30) does not clear them. G52, G92 and locals are not kept.
 namespace dripline::interpreter::fanuc {

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gateway/interpreter/dialects/fanuc/execution/machine_functions.hpp"
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
@@ -71,19 +72,32 @@ bool read_clock(Run& run, int number, double& value) {
   return true;
 }
 
+/// Variables that are counters of the control.
+struct KeptCounter {
+  int number;
+  Counter place;
+  double highest;
+};
+const KeptCounter* kept_counter(int number) {
+  static constexpr std::array kCounters{
+      KeptCounter{3002, kHours, 1e9}, KeptCounter{3005, kSettings, 65535},
+      KeptCounter{3901, kMade, 1e9}, KeptCounter{3902, kRequired, 1e9}};
+  const auto* at =
+      std::find_if(kCounters.begin(), kCounters.end(),
+                   [number](const KeptCounter& each) { return each.number == number; });
+  return at == kCounters.end() ? nullptr : at;
+}
+
 bool read_control(Run& run, int number, std::uint32_t column, double& value) {
-  const auto& counters = run.state.counters;
+  if (const KeptCounter* kept = kept_counter(number)) {
+    value = run.state.counters[kept->place];
+    return true;
+  }
   switch (number) {
     case 3001:
     case 3011:
     case 3012:
       return read_clock(run, number, value);
-    case 3002:
-      value = counters[kHours];
-      return true;
-    case 3005:
-      value = counters[kSettings];
-      return true;
     case 3007: {
       int mirrored = 0;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -92,12 +106,6 @@ bool read_control(Run& run, int number, std::uint32_t column, double& value) {
       value = run.state.g[kScalingGroup] == 51 ? mirrored : 0;
       return true;
     }
-    case 3901:
-      value = counters[kMade];
-      return true;
-    case 3902:
-      value = counters[kRequired];
-      return true;
     case 3000:
     case 3003:
     case 3004:
@@ -115,40 +123,18 @@ bool read_modal(Run& run, int number, std::uint32_t column, double& value) {
     value = code == kMoreWorkSystems ? 54.1 : code;
     return true;
   }
-  switch (number) {
-    case 4022:
-      value = 0;
-      return true;
-    case 4102:
-      value = state.last.b;
-      return true;
-    case 4107:
-      value = state.d_number;
-      return true;
-    case 4109:
-      value = state.last.f;
-      return true;
-    case 4111:
-      value = state.h_number;
-      return true;
-    case 4113:
-      value = state.last.m;
-      return true;
-    case 4114:
-      value = state.last.n;
-      return true;
-    case 4115:
-      value = state.last.o;
-      return true;
-    case 4119:
-      value = state.last.s;
-      return true;
-    case 4120:
-      value = state.last.t;
-      return true;
-    default:
-      return refuse(run, number, column);
+  const LastWords& last = state.last;
+  const std::pair<int, double> shown[] = {
+      {4022, 0.0},    {4102, last.b},         {4107, state.d_number},
+      {4109, last.f}, {4111, state.h_number}, {4113, last.m},
+      {4114, last.n}, {4115, last.o},         {4119, last.s},
+      {4120, last.t}};
+  for (const auto& [known, held] : shown) {
+    if (known != number) continue;
+    value = held;
+    return true;
   }
+  return refuse(run, number, column);
 }
 
 /// Zero offsets: #2500 .. by axis and #5201 .. by system; nullptr when it is none.
@@ -247,13 +233,14 @@ bool write_outputs(Run& run, int number, std::uint32_t column, double value) {
 bool write_control(Run& run, int number, std::uint32_t column, double value) {
   auto& counters = run.state.counters;
   const double stored = std::isnan(value) ? 0 : value;
-  const auto keep = [&](Counter place, double least, double most) {
-    if (!(stored >= least && stored <= most)) {
+  const auto keep = [&](Counter place, double highest) {
+    if (!(stored >= 0 && stored <= highest)) {
       return run.fail(ErrorCode::IllegalVariable, column, fmt::format("#{} = {}", number, value));
     }
     counters[place] = stored;
     return true;
   };
+  if (const KeptCounter* kept = kept_counter(number)) return keep(kept->place, kept->highest);
   switch (number) {
     case 3000:
       return raise_alarm(run, column, value);
@@ -266,22 +253,14 @@ bool write_control(Run& run, int number, std::uint32_t column, double value) {
       counters[kClockBase] = milliseconds_of(now) - stored;
       return true;
     }
-    case 3002:
-      return keep(kHours, 0, 1e9);
     case 3003:
-      if (!keep(kSingle, 0, 3)) return false;
+      if (!keep(kSingle, 3)) return false;
       show_override_inhibit(run);
       return true;
     case 3004:
-      if (!keep(kHold, 0, 7)) return false;
+      if (!keep(kHold, 7)) return false;
       show_override_inhibit(run);
       return true;
-    case 3005:
-      return keep(kSettings, 0, 65535);
-    case 3901:
-      return keep(kMade, 0, 1e9);
-    case 3902:
-      return keep(kRequired, 0, 1e9);
     case 3007:
     case 3011:
     case 3012:

@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/fanuc/memory/tool_offsets.hpp"
 
 #include <fmt/core.h>
+#include <array>
 #include <bit>
 
 namespace dripline::interpreter::fanuc {
@@ -11,17 +12,9 @@ constexpr double kMaxValue = 999.999;
 enum class Kind : std::uint8_t { LengthWear, LengthGeometry, RadiusWear, RadiusGeometry };
 
 double* cell_of(ToolOffsets& tools, Kind kind, std::size_t n) {
-  switch (kind) {
-    case Kind::LengthWear:
-      return &tools.length_wear[n];
-    case Kind::LengthGeometry:
-      return &tools.length_geometry[n];
-    case Kind::RadiusWear:
-      return &tools.radius_wear[n];
-    case Kind::RadiusGeometry:
-      break;
-  }
-  return &tools.radius_geometry[n];
+  const std::array registers{&tools.length_wear, &tools.length_geometry, &tools.radius_wear,
+                             &tools.radius_geometry};
+  return &(*registers[static_cast<std::size_t>(kind)])[n];
 }
 
 OffsetRegister register_of(Run& run, Kind kind, int number) {
@@ -45,36 +38,30 @@ OffsetRegister register_of(Run& run, Kind kind, int number) {
 }  // namespace
 
 OffsetRegister offset_variable(Run& run, int number) {
-  const bool is_a = run.options.offset_memory == OffsetMemory::A;
-  const bool is_c = run.options.offset_memory == OffsetMemory::C;
-  if (number > 2000 && number <= 2200) return register_of(run, Kind::LengthWear, number - 2000);
-  if (number > 2200 && number <= 2400 && !is_a) {
-    return register_of(run, Kind::LengthGeometry, number - 2200);
-  }
-  if (number > 10000 && number <= 10400) return register_of(run, Kind::LengthWear, number - 10000);
-  if (number > 11000 && number <= 11400 && !is_a) {
-    return register_of(run, Kind::LengthGeometry, number - 11000);
-  }
-  if (number > 12000 && number <= 12400 && is_c) {
-    return register_of(run, Kind::RadiusWear, number - 12000);
-  }
-  if (number > 13000 && number <= 13400 && is_c) {
-    return register_of(run, Kind::RadiusGeometry, number - 13000);
+  struct Row {
+    int base, last;
+    Kind kind;
+    OffsetMemory least;  ///< memory that has these variables
+  };
+  constexpr std::array kRows{Row{2000, 2200, Kind::LengthWear, OffsetMemory::A},
+                             Row{2200, 2400, Kind::LengthGeometry, OffsetMemory::B},
+                             Row{10000, 10400, Kind::LengthWear, OffsetMemory::A},
+                             Row{11000, 11400, Kind::LengthGeometry, OffsetMemory::B},
+                             Row{12000, 12400, Kind::RadiusWear, OffsetMemory::C},
+                             Row{13000, 13400, Kind::RadiusGeometry, OffsetMemory::C}};
+  for (const Row& row : kRows) {
+    if (number > row.base && number <= row.last && run.options.offset_memory >= row.least)
+      return register_of(run, row.kind, number - row.base);
   }
   return {};
 }
 
 OffsetRegister offset_of_g10(Run& run, int list, int number) {
-  switch (list) {
-    case 10:
-      return register_of(run, Kind::LengthGeometry, number);
-    case 12:
-      return register_of(run, Kind::RadiusGeometry, number);
-    case 13:
-      return register_of(run, Kind::RadiusWear, number);
-    default:
-      return register_of(run, Kind::LengthWear, number);
-  }
+  const Kind kind = list == 10   ? Kind::LengthGeometry
+                    : list == 12 ? Kind::RadiusGeometry
+                    : list == 13 ? Kind::RadiusWear
+                                 : Kind::LengthWear;
+  return register_of(run, kind, number);
 }
 
 double read_register(const OffsetRegister& cell) {

@@ -10,7 +10,7 @@
 namespace dripline::interpreter::fanuc {
 
 /// How far a block has come; a question suspends it between or within stages. Reading has no effect
-/// on anything but the block, so that a question in it starts the block anew.
+/// on anything but the block, so that a question in it starts the block again.
 enum class Stage : std::uint8_t { Start, Execution, AfterMove };
 
 enum class BlockKind : std::uint8_t {

@@ -130,7 +130,7 @@ bool set_sequence(Run& run, const Word& word) {
 bool begin_program(Run& run, const Word& word) {
   if (word.form == WordForm::Computed) return run.fail(ErrorCode::MacroFormat, word.column);
   if (run.block.parts.has_code) {
-    return run.fail(ErrorCode::IllegalAddress, word.column, "O stands first in its block");
+    return run.fail(ErrorCode::IllegalAddress, word.column, "O is first in its block");
   }
   double value = 0;
   if (!read_whole(run, word, 9999, value)) return false;

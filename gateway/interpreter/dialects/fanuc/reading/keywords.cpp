@@ -28,21 +28,19 @@ constexpr std::array kFunctions{
     Spelling<Function>{"FUP", Function::Fup},     Spelling<Function>{"BIN", Function::Bin},
     Spelling<Function>{"BCD", Function::Bcd},
 };
-constexpr std::array kOperators{
-    Spelling<Operator>{"*", Operator::Multiply},
-    Spelling<Operator>{"/", Operator::Divide},
-    Spelling<Operator>{"+", Operator::Add},
-    Spelling<Operator>{"-", Operator::Subtract},
-    Spelling<Operator>{"AND", Operator::And},
-    Spelling<Operator>{"OR", Operator::Or},
-    Spelling<Operator>{"XOR", Operator::ExclusiveOr},
-    Spelling<Operator>{"EQ", Operator::Equal},
-    Spelling<Operator>{"NE", Operator::NotEqual},
-    Spelling<Operator>{"GT", Operator::Greater},
-    Spelling<Operator>{"LT", Operator::Less},
-    Spelling<Operator>{"GE", Operator::GreaterOrEqual},
-    Spelling<Operator>{"LE", Operator::LessOrEqual},
-};
+constexpr std::array kOperators{Spelling<Operator>{"*", Operator::Multiply},
+                                Spelling<Operator>{"/", Operator::Divide},
+                                Spelling<Operator>{"+", Operator::Add},
+                                Spelling<Operator>{"-", Operator::Subtract},
+                                Spelling<Operator>{"AND", Operator::And},
+                                Spelling<Operator>{"OR", Operator::Or},
+                                Spelling<Operator>{"XOR", Operator::ExclusiveOr},
+                                Spelling<Operator>{"EQ", Operator::Equal},
+                                Spelling<Operator>{"NE", Operator::NotEqual},
+                                Spelling<Operator>{"GT", Operator::Greater},
+                                Spelling<Operator>{"LT", Operator::Less},
+                                Spelling<Operator>{"GE", Operator::GreaterOrEqual},
+                                Spelling<Operator>{"LE", Operator::LessOrEqual}};
 
 template <class Table>
 auto take_from(const Table& table, const char*& at) {

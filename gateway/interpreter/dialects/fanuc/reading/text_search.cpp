@@ -149,7 +149,7 @@ TextSearch::Outcome TextSearch::find_label(const TextPosition& from, std::uint32
   if (!search.is_running || search.label != label || !same_place(search.from, from)) {
     search = {true, false, label, from, from, open};
   }
-  const Outcome outcome = go_on_with_label(search);
+  const Outcome outcome = continue_label_search(search);
   if (outcome == Outcome::NotYet || outcome == Outcome::More) return outcome;
   search.is_running = false;
   if (outcome != Outcome::Found) return outcome;
@@ -160,7 +160,7 @@ TextSearch::Outcome TextSearch::find_label(const TextPosition& from, std::uint32
 }
 
 /// Leaves the place found in `search.next`.
-TextSearch::Outcome TextSearch::go_on_with_label(LabelSearch& search) {
+TextSearch::Outcome TextSearch::continue_label_search(LabelSearch& search) {
   for (unsigned blocks = 0; blocks < kBlocksPerCall; ++blocks) {
     BlockHead head;
     TextPosition block;

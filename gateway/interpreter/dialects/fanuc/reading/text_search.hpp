@@ -30,9 +30,9 @@ struct OpenLoops {
   std::size_t count = 0;
 };
 
-/// Searches go on where they stopped when called again with the same question, and give back after
-/// a bounded number of lines. What they found is kept for as long as the run lasts: it only saves
-/// searching again.
+/// Searches continue where they stopped when called again with the same question, and give back
+/// after a bounded number of lines. What they found is kept for as long as the run lasts: it only
+/// saves searching again.
 class TextSearch {
  public:
   enum class Outcome : std::uint8_t {
@@ -88,7 +88,7 @@ class TextSearch {
   };
 
   Outcome load(const TextPosition& at);
-  Outcome go_on_with_label(LabelSearch& search);
+  Outcome continue_label_search(LabelSearch& search);
   /// The head of the block at `at`, which moves after it.
   Outcome next_block(TextPosition& at, BlockHead& head, TextPosition& block);
   KnownLabel& known_label(const TextPosition& from, std::uint32_t label);
