@@ -5,10 +5,9 @@
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
@@ -31,9 +30,7 @@ Rs274NgcInterpreter::Rs274NgcInterpreter(ControlOptions options, std::vector<Too
     : run_(std::move(options), std::move(tools), source, sink), flow_(run_) {
   run_.state = std::move(state);
   run_.parameters = parameters;
-  Axes machine{};
-  for (const Axis axis : kAllAxes) machine[index_of(axis)] = run_.state.machine.raw(axis);
-  run_.state.position = to_program(run_, machine);
+  run_.state.position = to_program(run_, values_of(run_.state.machine));
 }
 
 BlockOutcome Rs274NgcInterpreter::run_block() {
@@ -111,7 +108,7 @@ BlockOutcome Rs274NgcInterpreter::meet_no_line(LineState state) {
   }
 }
 
-/// The first line of a program that is not blank shows how its end is marked (2.1).
+/// The first line of a program that is not blank shows how its end is marked (NIST 3.3).
 bool Rs274NgcInterpreter::meet_percent(const char* at, bool& is_end) {
   State& state = run_.state;
   is_end = false;
@@ -208,10 +205,8 @@ ActiveModes Rs274NgcInterpreter::modes() const {
   modes.tool_length_x = Length::mm(state.tool_length[index_of(Axis::X)]);
   modes.tool_length_z = Length::mm(state.tool_length[index_of(Axis::Z)]);
   modes.tool_radius = Length::mm(state.compensation.radius);
-  const Length feed = Length::mm(run_.mm(state.feed));
-  modes.feed = state.modes.feed == FeedMode::PerMinute       ? Feed::per_minute(feed)
-               : state.modes.feed == FeedMode::PerRevolution ? Feed::per_revolution(feed)
-                                                             : Feed::inverse_time(state.feed);
+  const bool is_inverse = state.modes.feed == FeedMode::InverseTime;
+  modes.feed = is_inverse ? Feed::inverse_time(state.feed) : run_.modal_feed();
   modes.cycle = hole_cycle_name(state.modes.motion / 10);
   modes.frame_changes = run_.frame_changes;
   return modes;

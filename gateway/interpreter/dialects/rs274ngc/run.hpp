@@ -45,6 +45,12 @@ struct Run : BlockRun {
 
   bool is_linuxcnc() const { return options.profile == Profile::LinuxCnc; }
   double mm(double units) const { return units * state.mm_per_unit(); }
+  /// F in force, per minute or per revolution.
+  Feed modal_feed() const {
+    const auto rate = Length::mm(mm(state.feed));
+    const bool is_per_minute = state.modes.feed == FeedMode::PerMinute;
+    return is_per_minute ? Feed::per_minute(rate) : Feed::per_revolution(rate);
+  }
   /// G61.1: every move comes to rest at its end. G61, exact path, needs no more than the corners
   /// passed through, which all moves here are; G64 allows to cut them.
   bool rests_at_end() const { return state.modes.path == 611; }

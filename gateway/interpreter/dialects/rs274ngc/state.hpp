@@ -20,7 +20,13 @@ constexpr std::size_t index_of(Axis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-/// How the program is marked off (2.1).
+inline Axes values_of(const Position& position) {
+  Axes values{};
+  for (const Axis axis : kAllAxes) values[index_of(axis)] = position.raw(axis);
+  return values;
+}
+
+/// How the end of the program is marked (NIST 3.3).
 enum class Demarcation : std::uint8_t { Unknown, Percent, None };
 enum class FeedMode : std::uint8_t { PerMinute, InverseTime, PerRevolution };
 enum class Side : std::uint8_t { Off, Left, Right };
@@ -50,6 +56,10 @@ struct SpindleModes {
   double speed = 0;
   bool is_surface = false;
   double most = 0;  ///< revolutions per minute under G96; 0 = none
+
+  bool is_turning() const {
+    return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
+  }
 };
 
 struct ToolModes {
@@ -61,7 +71,7 @@ struct Overrides {
   bool speed = true, feed = true, adaptive = false, hold = true;
 };
 
-/// Words of the cycle that is in force; a line may leave them out (10.1). As written.
+/// Words of the cycle that is in force; a line may leave them out. As written.
 struct CycleWords {
   double r = 0, bottom = 0, p = 0, q = 0, i = 0, j = 0, k = 0, d = 0;
   bool is_series = false;  ///< since the last motion that was no cycle

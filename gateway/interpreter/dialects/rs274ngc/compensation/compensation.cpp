@@ -1,6 +1,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 
 #include <fmt/core.h>
+#include <array>
 #include <cmath>
 
 #include "gateway/interpreter/core/geometry/plane_axes.hpp"
@@ -68,9 +69,7 @@ bool is_plane_allowed(const Run& run) {
 }  // namespace
 
 bool switch_compensation(Run& run, int g_code) {
-  if (g_code == 400) {
-    return switch_off(run);
-  }
+  if (g_code == 400) return switch_off(run);
   Compensation& compensation = run.state.compensation;
   if (!is_plane_allowed(run)) return run.fail(ErrorCode::CompNotXy, 0);
   if (compensation.side != Side::Off) return run.fail(ErrorCode::CompOnTwice, 0);
@@ -103,7 +102,7 @@ bool compensated_line(Run& run, const Target& target, bool is_rapid, const Feed&
                            : nist_line(run, target, is_rapid, feed);
 }
 
-bool compensated_arc(Run& run, const Target& target, PlanePoint center, Turn turn,
+bool compensated_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
                      double full_circles, const Feed& feed) {
   return run.is_linuxcnc() ? trimmed_arc(run, target, center, turn, full_circles, feed)
                            : nist_arc(run, target, center, turn, full_circles, feed);
@@ -116,16 +115,16 @@ void release_held(Run& run) {
 
 // Shared by both methods.
 
-PlanePoint point_of(const Run& run, const Axes& axes) {
+PlaneVector point_of(const Run& run, const Axes& axes) {
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   return {axes[index_of(plane.first)], axes[index_of(plane.second)]};
 }
 
-PlanePoint tool_point(const Run& run) {
+PlaneVector tool_point(const Run& run) {
   return point_of(run, run.state.position);
 }
 
-Target moved_to(const Run& run, const Target& target, PlanePoint to) {
+Target moved_to(const Run& run, const Target& target, PlaneVector to) {
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   Target moved = target;
   moved.to[index_of(plane.first)] = to.first;
@@ -145,6 +144,36 @@ double side_sign(const Run& run) {
 double turned_into(double radians, double lowest) {
   constexpr double kFull = 2 * Angle::kPi;
   return radians - kFull * std::floor((radians - lowest) / kFull);
+}
+
+namespace {
+
+/// From the center of the nose to the tip, in the plane ZX.
+PlaneVector tip_of(const Compensation& compensation) {
+  constexpr std::array<double, 9> kAlongZ{0, 1, -1, -1, 1, 1, 0, -1, 0};
+  constexpr std::array<double, 9> kAlongX{0, -1, -1, 1, 1, 0, -1, 0, 1};
+  const std::size_t quadrant = compensation.orientation;
+  return {compensation.radius * kAlongZ[quadrant], compensation.radius * kAlongX[quadrant]};
+}
+
+void shift(Position& to, PlaneVector by) {
+  to.set_raw(Axis::Z, to.raw(Axis::Z) + by.first);
+  to.set_raw(Axis::X, to.raw(Axis::X) + by.second);
+}
+
+}  // namespace
+
+void shift_held_to_tip(Run& run) {
+  const PlaneVector tip = tip_of(run.state.compensation);
+  for (auto& event : run.held.events()) {
+    if (auto* line = std::get_if<Line>(&event)) shift(line->to, tip);
+    if (auto* rapid = std::get_if<Rapid>(&event)) shift(rapid->to, tip);
+    auto* arc = std::get_if<Arc>(&event);
+    if (arc == nullptr) continue;
+    shift(arc->to, tip);
+    arc->center_first += Length::mm(tip.first);
+    arc->center_second += Length::mm(tip.second);
+  }
 }
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -9,49 +9,39 @@
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 
 /// The later program holds the last move back until it knows the next: inside corners are trimmed
-/// to where the offset curves meet (15.6). The geometry of corners is done in machine coordinates,
+/// to where the offset curves meet. The geometry of corners is done in machine coordinates,
 /// those of the held event.
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-constexpr double kQuarter = Angle::kPi / 2;
 constexpr double kStraightOn = 0.05;  ///< radians
 
-PlanePoint machine_point(const Run& run, PlanePoint program) {
+PlaneVector machine_point(const Run& run, PlaneVector program) {
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   Axes axes = run.state.position;
   axes[index_of(plane.first)] = program.first;
   axes[index_of(plane.second)] = program.second;
-  const Position machine = to_machine(run, axes);
-  return {machine.raw(plane.first), machine.raw(plane.second)};
+  return in_plane(to_machine(run, axes), plane);
 }
-PlanePoint plane_point(const Run& run, const Position& position) {
-  const PlaneAxes plane = axes_of(run.state.modes.plane);
-  return {position.raw(plane.first), position.raw(plane.second)};
-}
-void put(const Run& run, Position& position, PlanePoint point) {
-  const PlaneAxes plane = axes_of(run.state.modes.plane);
-  position.set_raw(plane.first, point.first);
-  position.set_raw(plane.second, point.second);
+PlaneVector plane_point(const Run& run, const Position& position) {
+  return in_plane(position, axes_of(run.state.modes.plane));
 }
 
-void programmed_at(Run& run, PlanePoint at) {
-  run.state.compensation.x = at.first;
-  run.state.compensation.y = at.second;
-  run.state.compensation.is_first = false;
+void put(const Run& run, Position& position, PlaneVector point) {
+  set_in_plane(position, axes_of(run.state.modes.plane), point);
 }
 
 /// A straight line through `at` along `angle`, or a circle about `at`.
 struct Curve {
   bool is_circle = false;
-  PlanePoint at;
+  PlaneVector at;
   double angle = 0;
   double radius = 0;
 };
 
 struct Meeting {
   int count = 0;
-  std::array<PlanePoint, 2> points{};
+  std::array<PlaneVector, 2> points{};
 };
 
 Meeting meet_line(const Curve& line, const Curve& other) {
@@ -67,7 +57,7 @@ Meeting meet_line(const Curve& line, const Curve& other) {
   }
   // The foot of the center on the line, and half the chord.
   const double t = (other.at.first - line.at.first) * c + (other.at.second - line.at.second) * s;
-  const PlanePoint foot = along(line.at, line.angle, t);
+  const PlaneVector foot = along(line.at, line.angle, t);
   const double away = distance(foot, other.at);
   if (away > other.radius) return {};
   const double half = std::sqrt(other.radius * other.radius - away * away);
@@ -83,14 +73,14 @@ Meeting meet(const Curve& a, const Curve& b) {
   if (std::fabs(t) > a.radius) return {};
   const double half = std::sqrt(a.radius * a.radius - t * t);
   const double base = direction(a.at, b.at);
-  const PlanePoint foot = along(a.at, base, t);
+  const PlaneVector foot = along(a.at, base, t);
   return {2, {along(foot, base + kQuarter, half), along(foot, base - kQuarter, half)}};
 }
 
 /// The held move's curve: an arc's circle, or the line it was programmed along.
-Curve held_curve(const Run& run, PlanePoint corner, PlanePoint tool) {
+Curve held_curve(const Run& run, PlaneVector corner, PlaneVector tool) {
   if (const auto* arc = std::get_if<Arc>(&run.held.events().front())) {
-    const PlanePoint center{arc->center_first.mm(), arc->center_second.mm()};
+    const PlaneVector center{arc->center_first.mm(), arc->center_second.mm()};
     return {true, center, 0, distance(center, tool)};
   }
   return {false, tool, direction(corner, tool) + kQuarter, 0};
@@ -98,10 +88,10 @@ Curve held_curve(const Run& run, PlanePoint corner, PlanePoint tool) {
 
 /// Ends the held arc at `end`; false when it would then be longer than it was programmed, for its
 /// corners have eaten it up.
-bool end_arc(const Run& run, Arc& arc, PlanePoint end) {
+bool end_arc(const Run& run, Arc& arc, PlaneVector end) {
   const double slack = run.state.units == Units::Inch ? 0.001 : 0.0254;  // radians
-  const PlanePoint center{arc.center_first.mm(), arc.center_second.mm()};
-  const PlanePoint start = plane_point(run, run.held.start());
+  const PlaneVector center{arc.center_first.mm(), arc.center_second.mm()};
+  const PlaneVector start = plane_point(run, run.held.start());
   const double whole = 360 * std::floor((arc.sweep.degrees() - 1e-6) / 360);
   const double sweep = sweep_of(center, start, end, arc.turn);
   if (sweep > run.state.compensation.held_sweep + slack * (180 / Angle::kPi)) return false;
@@ -110,8 +100,8 @@ bool end_arc(const Run& run, Arc& arc, PlanePoint end) {
   return true;
 }
 
-bool is_reversed(const Run& run, PlanePoint end, double travel) {
-  const PlanePoint start = plane_point(run, run.held.start());
+bool is_reversed(const Run& run, PlaneVector end, double travel) {
+  const PlaneVector start = plane_point(run, run.held.start());
   return (end.first - start.first) * std::cos(travel) +
              (end.second - start.second) * std::sin(travel) <
          0;
@@ -119,7 +109,7 @@ bool is_reversed(const Run& run, PlanePoint end, double travel) {
 
 /// A corner may only shorten the move before it. Where the path doubles straight back into an arc,
 /// the curves may meet far past the end instead.
-bool is_past(PlanePoint end, PlanePoint corner, double travel) {
+bool is_past(PlaneVector end, PlaneVector corner, double travel) {
   constexpr double kSlack = 0.0254;  // mm
   return (corner.first - end.first) * std::cos(travel) +
              (corner.second - end.second) * std::sin(travel) >
@@ -127,7 +117,7 @@ bool is_past(PlanePoint end, PlanePoint corner, double travel) {
 }
 
 /// Ends the held move at `end` (machine) and lets it go with all that came after it.
-bool finish_held(Run& run, PlanePoint end, double travel) {
+bool finish_held(Run& run, PlaneVector end, double travel) {
   if (run.held.empty()) return true;
   auto& events = run.held.events();
   if (auto* arc = std::get_if<Arc>(&events.front())) {
@@ -135,9 +125,7 @@ bool finish_held(Run& run, PlanePoint end, double travel) {
   } else {
     auto* line = std::get_if<Line>(&events.front());
     Position& to = line ? line->to : std::get<Rapid>(events.front()).to;
-    if (is_reversed(run, end, travel)) {
-      return run.fail(ErrorCode::CompCorner, 0);
-    }
+    if (is_reversed(run, end, travel)) return run.fail(ErrorCode::CompCorner, 0);
     put(run, to, end);
   }
   // Moves after it that do not move in the plane are over the same point.
@@ -152,8 +140,8 @@ bool finish_held(Run& run, PlanePoint end, double travel) {
 enum class Corner : std::uint8_t { StraightOn, Convex, Concave };
 
 struct Entry {
-  PlanePoint corner;  ///< machine coordinates
-  PlanePoint tool;
+  PlaneVector corner;  ///< machine coordinates
+  PlaneVector tool;
   double normal = 0;              ///< of the tool at the start of the next move
   std::optional<Turn> next_turn;  ///< of an arc
 };
@@ -181,7 +169,7 @@ double travel_of(const Run& run, const Entry& entry) {
 }
 
 /// About the programmed corner, at the height where the held moves end; not held itself.
-bool make_corner(Run& run, PlanePoint to, bool is_rapid, const Feed& feed) {
+bool make_corner(Run& run, PlaneVector to, bool is_rapid, const Feed& feed) {
   Target here;
   here.to = run.state.position;
   const Target target = moved_to(run, here, to);
@@ -191,10 +179,9 @@ bool make_corner(Run& run, PlanePoint to, bool is_rapid, const Feed& feed) {
   if (is_rapid) {
     rapid_to(run, target);
   } else {
-    const PlanePoint center = programmed_point(run);
-    const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::Counterclockwise;
-    const double sweep = sweep_of(center, tool_point(run), to, turn);
-    ok = arc_to(run, target, {center.first, center.second, turn, sweep}, feed);
+    const PlaneVector center = programmed_point(run);
+    const double sweep = sweep_of(center, tool_point(run), to, corner_turn(run));
+    ok = arc_to(run, target, {center.first, center.second, corner_turn(run), sweep}, feed);
   }
   if (is_lathe) {
     run.held.events().erase(run.held.events().begin());
@@ -222,7 +209,7 @@ bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const 
   if (meeting.count == 0) {
     return run.fail(next.is_circle ? ErrorCode::CompCorner : ErrorCode::CompZeroCorner, 0);
   }
-  PlanePoint best = meeting.points[0];
+  PlaneVector best = meeting.points[0];
   if (meeting.count == 2 &&
       distance(meeting.points[1], entry.corner) < distance(best, entry.corner)) {
     best = meeting.points[1];
@@ -230,8 +217,7 @@ bool join(Run& run, const Entry& entry, const Curve& next, bool is_rapid, const 
   if (is_past(entry.tool, best, travel)) return run.fail(ErrorCode::CompCorner, 0);
   if (!finish_held(run, best, travel)) return false;
   // The next move begins where the held one ended now.
-  Axes machine;
-  for (const Axis axis : kAllAxes) machine[index_of(axis)] = run.state.machine.raw(axis);
+  Axes machine = values_of(run.state.machine);
   const PlaneAxes plane = axes_of(run.state.modes.plane);
   machine[index_of(plane.first)] = best.first;
   machine[index_of(plane.second)] = best.second;
@@ -277,8 +263,8 @@ bool check_room(Run& run) {
 
 bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
   const double radius = run.state.compensation.radius;
-  const PlanePoint tool = tool_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector tool = tool_point(run);
+  const PlaneVector end = point_of(run, target.to);
   if (distance(tool, end) <= radius) return run.fail(ErrorCode::CompEntry, 0);
   const double normal = direction(tool, end) + side_sign(run) * kQuarter;
   Hold(run).line(moved_to(run, target, along(end, normal, radius)), is_rapid, feed);
@@ -287,24 +273,24 @@ bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& fe
 }
 
 /// The offset arc must begin where the tool is: its center moves along the end's normal.
-bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
-                  const Feed& feed) {
+bool enter_on_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
+                  double full_circles, const Feed& feed) {
   if (run.state.compensation.orientation != 0) {
     return run.fail(ErrorCode::CompLathe, 0, "the entry move is an arc");
   }
   const double radius = run.state.compensation.radius;
-  const PlanePoint tool = tool_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector tool = tool_point(run);
+  const PlaneVector end = point_of(run, target.to);
   if (run.state.compensation.was_on) return run.fail(ErrorCode::CompExit, 0);
   // A full circle is shorter still: it would shrink to the little arc that leads to its offset.
   if (distance(tool, end) <= radius) return run.fail(ErrorCode::CompEntry, 0);
   if (distance(center, end) <= radius) return run.fail(ErrorCode::CompArcRadius, 0);
   const double inward = direction(end, center);
-  const PlanePoint stop = along(end, is_inside(run, turn) ? inward : inward + Angle::kPi, radius);
+  const PlaneVector stop = along(end, is_inside(run, turn) ? inward : inward + Angle::kPi, radius);
   const double toward_center = direction(stop, center);
   const double cosine = std::cos(direction(stop, tool) - toward_center);
   if (std::fabs(cosine) < 1e-6) return run.fail(ErrorCode::CompArcRadius, 0);
-  const PlanePoint moved = along(stop, toward_center, distance(tool, stop) / 2 / cosine);
+  const PlaneVector moved = along(stop, toward_center, distance(tool, stop) / 2 / cosine);
   const double once = sweep_of(moved, tool, stop, turn);
   const double sweep = once + 360 * (full_circles - 1);
   run.state.compensation.held_sweep = once;
@@ -321,15 +307,14 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   const Compensation& compensation = run.state.compensation;
   if (!check_room(run)) return false;
   if (compensation.is_first) return enter_on_line(run, target, is_rapid, feed);
-  const PlanePoint start = programmed_point(run);
-  const PlanePoint end = point_of(run, target.to);
-  if (end.first == start.first && end.second == start.second) {
-    const Target over = moved_to(run, target, tool_point(run));
-    is_rapid ? rapid_to(run, over) : line_to(run, over, feed);
+  const PlaneVector start = programmed_point(run);
+  const PlaneVector end = point_of(run, target.to);
+  if (end == start) {
+    move_to(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
     return true;
   }
   const double normal = direction(start, end) + side_sign(run) * kQuarter;
-  const PlanePoint stop = along(end, normal, compensation.radius);
+  const PlaneVector stop = along(end, normal, compensation.radius);
   const double turned = run.state.rotation * (Angle::kPi / 180);
   const Entry entry{machine_point(run, start), machine_point(run, tool_point(run)), normal + turned,
                     std::nullopt};
@@ -340,13 +325,13 @@ bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& fee
   return true;
 }
 
-bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
+bool trimmed_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,
                  const Feed& feed) {
   const Compensation& compensation = run.state.compensation;
   if (!check_room(run)) return false;
   if (compensation.is_first) return enter_on_arc(run, target, center, turn, full_circles, feed);
-  const PlanePoint start = programmed_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector start = programmed_point(run);
+  const PlaneVector end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
   const double radius = distance(center, end);
   if (inside && radius <= compensation.radius) return run.fail(ErrorCode::CompArcRadius, 0);
@@ -357,7 +342,7 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
                     (inside ? outward + Angle::kPi : outward) + turned, turn};
   const Curve next{true, machine_point(run, center), 0, path};
   if (!run.held.empty() && !join(run, entry, next, false, feed)) return false;
-  const PlanePoint stop = along(center, direction(center, end), path);
+  const PlaneVector stop = along(center, direction(center, end), path);
   const double sweep = sweep_of(center, tool_point(run), stop, turn) + 360 * (full_circles - 1);
   if (!Hold(run).arc(moved_to(run, target, stop), {center.first, center.second, turn, sweep},
                      feed)) {
@@ -368,12 +353,11 @@ bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, d
   return true;
 }
 
-void go_on_from_tool(Run& run) {
+void continue_from_tool(Run& run) {
   State& state = run.state;
   const Compensation& compensation = state.compensation;
   if (!compensation.was_on) return;
-  Axes machine;
-  for (const Axis axis : kAllAxes) machine[index_of(axis)] = state.machine.raw(axis);
+  Axes machine = values_of(state.machine);
   std::copy(compensation.left.begin(), compensation.left.end(), machine.begin());
   state.position = to_program(run, machine);
   state.machine = to_machine(run, state.position);

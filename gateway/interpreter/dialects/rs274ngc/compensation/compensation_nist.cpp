@@ -4,11 +4,10 @@
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation_paths.hpp"
 
 /// The NIST program compensates line by line: convex corners get an arc, concave ones are refused
-/// (12.2, 12.3).
+/// (NIST appendix B).
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-constexpr double kQuarter = Angle::kPi / 2;
 /// Radians; corners this small are none.
 constexpr double kStraightOn = 0.01;
 
@@ -22,12 +21,6 @@ Corner corner_to(const Run& run, double normal) {
   return turn <= Angle::kPi + kStraightOn ? Corner::Convex : Corner::Concave;
 }
 
-void programmed_at(Run& run, PlanePoint at) {
-  run.state.compensation.x = at.first;
-  run.state.compensation.y = at.second;
-  run.state.compensation.is_first = false;
-}
-
 /// Both parts of a move with a corner arc share its time.
 Feed part_of(const Feed& feed, double length, double total) {
   if (feed.per() != Feed::Per::Move || length <= 0) return feed;
@@ -36,7 +29,7 @@ Feed part_of(const Feed& feed, double length, double total) {
 
 struct CornerArc {
   bool is_needed = false;
-  PlanePoint end;
+  PlaneVector end;
   double sweep = 0;
 };
 
@@ -44,10 +37,9 @@ CornerArc plan_corner(const Run& run, Corner corner, double normal) {
   CornerArc arc;
   if (corner != Corner::Convex) return arc;
   arc.is_needed = true;
-  const PlanePoint center = programmed_point(run);
+  const PlaneVector center = programmed_point(run);
   arc.end = along(center, normal, run.state.compensation.radius);
-  const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::Counterclockwise;
-  arc.sweep = sweep_of(center, tool_point(run), arc.end, turn);
+  arc.sweep = sweep_of(center, tool_point(run), arc.end, corner_turn(run));
   return arc;
 }
 
@@ -55,31 +47,22 @@ CornerArc plan_corner(const Run& run, Corner corner, double normal) {
 bool make_corner(Run& run, const CornerArc& arc, const Feed& feed) {
   Target here;
   here.to = run.state.position;
-  const PlanePoint center = programmed_point(run);
-  const Turn turn = side_sign(run) > 0 ? Turn::Clockwise : Turn::Counterclockwise;
-  return arc_to(run, moved_to(run, here, arc.end), {center.first, center.second, turn, arc.sweep},
-                feed);
+  const PlaneVector center = programmed_point(run);
+  return arc_to(run, moved_to(run, here, arc.end),
+                {center.first, center.second, corner_turn(run), arc.sweep}, feed);
 }
 
-void move_straight(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
-  if (is_rapid) {
-    rapid_to(run, target);
-  } else {
-    line_to(run, target, feed);
-  }
-}
-
-/// The line from the programmed point stays tangent to the tool where it begins (12.2).
+/// The line from the programmed point stays tangent to the tool where it begins.
 bool enter_on_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
   const double radius = run.state.compensation.radius;
-  const PlanePoint tool = tool_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector tool = tool_point(run);
+  const PlaneVector end = point_of(run, target.to);
   const double length = distance(tool, end);
   if (length <= radius) {
     return run.fail(ErrorCode::Gouging, 0, "the first move is not longer than the tool radius");
   }
   const double normal = direction(end, tool) - side_sign(run) * std::acos(radius / length);
-  move_straight(run, moved_to(run, target, along(end, normal, radius)), is_rapid, feed);
+  move_to(run, moved_to(run, target, along(end, normal, radius)), is_rapid, feed);
   programmed_at(run, end);
   return true;
 }
@@ -92,16 +75,16 @@ double corner_length(const Run& run, const CornerArc& arc) {
 
 bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
   const double radius = run.state.compensation.radius;
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector end = point_of(run, target.to);
   if (radius == 0) {
-    move_straight(run, target, is_rapid, feed);
+    move_to(run, target, is_rapid, feed);
     programmed_at(run, end);
     return true;
   }
   if (run.state.compensation.is_first) return enter_on_line(run, target, is_rapid, feed);
-  const PlanePoint start = programmed_point(run);
-  if (end.first == start.first && end.second == start.second) {
-    move_straight(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
+  const PlaneVector start = programmed_point(run);
+  if (end == start) {
+    move_to(run, moved_to(run, target, tool_point(run)), is_rapid, feed);
     return true;
   }
   const double normal = direction(start, end) + side_sign(run) * kQuarter;
@@ -113,8 +96,8 @@ bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) 
   if (arc.is_needed && !make_corner(run, arc, part_of(feed, arc_length, arc_length + length))) {
     return false;
   }
-  move_straight(run, moved_to(run, target, along(end, normal, radius)), is_rapid,
-                part_of(feed, length, arc_length + length));
+  move_to(run, moved_to(run, target, along(end, normal, radius)), is_rapid,
+          part_of(feed, length, arc_length + length));
   programmed_at(run, end);
   return true;
 }
@@ -122,13 +105,13 @@ bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed) 
 namespace {
 
 /// Center of the arc of radius R through the programmed end that touches the tool where it is.
-bool entry_center_of_radius(Run& run, PlanePoint end, Turn turn, PlanePoint& center) {
+bool entry_center_of_radius(Run& run, PlaneVector end, Turn turn, PlaneVector& center) {
   const double tool_radius = run.state.compensation.radius;
   const double written = run.mm(run.block.words['R']);
   const double radius = std::fabs(written);
   const bool inside = is_inside(run, turn);
   if (inside && radius <= tool_radius) return run.fail_word(ErrorCode::CompArcRadius, 'R');
-  const PlanePoint tool = tool_point(run);
+  const PlaneVector tool = tool_point(run);
   const double to_tool = inside ? radius - tool_radius : radius + tool_radius;
   const double apart = distance(tool, end);
   // Triangle tool, end, center with all sides known.
@@ -144,11 +127,11 @@ bool entry_center_of_radius(Run& run, PlanePoint end, Turn turn, PlanePoint& cen
   return true;
 }
 
-bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
-                  const Feed& feed) {
+bool enter_on_arc(Run& run, const Target& target, PlaneVector center, Turn turn,
+                  double full_circles, const Feed& feed) {
   const double tool_radius = run.state.compensation.radius;
-  const PlanePoint tool = tool_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector tool = tool_point(run);
+  const PlaneVector end = point_of(run, target.to);
   if (distance(tool, end) <= tool_radius) {
     return run.fail(ErrorCode::Gouging, 0, "the first move is not longer than the tool radius");
   }
@@ -164,7 +147,7 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
         ErrorCode::ArcRadiusDiffers, 0,
         fmt::format("the first arc with compensation is off by {}", off / run.state.mm_per_unit()));
   }
-  const PlanePoint stop = along(center, direction(center, end), wanted);
+  const PlaneVector stop = along(center, direction(center, end), wanted);
   const double sweep = sweep_of(center, tool, stop, turn) + 360 * (full_circles - 1);
   if (!arc_to(run, moved_to(run, target, stop), {center.first, center.second, turn, sweep}, feed)) {
     return false;
@@ -175,12 +158,12 @@ bool enter_on_arc(Run& run, const Target& target, PlanePoint center, Turn turn, 
 
 }  // namespace
 
-bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
+bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,
               const Feed& feed) {
   const Compensation& compensation = run.state.compensation;
   if (compensation.is_first) return enter_on_arc(run, target, center, turn, full_circles, feed);
-  const PlanePoint start = programmed_point(run);
-  const PlanePoint end = point_of(run, target.to);
+  const PlaneVector start = programmed_point(run);
+  const PlaneVector end = point_of(run, target.to);
   const bool inside = is_inside(run, turn);
   const double radius = distance(center, end);
   if (inside && radius <= compensation.radius) return run.fail(ErrorCode::CompArcRadius, 0);
@@ -196,7 +179,7 @@ bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, doub
   if (arc.is_needed && !make_corner(run, arc, part_of(feed, arc_length, arc_length + length))) {
     return false;
   }
-  const PlanePoint stop = along(center, direction(center, end), path);
+  const PlaneVector stop = along(center, direction(center, end), path);
   if (!arc_to(run, moved_to(run, target, stop), {center.first, center.second, turn, sweep},
               part_of(feed, length, arc_length + length))) {
     return false;

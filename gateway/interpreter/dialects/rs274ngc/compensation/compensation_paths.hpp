@@ -9,10 +9,10 @@
 namespace dripline::interpreter::rs274ngc {
 
 bool nist_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
-bool nist_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
+bool nist_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,
               const Feed& feed);
 bool trimmed_line(Run& run, const Target& target, bool is_rapid, const Feed& feed);
-bool trimmed_arc(Run& run, const Target& target, PlanePoint center, Turn turn, double full_circles,
+bool trimmed_arc(Run& run, const Target& target, PlaneVector center, Turn turn, double full_circles,
                  const Feed& feed);
 /// Ends the path where the tool is. Errors: the last move cannot be made.
 bool stop_trimming(Run& run);
@@ -21,25 +21,32 @@ bool stop_trimming(Run& run);
 void shift_held_to_tip(Run& run);
 
 /// Where the tool is, in the plane.
-PlanePoint tool_point(const Run& run);
-PlanePoint point_of(const Run& run, const Axes& axes);
+PlaneVector tool_point(const Run& run);
+PlaneVector point_of(const Run& run, const Axes& axes);
 /// The last end of the path as programmed.
-inline PlanePoint programmed_point(const Run& run) {
+inline PlaneVector programmed_point(const Run& run) {
   return {run.state.compensation.x, run.state.compensation.y};
 }
+inline void programmed_at(Run& run, PlaneVector at) {
+  run.state.compensation.x = at.first;
+  run.state.compensation.y = at.second;
+  run.state.compensation.is_first = false;
+}
 /// `target` with another point of the plane; both axes are named.
-Target moved_to(const Run& run, const Target& target, PlanePoint to);
+Target moved_to(const Run& run, const Target& target, PlaneVector to);
 /// The tool runs inside the arc.
 bool is_inside(const Run& run, Turn turn);
 /// +1 left of the path, -1 right of it.
 double side_sign(const Run& run);
-inline double distance(PlanePoint a, PlanePoint b) {
-  return std::hypot(a.first - b.first, a.second - b.second);
+/// The direction of an arc around a corner.
+inline Turn corner_turn(const Run& run) {
+  return side_sign(run) > 0 ? Turn::Clockwise : Turn::Counterclockwise;
 }
-inline double direction(PlanePoint from, PlanePoint to) {
+inline constexpr double kQuarter = Angle::kPi / 2;
+inline double direction(PlaneVector from, PlaneVector to) {
   return std::atan2(to.second - from.second, to.first - from.first);
 }
-inline PlanePoint along(PlanePoint from, double radians, double length) {
+inline PlaneVector along(PlaneVector from, double radians, double length) {
   return {from.first + length * std::cos(radians), from.second + length * std::sin(radians)};
 }
 /// In [lowest, lowest + 2 pi).

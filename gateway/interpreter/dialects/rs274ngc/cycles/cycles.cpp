@@ -16,28 +16,11 @@ namespace {
 /// Holes of one line, or pecks in all of them: keeps the events of a line bounded.
 constexpr double kMaxStrokes = 10'000;
 
-/// The letters of the plane (10.1).
-struct CycleAxes {
-  PlaneAxes plane;
-  char first, second, bottom;             ///< axis words
-  char offset_first, offset_second, top;  ///< of G87
-};
-CycleAxes axes_in(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return {axes_of(plane), 'Z', 'X', 'Y', 'K', 'I', 'J'};
-    case Plane::YZ:
-      return {axes_of(plane), 'Y', 'Z', 'X', 'J', 'K', 'I'};
-    default:
-      return {axes_of(plane), 'X', 'Y', 'Z', 'I', 'J', 'K'};
-  }
-}
-
 /// One line's cycle while it is made. Millimeters, program coordinates.
 class CycleRun {
  public:
   CycleRun(Run& run, const CycleRow& row)
-      : run_(run), row_(row), axes_(axes_in(run.state.modes.plane)) {}
+      : run_(run), row_(row), axes_(axes_of(run.state.modes.plane)) {}
 
   bool check_line();
   bool read_words();
@@ -64,7 +47,7 @@ class CycleRun {
 
   Run& run_;
   const CycleRow& row_;
-  CycleAxes axes_;
+  PlaneAxes axes_;
   SpindleState spindle_ = SpindleState::Off;
   Feed feed_;
   double first_ = 0, second_ = 0;
@@ -85,14 +68,10 @@ void CycleRun::move(double first, double second, double height, bool is_rapid) {
     coordinate = value;
     target.named = static_cast<AxisBits>(target.named | bit_of(axis));
   };
-  put(axes_.plane.first, first);
-  put(axes_.plane.second, second);
-  put(axes_.plane.normal, height);
-  if (is_rapid) {
-    rapid_to(run_, target);
-  } else {
-    line_to(run_, target, feed_);
-  }
+  put(axes_.first, first);
+  put(axes_.second, second);
+  put(axes_.normal, height);
+  move_to(run_, target, is_rapid, feed_);
 }
 
 bool CycleRun::check_line() {
@@ -111,9 +90,7 @@ bool CycleRun::check_line() {
                             fmt::format("more than {} holes", kMaxStrokes));
     }
   }
-  const auto rate = Length::mm(run_.mm(state.feed));
-  feed_ =
-      state.modes.feed == FeedMode::PerMinute ? Feed::per_minute(rate) : Feed::per_revolution(rate);
+  feed_ = run_.modal_feed();
   return true;
 }
 
@@ -125,41 +102,43 @@ bool CycleRun::check_sticky(bool is_missing, const DiagnosticRow& code, const ch
 /// The later program finds these missing only when it has gone up to R.
 bool CycleRun::check_words_of_code() {
   const bool has_offsets = words().has('I') && words().has('J') && words().has('K');
-  return check_sticky(row_.needs_p && !words().has('P'), ErrorCode::CycleMissingP, "P") &&
-         check_sticky(row_.needs_q && !words().has('Q'), ErrorCode::CycleMissingQ, "Q") &&
-         check_sticky(row_.needs_ijk && !has_offsets, ErrorCode::CycleMissingIjk, "I, J and K");
+  return check_sticky(row_.needs_p() && !words().has('P'), ErrorCode::CycleMissingP, "P") &&
+         check_sticky(row_.has(Step::Peck, Step::Chip) && !words().has('Q'),
+                      ErrorCode::CycleMissingQ, "Q") &&
+         check_sticky(row_.has(Step::BackBore) && !has_offsets, ErrorCode::CycleMissingIjk,
+                      "I, J and K");
 }
 
 /// Words of this line, or those that stay in force while the same code does.
 bool CycleRun::read_words() {
   CycleWords& cycle = run_.state.cycle;
-  const std::string bottom(1, axes_.bottom);
+  const std::string bottom(1, letter(axes_.normal));
   if (!check_sticky(!words().has('R'), ErrorCode::CycleRMissing, "R") ||
-      !check_sticky(!words().has(axes_.bottom), ErrorCode::CycleDepthMissing, bottom.c_str()) ||
+      !check_sticky(!words().has(letter(axes_.normal)), ErrorCode::CycleDepthMissing,
+                    bottom.c_str()) ||
       (!run_.is_linuxcnc() && !check_words_of_code())) {
     return false;
   }
-  run_.ledger.take(set_of(axes_.first) | set_of(axes_.second) | set_of(axes_.bottom) | kPolarWords);
+  run_.ledger.take(set_of(letter(axes_.first)) | set_of(letter(axes_.second)) |
+                   set_of(letter(axes_.normal)) | kPolarWords);
   cycle.r = words().value_or('R', cycle.r);
-  cycle.bottom = words().value_or(axes_.bottom, cycle.bottom);
+  cycle.bottom = words().value_or(letter(axes_.normal), cycle.bottom);
   cycle.p = words().value_or('P', cycle.p);
   cycle.q = words().value_or('Q', cycle.q);
   cycle.d = words().value_or('D', 0);
-  if (row_.needs_ijk) {
+  if (row_.has(Step::BackBore)) {
     cycle.i = words().value_or('I', cycle.i);
     cycle.j = words().value_or('J', cycle.j);
     cycle.k = words().value_or('K', cycle.k);
   }
   spindle_ = run_.state.spindle.state;
-  const bool is_turning =
-      spindle_ == SpindleState::Clockwise || spindle_ == SpindleState::Counterclockwise;
   if (row_.code == 840 && spindle_ != SpindleState::Clockwise) {
     return run_.fail(ErrorCode::SpindleG84, 0);
   }
   if (row_.code == 740 && spindle_ != SpindleState::Counterclockwise) {
     return run_.fail(ErrorCode::SpindleCycle, 0, "G74 needs it counterclockwise");
   }
-  if (row_.needs_spindle && !is_turning) {
+  if (row_.uses_spindle() && !run_.state.spindle.is_turning()) {
     return run_.fail(ErrorCode::SpindleCycle, 0, fmt::format("G{}", row_.code / 10.0));
   }
   return place_heights();
@@ -169,14 +148,14 @@ bool CycleRun::place_heights() {
   const State& state = run_.state;
   CycleWords& cycle = run_.state.cycle;
   const bool is_later = run_.is_linuxcnc();
-  present_ = present(axes_.plane.normal);
+  present_ = present(axes_.normal);
   if (!cycle.is_series || !is_later) cycle.initial = present_;
   cycle.is_series = true;
   level_ = cycle.initial;
-  first_ = present(axes_.plane.first);
-  second_ = present(axes_.plane.second);
-  const double first = run_.mm(words().value_or(axes_.first, 0));
-  const double second = run_.mm(words().value_or(axes_.second, 0));
+  first_ = present(axes_.first);
+  second_ = present(axes_.second);
+  const double first = run_.mm(words().value_or(letter(axes_.first), 0));
+  const double second = run_.mm(words().value_or(letter(axes_.second), 0));
   r_ = run_.mm(cycle.r);
   bottom_ = run_.mm(cycle.bottom);
   if (state.modes.is_incremental) {
@@ -185,17 +164,17 @@ bool CycleRun::place_heights() {
     r_ += level_;
     bottom_ += r_;
   } else {
-    if (words().has(axes_.first)) first_ = first;
-    if (words().has(axes_.second)) second_ = second;
+    if (words().has(letter(axes_.first))) first_ = first;
+    if (words().has(letter(axes_.second))) second_ = second;
   }
   if (r_ >= bottom_) return true;
   return run_.fail(ErrorCode::CycleRBelow, 0,
-                   fmt::format("R {} is below {} {}", cycle.r, axes_.bottom, cycle.bottom));
+                   fmt::format("R {} is below {} {}", cycle.r, letter(axes_.normal), cycle.bottom));
 }
 
 void CycleRun::raise_to_r() {
   if (level_ < r_) {
-    rapid(present(axes_.plane.first), present(axes_.plane.second), r_);
+    rapid(present(axes_.first), present(axes_.second), r_);
     level_ = present_ = r_;
   }
   clear_ = run_.state.modes.retracts_to_start ? level_ : r_;
@@ -211,8 +190,8 @@ bool CycleRun::make() {
     height = clear_;
   }
   // G88 leaves the tool to the operator; it is taken to be clear afterwards.
-  if (present(axes_.plane.normal) != clear_) {
-    run_.state[axes_.plane.normal] = clear_;
+  if (present(axes_.normal) != clear_) {
+    run_.state[axes_.normal] = clear_;
     run_.state.is_displaced = true;
     run_.state.machine = to_machine(run_, run_.state.position);
   }
@@ -261,6 +240,7 @@ bool CycleRun::make_step(Step step) {
       rapid_height(clear_);
       return true;
     case Step::Dwell:
+    case Step::DwellIfGiven:
       if (run_.state.cycle.p > 0) run_.events().on_dwell({run_.origin, run_.state.cycle.p, {}});
       return true;
     case Step::SpindleStop:
@@ -309,15 +289,16 @@ bool CycleRun::peck(bool goes_out) {
   return true;
 }
 
-/// Through the hole beside it, and up against the work from below (10.5).
+/// Through the hole beside it, and up against the work from below.
 void CycleRun::back_bore() {
   const auto word = [&](char letter) {
     const CycleWords& cycle = run_.state.cycle;
     return run_.mm(letter == 'I' ? cycle.i : letter == 'J' ? cycle.j : cycle.k);
   };
-  const double first = first_ + word(axes_.offset_first);
-  const double second = second_ + word(axes_.offset_second);
-  const double top = word(axes_.top) + (run_.state.modes.is_incremental ? bottom_ : 0);
+  const double first = first_ + word(offset_word(axes_.first));
+  const double second = second_ + word(offset_word(axes_.second));
+  const double top =
+      word(offset_word(axes_.normal)) + (run_.state.modes.is_incremental ? bottom_ : 0);
   rapid(first, second, r_);
   turn_spindle(run_, SpindleState::Oriented);
   rapid(first, second, bottom_);

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/rs274ngc/cycles/thread.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/cycles/cycles.hpp"
 
 #include <fmt/core.h>
 #include <cmath>
@@ -11,11 +11,6 @@
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-bool is_turning(const Run& run) {
-  const SpindleState state = run.state.spindle.state;
-  return state == SpindleState::Clockwise || state == SpindleState::Counterclockwise;
-}
-
 void thread_to(Run& run, const Target& target, double lead_mm) {
   if (target.to == run.state.position) return;
   const Position& to = arrive(run, target);
@@ -26,12 +21,12 @@ bool check_synchronized(Run& run) {
   const Words& words = run.block.words;
   if (words.has('F')) return run.fail_word(ErrorCode::ThreadF, 'F');
   if (!(words.value_or('K', 0) > 0)) return run.fail_word(ErrorCode::ThreadK, 'K');
-  if (!is_turning(run)) return run.fail(ErrorCode::ThreadSpindle, 0);
+  if (!run.state.spindle.is_turning()) return run.fail(ErrorCode::ThreadSpindle, 0);
   if (!shifts_moves(run)) return true;
   return run.fail(ErrorCode::CompNotAllowed, 0, "a synchronized move");
 }
 
-/// G76 in millimeters (words of 16.5). Depths count from the peak, across the drive line.
+/// G76 in millimeters. Depths count from the peak, across the drive line.
 struct ThreadCycle {
   double pitch, peak, first_depth, full_depth, degression, angle, taper_length;
   int spring_passes, taper;
@@ -178,7 +173,7 @@ bool thread_cycle(Run& run) {
   if (run.state.compensation.side != Side::Off) {
     return run.fail(ErrorCode::CompNotAllowed, 0, "G76");
   }
-  if (!is_turning(run)) return run.fail(ErrorCode::ThreadSpindle, 0, "G76");
+  if (!run.state.spindle.is_turning()) return run.fail(ErrorCode::ThreadSpindle, 0, "G76");
   ThreadCycle cycle{};
   return read_cycle(run, cycle) && ThreadPasses(run, cycle).make();
 }

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/rs274ngc/execution/arcs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/motion.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
@@ -10,22 +10,7 @@
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
-/// Offset words along the axes of the plane; the third has no meaning there.
-struct OffsetWords {
-  char first, second, other;
-};
-OffsetWords offset_words(Plane plane) {
-  switch (plane) {
-    case Plane::ZX:
-      return {'K', 'I', 'J'};
-    case Plane::YZ:
-      return {'J', 'K', 'I'};
-    default:
-      return {'I', 'J', 'K'};
-  }
-}
-
-/// What arcs may be off by (9.3).
+/// The allowed deviations of arcs.
 struct Tolerance {
   double radius;        ///< of the radii at both ends, absolute
   double spread;        ///< of the radii, as a part of the larger (the later program)
@@ -51,13 +36,9 @@ bool surely_agree(const Tolerance& limits, double at_start, double at_end) {
          off * off <= limits.radius * limits.radius * std::max(at_start, at_end);
 }
 
-bool check_radii(Run& run, PlanePoint center, PlanePoint start, PlanePoint end) {
+bool check_radii(Run& run, PlaneVector center, PlaneVector start, PlaneVector end) {
   const Tolerance limits = tolerance(run);
-  const auto square = [&](PlanePoint point) {
-    const double first = point.first - center.first;
-    const double second = point.second - center.second;
-    return first * first + second * second;
-  };
+  const auto square = [&](PlaneVector point) { return dot(point - center, point - center); };
   if (surely_agree(limits, square(start), square(end))) [[likely]]
     return true;
   const double at_start = std::sqrt(square(start));
@@ -76,22 +57,18 @@ bool check_radii(Run& run, PlanePoint center, PlanePoint start, PlanePoint end) 
                   fmt::format("{} at the start, {} at the end", at_start / unit, at_end / unit));
 }
 
-double length(double first, double second) {
-  return std::sqrt(first * first + second * second);
-}
-
 double word_in_mm(const Run& run, char word) {
   return run.mm(run.block.words.value_or(word, 0));
 }
 
-bool center_of_offsets(Run& run, const OffsetWords& offsets, PlanePoint start, PlanePoint end,
-                       PlanePoint& center) {
+bool center_of_offsets(Run& run, const PlaneAxes& axes, PlaneVector start, PlaneVector end,
+                       PlaneVector& center) {
   const Words& words = run.block.words;
-  center = {word_in_mm(run, offsets.first), word_in_mm(run, offsets.second)};
+  const char first = offset_word(axes.first), second = offset_word(axes.second);
+  center = {word_in_mm(run, first), word_in_mm(run, second)};
   if (!run.state.modes.is_arc_absolute) {
-    center.first += start.first;
-    center.second += start.second;
-  } else if (!words.has(offsets.first) || !words.has(offsets.second)) {
+    center = center + start;
+  } else if (!words.has(first) || !words.has(second)) {
     return run.fail(ErrorCode::ArcNone, 0, "G90.1 needs both offsets");
   }
   const Compensation& compensation = run.state.compensation;
@@ -99,11 +76,11 @@ bool center_of_offsets(Run& run, const OffsetWords& offsets, PlanePoint start, P
   return check_radii(run, center, start, end);
 }
 
-bool center_of_radius(Run& run, PlanePoint start, PlanePoint end, Turn turn, PlanePoint& center) {
+bool center_of_radius(Run& run, PlaneVector start, PlaneVector end, Turn turn,
+                      PlaneVector& center) {
   const double radius = word_in_mm(run, 'R');
-  const double chord_first = end.first - start.first;
-  const double chord_second = end.second - start.second;
-  const double half = length(chord_first, chord_second) / 2;
+  const PlaneVector chord = end - start;
+  const double half = length(chord) / 2;
   if (half == 0) return run.fail_word(ErrorCode::ArcSamePoint, 'R');
   const double size = std::fabs(radius);
   if (half > size * (1 + 1e-12) + tolerance(run).chord) {
@@ -114,18 +91,19 @@ bool center_of_radius(Run& run, PlanePoint start, PlanePoint end, Turn turn, Pla
   // The center lies left of the chord for short arcs ccw and long ones cw.
   const bool is_left = (turn == Turn::Counterclockwise) == (radius > 0);
   const double along = (is_left ? height : -height) / (2 * half);
-  center = {(start.first + end.first) / 2 - along * chord_second,
-            (start.second + end.second) / 2 + along * chord_first};
+  center = {(start.first + end.first) / 2 - along * chord.second,
+            (start.second + end.second) / 2 + along * chord.first};
   return true;
 }
 
-bool check_words(Run& run, const OffsetWords& offsets, bool names_plane) {
+bool check_words(Run& run, const PlaneAxes& axes, bool names_plane) {
   const Words& words = run.block.words;
   const bool has_radius = words.has('R');
   const bool has_offset = words.has_any(set_of("IJK"));
   if (has_radius && has_offset) return run.fail_word(ErrorCode::ArcMixed, 'R');
   if (!has_radius && !has_offset) return run.fail(ErrorCode::ArcNone, 0);
-  if (words.has(offsets.other)) return run.fail_word(ErrorCode::ArcOffsetPlane, offsets.other);
+  const char other = offset_word(axes.normal);
+  if (words.has(other)) return run.fail_word(ErrorCode::ArcOffsetPlane, other);
   if (names_plane || (run.is_linuxcnc() && has_offset)) return true;
   if (run.is_linuxcnc()) return run.fail_word(ErrorCode::ArcSamePoint, 'R');
   return run.fail(ErrorCode::ArcNoAxis, 0);
@@ -167,14 +145,12 @@ bool read_full_circles(Run& run, double& full_circles) {
 
 }  // namespace
 
-double sweep_of(PlanePoint center, PlanePoint start, PlanePoint end, Turn turn) {
+double sweep_of(PlaneVector center, PlaneVector start, PlaneVector end, Turn turn) {
   constexpr double kFull = 2 * Angle::kPi;
   constexpr double kSame = 1e-6;  // radians; an angle this small is a full turn
-  const PlanePoint from{start.first - center.first, start.second - center.second};
-  const PlanePoint to{end.first - center.first, end.second - center.second};
-  const double cross = from.first * to.second - from.second * to.first;
-  const double dot = from.first * to.first + from.second * to.second;
-  double sweep = std::atan2(turn == Turn::Counterclockwise ? cross : -cross, dot);
+  const PlaneVector from = start - center, to = end - center;
+  const double side = turn == Turn::Counterclockwise ? 1 : -1;
+  double sweep = std::atan2(side * cross(from, to), dot(from, to));
   if (sweep < 0) sweep += kFull;
   if (sweep <= kSame || sweep >= kFull) sweep = kFull;
   return sweep * (180 / Angle::kPi);
@@ -184,28 +160,25 @@ bool arc_move(Run& run, bool is_clockwise) {
   Target target;
   Feed feed;
   State& state = run.state;
-  if (state.modes.has_tilted_plane) {
-    return run.fail(ErrorCode::ArcTilted, 0);
-  }
+  if (state.modes.has_tilted_plane) return run.fail(ErrorCode::ArcTilted, 0);
   if (!read_feed(run, true, feed) || !read_target(run, target)) return false;
   const PlaneAxes axes = axes_of(state.modes.plane);
-  const OffsetWords offsets = offset_words(state.modes.plane);
   const bool names_plane = (target.named & (bit_of(axes.first) | bit_of(axes.second))) != 0;
-  if (!check_words(run, offsets, names_plane)) return false;
+  if (!check_words(run, axes, names_plane)) return false;
   double full_circles = 1;
   if (!read_full_circles(run, full_circles)) return false;
-  PlanePoint start{state[axes.first], state[axes.second]};
+  PlaneVector start{state[axes.first], state[axes.second]};
   const Compensation& compensation = state.compensation;
   const bool is_compensated = shifts_moves(run);
   if (is_compensated && !compensation.is_first) start = {compensation.x, compensation.y};
-  const PlanePoint end{target.to[index_of(axes.first)], target.to[index_of(axes.second)]};
+  const PlaneVector end{target.to[index_of(axes.first)], target.to[index_of(axes.second)]};
   const Turn turn = is_clockwise ? Turn::Clockwise : Turn::Counterclockwise;
-  PlanePoint center;
+  PlaneVector center;
   if (run.block.words.has('R')) {
     if (!is_compensated || !compensation.is_first || run.is_linuxcnc()) {
       if (!center_of_radius(run, start, end, turn, center)) return false;
     }
-  } else if (!center_of_offsets(run, offsets, start, end, center)) {
+  } else if (!center_of_offsets(run, axes, start, end, center)) {
     return false;
   }
   run.state.passes = 0;

@@ -15,9 +15,7 @@ constexpr std::size_t kY = index_of(Axis::Y);
 
 /// Origins have changed; the machine has not moved.
 void keep_machine(Run& run) {
-  Axes machine;
-  for (const Axis axis : kAllAxes) machine[index_of(axis)] = run.state.machine.raw(axis);
-  run.state.position = to_program(run, machine);
+  run.state.position = to_program(run, values_of(run.state.machine));
 }
 
 }  // namespace
@@ -69,11 +67,8 @@ CoordinateFrame frame_of(const Run& run) {
 }
 
 Axes machine_with_length(const Run& run) {
-  Axes machine;
-  for (const Axis axis : kAllAxes) {
-    const std::size_t i = index_of(axis);
-    machine[i] = run.state.machine.raw(axis) + run.state.tool_length[i];
-  }
+  Axes machine = values_of(run.state.machine);
+  for (std::size_t i = 0; i < kAxisCount; ++i) machine[i] += run.state.tool_length[i];
   return machine;
 }
 
@@ -200,10 +195,9 @@ Axes origin_for_current_point(Run& run, std::size_t first) {
   State& state = run.state;
   const double rotation = std::exchange(state.rotation, run.parameters[first + kSystemRotation]);
   const Axes offset = state.system_offset;
-  Axes machine;
+  Axes machine = values_of(state.machine);
   for (const Axis axis : kAllAxes) {
     const std::size_t i = index_of(axis);
-    machine[i] = state.machine.raw(axis);
     state.system_offset[i] = from_memory(run, axis, run.parameters[first + i]);
   }
   Axes program = to_program(run, machine);
@@ -343,9 +337,7 @@ bool execute_one_shot(Run& run, int g_code) {
 }
 
 void reset_coordinates(Run& run) {
-  if (!run.is_linuxcnc()) {
-    load_axis_offsets(run, false);
-  }
+  if (!run.is_linuxcnc()) load_axis_offsets(run, false);
   if (run.state.system != 1) load_system(run, 1);
 }
 

@@ -3,7 +3,8 @@
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
 /// Program coordinates and machine coordinates, and the codes that change how they depend on each
-/// other (7.2 to 7.5, 8, 15.4). machine = rotated(program + G92 offset) + origin of the system.
+/// other (NIST 3.5; LinuxCNC: G10, G92). machine = rotated(program + G92 offset) + origin of the
+/// system.
 namespace dripline::interpreter::rs274ngc {
 
 /// Machine coordinates of a program point; no axis is marked as moved that was not.

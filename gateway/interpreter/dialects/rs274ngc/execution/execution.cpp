@@ -3,14 +3,9 @@
 #include <fmt/format.h>
 
 #include "gateway/interpreter/dialects/rs274ngc/cycles/cycles.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/cycles/thread.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/arcs.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/modes.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/motion.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/probe.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/reading/comments.hpp"
 

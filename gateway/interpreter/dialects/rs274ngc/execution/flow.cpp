@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gateway/interpreter/dialects/rs274ngc/execution/machine_functions.hpp"
@@ -26,28 +27,20 @@ TextPlace cache_key(const Skip& skip) {
 }
 
 bool is_wanted(SkipFor until, Oword word) {
-  switch (until) {
-    case SkipFor::EndOfSub:
-      return word == Oword::EndSub;
-    case SkipFor::Branch:
-      return word == Oword::ElseIf || word == Oword::Else || word == Oword::EndIf;
-    case SkipFor::EndOfIf:
-      return word == Oword::EndIf;
-    case SkipFor::EndOfWhile:
-      return word == Oword::EndWhile;
-    case SkipFor::EndOfRepeat:
-      return word == Oword::EndRepeat;
-    case SkipFor::EndOfDo:
-    case SkipFor::TestOfDo:
-      return word == Oword::While;
-    case SkipFor::FileSub:
-    case SkipFor::LaterSub:
-      return word == Oword::Sub;
-    case SkipFor::FanucLabel:
-      return word == Oword::Alone;
-    default:
-      return false;
-  }
+  if (until == SkipFor::Branch)
+    return word == Oword::ElseIf || word == Oword::Else || word == Oword::EndIf;
+  struct Row {
+    SkipFor until;
+    Oword word;
+  };
+  constexpr std::array kRows{
+      Row{SkipFor::EndOfSub, Oword::EndSub},     Row{SkipFor::EndOfIf, Oword::EndIf},
+      Row{SkipFor::EndOfWhile, Oword::EndWhile}, Row{SkipFor::EndOfRepeat, Oword::EndRepeat},
+      Row{SkipFor::EndOfDo, Oword::While},       Row{SkipFor::TestOfDo, Oword::While},
+      Row{SkipFor::FileSub, Oword::Sub},         Row{SkipFor::LaterSub, Oword::Sub},
+      Row{SkipFor::FanucLabel, Oword::Alone}};
+  return std::any_of(kRows.begin(), kRows.end(),
+                     [=](const Row& row) { return row.until == until && row.word == word; });
 }
 
 /// Words of the same label that may appear between.
@@ -59,7 +52,7 @@ bool is_passed(SkipFor until, Oword word) {
 }
 
 /// M98 has found a subprogram of O call, or the reverse.
-bool is_other_way_to_call(SkipFor until, Oword word) {
+bool is_called_otherwise(SkipFor until, Oword word) {
   if (until == SkipFor::FanucLabel) return word == Oword::Sub;
   return (until == SkipFor::FileSub || until == SkipFor::LaterSub) && word == Oword::Alone;
 }
@@ -82,14 +75,8 @@ bool lands_on_line(SkipFor until) {
 }
 
 SkipFor end_of(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::While:
-      return SkipFor::EndOfWhile;
-    case BlockKind::Do:
-      return SkipFor::EndOfDo;
-    default:
-      return SkipFor::EndOfRepeat;
-  }
+  if (kind == BlockKind::While) return SkipFor::EndOfWhile;
+  return kind == BlockKind::Do ? SkipFor::EndOfDo : SkipFor::EndOfRepeat;
 }
 
 }  // namespace
@@ -165,7 +152,7 @@ bool Flow::pass_over() {
     return !is_nested || refuse(ErrorCode::OwordSubHere, head, "within another");
   }
   if (!is_wanted(state.skip.until, head.word)) {
-    if (is_other_way_to_call(state.skip.until, head.word)) {
+    if (is_called_otherwise(state.skip.until, head.word)) {
       return refuse(ErrorCode::OwordMixed, head, "");
     }
     if (is_passed(state.skip.until, head.word)) return true;
@@ -199,7 +186,7 @@ bool Flow::end_of_text() {
       state.demarcation == Demarcation::Percent ? ErrorCode::NoPercent : ErrorCode::NoEnd, 0);
 }
 
-/// Told at the call.
+/// Reported at the call.
 bool Flow::refuse_missing_sub() {
   const TextPlace& call = run_.state.skip.from;
   run_.origin.line = call.line;
@@ -249,38 +236,22 @@ void Flow::reset() {
 bool Flow::execute(const char* at) {
   OwordHead head;
   if (!read_oword(run_, at, head)) return false;
-  switch (head.word) {
-    case Oword::Alone:
-      return end_of_oword(run_, head.after);
-    case Oword::Sub:
-      return begin_sub(head);
-    case Oword::EndSub:
-      return end_sub(head);
-    case Oword::Return:
-      return leave_sub(head);
-    case Oword::Call:
-      return call(head);
-    case Oword::If:
-      return begin_if(head);
-    case Oword::ElseIf:
-    case Oword::Else:
-      return next_branch(head);
-    case Oword::EndIf:
-      return end_if(head);
-    case Oword::While:
-      return begin_while(head);
-    case Oword::Do:
-      return begin_do(head);
-    case Oword::Repeat:
-      return begin_repeat(head);
-    case Oword::EndWhile:
-    case Oword::EndRepeat:
-      return end_loop(head);
-    case Oword::Break:
-    case Oword::Continue:
-      return leave_loop(head);
-    case Oword::None:
-      break;
+  if (head.word == Oword::Alone) return end_of_oword(run_, head.after);
+  struct Row {
+    Oword word;
+    bool (Flow::*execute)(const OwordHead&);
+  };
+  static constexpr std::array kRows{
+      Row{Oword::Sub, &Flow::begin_sub},      Row{Oword::EndSub, &Flow::end_sub},
+      Row{Oword::Return, &Flow::leave_sub},   Row{Oword::Call, &Flow::call},
+      Row{Oword::If, &Flow::begin_if},        Row{Oword::ElseIf, &Flow::next_branch},
+      Row{Oword::Else, &Flow::next_branch},   Row{Oword::EndIf, &Flow::end_if},
+      Row{Oword::While, &Flow::begin_while},  Row{Oword::EndWhile, &Flow::end_loop},
+      Row{Oword::Do, &Flow::begin_do},        Row{Oword::Repeat, &Flow::begin_repeat},
+      Row{Oword::EndRepeat, &Flow::end_loop}, Row{Oword::Break, &Flow::leave_loop},
+      Row{Oword::Continue, &Flow::leave_loop}};
+  for (const Row& row : kRows) {
+    if (row.word == head.word) return (this->*row.execute)(head);
   }
   return refuse(ErrorCode::OwordUnknown, head);
 }
@@ -394,15 +365,10 @@ bool Flow::end_loop(const OwordHead& head) {
     return refuse(ErrorCode::OwordUnmatched, head, is_while ? "endwhile" : "endrepeat");
   }
   if (!end_of_oword(run_, head.after)) return false;
-  if (is_while) {
-    run_.next = frame->head;
-    return count_pass();
-  }
-  if (frame->left == 0) {
+  if (!is_while && frame->left-- == 0) {
     run_.state.frames.pop_back();
     return true;
   }
-  --frame->left;
   run_.next = frame->head;
   return count_pass();
 }

@@ -5,8 +5,8 @@
 #include "gateway/interpreter/dialects/rs274ngc/reading/oword_reader.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Loops, conditions, subprograms (16.3). A place that the program goes to is looked for by passing
-/// over lines, as they arrive, and then kept: the second pass of a loop jumps.
+/// Loops, conditions, subprograms (LinuxCNC: O-codes). A place that the program goes to is looked
+/// for by passing over lines, as they arrive, and then kept: the second pass of a loop jumps.
 namespace dripline::interpreter::rs274ngc {
 
 class Flow {

@@ -5,17 +5,12 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/modes.hpp"
-#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/memory/tool_table.hpp"
 
 namespace dripline::interpreter::rs274ngc {
 namespace {
-
-bool is_turning(const SpindleModes& spindle) {
-  return spindle.state == SpindleState::Clockwise ||
-         spindle.state == SpindleState::Counterclockwise;
-}
 
 void show_spindle(Run& run) {
   const SpindleModes& spindle = run.state.spindle;
@@ -67,7 +62,7 @@ bool change_tool(Run& run, int code) {
     }
     state.tool.loaded = static_cast<int>(number);
   } else {
-    if (is_turning(state.spindle)) turn_spindle(run, SpindleState::Off);
+    if (state.spindle.is_turning()) turn_spindle(run, SpindleState::Off);
     state.tool.loaded = state.tool.selected;
   }
   run.events().on_tool({run.origin, state.tool.loaded, false, {}});
@@ -75,7 +70,7 @@ bool change_tool(Run& run, int code) {
     run.events().on_stop({run.origin, StopKind::ToolChange});
   }
   // A move of the same line still begins at the programmed place.
-  if (run.is_linuxcnc() && run.block.motion < 0) go_on_from_tool(run);
+  if (run.is_linuxcnc() && run.block.motion < 0) continue_from_tool(run);
   return true;
 }
 
@@ -199,7 +194,7 @@ bool apply_speed_and_tool(Run& run) {
     spindle.speed = words['S'];
     // A spindle that this line starts shows its speed then.
     const int code = run.block.m(MGroup::Spindle);
-    if (changes && is_turning(spindle) && (code < 3 || code > 5)) show_spindle(run);
+    if (changes && spindle.is_turning() && (code < 3 || code > 5)) show_spindle(run);
   }
   return !words.has('T') || select_tool(run);
 }

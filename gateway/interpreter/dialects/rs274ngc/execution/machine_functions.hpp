@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Spindle, tools, coolant, inputs and outputs, stops (6, 11, 16.5).
+/// Spindle, tools, coolant, inputs and outputs, stops (NIST 3.6, 3.7).
 namespace dripline::interpreter::rs274ngc {
 
 /// Shows and keeps a new state of the spindle.
@@ -21,7 +21,7 @@ OverrideInhibit override_inhibit(const Run& run);
 
 /// M0, M1, M60, M2, M30.
 bool apply_stops(Run& run);
-/// What M2, M30 and the end of a program leave after (11.3).
+/// What M2, M30 and the end of a program reset (NIST 3.6.1).
 bool reset_at_end(Run& run);
 
 void save_modes(const Run& run, SavedModes& saved);

@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/rs274ngc/execution/modes.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/execution/execution.hpp"
 
 #include "gateway/interpreter/dialects/rs274ngc/compensation/compensation.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/coordinates.hpp"

@@ -42,7 +42,7 @@ void read_rare_axes(const Run& run, Target& target, bool is_incremental) {
   }
 }
 
-/// @ and ^: distance and angle of the end point about the origin (16.5).
+/// @ and ^: distance and angle of the end point about the origin.
 bool read_polar(Run& run, Target& target) {
   if (!check_polar_words(run)) return false;
   const Words& words = run.block.words;
@@ -63,7 +63,7 @@ bool read_polar(Run& run, Target& target) {
   return true;
 }
 
-/// G53: the words are machine coordinates with the tool length on top (7.4).
+/// G53: the words are machine coordinates with the tool length on top.
 bool read_machine_target(Run& run, Target& target) {
   const Words& words = run.block.words;
   if (shifts_moves(run)) return run.fail(ErrorCode::CompG53, 0);
@@ -143,9 +143,7 @@ bool read_feed(Run& run, bool is_arc, Feed& feed) {
   if (state.feed == 0) {
     return run.fail(is_arc ? ErrorCode::ZeroFeedArc : ErrorCode::ZeroFeedG1, 0);
   }
-  const auto rate = Length::mm(run.mm(state.feed));
-  feed =
-      state.modes.feed == FeedMode::PerMinute ? Feed::per_minute(rate) : Feed::per_revolution(rate);
+  feed = run.modal_feed();
   return true;
 }
 
@@ -158,11 +156,7 @@ bool straight_move(Run& run, int motion) {
     run.state.passes = 0;
     return compensated_line(run, target, motion == 0, feed);
   }
-  if (motion == 0) {
-    rapid_to(run, target);
-  } else {
-    line_to(run, target, feed);
-  }
+  move_to(run, target, motion == 0, feed);
   return true;
 }
 
@@ -216,6 +210,10 @@ void rapid_to(Run& run, const Target& target) {
 
 void line_to(Run& run, const Target& target, const Feed& feed) {
   line_to(run, target, feed, run.rests_at_end());
+}
+
+void move_to(Run& run, const Target& target, bool is_rapid, const Feed& feed) {
+  is_rapid ? rapid_to(run, target) : line_to(run, target, feed);
 }
 
 void line_to(Run& run, const Target& target, const Feed& feed, bool rests) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
+
+#include "gateway/interpreter/core/geometry/plane_vector.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Straight moves, and how all moves reach the sink (9.1, 9.2).
+/// Straight moves, arcs and probing, and how all moves reach the sink (NIST 3.5).
 namespace dripline::interpreter::rs274ngc {
 
 using AxisBits = std::uint16_t;
@@ -32,6 +35,7 @@ bool home_move(Run& run, int g_code);
 /// These move the state along and deliver the event; a move of no length is none.
 void rapid_to(Run& run, const Target& target);
 void line_to(Run& run, const Target& target, const Feed& feed);
+void move_to(Run& run, const Target& target, bool is_rapid, const Feed& feed);
 /// One of the pieces that a curve is made of comes to rest only where the curve ends.
 void line_to(Run& run, const Target& target, const Feed& feed, bool rests);
 /// Arrives there and gives the machine point: for events made elsewhere.
@@ -43,5 +47,22 @@ struct ArcShape {
   double sweep = 0;  ///< degrees, > 0
 };
 bool arc_to(Run& run, const Target& target, const ArcShape& shape, const Feed& feed);
+/// The word of the center along an axis: I, J, K for X, Y, Z.
+constexpr char offset_word(Axis axis) {
+  return static_cast<char>('I' + index_of(axis));
+}
+
+/// G2 and G3; arcs.cpp.
+bool arc_move(Run& run, bool is_clockwise);
+
+/// Degrees from `start` to `end` about `center` in the direction of `turn`; a full turn when the
+/// two are as good as the same. Pure.
+double sweep_of(PlaneVector center, PlaneVector start, PlaneVector end, Turn turn);
+inline double distance(PlaneVector a, PlaneVector b) {
+  return std::hypot(a.first - b.first, a.second - b.second);
+}
+
+/// G38.2 to G38.5 (probe.cpp). Asks for the probe's result; with the answer the line is finished.
+bool probe_move(Run& run, int g_code);
 
 }  // namespace dripline::interpreter::rs274ngc

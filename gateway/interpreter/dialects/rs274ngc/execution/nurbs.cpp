@@ -1,10 +1,8 @@
-#include "gateway/interpreter/dialects/rs274ngc/execution/nurbs.hpp"
 
 #include <fmt/core.h>
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/interpreter/dialects/rs274ngc/execution/curve_pieces.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/execution/splines.hpp"
 
 namespace dripline::interpreter::rs274ngc {
@@ -24,7 +22,7 @@ class BSpline {
   int degree() const { return degree_; }
 
   /// Within the span from knot `span` to the next one.
-  PlanePoint at(int span, double u) const {
+  PlaneVector at(int span, double u) const {
     std::array<ControlPoint, kMaxOrder> sums;
     for (int j = 0; j <= degree_; ++j) sums[index(j)] = weighted(points_[index(span + j)]);
     for (int round = 1; round <= degree_; ++round) {
@@ -80,7 +78,7 @@ bool check_feed(Run& run) {
   return run.state.modes.feed == FeedMode::InverseTime || read_feed(run, false, feed);
 }
 
-bool flatten(Run& run, const BSpline& spline, std::vector<PlanePoint>& points) {
+bool flatten(Run& run, const BSpline& spline, std::vector<PlaneVector>& points) {
   const double step = 1.0 / spline.degree();  // curves of a high degree turn often
   for (int span = 0; span < spline.spans(); ++span) {
     const Curve curve = [&](double u) { return spline.at(span, u); };
@@ -136,7 +134,7 @@ bool make_nurbs(Run& run) {
   }
   Feed feed;
   if (!check_spline(run) || !read_feed(run, false, feed)) return false;
-  std::vector<PlanePoint> points;
+  std::vector<PlaneVector> points;
   if (!flatten(run, BSpline(nurbs), points)) return false;
   points.back() = {nurbs.points.back().x, nurbs.points.back().y};
   nurbs.points.clear();

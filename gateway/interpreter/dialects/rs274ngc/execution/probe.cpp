@@ -1,4 +1,3 @@
-#include "gateway/interpreter/dialects/rs274ngc/execution/probe.hpp"
 
 #include <cmath>
 
@@ -44,9 +43,7 @@ bool ask_probe(Run& run, const Target& target, int g_code) {
   probe.from = run.state.machine;
   probe.to = marked(to_machine(run, target.to), target);
   probe.until = g_code <= 383 ? ProbeUntil::Contact : ProbeUntil::Release;
-  const auto rate = Length::mm(run.mm(run.state.feed));
-  probe.feed = run.state.modes.feed == FeedMode::PerMinute ? Feed::per_minute(rate)
-                                                           : Feed::per_revolution(rate);
+  probe.feed = run.modal_feed();
   return run.ask(ProbeQuestion{probe});
 }
 

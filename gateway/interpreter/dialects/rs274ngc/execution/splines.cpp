@@ -2,22 +2,20 @@
 
 #include <fmt/core.h>
 
-#include "gateway/interpreter/dialects/rs274ngc/execution/curve_pieces.hpp"
-
 namespace dripline::interpreter::rs274ngc {
 namespace {
 
 /// A cubic curve by its end points and the two points that pull it.
 struct Cubic {
-  PlanePoint start, first, second, end;
+  PlaneVector start, first, second, end;
 
-  PlanePoint at(double t) const {
+  PlaneVector at(double t) const {
     const double s = 1 - t;
-    const auto mix = [&](double PlanePoint::*axis) {
+    const auto mix = [&](double PlaneVector::*axis) {
       return s * s * s * start.*axis + 3 * s * s * t * first.*axis + 3 * s * t * t * second.*axis +
              t * t * t * end.*axis;
     };
-    return {mix(&PlanePoint::first), mix(&PlanePoint::second)};
+    return {mix(&PlaneVector::first), mix(&PlaneVector::second)};
   }
 };
 
@@ -48,11 +46,11 @@ bool read_quadratic(Run& run, Cubic& curve) {
   if (!words.has('I') && !words.has('J')) {
     return run.fail(ErrorCode::SplineWords, 0, "G5.1 needs I or J");
   }
-  const PlanePoint pull{curve.start.first + run.mm(words.value_or('I', 0)),
-                        curve.start.second + run.mm(words.value_or('J', 0))};
-  const auto toward = [&](PlanePoint from) {
-    return PlanePoint{from.first + (pull.first - from.first) * 2 / 3,
-                      from.second + (pull.second - from.second) * 2 / 3};
+  const PlaneVector pull{curve.start.first + run.mm(words.value_or('I', 0)),
+                         curve.start.second + run.mm(words.value_or('J', 0))};
+  const auto toward = [&](PlaneVector from) {
+    return PlaneVector{from.first + (pull.first - from.first) * 2 / 3,
+                       from.second + (pull.second - from.second) * 2 / 3};
   };
   curve.first = toward(curve.start);
   curve.second = toward(curve.end);
@@ -85,7 +83,7 @@ bool spline_move(Run& run, int g_code) {
   curve.start = {state[Axis::X], state[Axis::Y]};
   curve.end = {target.to[index_of(Axis::X)], target.to[index_of(Axis::Y)]};
   if (!(g_code == 50 ? read_cubic(run, curve) : read_quadratic(run, curve))) return false;
-  std::vector<PlanePoint> points;
+  std::vector<PlaneVector> points;
   add_pieces([&](double t) { return curve.at(t); }, 0, 1, run.options.spline_tolerance, points);
   points.back() = curve.end;
   return follow_points(run, points, feed);

@@ -10,7 +10,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/state.hpp"
 
-/// Named parameters (16.1): `#<_name>` is global, `#<name>` belongs to the call it was made in.
+/// Named parameters (LinuxCNC): `#<_name>` is global, `#<name>` belongs to the call it was made in.
 /// Names are met by their number, so a loop looks up a name only by one hash of its letters.
 namespace dripline::interpreter::rs274ngc {
 

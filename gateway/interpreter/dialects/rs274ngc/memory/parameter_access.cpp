@@ -69,36 +69,21 @@ double absolute(const Run& run) {
 }
 using R = const Run&;
 double radius_mode(R run) {
-  switch (run.state.compensation.side) {
-    case Side::Left:
-      return 410;
-    case Side::Right:
-      return 420;
-    default:
-      return 400;
-  }
+  return 400 + 10 * static_cast<int>(run.state.compensation.side);  // off, left, right
 }
 double system_code(R run) {
   const int system = run.state.system;
   return system <= 6 ? 530 + 10 * system : 584 + system;
 }
 double plane_code(R run) {
-  switch (run.state.modes.plane) {
-    case Plane::ZX:
-      return 180;
-    case Plane::YZ:
-      return 190;
-    default:
-      return 170;
-  }
+  return 170 + 10 * static_cast<int>(run.state.modes.plane);  // XY, ZX, YZ
 }
 
 constexpr std::array kSystemNames{
     SystemName{"_vmajor", [](R) { return 2.9; }},
     SystemName{"_vminor", [](R) { return 0.0; }},
     SystemName{"_line", [](R run) { return static_cast<double>(run.origin.line); }},
-    SystemName{"_motion_mode",
-               [](R run) { return double{static_cast<double>(run.state.modes.motion)}; }},
+    SystemName{"_motion_mode", [](R run) { return static_cast<double>(run.state.modes.motion); }},
     SystemName{"_plane", plane_code},
     SystemName{"_ccomp", radius_mode},
     SystemName{"_metric", [](R run) { return flag(run.state.units == Units::Millimeter); }},
@@ -120,11 +105,7 @@ constexpr std::array kSystemNames{
     SystemName{"_ijk_absolute_mode", [](R run) { return flag(run.state.modes.is_arc_absolute); }},
     SystemName{"_lathe_diameter_mode", [](R run) { return flag(run.state.modes.is_diameter); }},
     SystemName{"_lathe_radius_mode", [](R run) { return flag(!run.state.modes.is_diameter); }},
-    SystemName{"_spindle_on",
-               [](R run) {
-                 return flag(run.state.spindle.state == SpindleState::Clockwise ||
-                             run.state.spindle.state == SpindleState::Counterclockwise);
-               }},
+    SystemName{"_spindle_on", [](R run) { return flag(run.state.spindle.is_turning()); }},
     SystemName{"_spindle_cw",
                [](R run) { return flag(run.state.spindle.state == SpindleState::Clockwise); }},
     SystemName{"_mist", [](R run) { return flag(run.state.mist); }},

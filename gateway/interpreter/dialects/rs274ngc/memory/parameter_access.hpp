@@ -5,7 +5,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
 /// Reading and setting parameters by number and by name, those that show the state included
-/// (3.5, 16.1, 16.2).
+/// (NIST 3.2.1; LinuxCNC: named parameters).
 namespace dripline::interpreter::rs274ngc {
 
 /// `index` is whole, but may be any number.

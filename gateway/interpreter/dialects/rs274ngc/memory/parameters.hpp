@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-/// The numbered parameters (3.5). Lengths stored by the control (home points, offsets, origins) are
-/// in machine units.
+/// The numbered parameters (NIST 3.2.1). Lengths stored by the control (home points, offsets,
+/// origins) are in machine units.
 namespace dripline::interpreter::rs274ngc {
 
 inline constexpr int kNistParameters = 5400;

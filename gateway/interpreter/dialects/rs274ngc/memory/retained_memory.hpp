@@ -6,7 +6,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/memory/parameters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/options.hpp"
 
-/// What the control keeps when a program is over (spec 3.5, 15.4). In its parameter file: the
+/// What the control keeps when a program is over (NIST 3.2.1). In its parameter file: the
 /// points of G28 and G30, G92, the coordinate systems, and of the free parameters those that the
 /// file lists, here the setup's variables; all others from #31 up until power off. Its tool table:
 /// what G10 has written.

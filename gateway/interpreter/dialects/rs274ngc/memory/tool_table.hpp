@@ -2,8 +2,9 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// The tool table, and what G10 does to it (15.4). It begins as the setup has it; what a program
-/// writes holds for the rest of the run. A length in force changes with the next G43.
+/// The tool table, and what G10 does to it (LinuxCNC, as measured). It begins as the setup has it;
+/// what a program writes holds for the rest of the run. A length in force changes with the next
+/// G43.
 namespace dripline::interpreter::rs274ngc {
 
 /// The row of a tool, or nullptr.

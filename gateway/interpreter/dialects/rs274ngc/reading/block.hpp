@@ -79,7 +79,7 @@ struct Block {
   std::uint8_t m_groups = 0;
   std::uint8_t m_count = 0;
   std::uint8_t setting_count = 0;
-  int motion = kNone;               ///< decided for this line (4.2)
+  int motion = kNone;               ///< decided for this line
   const GRow* axis_user = nullptr;  ///< the one-shot that takes the axis words
   AddressSet words_taken = 0;       ///< words that the codes of the line take
   std::array<std::int16_t, kGGroups> g_codes{};

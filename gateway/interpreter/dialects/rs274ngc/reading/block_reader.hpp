@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// One line of text to words, settings, codes and a comment (2.2, 2.3). Nothing is executed, no
+/// One line of text to words, settings, codes and a comment (NIST 3.3). Nothing is executed, no
 /// parameter changes.
 namespace dripline::interpreter::rs274ngc {
 
@@ -14,5 +14,9 @@ bool read_line_head(Run& run, const char*& at, bool& is_skip);
 
 /// Moves after blanks and comments.
 bool skip_comments(Run& run, const char*& at);
+
+/// What a line means, before anything of it is executed: which motion its axis words belong to
+/// (NIST 3.4), and whether every word has a user; check.cpp.
+bool check_line(Run& run);
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Blanks vanish everywhere outside comments, case does not matter (2.2). All texts here end in a
-/// byte that can be read and ends a line.
+/// Blanks vanish everywhere outside comments, case does not matter (NIST 3.3). All texts here end
+/// in a byte that can be read and ends a line.
 namespace dripline::interpreter::rs274ngc {
 
 inline bool is_blank(char c) {

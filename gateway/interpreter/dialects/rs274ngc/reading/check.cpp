@@ -1,4 +1,4 @@
-#include "gateway/interpreter/dialects/rs274ngc/reading/check.hpp"
+#include "gateway/interpreter/dialects/rs274ngc/reading/block_reader.hpp"
 
 #include <fmt/core.h>
 #include <cmath>

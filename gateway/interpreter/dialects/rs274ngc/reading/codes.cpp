@@ -6,188 +6,128 @@ namespace dripline::interpreter::rs274ngc {
 namespace {
 
 using enum GGroup;
-using M = MGroup;
 constexpr auto kBoth = Profile::Nist;
 constexpr auto kLater = Profile::LinuxCnc;
 
-constexpr GRow g(int code, GGroup group, Profile since, const char* words, bool axes = false) {
-  return {static_cast<std::int16_t>(code), group, since, set_of(words), axes};
-}
-constexpr MRow m(int code, MGroup group, Profile since, const char* words) {
-  return {static_cast<std::int16_t>(code), group, since, set_of(words)};
-}
+template <class Row>
+struct Table {
+  static constexpr std::uint8_t kNoRow = 255;
 
-constexpr std::array kG{
-    g(0, Motion, kBoth, ""),
-    g(10, Motion, kBoth, ""),
-    g(20, Motion, kBoth, "IJKRP"),
-    g(30, Motion, kBoth, "IJKRP"),
-    g(40, OneShot, kBoth, "P"),
-    g(50, Motion, kLater, "IJPQ"),
-    g(51, Motion, kLater, "IJ"),
-    g(52, Motion, kLater, "LP"),
-    g(53, Motion, kLater, ""),
-    g(70, Lathe, kLater, ""),
-    g(80, Lathe, kLater, ""),
-    g(100, OneShot, kBoth, "LPRIJQ", true),
-    g(170, Plane, kBoth, ""),
-    g(171, Plane, kLater, ""),
-    g(180, Plane, kBoth, ""),
-    g(181, Plane, kLater, ""),
-    g(190, Plane, kBoth, ""),
-    g(191, Plane, kLater, ""),
-    g(200, Units, kBoth, ""),
-    g(210, Units, kBoth, ""),
-    g(280, OneShot, kBoth, "", true),
-    g(281, OneShot, kLater, "", true),
-    g(300, OneShot, kBoth, "", true),
-    g(301, OneShot, kLater, "", true),
-    g(330, Motion, kLater, "K"),
-    g(331, Motion, kLater, "KI"),
-    g(382, Motion, kBoth, ""),
-    g(383, Motion, kLater, ""),
-    g(384, Motion, kLater, ""),
-    g(385, Motion, kLater, ""),
-    g(400, Radius, kBoth, ""),
-    g(410, Radius, kBoth, "D"),
-    g(411, Radius, kLater, "DL"),
-    g(420, Radius, kBoth, "D"),
-    g(421, Radius, kLater, "DL"),
-    g(430, GGroup::Length, kBoth, "H"),
-    g(431, GGroup::Length, kLater, "", true),
-    g(432, GGroup::Length, kLater, "H"),
-    g(490, GGroup::Length, kBoth, ""),
-    g(520, OneShot, kLater, "", true),
-    g(530, OneShot, kBoth, ""),
-    g(540, System, kBoth, ""),
-    g(550, System, kBoth, ""),
-    g(560, System, kBoth, ""),
-    g(570, System, kBoth, ""),
-    g(580, System, kBoth, ""),
-    g(590, System, kBoth, ""),
-    g(591, System, kBoth, ""),
-    g(592, System, kBoth, ""),
-    g(593, System, kBoth, ""),
-    g(610, Path, kBoth, ""),
-    g(611, Path, kBoth, ""),
-    g(640, Path, kBoth, "PQ"),
-    g(730, Motion, kLater, "RLQD"),
-    g(740, Motion, kLater, "RLPF"),
-    g(760, Motion, kLater, "PIJKRQHEL"),
-    g(800, Motion, kBoth, ""),
-    g(810, Motion, kBoth, "RL"),
-    g(820, Motion, kBoth, "RLP"),
-    g(830, Motion, kBoth, "RLQD"),
-    g(840, Motion, kBoth, "RLP"),
-    g(850, Motion, kBoth, "RL"),
-    g(860, Motion, kBoth, "RLP"),
-    g(870, Motion, kBoth, "RLIJK"),
-    g(880, Motion, kBoth, "RLP"),
-    g(890, Motion, kBoth, "RLP"),
-    g(900, Distance, kBoth, ""),
-    g(901, ArcDistance, kLater, ""),
-    g(910, Distance, kBoth, ""),
-    g(911, ArcDistance, kLater, ""),
-    g(920, OneShot, kBoth, "", true),
-    g(921, OneShot, kBoth, ""),
-    g(922, OneShot, kBoth, ""),
-    g(923, OneShot, kBoth, ""),
-    g(930, FeedMode, kBoth, ""),
-    g(940, FeedMode, kBoth, ""),
-    g(950, FeedMode, kLater, ""),
-    g(960, SpindleMode, kLater, "D"),
-    g(970, SpindleMode, kLater, ""),
-    g(980, Retract, kBoth, ""),
-    g(990, Retract, kBoth, ""),
+  constexpr Table() { index.fill(kNoRow); }
+  constexpr void add(const Row& row) {
+    index[static_cast<std::size_t>(row.code)] = size;
+    rows[size++] = row;
+  }
+  const Row* find(int code, Profile profile) const {
+    const std::uint8_t at = index[static_cast<std::size_t>(code)];
+    return at == kNoRow || rows[at].since > profile ? nullptr : &rows[at];
+  }
+
+  std::array<std::uint8_t, 1000> index{};
+  std::array<Row, 100> rows{};
+  std::uint8_t size = 0;
 };
 
-constexpr std::array kM{
-    m(0, M::Stop, kBoth, ""),
-    m(1, M::Stop, kBoth, ""),
-    m(2, M::Stop, kBoth, ""),
-    m(3, M::Spindle, kBoth, ""),
-    m(4, M::Spindle, kBoth, ""),
-    m(5, M::Spindle, kBoth, ""),
-    m(6, M::Tool, kBoth, ""),
-    m(7, M::Coolant, kBoth, ""),
-    m(8, M::Coolant, kBoth, ""),
-    m(9, M::Coolant, kBoth, ""),
-    m(19, M::Spindle, kLater, "RPQ"),
-    m(30, M::Stop, kBoth, ""),
-    m(48, M::Override, kBoth, ""),
-    m(49, M::Override, kBoth, ""),
-    m(50, M::Override, kLater, "P"),
-    m(51, M::Override, kLater, "P"),
-    m(52, M::Override, kLater, "P"),
-    m(53, M::Override, kLater, "P"),
-    m(60, M::Stop, kBoth, ""),
-    m(61, M::Tool, kLater, "Q"),
-    m(62, M::InputOutput, kLater, "P"),
-    m(63, M::InputOutput, kLater, "P"),
-    m(64, M::InputOutput, kLater, "P"),
-    m(65, M::InputOutput, kLater, "P"),
-    m(66, M::InputOutput, kLater, "PELQ"),
-    m(67, M::InputOutput, kLater, "EQ"),
-    m(68, M::InputOutput, kLater, "EQ"),
-    m(70, M::State, kLater, ""),
-    m(71, M::State, kLater, ""),
-    m(72, M::State, kLater, ""),
-    m(73, M::State, kLater, ""),
-    m(98, M::Stop, kLater, "PL"),
-    m(99, M::Stop, kLater, ""),
-};
+/// Codes of one group that take the same words are one line.
+constexpr Table<GRow> kG = [] {
+  Table<GRow> table;
+  const auto add_row = [&](GGroup group, Profile since, const char* words, bool axes, int code) {
+    table.add({static_cast<std::int16_t>(code), group, since, set_of(words), axes});
+  };
+  const auto add = [&](GGroup group, Profile since, const char* words, auto... codes) {
+    (add_row(group, since, words, false, codes), ...);
+  };
+  const auto add_with_axes = [&](GGroup group, Profile since, const char* words, auto... codes) {
+    (add_row(group, since, words, true, codes), ...);
+  };
+  add(Motion, kBoth, "", 0, 10, 382, 800);
+  add(Motion, kBoth, "IJKRP", 20, 30);
+  add(Motion, kBoth, "RL", 810, 850);
+  add(Motion, kBoth, "RLP", 820, 840, 860, 880, 890);
+  add(Motion, kBoth, "RLQD", 830);
+  add(Motion, kBoth, "RLIJK", 870);
+  add(Motion, kLater, "", 53, 383, 384, 385);
+  add(Motion, kLater, "IJPQ", 50);
+  add(Motion, kLater, "IJ", 51);
+  add(Motion, kLater, "LP", 52);
+  add(Motion, kLater, "K", 330);
+  add(Motion, kLater, "KI", 331);
+  add(Motion, kLater, "RLQD", 730);
+  add(Motion, kLater, "RLPF", 740);
+  add(Motion, kLater, "PIJKRQHEL", 760);
+  add(OneShot, kBoth, "P", 40);
+  add(OneShot, kBoth, "", 530, 921, 922, 923);
+  add_with_axes(OneShot, kBoth, "LPRIJQ", 100);
+  add_with_axes(OneShot, kBoth, "", 280, 300, 920);
+  add_with_axes(OneShot, kLater, "", 281, 301, 520);
+  add(Lathe, kLater, "", 70, 80);
+  add(Plane, kBoth, "", 170, 180, 190);
+  add(Plane, kLater, "", 171, 181, 191);
+  add(Units, kBoth, "", 200, 210);
+  add(Radius, kBoth, "", 400);
+  add(Radius, kBoth, "D", 410, 420);
+  add(Radius, kLater, "DL", 411, 421);
+  add(GGroup::Length, kBoth, "", 490);
+  add(GGroup::Length, kBoth, "H", 430);
+  add(GGroup::Length, kLater, "H", 432);
+  add_with_axes(GGroup::Length, kLater, "", 431);
+  add(System, kBoth, "", 540, 550, 560, 570, 580, 590, 591, 592, 593);
+  add(Path, kBoth, "", 610, 611);
+  add(Path, kBoth, "PQ", 640);
+  add(Distance, kBoth, "", 900, 910);
+  add(ArcDistance, kLater, "", 901, 911);
+  add(FeedMode, kBoth, "", 930, 940);
+  add(FeedMode, kLater, "", 950);
+  add(SpindleMode, kLater, "D", 960);
+  add(SpindleMode, kLater, "", 970);
+  add(Retract, kBoth, "", 980, 990);
+  return table;
+}();
+
+constexpr Table<MRow> kM = [] {
+  Table<MRow> table;
+  const auto add = [&](MGroup group, Profile since, const char* words, auto... codes) {
+    (table.add({static_cast<std::int16_t>(codes), group, since, set_of(words)}), ...);
+  };
+  add(MGroup::Stop, kBoth, "", 0, 1, 2, 30, 60);
+  add(MGroup::Stop, kLater, "PL", 98);
+  add(MGroup::Stop, kLater, "", 99);
+  add(MGroup::Spindle, kBoth, "", 3, 4, 5);
+  add(MGroup::Spindle, kLater, "RPQ", 19);
+  add(MGroup::Tool, kBoth, "", 6);
+  add(MGroup::Tool, kLater, "Q", 61);
+  add(MGroup::Coolant, kBoth, "", 7, 8, 9);
+  add(MGroup::Override, kBoth, "", 48, 49);
+  add(MGroup::Override, kLater, "P", 50, 51, 52, 53);
+  add(MGroup::InputOutput, kLater, "P", 62, 63, 64, 65);
+  add(MGroup::InputOutput, kLater, "PELQ", 66);
+  add(MGroup::InputOutput, kLater, "EQ", 67, 68);
+  add(MGroup::State, kLater, "", 70, 71, 72, 73);
+  return table;
+}();
 /// M100 to M199: programs of the shop.
 constexpr int kFirstUser = 100;
 constexpr int kLastUser = 199;
-constexpr MRow kUser = m(kFirstUser, M::User, kLater, "PQ");
-
-constexpr std::uint8_t kNoRow = 255;
-
-template <class Rows, std::size_t... kSize>
-constexpr auto index_of(const Rows& rows) {
-  std::array<std::uint8_t, 1000> index{};
-  for (auto& each : index) each = kNoRow;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    index[static_cast<std::size_t>(rows[i].code)] = static_cast<std::uint8_t>(i);
-  }
-  return index;
-}
-constexpr auto kGIndex = index_of(kG);
-constexpr auto kMIndex = index_of(kM);
+constexpr MRow kUser{kFirstUser, MGroup::User, kLater, set_of("PQ")};
 
 }  // namespace
 
 const GRow* g_row(int tenths, Profile profile) {
-  if (tenths < 0 || tenths > 999) return nullptr;
-  const std::uint8_t index = kGIndex[static_cast<std::size_t>(tenths)];
-  if (index == kNoRow || kG[index].since > profile) return nullptr;
-  return &kG[index];
+  return tenths < 0 || tenths > 999 ? nullptr : kG.find(tenths, profile);
 }
 
 AddressSet words_of(const GRow& row, Profile profile) {
   if (profile == Profile::LinuxCnc) return row.words;
-  switch (row.code) {
-    case 20:
-    case 30:
-    case 840:
-      return row.words & ~set_of("P");
-    case 100:
-      return set_of("LP");
-    case 640:
-      return 0;
-    case 830:
-      return row.words & ~set_of("D");
-    default:
-      return row.words;
-  }
+  if (row.code == 20 || row.code == 30 || row.code == 840) return row.words & ~set_of("P");
+  if (row.code == 100) return set_of("LP");
+  if (row.code == 640) return 0;
+  return row.code == 830 ? row.words & ~set_of("D") : row.words;
 }
 
 const MRow* m_row(int code, Profile profile) {
   if (code < 0 || code > kLastUser) return nullptr;
   if (code >= kFirstUser) return profile == Profile::LinuxCnc ? &kUser : nullptr;
-  const std::uint8_t index = kMIndex[static_cast<std::size_t>(code)];
-  if (index == kNoRow || kM[index].since > profile) return nullptr;
-  return &kM[index];
+  return kM.find(code, profile);
 }
 
 }  // namespace dripline::interpreter::rs274ngc

@@ -5,7 +5,8 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/reading/words.hpp"
 
-/// The G and M codes as rows: group, profile and the words they take (4.1, 16.5).
+/// The G and M codes as rows: group, profile and the words they take (NIST 3.4; LinuxCNC:
+/// G-codes, M-codes).
 namespace dripline::interpreter::rs274ngc {
 
 /// `nist` is the language of the NIST interpreter, version 3; `linuxcnc` what grew out of it.

@@ -85,7 +85,7 @@ std::string number_text(double value, int decimals) {
   return text;
 }
 
-/// Parameters replaced by their values (16.4).
+/// Parameters replaced by their values.
 std::string expanded(Run& run, const char* at, const char* end) {
   std::string text;
   TextFormat format;

@@ -2,7 +2,8 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Comments that do something (3.6, 16.4). What they name is never opened: it goes out as events.
+/// Comments that do something (NIST 3.3; LinuxCNC: active comments). What they name is never
+/// opened: it goes out as events.
 namespace dripline::interpreter::rs274ngc {
 
 /// Whether a comment shows a message to the operator.

@@ -18,7 +18,7 @@ using language::MathFault;
 using language::Operator;
 
 constexpr int kMaxDepth = 64;
-/// A value this near to a whole number is one (1.2).
+/// A value this near to a whole number is one (NIST 3.3).
 constexpr double kWholeWithin = 0.0001;
 /// Comparisons of the later language.
 constexpr double kSameWithin = 1e-6;

@@ -2,8 +2,8 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Real values (3.2): numbers, parameters, functions and expressions in brackets. Read and computed
-/// in one pass over the text, with the parameters as they were before the line.
+/// Real values (NIST 3.3): numbers, parameters, functions and expressions in brackets. Read and
+/// computed in one pass over the text, with the parameters as they were before the line.
 namespace dripline::interpreter::rs274ngc {
 
 /// Reads one real value at `at`, which then moves after it.

@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// The functions of expressions (3.4); angles in degrees.
+/// The functions of expressions (NIST 3.3); angles in degrees.
 namespace dripline::interpreter::rs274ngc {
 
 enum class Function : std::uint8_t {

@@ -3,7 +3,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/reading/characters.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// Numbers without parameters and expressions (3.1).
+/// Numbers without parameters and expressions (NIST 3.3).
 namespace dripline::interpreter::rs274ngc {
 
 /// One to nine digits and nothing that continues them: most indexes, labels and constants.

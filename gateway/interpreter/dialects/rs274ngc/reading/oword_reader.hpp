@@ -2,7 +2,7 @@
 
 #include "gateway/interpreter/dialects/rs274ngc/run.hpp"
 
-/// How lines with O words begin (16.3).
+/// How lines with O words begin (LinuxCNC: O-codes).
 namespace dripline::interpreter::rs274ngc {
 
 /// `at` is on the O. Errors: no label, an unknown word.
