@@ -1,6 +1,7 @@
 #include "gateway/feed/pull_feed.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace dripline::feed {
@@ -19,22 +20,16 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// In the order of BlockStatus.
+constexpr std::array<std::string_view, 6> kMeanings{"ok",
+                                                    "the server does not know this run",
+                                                    "the server has no such program",
+                                                    "the server's program is shorter",
+                                                    "the stored program is corrupt",
+                                                    "the server cannot read the program"};
 std::string_view meaning_of(dds::BlockStatus status) {
-  switch (status) {
-    case dds::BlockStatus::Ok:
-      return "ok";
-    case dds::BlockStatus::NoSuchRun:
-      return "the server does not know this run";
-    case dds::BlockStatus::NoSuchProgram:
-      return "the server has no such program";
-    case dds::BlockStatus::OutOfRange:
-      return "the server's program is shorter";
-    case dds::BlockStatus::Corrupt:
-      return "the stored program is corrupt";
-    case dds::BlockStatus::Failed:
-      return "the server cannot read the program";
-  }
-  return "the server refuses";
+  const auto at = static_cast<std::size_t>(status);
+  return at < kMeanings.size() ? kMeanings[at] : "the server refuses";
 }
 
 interpreter::TextWindow ready(std::string_view text, bool reaches_end) {

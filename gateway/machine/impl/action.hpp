@@ -1,15 +1,82 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string_view>
 #include <variant>
 
 #include "gateway/interpreter/core/event.hpp"
-#include "gateway/machine/impl/lock.hpp"
 #include "gateway/machine/impl/path.hpp"
-#include "gateway/machine/impl/text_ring.hpp"
 #include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::impl {
+
+/// Texts waiting in the queue: first in, first out, in one block of memory. A text is never split.
+class TextRing {
+ public:
+  struct Piece {
+    std::size_t offset = 0, size = 0;
+    std::size_t taken = 0;  ///< with what was skipped at the ring's end
+  };
+
+  explicit TextRing(std::size_t capacity)
+      : bytes_(std::make_unique<char[]>(capacity)), capacity_(capacity) {}
+
+  std::size_t free() const { return capacity_ - used_; }
+  void clear() { used_ = write_ = 0; }
+
+  /// Absent when it does not fit.
+  std::optional<Piece> push(std::string_view text) {
+    if (used_ == 0) write_ = 0;
+    const std::size_t at_end = capacity_ - write_;
+    const std::size_t skipped = text.size() > at_end ? at_end : 0;
+    if (skipped + text.size() > free()) return std::nullopt;
+    const Piece piece{skipped > 0 ? 0 : write_, text.size(), skipped + text.size()};
+    if (!text.empty()) std::memcpy(bytes_.get() + piece.offset, text.data(), text.size());
+    write_ = (piece.offset + text.size()) % capacity_;
+    used_ += piece.taken;
+    return piece;
+  }
+  /// Valid until it is popped.
+  std::string_view text(const Piece& piece) const {
+    return {bytes_.get() + piece.offset, piece.size};
+  }
+  /// Only the oldest.
+  void pop(const Piece& piece) { used_ -= piece.taken; }
+
+ private:
+  std::unique_ptr<char[]> bytes_;
+  std::size_t capacity_;
+  std::size_t write_ = 0, used_ = 0;
+};
+
+/// The part of the panel that does not apply to an action: the program's OverrideInhibit before it.
+struct Lock {
+  interpreter::FeedHoldInhibit hold = interpreter::FeedHoldInhibit::AtOnce;
+  bool feed_override = false, spindle_override = false, single_block = false;
+  bool is_tapping = false;
+
+  /// The panel as this action sees it. A handwheel drives the program in the place of its feeds.
+  OperatorPanel seen(const OperatorPanel& panel) const {
+    OperatorPanel seen = panel;
+    if (feed_override || panel.handwheel) seen.feed_override = 1;
+    if (panel.handwheel) seen.rapid_override = 1;
+    if (spindle_override) seen.spindle_override = 1;
+    if (single_block) seen.single_block = false;
+    return seen;
+  }
+};
+
+inline Lock lock_of(const interpreter::OverrideInhibit& event) {
+  return {.hold = event.hold,
+          .feed_override = event.feed_override,
+          .spindle_override = event.spindle_override,
+          .single_block = event.single_block,
+          .is_tapping = event.is_tapping};
+}
 
 /// What the speed of a move depends on.
 enum class Pace : std::uint8_t { Rapid, Feed, FeedPerRevolution, Thread };

@@ -2,14 +2,75 @@
 
 #include "gateway/interpreter/core/geometry/workpiece.hpp"
 #include "gateway/machine/execution_sink.hpp"
-#include "gateway/machine/impl/motion.hpp"
-#include "gateway/machine/impl/planner.hpp"
+#include "gateway/machine/impl/action.hpp"
+#include "gateway/machine/impl/action_queue.hpp"
 #include "gateway/machine/impl/motion_queue_builder.hpp"
+#include "gateway/machine/impl/profile.hpp"
 #include "gateway/machine/machine_limits.hpp"
 #include "gateway/machine/machine_status.hpp"
 #include "gateway/machine/operator_panel.hpp"
 
 namespace dripline::machine::impl {
+
+/// The goal of a move from now on; speeds in mm (or degrees) per second.
+struct MotionGoal {
+  double cruise = 0;  ///< 0: come to rest
+  double exit = 0;
+};
+
+/// One move in progress. Time is kept from the last change of goal, so the position at a
+/// time does not depend on the steps to it.
+class Motion {
+ public:
+  bool is_active() const { return move_ != nullptr; }
+  const Move& move() const { return *move_; }
+  /// `move` must stay where it is until stop().
+  void start(const Move& move, double entry, const MotionGoal& goal);
+  void change(const MotionGoal& goal);
+  void stop() { move_ = nullptr; }
+
+  double left() const { return profile_.duration() - time_; }
+  void pass(double seconds) { time_ += seconds; }
+  void pass_all() { time_ = profile_.duration(); }
+  /// After all time has passed: at the end of the move, or at rest before it.
+  bool reaches_end() const { return profile_.reaches_end(); }
+  double exit_speed() const { return profile_.exit_speed(); }
+
+  double distance() const { return begun_at_ + profile_.distance_at(time_); }
+  double speed() const { return profile_.speed_at(time_); }
+
+ private:
+  void plan(double entry, const MotionGoal& goal);
+
+  const Move* move_ = nullptr;
+  Profile profile_;
+  double begun_at_ = 0;  ///< distance where the profile begins
+  double time_ = 0;
+};
+
+/// Look-ahead: the highest speed at the end of each queued move from which everything after it can
+/// still be obeyed (corners, slower moves, standstills, the end of what is queued).
+///
+/// One pass from the back of a window to the front. An exit speed that a corner or feed decides,
+/// and not the window's end, is final: more moves cannot change it. So a move is planned a few
+/// times at most, for any length of the queue, and the result does not depend on when it was
+/// planned.
+class Planner {
+ public:
+  /// The front of the queue is about to start, or moves already: corrects its exit speed.
+  void ensure(ActionQueue& queue, const OperatorPanel& panel);
+  /// Overrides or switches have changed.
+  void invalidate() { final_until_ = 0, planned_next_ = 0; }
+
+  static constexpr std::size_t kWindow = 1024;
+
+ private:
+  void plan(ActionQueue& queue, const OperatorPanel& panel);
+
+  std::uint64_t final_until_ = 0;    ///< exits of actions before this number are final
+  std::uint64_t planned_until_ = 0;  ///< the window's end
+  std::uint64_t planned_next_ = 0;   ///< the queue's next() then
+};
 
 /// Executes the queue in machine time: starts the front action, lets time pass over it, reports it
 /// and takes the next. Zero-time actions are executed between the moves without stopping them.

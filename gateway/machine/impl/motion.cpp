@@ -1,4 +1,4 @@
-#include "gateway/machine/impl/motion.hpp"
+#include "gateway/machine/impl/executor.hpp"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@ using interpreter::FeedHoldInhibit;
 
 namespace {
 
-/// The limit of handwheel turns that wait: no operator turns further ahead of a machine.
+/// The longest travel of the handwheel that waits: no operator is further ahead of a machine.
 constexpr double kMaxHandwheelSeconds = 600;
 constexpr std::string_view kTapByHandwheel =
     "tapping cycles are not done in handwheel mode: this one is left out";
@@ -22,7 +22,7 @@ double Executor::advance(double by, std::size_t max_actions) {
   if (!is_driven_by_hand()) return pass(by, max_actions);
   const double used = pass(std::min(by, handwheel_seconds_), max_actions);
   handwheel_seconds_ = std::max(0.0, handwheel_seconds_ - used);
-  // Turns while nothing can move are dropped.
+  // Travel of the handwheel while nothing can move is dropped.
   if (!motion_.is_active() && !is_dwelling_ && !may_start()) handwheel_seconds_ = 0;
   return used;
 }

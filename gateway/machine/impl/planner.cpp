@@ -1,4 +1,4 @@
-#include "gateway/machine/impl/planner.hpp"
+#include "gateway/machine/impl/executor.hpp"
 
 #include <algorithm>
 
