@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "gateway/app/command_validity.hpp"
+#include "gateway/app/command_log.hpp"
 #include "gateway/app/inbox.hpp"
 #include "gateway/app/line_operator.hpp"
-#include "gateway/app/panel_controller.hpp"
+#include "gateway/app/panel/panel_controller.hpp"
 #include "gateway/app/run_loop.hpp"
 #include "gateway/app/status_builder.hpp"
 #include "gateway/report/record_sender.hpp"

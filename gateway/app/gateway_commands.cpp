@@ -16,9 +16,21 @@ namespace {
 constexpr std::uint64_t kMaxProgramBytes = 1ULL << 40;
 
 /// What is done at the panel is carried out as a command from the network is.
-dds::Command command_of(CommandAction action, const PanelCommand& panel) {
+dds::Command command_of(const PanelCommand& panel) {
+  using Verb = PanelCommand::Verb;
+  constexpr std::pair<Verb, CommandAction> kActions[] = {
+      {Verb::Switch, CommandAction::Switch},
+      {Verb::FeedOverride, CommandAction::FeedOverride},
+      {Verb::RapidOverride, CommandAction::RapidOverride},
+      {Verb::SpindleOverride, CommandAction::SpindleOverride},
+      {Verb::Hold, CommandAction::Hold},
+      {Verb::Abort, CommandAction::Abort},
+      {Verb::Answer, CommandAction::Answer},
+      {Verb::Handwheel, CommandAction::Handwheel}};
   dds::Command command;
-  command.action = action;
+  for (const auto& [verb, action] : kActions) {
+    if (verb == panel.verb) command.action = action;
+  }
   command.argument = panel.text;
   command.value = panel.value;
   return command;
@@ -188,13 +200,11 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     case Verb::Switch:
       if (command.text == "emergency_stop")
         return panel_.set_emergency_stop_at_panel(command.value == 1);
-      return panel_.set_switch(command_of(CommandAction::Switch, command));
+      return panel_.set_switch(command_of(command));
     case Verb::FeedOverride:
-      return panel_.set_override(command_of(CommandAction::FeedOverride, command));
     case Verb::RapidOverride:
-      return panel_.set_override(command_of(CommandAction::RapidOverride, command));
     case Verb::SpindleOverride:
-      return panel_.set_override(command_of(CommandAction::SpindleOverride, command));
+      return panel_.set_override(command_of(command));
     case Verb::DiscardMemory:
       return discard_memory();
     default:
@@ -205,15 +215,13 @@ Reply Gateway::carry_out(const PanelCommand& command) {
     case Verb::CycleStart:
       recorder_.note_at_panel(machine_->status().origin, "cycle start");
       return cycle_start();
-    case Verb::Hold:
-      return operate(command_of(CommandAction::Hold, command));
     case Verb::Abort:
       recorder_.note_at_panel(machine_->status().origin, "abort");
-      return operate(command_of(CommandAction::Abort, command));
+      return operate(command_of(command));
+    case Verb::Hold:
     case Verb::Answer:
-      return operate(command_of(CommandAction::Answer, command));
     case Verb::Handwheel:
-      return operate(command_of(CommandAction::Handwheel, command));
+      return operate(command_of(command));
     default:
       return refuse("not a verb of this panel");
   }

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "gateway/app/panel_command.hpp"
+#include "gateway/app/panel/panel_command.hpp"
 #include "protocol/base/clock.hpp"
 #include "protocol/dds/message.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "gateway/app/gateway.hpp"
 #include "gateway/app/motion_choice.hpp"
-#include "gateway/app/panel_socket.hpp"
+#include "gateway/app/panel/panel_socket.hpp"
 #include "gateway/app/state_folder.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/dds/dds_log.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "gateway/app/command_log.hpp"
-#include "gateway/app/consent.hpp"
 #include "gateway/app/control_memory.hpp"
-#include "gateway/app/current_run.hpp"
 #include "gateway/app/options.hpp"
+#include "gateway/app/panel/consent.hpp"
+#include "gateway/app/run_session.hpp"
 #include "gateway/app/start_argument.hpp"
 
 namespace dripline::gateway {

@@ -1,5 +1,6 @@
 #include "gateway/app/run_texts.hpp"
 
+#include <array>
 #include <map>
 
 #include "gateway/interpreter/core/event_words.hpp"
@@ -34,17 +35,9 @@ dds::AlarmText diagnostic_text(const interpreter::Diagnostic& diagnostic) {
 }
 
 std::string_view to_text(interpreter::StopKind kind) {
-  switch (kind) {
-    case interpreter::StopKind::Program:
-      return "program stop";
-    case interpreter::StopKind::Optional:
-      return "optional stop";
-    case interpreter::StopKind::ToolChange:
-      return "tool change";
-    case interpreter::StopKind::Operator:
-      return "operator stop";
-  }
-  return "stop";
+  constexpr std::array<std::string_view, 4> kTexts{"program stop", "optional stop", "tool change",
+                                                   "operator stop"};
+  return kTexts[static_cast<std::size_t>(kind)];
 }
 
 std::string valid_text(std::string_view bytes, std::size_t max_bytes) {

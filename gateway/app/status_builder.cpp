@@ -1,5 +1,7 @@
 #include "gateway/app/status_builder.hpp"
 
+#include <array>
+
 #include "protocol/base/one_line.hpp"
 
 namespace dripline::gateway {
@@ -25,12 +27,9 @@ Execution execution_of(MachineState state) {
       return Execution::Interrupted;
     case MachineState::Completed:
       return Execution::ProgramCompleted;
-    case MachineState::Alarmed:
-    case MachineState::Aborted:
-    case MachineState::EmergencyStop:
+    default:
       return Execution::Stopped;
   }
-  return Execution::Stopped;
 }
 
 static_assert(static_cast<int>(dds::MotionKind::Thread) ==
@@ -39,15 +38,8 @@ static_assert(static_cast<int>(dds::CompensationSide::Right) ==
               static_cast<int>(interpreter::CompensationSide::Right));
 
 dds::FeedUnit unit_of(Feed feed) {
-  switch (feed.per()) {
-    case Feed::Per::Minute:
-      return dds::FeedUnit::PerMinute;
-    case Feed::Per::Revolution:
-      return dds::FeedUnit::PerRevolution;
-    case Feed::Per::Move:
-      return dds::FeedUnit::InverseTime;
-  }
-  return dds::FeedUnit::PerMinute;
+  if (feed.per() == Feed::Per::Move) return dds::FeedUnit::InverseTime;
+  return feed.per() == Feed::Per::Minute ? dds::FeedUnit::PerMinute : dds::FeedUnit::PerRevolution;
 }
 
 /// "G54", "G59.3", "G54.1 P7"
@@ -76,17 +68,9 @@ void show_program(dds::ActiveModes& shown, const interpreter::ActiveModes& modes
 }
 
 dds::SpindleState spindle_of(interpreter::SpindleState state) {
-  switch (state) {
-    case interpreter::SpindleState::Off:
-      return dds::SpindleState::Off;
-    case interpreter::SpindleState::Clockwise:
-      return dds::SpindleState::Clockwise;
-    case interpreter::SpindleState::Counterclockwise:
-      return dds::SpindleState::Counterclockwise;
-    case interpreter::SpindleState::Oriented:
-      return dds::SpindleState::Oriented;
-  }
-  return dds::SpindleState::Unknown;
+  using enum dds::SpindleState;
+  constexpr std::array kStates{Off, Clockwise, Counterclockwise, Oriented};
+  return kStates[static_cast<std::size_t>(state)];
 }
 
 CoordinateFrame::Values values_of(const interpreter::Position& position) {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "gateway/app/consent.hpp"
-#include "gateway/app/current_run.hpp"
+#include "gateway/app/panel/consent.hpp"
+#include "gateway/app/run_session.hpp"
 
 namespace dripline::gateway {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "gateway/app/panel_command.hpp"
+#include "gateway/app/panel/panel_command.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::gateway;

@@ -1,4 +1,4 @@
-#include "gateway/app/consent.hpp"
+#include "gateway/app/panel/consent.hpp"
 
 #include <gtest/gtest.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gateway/app/panel_command.hpp"
+#include "gateway/app/panel/panel_command.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gateway/app/panel_socket.hpp"
+#include "gateway/app/panel/panel_socket.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

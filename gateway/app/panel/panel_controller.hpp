@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gateway/app/command_log.hpp"
-#include "gateway/app/consent.hpp"
-#include "gateway/app/current_run.hpp"
+#include "gateway/app/panel/consent.hpp"
+#include "gateway/app/run_session.hpp"
 #include "gateway/interpreter/core/dialect.hpp"
 #include "gateway/interpreter/core/panel_tables.hpp"
 

@@ -1,4 +1,4 @@
-#include "gateway/app/panel_socket.hpp"
+#include "gateway/app/panel/panel_socket.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -18,36 +18,20 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/base/descriptor.hpp"
+
 namespace dripline::gateway {
 namespace {
 
 constexpr std::size_t kMaxAnswers = 16 * 1024;  ///< bytes that a connection does not read
 constexpr int kBacklog = 8;
 
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int operator*() const { return number_; }
-  explicit operator bool() const { return number_ >= 0; }
-
- private:
-  int number_;
-};
-
 /// A socket's address has room for about a hundred bytes, a path may be longer: the folder is
 /// named by a descriptor.
 Result<sockaddr_un> address_in(const Descriptor& folder) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string path = fmt::format("/proc/self/fd/{}/{}", *folder, PanelSocket::kName);
+  const std::string path = fmt::format("/proc/self/fd/{}/{}", folder.get(), PanelSocket::kName);
   if (path.size() >= sizeof address.sun_path) return fail(Errc::Io, "{} is too long", path);
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   return address;
@@ -82,7 +66,7 @@ struct Answers {
   }
   void signal() const {
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(*wake, &one, sizeof one);
+    [[maybe_unused]] const auto written = ::write(wake.get(), &one, sizeof one);
   }
 };
 
@@ -97,12 +81,14 @@ Result<Descriptor> listen_at(const std::filesystem::path& folder) {
   if (!address) return fail(address.error());
   Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket) return refused("socket");
-  ::unlinkat(*place, PanelSocket::kName,
+  ::unlinkat(place.get(), PanelSocket::kName,
              0);  // left by a former process; this one has locked the folder
-  if (::fchmod(*socket, S_IRUSR | S_IWUSR) != 0) return refused("mode");  // in force when bound
-  if (::bind(*socket, generic(*address), sizeof *address) != 0) return refused("bind");
-  if (::fchmodat(*place, PanelSocket::kName, S_IRUSR | S_IWUSR, 0) != 0) return refused("mode");
-  if (::listen(*socket, kBacklog) != 0) return refused("listen");
+  if (::fchmod(socket.get(), S_IRUSR | S_IWUSR) != 0)
+    return refused("mode");  // in force when bound
+  if (::bind(socket.get(), generic(*address), sizeof *address) != 0) return refused("bind");
+  if (::fchmodat(place.get(), PanelSocket::kName, S_IRUSR | S_IWUSR, 0) != 0)
+    return refused("mode");
+  if (::listen(socket.get(), kBacklog) != 0) return refused("listen");
   return socket;
 }
 
@@ -144,12 +130,12 @@ class PanelSocket::Server {
 
 void PanelSocket::Server::serve() {
   while (!is_stopping_) {
-    std::vector<pollfd> polled{{*listening_, POLLIN, 0}, {*answers_->wake, POLLIN, 0}};
+    std::vector<pollfd> polled{{listening_.get(), POLLIN, 0}, {answers_->wake.get(), POLLIN, 0}};
     std::vector<std::uint64_t> ids;
     for (const auto& [id, connection] : connections_) {
       const bool may_read = !connection.is_asking && !connection.is_closing;
       const int events = (may_read ? POLLIN : 0) | (connection.to_send.empty() ? 0 : POLLOUT);
-      polled.push_back({*connection.socket, static_cast<short>(events), 0});
+      polled.push_back({connection.socket.get(), static_cast<short>(events), 0});
       ids.push_back(id);
     }
     if (::poll(polled.data(), polled.size(), -1) < 0 && errno != EINTR) return;
@@ -171,7 +157,7 @@ void PanelSocket::Server::serve() {
 }
 
 void PanelSocket::Server::accept_one() {
-  Descriptor socket(::accept4(*listening_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  Descriptor socket(::accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket) return;
   if (connections_.size() >= kMaxConnections) {
     connections_.erase(std::min_element(
@@ -185,7 +171,7 @@ void PanelSocket::Server::accept_one() {
 
 void PanelSocket::Server::take_answers() {
   std::uint64_t count = 0;
-  [[maybe_unused]] const auto drained = ::read(*answers_->wake, &count, sizeof count);
+  [[maybe_unused]] const auto drained = ::read(answers_->wake.get(), &count, sizeof count);
   std::vector<std::pair<std::uint64_t, std::string>> answers;
   {
     const std::lock_guard lock(answers_->mutex);
@@ -202,7 +188,7 @@ void PanelSocket::Server::take_answers() {
 
 void PanelSocket::Server::read(std::uint64_t id, Connection& connection) {
   char bytes[512];
-  const auto count = ::read(*connection.socket, bytes, sizeof bytes);
+  const auto count = ::read(connection.socket.get(), bytes, sizeof bytes);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (count <= 0) {
     connection.is_closing = true;
@@ -250,7 +236,7 @@ void PanelSocket::Server::reply(Connection& connection, const std::string& line)
 }
 
 void PanelSocket::Server::send(Connection& connection) {
-  const auto count = ::send(*connection.socket, connection.to_send.data(),
+  const auto count = ::send(connection.socket.get(), connection.to_send.data(),
                             connection.to_send.size(), MSG_NOSIGNAL);
   if (count > 0) {
     connection.to_send.erase(0, static_cast<std::size_t>(count));
@@ -281,21 +267,21 @@ Result<std::string> ask_panel(const std::filesystem::path& folder, const std::st
   const auto address = address_in(place);
   if (!address) return fail(address.error());
   const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (!socket || ::connect(*socket, generic(*address), sizeof *address) != 0) {
+  if (!socket || ::connect(socket.get(), generic(*address), sizeof *address) != 0) {
     return fail(Errc::NotFound, "no gateway answers in {}: {}", folder.string(),
                 std::strerror(errno));
   }
   const std::string request = line + "\n";
-  if (::send(*socket, request.data(), request.size(), MSG_NOSIGNAL) !=
+  if (::send(socket.get(), request.data(), request.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(request.size()))
     return fail(Errc::Io, "panel of {}: {}", folder.string(), std::strerror(errno));
   std::string answer;
   while (answer.find('\n') == std::string::npos && answer.size() < kMaxAnswers) {
-    pollfd polled{*socket, POLLIN, 0};
+    pollfd polled{socket.get(), POLLIN, 0};
     if (::poll(&polled, 1, kAnswerMs) <= 0)
       return fail(Errc::Timeout, "no answer from the gateway of {} within 5 s", folder.string());
     char bytes[512];
-    const auto count = ::read(*socket, bytes, sizeof bytes);
+    const auto count = ::read(socket.get(), bytes, sizeof bytes);
     if (count <= 0) return fail(Errc::Io, "the gateway of {} closed the panel", folder.string());
     answer.append(bytes, static_cast<std::size_t>(count));
   }

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "gateway/app/panel_command.hpp"
+#include "gateway/app/panel/panel_command.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::gateway {

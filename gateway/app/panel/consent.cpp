@@ -1,4 +1,4 @@
-#include "gateway/app/consent.hpp"
+#include "gateway/app/panel/consent.hpp"
 
 #include "protocol/dds/stop_commands.hpp"
 

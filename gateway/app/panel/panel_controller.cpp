@@ -1,4 +1,4 @@
-#include "gateway/app/panel_controller.hpp"
+#include "gateway/app/panel/panel_controller.hpp"
 
 #include <algorithm>
 #include <cmath>
