@@ -23,7 +23,7 @@ enum class MachineKind : std::uint8_t { Mill, Lathe };
 
 /// The knob for feeds on a control's panel.
 struct FeedOverrideSwitch {
-  double step = 0;  ///< between its positions, as a factor; 0: turns freely
+  double step = 0;  ///< between its positions, as a factor; 0: continuous
   double most = 2;
   std::optional<Length> fastest;  ///< per minute; no position goes beyond it
 };
@@ -43,7 +43,7 @@ struct Dialect {
   Units units = Units::Millimeter;
   MachineKind machine = MachineKind::Mill;
   FeedOverrideSwitch feed_override_switch = {};
-  bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START goes on
+  bool waits_at_tool_change = false;  ///< tools are changed by hand: CYCLE START resumes
   /// What the control makes of a program, in its own words; nullptr: it keeps the text. Errors:
   /// Syntax.
   Result<std::string> (*list)(std::string_view text) = nullptr;

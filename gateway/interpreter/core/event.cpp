@@ -25,7 +25,7 @@ Arc arc_of(const Thread& thread) {
 
 Length mean_lead(const Thread& thread, Length path) {
   if (thread.lead_change == Length{}) return thread.lead;
-  // After n turns path = lead n + change n^2 / 2, and the lead is the root below.
+  // After n revolutions path = lead n + change n^2 / 2, and the lead is the root below.
   const double lead = std::fabs(thread.lead.mm());
   const double square = lead * lead + 2 * thread.lead_change.mm() * path.mm();
   return Length::mm((lead + std::sqrt(std::max(0.0, square))) / 2);

@@ -14,7 +14,7 @@
 
 namespace dripline::interpreter::centurion {
 
-/// A drilling or grooving cycle while the spindle stands still.
+/// A drilling or grooving cycle while the spindle is stopped.
 enum class SpindleCheck : std::uint8_t { Ignore, Warn, Alarm };
 
 /// What a machine's builder and operator have set: the `[control]` options that touch what this
@@ -41,15 +41,15 @@ struct ControlOptions {
   bool is_dnc_fast = false;            ///< `dnc_mode = "fast"`: what that mode refuses
   bool is_mdi = false;                 ///< `mode = "mdi"`: one block, no M98
   bool is_verify = false;              ///< `mode = "verify"`
-  bool interlocks_coolant = false;  ///< `coolant_interlock`: coolant runs while the spindle turns
+  bool interlocks_coolant = false;     ///< `coolant_interlock`: coolant runs while the spindle runs
   bool has_custom_codes = false;
   std::array<int, 10> custom_g{};          ///< bound to O9010-O9019; 0 none
   std::array<int, 10> custom_m{};          ///< bound to O9020-O9029
   std::uint16_t tool_change_program = 0;   ///< `m6_macro`: in the place of M6; 0 none
   std::optional<int> tool_change_pin;      ///< `m6_pin`: the output that M6 pulses
-  bool tool_change_stops_spindle = false;  ///< `m6_spindle`: one that turns is stopped
+  bool tool_change_stops_spindle = false;  ///< `m6_spindle`: a running one is stopped
   /// `tool_changer`: M6 is done by a changer, as where the machine has pockets of one; else by
-  /// hand, and CYCLE START goes on.
+  /// hand, and CYCLE START resumes.
   bool has_tool_changer = false;
   Pockets pockets{};                                ///< of a tool changer
   std::vector<int> post_m;                          ///< M codes that come last
@@ -63,7 +63,7 @@ struct ControlOptions {
   std::array<int, 2> leading_digits{0, 0};
   std::string report_file;
   std::vector<std::int64_t> pins_at_one;
-  bool answers_pins = false;  ///< `pins` was given: nobody need be asked
+  bool answers_pins = false;  ///< `pins` was given: no operator need be asked
 };
 
 /// Reads the options. Errors: Syntax, Unsupported (an option this control does not have, or has

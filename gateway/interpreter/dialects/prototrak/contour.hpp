@@ -25,7 +25,7 @@ XY direction_at_start(const Element& element);
 XY direction_at_end(const Element& element);
 /// The point `by` to the left of `at`, seen along `direction`.
 XY beside(XY at, XY direction, double by);
-/// The corner turns left (> 0), right (< 0) or not at all: the sine of the change of direction.
+/// The corner bends left (> 0), right (< 0) or not at all: the sine of the change of direction.
 double turn_at(const Element& first, const Element& second);
 
 /// The conrad between two elements that meet: the arc that touches both on the inside of the turn,

@@ -273,7 +273,7 @@ bool Executor::drill_circle(const ProgramEvent& event) {
   return true;
 }
 
-// What the machine is told.
+// What reaches the machine.
 
 void Executor::load_tool(const ProgramEvent& event) {
   if (state_.loaded_tool == event.tool) return;

@@ -37,15 +37,15 @@ struct ExecutionState {
   std::vector<Frame> frames;  ///< innermost last; empty: the program is done
   std::uint64_t blocks = 0;   ///< events executed
   std::uint8_t loaded_tool = 0;
-  bool is_in_chain = false;  ///< the last event was a cut that goes on into the next
-  bool is_metric = false;    ///< the unit told last
+  bool is_in_chain = false;  ///< the last event was a cut that continues into the next
+  bool is_metric = false;    ///< the unit reported last
   XY at;                     ///< the programmed point
 };
 
 /// Executes stored events as motion of the two axes (README, "Decided here"): Z is the operator's.
 class Executor {
  public:
-  /// References must outlive it. `start`: where the machine stands.
+  /// References must outlive it. `start`: where the machine is.
   Executor(const ControlOptions& options, const StoredProgram& program, EventSink& sink,
            const Position& start);
 

@@ -42,7 +42,7 @@ struct Executor::Rectangle {
   double corner = 0;
 };
 
-/// Two half turns, from the top of the circle, where the tool is.
+/// Two half circles, from the top of the circle, where the tool is.
 void Executor::run_circle(XY center, double radius, const ProgramEvent& event) {
   if (radius < kNoise) return;
   const XY top{center.x, center.y + radius};

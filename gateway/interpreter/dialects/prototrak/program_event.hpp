@@ -47,7 +47,7 @@ struct ProgramEvent {
   std::uint8_t from_event = 0, to_event = 0, passes = 0;  ///< FE, LE, RE
   bool has_diameter = false, has_tool = false;            ///< given in a repeat: overrides
   bool is_converted = false;                              ///< made of G00 to G03
-  // Where it stands in the program.
+  // Its place in the program.
   std::uint64_t offset = 0, line = 0;
   std::int64_t sequence = -1;
 

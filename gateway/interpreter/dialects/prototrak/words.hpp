@@ -32,7 +32,7 @@ struct WrittenNumber {
   double digits = 0;  ///< all of them as one whole number
   std::uint8_t decimals = 0;
   bool has_point = false, has_digits = false, is_negative = false;
-  /// With a point as it stands; without, the last `implied` digits are decimals.
+  /// With a point as written; without, the last `implied` digits are decimals.
   double value(int implied) const;
 };
 

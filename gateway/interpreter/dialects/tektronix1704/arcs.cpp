@@ -80,7 +80,7 @@ bool is_in_one_quadrant(const PlaneArc& arc, double tolerance) {
          same_side(arc.from.second, arc.to.second);
 }
 
-/// Where the manual leaves open what happens, only `arc_policy = "run"` goes on.
+/// Where the manual leaves open what happens, only `arc_policy = "run"` continues.
 bool object_to_arc(Run& run, const DiagnosticRow& fault, std::string_view detail) {
   if (!run.options.runs_bad_arcs) return run.fail(fault, 0, detail);
   run.warn(fault, run.origin, 0, detail);

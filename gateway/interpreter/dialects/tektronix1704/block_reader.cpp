@@ -55,7 +55,7 @@ class LineInHand {
   const char* end_;
 };
 
-/// What stands before the next block: nothing of the tape may be lost, so a block is left out
+/// What is before the next block: nothing of the tape may be lost, so a block is left out
 /// whole.
 bool LineInHand::blame(const DiagnosticRow& fault, const char* at, std::string_view detail) {
   if (!run_.options.skips_bad_blocks) return run_.fail(fault, column(at), detail);

@@ -29,7 +29,7 @@ bool enter_cycle(Run& run, int code) {
   return run.options.has_cycles && (code == 80 || run.options.axes == kAxes);
 }
 
-/// Sets the mode a G word stands for.
+/// Sets the mode a G word names.
 GFunction apply_g(Run& run, int code) {
   State& state = run.state;
   switch (code) {

@@ -47,7 +47,7 @@ struct ControlOptions {
   bool has_arcs = true, has_cycles = true, has_dwell = true, has_quill = false;
   bool has_spindle_speed = false, has_tool_codes = false, has_tool_changer = false, has_mist = true;
   bool is_strict = false;         ///< what the manual forbids stops the tape
-  bool skips_bad_blocks = false;  ///< a block that does not read is told and left out
+  bool skips_bad_blocks = false;  ///< a block that does not read is reported and left out
   bool runs_bad_arcs = false;     ///< arcs off their circle or quadrant are swept to the end's ray
   bool option1_feed_is_doubled = false;
   bool cycle_z_moves_with_xy = false;

@@ -47,8 +47,8 @@ void add_line(std::string& sheet, std::string row) {
 }  // namespace
 
 Result<std::string> planning_sheet(std::string_view text) {
-  EventSink nobody;
-  Run run(ControlOptions{}, nobody);
+  EventSink no_sink;
+  Run run(ControlOptions{}, no_sink);
   std::string sheet;
   add_line(sheet, heading());
   bool is_leader = true;

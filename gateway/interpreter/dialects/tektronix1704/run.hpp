@@ -27,7 +27,7 @@ struct Run : BlockRun {
   [[gnu::cold]] bool fail(const DiagnosticRow& fault) { return fail(fault, 0); }
   [[gnu::cold]] void warn(const DiagnosticRow& fault, const Origin& at, std::uint32_t column = 0,
                           std::string_view detail = {});
-  /// What the manual forbids without naming an effect: told, or an alarm when strict.
+  /// What the manual forbids without naming an effect: a warning, or an alarm when strict.
   [[gnu::cold]] bool object(const DiagnosticRow& fault, std::uint32_t column = 0,
                             std::string_view detail = {});
 

@@ -42,7 +42,7 @@ class CompensationSink : public EventSink {
   void turn_off() { on_compensation({Command::Kind::TurnOff}); }
   /// Ends the waiting move on its own normal and is off: the next move in the plane goes straight
   /// from where the tool is to its programmed end, whatever it is. What interrupts compensation
-  /// cancels it, then turns it on again.
+  /// cancels it, then switches it on again.
   void cancel() { on_compensation({Command::Kind::Cancel}); }
   /// From here on, or no longer: moves lead the program and decide corners, but the tool does not
   /// carry them out. The next real move starts from where the tool is.

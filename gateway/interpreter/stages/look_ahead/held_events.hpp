@@ -72,7 +72,7 @@ class HeldEvents {
   /// One end after every other event, and those before kApart.
   static constexpr std::size_t kPlaces = kApart + 2 * kMaxHeldEvents;
 
-  /// When many events wait, the last one of the ends in a row stands for all: a long calculation
+  /// When many events wait, the last one of the ends in a row represents all: a long calculation
   /// between two moves needs no room, however many blocks it takes.
   template <class End>
   bool push_end(const End& end) {

@@ -26,7 +26,7 @@ struct Turning {
   }
 };
 
-/// Where the path turns back on itself, elements that bend away from the tool leave a valley; the
+/// Where the path doubles back on itself, elements that bend away from the tool leave a valley; the
 /// tool has to go round any others.
 Shape shape_of(const Turning& turn, double offset, double tolerance) {
   if (std::fabs(turn.sine) <= tolerance) {
