@@ -113,4 +113,22 @@ class LineWindow {
   std::size_t wanted_ = 1;  ///< and for how much
 };
 
+/// How far a search in text that may still be arriving has come.
+enum class SearchOutcome : std::uint8_t {
+  Found,
+  Missing,
+  NotYet,   ///< the source has to give more text
+  More,     ///< a bounded piece of work is done; call again
+  TooLong,  ///< a line or a block is longer than the limit
+  Failed,   ///< the source failed
+  Crossed,  ///< a loop's begin and end do not belong together
+};
+/// Of a search whose next line was loaded with this result.
+constexpr SearchOutcome outcome_of(LineWindow::State state) {
+  constexpr SearchOutcome kOutcomes[] = {SearchOutcome::Found, SearchOutcome::NotYet,
+                                         SearchOutcome::Missing, SearchOutcome::TooLong,
+                                         SearchOutcome::Failed};
+  return kOutcomes[static_cast<std::size_t>(state)];
+}
+
 }  // namespace dripline::interpreter::language

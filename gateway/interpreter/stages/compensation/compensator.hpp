@@ -58,12 +58,6 @@ class Compensator final : public look_ahead::LookAheadStage<Compensator, impl::S
 
   /// On or starting; false once `turn_off` has been called.
   bool is_on() const;
-  /// The next move in the plane is the start-up move.
-  bool is_starting() const { return state_.phase == impl::Phase::Starting; }
-  /// The waiting move is the start-up move.
-  bool is_start_waiting() const {
-    return state_.has_element && state_.waiting().role == impl::Role::StartUp;
-  }
 
   void on_rapid(const Rapid& event) override;
   void on_line(const Line& event) override;

@@ -127,22 +127,6 @@ std::optional<std::uint32_t> goto_target(const char* begin) {
 
 }  // namespace
 
-TextSearch::Outcome TextSearch::load(const TextPosition& at) {
-  switch (cursor_.load(at)) {
-    case TextCursor::State::Ready:
-      return Outcome::Found;
-    case TextCursor::State::NotYet:
-      return Outcome::NotYet;
-    case TextCursor::State::EndOfText:
-      return Outcome::Missing;
-    case TextCursor::State::TooLong:
-      return Outcome::TooLong;
-    case TextCursor::State::Failed:
-      break;
-  }
-  return Outcome::Failed;
-}
-
 TextSearch::LabelIndex& TextSearch::index_of(const TextPosition& from) {
   LabelIndex* oldest = &indexes_[0];
   for (LabelIndex& index : indexes_) {

@@ -28,14 +28,7 @@ bool count_loops(const char* begin, int& depth);
 /// was interrupted resumes where it stopped. Moves the cursor.
 class TextSearch {
  public:
-  enum class Outcome : std::uint8_t {
-    Found,
-    Missing,
-    NotYet,   ///< the source has to give more text
-    More,     ///< a bounded piece of work is done; call again
-    TooLong,  ///< a block is longer than the limit
-    Failed,   ///< the source failed: `TextCursor::failure`
-  };
+  using Outcome = language::SearchOutcome;
 
   explicit TextSearch(TextCursor& cursor) : cursor_(cursor) {}
 
@@ -70,7 +63,7 @@ class TextSearch {
   };
 
   LabelIndex& index_of(const TextPosition& from);
-  Outcome load(const TextPosition& at);
+  Outcome load(const TextPosition& at) { return language::outcome_of(cursor_.load(at)); }
 
   TextCursor& cursor_;
   std::array<LabelIndex, kIndexes> indexes_;

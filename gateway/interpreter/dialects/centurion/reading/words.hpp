@@ -8,35 +8,11 @@
 namespace dripline::interpreter::centurion {
 
 /// A to Z keep their place in the alphabet; the two-letter addresses follow.
+// clang-format off
 enum class Address : std::uint8_t {
-  A,
-  B,
-  C,
-  D,
-  E,
-  F,
-  G,
-  H,
-  I,
-  J,
-  K,
-  L,
-  M,
-  N,
-  O,
-  P,
-  Q,
-  R,
-  S,
-  T,
-  U,
-  V,
-  W,
-  X,
-  Y,
-  Z,  // clang-format off
-  AA, AB, XC, ZC,
-};  // clang-format on
+  A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z, AA, AB, XC, ZC
+};
+// clang-format on
 inline constexpr std::size_t kAddressCount = 30;
 std::string_view to_string(Address address);
 

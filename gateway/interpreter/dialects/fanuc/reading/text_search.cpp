@@ -84,22 +84,6 @@ BlockHead read_head(const char* begin, const char* end) {
   return head;
 }
 
-TextSearch::Outcome TextSearch::load(const TextPosition& at) {
-  switch (run_.text.load(at)) {
-    case TextCursor::State::Ready:
-      return Outcome::Found;
-    case TextCursor::State::NotYet:
-      return Outcome::NotYet;
-    case TextCursor::State::EndOfText:
-      return Outcome::Missing;
-    case TextCursor::State::TooLong:
-      return Outcome::TooLong;
-    case TextCursor::State::Failed:
-      break;
-  }
-  return Outcome::Failed;
-}
-
 TextSearch::Outcome TextSearch::next_block(TextPosition& at, BlockHead& head, TextPosition& block) {
   const Outcome loaded = load(at);
   if (loaded != Outcome::Found) return loaded;

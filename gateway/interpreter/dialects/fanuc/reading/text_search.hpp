@@ -35,15 +35,7 @@ struct OpenLoops {
 /// saves searching again.
 class TextSearch {
  public:
-  enum class Outcome : std::uint8_t {
-    Found,
-    Missing,
-    NotYet,
-    More,
-    TooLong,
-    Failed,
-    Crossed,  ///< DO and END do not belong together
-  };
+  using Outcome = language::SearchOutcome;
 
   explicit TextSearch(Run& run) : run_(run) {}
 
@@ -87,7 +79,7 @@ class TextSearch {
     OpenLoops open;
   };
 
-  Outcome load(const TextPosition& at);
+  Outcome load(const TextPosition& at) { return language::outcome_of(run_.text.load(at)); }
   Outcome continue_label_search(LabelSearch& search);
   /// The head of the block at `at`, which moves after it.
   Outcome next_block(TextPosition& at, BlockHead& head, TextPosition& block);
