@@ -70,7 +70,7 @@ struct PortTraffic {
   std::string text;   ///< the others: in words
 };
 
-/// Which rule of a port's call file a received text meets, and what would be done.
+/// Which rule of a port's rules file a received text meets, and what would be done.
 struct RuleVerdict {
   std::string rule;              ///< its name; empty: none, the default
   std::string action;            ///< send, directory, restart, program, report, ignore

@@ -16,7 +16,7 @@
 namespace dripline::ports {
 namespace {
 
-constexpr const char* kAuthor = "call from the control";
+constexpr const char* kAuthor = "request from the control";
 constexpr std::uint64_t kMaxPrograms = 10'000;
 
 }  // namespace
@@ -50,7 +50,7 @@ Result<std::string> RemoteRequestHandler::find_offered(const std::string& name) 
 }
 
 void RemoteRequestHandler::carry_out(RuleAction action, const std::string& argument) {
-  process::log_info("call from the control machine={} action={} argument={}", parts_.machine,
+  process::log_info("request from the control machine={} action={} argument={}", parts_.machine,
                     to_string(action), argument);
   if (action == RuleAction::Send) send(argument, false);
   if (action == RuleAction::Directory) send_listing(false);
@@ -200,7 +200,7 @@ Result<void> RemoteRequestHandler::list_offers() {
 
 void RemoteRequestHandler::refuse(const std::string& why, bool is_request,
                                   library::Refusal refusal) const {
-  process::log_warning("call from the control refused machine={}: {}", parts_.machine, why);
+  process::log_warning("request from the control refused machine={}: {}", parts_.machine, why);
   const auto line = parts_.directory.line_of(parts_.machine);
   if (!line) return;
   line->note("refused: " + why);

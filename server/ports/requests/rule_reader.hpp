@@ -7,11 +7,11 @@
 
 namespace dripline::ports {
 
-/// Reads a port's call file. Sets and their rules keep their order:
+/// Reads a port's rules file. Sets and their rules keep their order:
 ///
 ///     reply = "O9998"              # answers to the control bear this number
 ///     [[set]]
-///     name = "calls"
+///     name = "requests"
 ///     program = "O9999"            # for all rules of the set that name no program
 ///     [[set.rule]]
 ///     name = "send"                # "rule 1" without

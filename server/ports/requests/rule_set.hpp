@@ -27,7 +27,7 @@ std::string_view to_string(RuleAction action);
 /// What a control sends is either a program or single lines that it prints.
 enum class TextKind : std::uint8_t { Program, Line };
 
-/// One rule of a port's call file: it fires when everything it names is there.
+/// One rule of a port's rules file: it fires when everything it names is there.
 struct Rule {
   std::string name;     ///< "set/rule"
   std::string program;  ///< the program's name, "O9999"; only programs have one. Empty: any text

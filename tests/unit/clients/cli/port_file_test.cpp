@@ -24,14 +24,14 @@ class PortFile : public testing::Test {
 };
 
 TEST_F(PortFile, GivesPortsWithTheirSettingsAndRules) {
-  write("calls.toml", "reply = \"O9998\"\n");
+  write("rules.toml", "reply = \"O9998\"\n");
   const auto ports = read_port_file(write("ports.toml", R"(
 [[port]]
 name = "line-1"
 machine = "mill-3"
 address = "/dev/ttyUSB0"
 template = "tnc155"
-rules_file = "calls.toml"
+rules_file = "rules.toml"
 baud = 4800
 wait_for_xon = true
 reader_cps = 1.5

@@ -44,10 +44,10 @@ class DncPort : public testing::Test {
 
 TEST_F(DncPort, AddsAPortWithItsSettings) {
   server.set_answer("PUT /api/v1/ports/line-1", 201, port_json("line-1").dump());
-  dnc.write("calls.toml", "reply = \"O9998\"\n");
+  dnc.write("rules.toml", "reply = \"O9998\"\n");
   const auto added =
       dnc({"port", "add", "line-1", "--machine", "mill-3", "--address", "/dev/ttyUSB0",
-           "--template", "tnc155", "--rules", "calls.toml", "4800e71", "line_delay_ms=20"});
+           "--template", "tnc155", "--rules", "rules.toml", "4800e71", "line_delay_ms=20"});
   EXPECT_EQ(added.status, 0) << added.err;
   EXPECT_EQ(added.out, "Port line-1 of mill-3 at /dev/ttyUSB0: 4800e71 xonxoff, open\n");
   EXPECT_EQ(last_body("PUT /api/v1/ports/line-1"),

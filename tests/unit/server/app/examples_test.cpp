@@ -58,8 +58,8 @@ TEST(Ports, OfATncHaveItsEightRates) {
   EXPECT_TRUE(ports::effective_settings(port)) << "other controls of the family are quicker";
 }
 
-TEST(Examples, CallsDoWhatTheirCommentsDescribe) {
-  const auto rules = ports::read_rules(read("deploy/examples/calls.toml"));
+TEST(Examples, RulesDoWhatTheirCommentsDescribe) {
+  const auto rules = ports::read_rules(read("deploy/examples/rules.toml"));
   ASSERT_TRUE(rules) << rules.error().what;
   const auto verdict = [&](const std::string& text) {
     const auto found = rules->explain(text);

@@ -61,14 +61,14 @@ TEST(Settings, OfAFileAreCheckedByKeyTypeAndRange) {
 
 TEST(Settings, OfAFileMayHoldSerialPorts) {
   const test_support::TemporaryFolder folder;
-  std::ofstream(folder.path() / "calls.toml") << "reply = \"O9998\"\n";
+  std::ofstream(folder.path() / "rules.toml") << "reply = \"O9998\"\n";
   const auto path = folder.path() / "dncd.toml";
   std::ofstream(path) << R"(
 [[port]]
 machine = "mill-3"
 address = "/dev/ttyUSB0"
 template = "tnc155"
-rules_file = "calls.toml"
+rules_file = "rules.toml"
 baud = 4800
 wait_for_xon = true
 [[port]]

@@ -227,7 +227,7 @@ TEST_F(PortServiceTest, SendsWhatIsCalledFromTheControl) {
   const auto runs = store_->runs.list({.machine = "mill", .program = {}, .state = {}}, {});
   ASSERT_EQ(runs->size(), 1u);
   EXPECT_EQ(runs->front().program, "O1234");
-  EXPECT_EQ(runs->front().author, "call from the control");
+  EXPECT_EQ(runs->front().author, "request from the control");
   ASSERT_TRUE(wait_state(runs->front().id, RunState::Completed));
   line().write("%\nO9999\n(FROM=N1)\nM30\n%\n");
   EXPECT_EQ(line().read_until("X1\n"), "N1 G0 X1\n");

@@ -1,4 +1,4 @@
-// A call file, a NUL, and what a control sends. Properties: any call file is read or refused; the
+// A rules file, a NUL, and what a control sends. Properties: any rules file is read or refused; the
 // text is cut into the same lines and programs however it arrives; no line is longer than its
 // bound; a verdict has an action.
 #include <cstdint>
