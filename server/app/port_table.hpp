@@ -17,7 +17,7 @@ namespace dripline::app {
 ///     address = "/dev/ttyUSB0"         # or tcp://host:port, rfc2217://host:port
 ///     template = "tnc155"
 ///     enabled = true                   # the default
-///     rules_file = "calls.toml"        # or rules = '''...''', the text itself
+///     rules_file = "rules.toml"        # or rules = '''...''', the text itself
 ///     baud = 4800                      # and every other key of a line (dnc port templates)
 ///
 /// What the line's keys mean is judged when the port is saved. Errors: Syntax, NotFound (a file),
