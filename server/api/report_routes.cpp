@@ -2,7 +2,7 @@
 
 #include "server/api/routes.hpp"
 #include "server/api/views.hpp"
-#include "server/library/reports.hpp"
+#include "server/library/report_reader.hpp"
 
 namespace dripline::api {
 namespace {

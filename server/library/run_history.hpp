@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "server/library/kept_memory.hpp"
-#include "server/library/reports.hpp"
+#include "server/library/report_reader.hpp"
 #include "storage/store.hpp"
 
 namespace dripline::library {

@@ -1,4 +1,4 @@
-#include "server/library/reports.hpp"
+#include "server/library/report_reader.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
