@@ -28,7 +28,7 @@ struct ServerFacts {
 struct Services {
   library::Programs& programs;
   library::Setups& setups;
-  machines::MachineControl& feeds;
+  machines::MachineControl& machines;
   library::RunHistory& runs;
   library::AuditTrail& audit;
   EventHub& events;

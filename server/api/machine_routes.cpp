@@ -11,14 +11,14 @@ Response list_machines(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
   auto list = nlohmann::json::array();
-  for (const auto& view : services.feeds.machines()) list.push_back(machine_json(view));
+  for (const auto& view : services.machines.machines()) list.push_back(machine_json(view));
   return json_response(200, {{"machines", std::move(list)}});
 }
 
 Response show_machine(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto view = services.feeds.machine(request.parameter("name"));
+  const auto view = services.machines.machine(request.parameter("name"));
   return view ? json_response(200, machine_json(*view)) : error_response(view.error());
 }
 
@@ -26,7 +26,7 @@ Response command_machine(Services& services, const Request& request) {
   auto command = decode_machine_command(request.body);
   if (!command) return error_response(command.error());
   command->machine = request.parameter("name");
-  const auto done = services.feeds.command(*command);
+  const auto done = services.machines.command(*command);
   // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = !done && done.error().code == Errc::Timeout;
   if (done || is_unknown) {

@@ -31,7 +31,7 @@ Response list_memories(Services& services, const Request& request) {
   const auto run = query.text("run");
   if (auto good = query.finish(); !good) return error_response(good.error());
   const std::string machine = request.parameter("name");
-  if (const auto known = services.feeds.machine(machine); !known)
+  if (const auto known = services.machines.machine(machine); !known)
     return error_response(known.error());
   const auto memories = services.runs.memories(machine, run, page);
   if (!memories) return error_response(memories.error());

@@ -11,7 +11,7 @@ Response start_run(Services& services, const Request& request) {
   auto start = decode_start(request.body);
   if (!start) return error_response(start.error());
   start->author = request.who;
-  const auto run = services.feeds.start(*start);
+  const auto run = services.machines.start(*start);
   if (!run) return error_response(run.error());
   services.audit.write(
       {.who = request.who,
@@ -55,7 +55,7 @@ Response command_run(Services& services, const Request& request) {
   auto command = decode_command(request.body);
   if (!command) return error_response(command.error());
   command->run = request.parameter("id");
-  const auto done = services.feeds.command(*command);
+  const auto done = services.machines.command(*command);
   // The gateway may have carried out the command although its answer is missing.
   const bool is_unknown = !done && done.error().code == Errc::Timeout;
   if (done || is_unknown) {

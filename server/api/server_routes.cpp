@@ -33,7 +33,7 @@ Response describe_server(Services& services, const Request& request) {
   active_runs.state = storage::RunState::Active;
   const auto active = services.runs.count(active_runs);
   if (!active) return error_response(active.error());
-  const auto machines = services.feeds.machines();
+  const auto machines = services.machines.machines();
   const auto connected =
       std::ranges::count_if(machines, [](const auto& view) { return view.is_connected; });
   const ServerFacts& facts = services.facts;
@@ -69,14 +69,14 @@ Response open_events(Services& services, const Request& request) {
   const auto machine = query.text("machine");
   if (auto good = query.finish(); !good) return error_response(good.error());
   if (machine) {
-    if (const auto known = services.feeds.machine(*machine); !known) {
+    if (const auto known = services.machines.machine(*machine); !known) {
       return error_response(known.error());
     }
   }
   Response response;
   response.events = services.events.subscribe(machine);
   if (!response.events) return too_many_listeners();
-  for (const auto& view : services.feeds.machines()) {
+  for (const auto& view : services.machines.machines()) {
     response.events->push(
         {.kind = "machine", .machine = view.machine.name, .data = to_text(machine_json(view))});
   }

@@ -32,7 +32,7 @@ Response show_setup(Services& services, const Request& request) {
 /// The control that reads the text: the machine's, unless the server does not know the machine.
 Result<std::string> control_of(Services& services, const std::string& machine,
                                const std::optional<std::string>& given) {
-  const auto view = services.feeds.machine(machine);
+  const auto view = services.machines.machine(machine);
   const std::string known = view ? view->machine.control : "";
   if (known.empty() && given) return *given;
   if (known.empty()) {

@@ -95,14 +95,14 @@ struct Server::Parts {
         programs(*store, clock, catalog, audit),
         runs(*store),
         setups(store->setups, catalog, audit),
-        feeds(*store, clock, feed_options(), feed_listener()),
+        machine_service(*store, clock, machine_options(), machine_listener()),
         ports(*store, programs, clock,
               {.recordings = folder.recordings(), .open = {}, .on_fault = records_watch()},
               api::publish_to(events)),
-        machines(store->runs, feeds, ports.machines()),
+        machines(store->runs, machine_service, ports.machines()),
         api({.programs = programs,
              .setups = setups,
-             .feeds = machines,
+             .machines = machines,
              .runs = runs,
              .audit = audit,
              .events = events,
@@ -112,13 +112,13 @@ struct Server::Parts {
                        .data_dir = folder.path().string(),
                        .started = clock.now(),
                        .dds_domain = settings.dds_domain},
-             .dds_rejected = [this] { return feeds.rejected().messages; },
+             .dds_rejected = [this] { return machine_service.rejected().messages; },
              .ports = &ports,
              .health = &health},
             {.name = kTokenName, .secret = std::move(token)}),
         tidied(clock.steady_now()) {}
 
-  machines::MachineService::Options feed_options() {
+  machines::MachineService::Options machine_options() {
     machines::MachineService::Options options;
     options.on_fault = records_watch();
     return options;
@@ -135,7 +135,7 @@ struct Server::Parts {
     };
   }
 
-  machines::MachineListener feed_listener() {
+  machines::MachineListener machine_listener() {
     machines::MachineListener listener = api::publish_to(events);
     listener.on_machine = [this, publish = listener.on_machine](const machines::MachineView& view) {
       using Level = library::Health::Level;
@@ -160,7 +160,7 @@ struct Server::Parts {
   library::RunHistory runs;
   library::Setups setups;
   api::EventHub events;
-  machines::MachineService feeds;
+  machines::MachineService machine_service;
   ports::PortService ports;
   ports::MachineRouter machines;
   api::Api api;
@@ -213,11 +213,11 @@ Server::~Server() {
   parts_->check.request_stop();
   parts_->watch.reset();  // it may announce
   parts_->folder.withdraw();
-  parts_->feeds.stop_waiting();
+  parts_->machine_service.stop_waiting();
   parts_->events.close();
   parts_->http.reset();
   parts_->ports.end();
-  parts_->feeds.end();
+  parts_->machine_service.end();
 }
 
 Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Clock& clock) {
@@ -242,9 +242,11 @@ Result<std::unique_ptr<Server>> Server::start(const Settings& settings, const Cl
   Parts& parts = *server->parts_;
   parts.ports.on_traffic(api::publish_traffic_to(parts.events));
   if (auto begun = parts.ports.begin(settings.ports); !begun) return fail(begun.error());
-  auto endpoint = dds::ServerEndpoint::open(network_options(settings), parts.feeds.handlers());
+  auto endpoint =
+      dds::ServerEndpoint::open(network_options(settings), parts.machine_service.handlers());
   if (!endpoint) return fail(endpoint.error());
-  if (auto begun = parts.feeds.begin(*std::move(endpoint)); !begun) return fail(begun.error());
+  if (auto begun = parts.machine_service.begin(*std::move(endpoint)); !begun)
+    return fail(begun.error());
   server->tidy();
   parts.watch = std::make_unique<library::HealthWatch>(
       library::HealthWatch::Parts{.health = parts.health,

@@ -17,7 +17,7 @@ struct Call {
   std::string token = kSecret;
 };
 
-/// The API on a real store and fake feeds, without sockets.
+/// The API on a real store and fake machines, without sockets.
 class ApiTest : public ServerTest {
  protected:
   using Json = nlohmann::json;
@@ -27,7 +27,7 @@ class ApiTest : public ServerTest {
   void make_api(ports::PortControl* ports) {
     api_ = std::make_unique<api::Api>(api::Services{.programs = *programs_,
                                                     .setups = *setups_,
-                                                    .feeds = feeds_,
+                                                    .machines = machines_,
                                                     .runs = *runs_,
                                                     .audit = *audit_,
                                                     .events = events_,
@@ -91,7 +91,7 @@ class ApiTest : public ServerTest {
     machines::MachineView view;
     view.machine = store_->machines.find(name).value();
     view.is_connected = true;
-    feeds_.views.push_back(std::move(view));
+    machines_.views.push_back(std::move(view));
   }
   /// A run of O0100 with some output lines and its end, as it would be stored.
   std::string stored_run(std::uint64_t outputs) {
@@ -126,11 +126,11 @@ class ApiTest : public ServerTest {
       batch.records.push_back(record);
     }
     EXPECT_TRUE(store_->records.store(batch));
-    feeds_.run = store_->runs.find(run.id).value();
+    machines_.run = store_->runs.find(run.id).value();
     return run.id;
   }
 
-  FakeMachines feeds_;
+  FakeMachines machines_;
   FakePorts ports_;
   library::Health health_{clock_};
   api::EventHub events_;

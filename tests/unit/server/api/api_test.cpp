@@ -122,7 +122,7 @@ TEST_F(ApiHandlers, StartARunAndAuditIt) {
   const auto response = post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}});
   ASSERT_EQ(response.status, 201) << response.body;
   EXPECT_EQ(json(response)["id"], run);
-  EXPECT_EQ(feeds_.started.at(0).author, "admin");
+  EXPECT_EQ(machines_.started.at(0).author, "admin");
   EXPECT_EQ(json(get("/api/v1/audit"))["entries"][0]["subject"], run);
 }
 
@@ -130,7 +130,7 @@ TEST_F(ApiHandlers, SayWhyARunWasNotStarted) {
   stored_run(0);
   expect_error(post("/api/v1/runs", {{"machine", "lathe-9"}, {"program", "O0100"}}), 404,
                "not_found", "lathe-9");
-  feeds_.refusal = Error{Errc::Timeout, "machine 'lathe-1' is not connected"};
+  machines_.refusal = Error{Errc::Timeout, "machine 'lathe-1' is not connected"};
   expect_error(post("/api/v1/runs", {{"machine", "lathe-1"}, {"program", "O0100"}}), 504, "timeout",
                "not connected");
 }
@@ -141,9 +141,9 @@ TEST_F(ApiHandlers, PassOrdersOn) {
       post("/api/v1/runs/" + run + "/commands", {{"action", "feed_override"}, {"value", 0.5}});
   EXPECT_EQ(response.status, 200) << response.body;
   EXPECT_EQ(json(response)["accepted"], true);
-  EXPECT_EQ(feeds_.ordered.at(0).run, run);
-  EXPECT_EQ(feeds_.ordered.at(0).action, dds::CommandAction::FeedOverride);
-  EXPECT_EQ(feeds_.ordered.at(0).value, 0.5);
+  EXPECT_EQ(machines_.commands.at(0).run, run);
+  EXPECT_EQ(machines_.commands.at(0).action, dds::CommandAction::FeedOverride);
+  EXPECT_EQ(machines_.commands.at(0).value, 0.5);
 }
 
 /// HD-195: the emergency stop is pressed and released where no run is.
@@ -152,15 +152,15 @@ TEST_F(ApiHandlers, PassOrdersToAMachinesPanelOn) {
   const auto response = post("/api/v1/machines/lathe-1/commands",
                              {{"action", "switch"}, {"name", "emergency_stop"}, {"value", 1}});
   EXPECT_EQ(response.status, 200) << response.body;
-  EXPECT_EQ(feeds_.ordered.at(0).run, "");
-  EXPECT_EQ(feeds_.ordered.at(0).machine, "lathe-1");
-  EXPECT_EQ(feeds_.ordered.at(0).argument, "emergency_stop");
+  EXPECT_EQ(machines_.commands.at(0).run, "");
+  EXPECT_EQ(machines_.commands.at(0).machine, "lathe-1");
+  EXPECT_EQ(machines_.commands.at(0).argument, "emergency_stop");
   const Json entry = json(get("/api/v1/audit"))["entries"][0];
   EXPECT_EQ(entry["subject"], "lathe-1");
   EXPECT_EQ(entry["action"], "machine.switch");
   expect_error(post("/api/v1/machines/lathe-1/commands", {{"action", "resume"}}), 422,
                "unsupported", "resume");
-  EXPECT_EQ(feeds_.ordered.size(), 1u);
+  EXPECT_EQ(machines_.commands.size(), 1u);
 }
 
 TEST_F(ApiHandlers, ShowRunsAndTheirRecords) {
@@ -272,7 +272,7 @@ TEST_F(ApiHandlers, OpenAnEventStreamWithTheMachinesAsTheyAre) {
   EXPECT_EQ(first.find("lathe-1"), std::string::npos);
   EXPECT_NE(first.find("event: machine\ndata: {"), std::string::npos) << first;
   const auto listener = api::publish_to(events_);
-  listener.on_machine(feeds_.views[1]);
+  listener.on_machine(machines_.views[1]);
   EXPECT_NE(response.events->take().find("lathe-2"), std::string::npos);
 }
 
@@ -284,7 +284,7 @@ TEST_F(ApiHandlers, ShowTheStatusOfAMachine) {
   status.execution = dds::Execution::FeedHold;
   status.position = {1.5, 0, -3, 0, 0, 90};
   status.axes = 0b100101;  // X, Z and C
-  feeds_.views[0].status = status;
+  machines_.views[0].status = status;
   const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
   EXPECT_EQ(shown["position"], (Json{{"X", 1.5}, {"Z", -3.0}, {"C", 90.0}}));
   EXPECT_TRUE(shown["run"].is_null());
@@ -316,7 +316,7 @@ TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   frame.mirrored = 0b10;
   frame.pole_axes = 0b101;
   frame.pole = {7, 0, 9};
-  feeds_.views[0].status = status;
+  machines_.views[0].status = status;
   const Json shown = json(get("/api/v1/machines/lathe-1"))["status"];
   EXPECT_EQ(shown["emergency_stop"], true);
   EXPECT_EQ(shown["remote_enable"], "not_given");

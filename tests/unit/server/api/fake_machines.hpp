@@ -6,7 +6,7 @@
 
 namespace dripline::server_test {
 
-/// Machines that exist because a test says so, and orders that are only noted.
+/// Machines that a test lists, and commands that are only noted.
 class FakeMachines final : public machines::MachineControl {
  public:
   std::vector<machines::MachineView> machines() const override { return views; }
@@ -23,14 +23,14 @@ class FakeMachines final : public machines::MachineControl {
     return run;
   }
   Result<void> command(const machines::CommandRequest& request) override {
-    ordered.push_back(request);
+    commands.push_back(request);
     if (refusal) return fail(*refusal);
     return {};
   }
 
   std::vector<machines::MachineView> views;
   std::vector<machines::StartRequest> started;
-  std::vector<machines::CommandRequest> ordered;
+  std::vector<machines::CommandRequest> commands;
   std::optional<Error> refusal;
   storage::Run run;
 };

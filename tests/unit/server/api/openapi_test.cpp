@@ -150,7 +150,7 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   status.modes->spindle = dds::SpindleState::Clockwise;
   status.coordinates = dds::Coordinates{
       .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};
-  feeds_.views[0].status = status;
+  machines_.views[0].status = status;
 
   expect_described("GET", "/api/v1/health", get("/api/v1/health"));
   health_.report("", {library::Health::Level::Failed, "store", "not written", "disk full"});

@@ -9,7 +9,7 @@ class SetupRoutes : public ApiTest {
     machines::MachineView view;
     view.machine.name = "lathe-1";
     view.machine.control = "centurion";
-    feeds_.views.push_back(view);
+    machines_.views.push_back(view);
   }
   api::Response put(const std::string& target, const std::string& text) {
     return call("PUT", "/api/v1/machines/" + target, {.body = text, .headers = {}});
