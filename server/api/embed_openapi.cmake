@@ -1,4 +1,4 @@
-# Makes a C++ file out of a text: cmake -DTEXT=openapi.json -DOUT=openapi.cpp -P embed_text.cmake
+# Makes `openapi_text()` of the API description: cmake -DTEXT=openapi.json -DOUT=openapi.cpp -P embed_openapi.cmake
 file(READ ${TEXT} text)
 # String literals have a length limit, so it is cut into pieces that the compiler joins.
 string(LENGTH "${text}" length)
