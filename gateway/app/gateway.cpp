@@ -145,8 +145,8 @@ SteadyTime Gateway::next_turn(SteadyTime now) const {
   if (loop_.is_moving()) return next_tick;
   constexpr std::chrono::milliseconds kSoon{20};
   const bool must_send = announcement_is_due_ || !commands_.is_sent();
-  SteadyTime next = now + (run_.session || must_send ? report::StatusPublisher::kShortest
-                                                     : report::StatusPublisher::kHeartbeat);
+  SteadyTime next = now + (run_.session || must_send ? report::StatusPublisher::kMinInterval
+                                                     : report::StatusPublisher::kMaxInterval);
   if (must_send) next = std::min(next, now + kSoon);
   if (loop_.waits_for_machine()) return next_tick;
   const auto look_at = [&next](const std::optional<SteadyTime>& due) {

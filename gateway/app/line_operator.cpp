@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "gateway/report/status_publisher.hpp"
 #include "protocol/base/names.hpp"
 #include "protocol/base/random.hpp"
 #include "protocol/process/log.hpp"
@@ -15,6 +14,7 @@ using What = feed::LineItem::What;
 namespace {
 
 constexpr std::chrono::seconds kListenAgain{1};
+constexpr std::chrono::milliseconds kDrainPoll{100};
 constexpr std::string_view kNext = "next";
 
 /// On such a line silence is no end: a program that is drip-fed ends with its own last block.
@@ -61,7 +61,7 @@ void LineOperator::poll(SteadyTime now) {
 std::optional<SteadyTime> LineOperator::next_poll(SteadyTime now) const {
   std::optional<SteadyTime> next = listen_at_;
   if (state_ != State::Draining) return next;
-  const SteadyTime look = now + report::StatusPublisher::kShortest;
+  const SteadyTime look = now + kDrainPoll;
   return next ? std::min(*next, look) : look;
 }
 

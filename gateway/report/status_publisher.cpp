@@ -19,8 +19,8 @@ auto content(const dds::Status& s) {
 void StatusPublisher::offer(const dds::Status& status, SteadyTime now) {
   if (last_ && now < next_) return;
   const bool has_changed = !last_ || content(*last_) != content(status);
-  if (!has_changed && now - sent_ < kHeartbeat) return;
-  next_ = now + kShortest;
+  if (!has_changed && now - sent_ < kMaxInterval) return;
+  next_ = now + kMinInterval;
   if (!send_(status)) return;
   last_ = status;
   sent_ = now;

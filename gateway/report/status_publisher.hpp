@@ -24,7 +24,7 @@ class StatusPublisher {
   /// A server has appeared: the next offer goes out.
   void reset() { last_.reset(); }
 
-  static constexpr std::chrono::milliseconds kShortest{100}, kHeartbeat{1000};
+  static constexpr std::chrono::milliseconds kMinInterval{100}, kMaxInterval{1000};
 
  private:
   Send send_;
