@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& i) { return std::string(i.param.name); });
 
 /// A control that asks when it is switched on, before any command.
-TEST(LineSystemCommands, RunsNothingThatNobodyOrderedAndThenWhatIsStarted) {
+TEST(LineSystemCommands, RunsNothingThatWasNotCommandedAndThenWhatIsStarted) {
   const std::vector<std::vector<std::string>> lines{
       {"flow=dc_codes", "start_char=%", "end_char=%", "control=plain"},
       {"flow=xmodem", "control=plain"}};

@@ -93,7 +93,7 @@ TEST_F(DncOnline, FindsRunsByLatestAndByPrefix) {
   EXPECT_NE(id_of("zz").find("no run's id begins with 'zz'"), std::string::npos);
 }
 
-TEST_F(DncOnline, GivesOrders) {
+TEST_F(DncOnline, GivesCommands) {
   server.set_run(run_json("aa11", "active"));
   std::mutex mutex;  // the server's threads write what this one reads
   std::vector<std::string> commands;

@@ -11,7 +11,7 @@ using dds::Execution;
 using std::chrono::hours;
 using std::chrono::seconds;
 
-class Orders : public testing::Test {
+class Commands : public testing::Test {
  protected:
   dds::Command make(CommandAction action, double value = 0, const std::string& argument = "") {
     dds::Command command = shop.command(action);
@@ -34,7 +34,7 @@ class Orders : public testing::Test {
   Shop shop{"1x"};
 };
 
-TEST_F(Orders, ThatStopNeverComeTooLate) {
+TEST_F(Commands, ThatStopNeverComeTooLate) {
   run_long_program();
   EXPECT_TRUE(shop.send(late(make(CommandAction::FeedOverride, 0.5))).accepted);
   EXPECT_TRUE(shop.send(late(make(CommandAction::Hold))).accepted);
@@ -48,7 +48,7 @@ TEST_F(Orders, ThatStopNeverComeTooLate) {
   EXPECT_EQ(shop.ended().outcome, dds::RunOutcome::Aborted);
 }
 
-TEST_F(Orders, ThatMoveSomethingDoNotComeAfterTheirDeadline) {
+TEST_F(Commands, ThatMoveSomethingDoNotComeAfterTheirDeadline) {
   run_long_program();
   ASSERT_TRUE(shop.send(make(CommandAction::FeedOverride, 0.5)).accepted);
   ASSERT_TRUE(shop.send(make(CommandAction::Hold)).accepted);
@@ -61,7 +61,7 @@ TEST_F(Orders, ThatMoveSomethingDoNotComeAfterTheirDeadline) {
   EXPECT_TRUE(shop.run_until([&] { return shop.status->emergency_stop; }));
 }
 
-TEST_F(Orders, ThatMoveSomethingNeedASessionAndADeadline) {
+TEST_F(Commands, ThatMoveSomethingNeedASessionAndADeadline) {
   shop.push("O1", "END\n");
   dds::Command start = shop.start_command("O1");
   start.deadline = {};
@@ -75,7 +75,7 @@ TEST_F(Orders, ThatMoveSomethingNeedASessionAndADeadline) {
   EXPECT_FALSE(shop.send(start).accepted);
 }
 
-TEST_F(Orders, ThatWereOvertakenByAStopMoveNothing) {
+TEST_F(Commands, ThatWereOvertakenByAStopMoveNothing) {
   run_long_program();
   ASSERT_TRUE(shop.send(make(CommandAction::Hold)).accepted);
   ASSERT_TRUE(comes_to(Execution::FeedHold));
@@ -85,7 +85,7 @@ TEST_F(Orders, ThatWereOvertakenByAStopMoveNothing) {
   EXPECT_TRUE(shop.send(make(CommandAction::Resume)).accepted);
 }
 
-TEST_F(Orders, OfARestartedServerAreNumberedAnew) {
+TEST_F(Commands, OfARestartedServerAreNumberedAgain) {
   run_long_program();
   ASSERT_TRUE(shop.send(make(CommandAction::Hold)).accepted);
   ASSERT_TRUE(comes_to(Execution::FeedHold));
@@ -95,7 +95,7 @@ TEST_F(Orders, OfARestartedServerAreNumberedAnew) {
   EXPECT_TRUE(shop.send(resume).accepted);
 }
 
-TEST_F(Orders, ThatStopAreCarriedOutByAnyGatewayOfTheName) {
+TEST_F(Commands, ThatStopAreCarriedOutByAnyGatewayOfTheName) {
   run_long_program();
   dds::Command hold = make(CommandAction::Hold);
   hold.session += 7;
@@ -107,7 +107,7 @@ TEST_F(Orders, ThatStopAreCarriedOutByAnyGatewayOfTheName) {
   EXPECT_FALSE(shop.results.contains(resume.id)) << "it is for another session";
 }
 
-TEST_F(Orders, AreDoneOnceHoweverOftenTheyCome) {
+TEST_F(Commands, AreDoneOnceHoweverOftenTheyCome) {
   run_long_program();
   const dds::Command hold = make(CommandAction::Hold);
   ASSERT_TRUE(shop.send(hold).accepted);
@@ -120,7 +120,7 @@ TEST_F(Orders, AreDoneOnceHoweverOftenTheyCome) {
 }
 
 /// The time of day of gateway and server has no part in any of it.
-TEST_F(Orders, WorkOnAGatewayWhoseTimeOfDayIsAnHourOff) {
+TEST_F(Commands, WorkOnAGatewayWhoseTimeOfDayIsAnHourOff) {
   for (const auto step : {hours(1), hours(-1)}) {
     shop.clock.step = step;
     run_long_program();
@@ -132,7 +132,7 @@ TEST_F(Orders, WorkOnAGatewayWhoseTimeOfDayIsAnHourOff) {
   }
 }
 
-TEST_F(Orders, AreNotToBeExpectedFromAServerThatRefusesTheGateway) {
+TEST_F(Commands, AreNotToBeExpectedFromAServerThatRefusesTheGateway) {
   shop.gateway->receive(make(CommandAction::Refuse, 0, "protocol 2, not 9"), shop.clock.steady);
   EXPECT_TRUE(shop.run_until([&] {
     return shop.status &&

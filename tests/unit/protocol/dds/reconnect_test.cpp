@@ -73,7 +73,7 @@ TEST_F(Reconnect, ALateServerGetsTheLastStatus) {
   EXPECT_EQ(got->line, 3U);
 }
 
-TEST_F(Reconnect, ANewServerIsNotHandedOldRecordsOrOrders) {
+TEST_F(Reconnect, ANewServerIsNotHandedOldRecordsOrCommands) {
   auto server = open_server();
   auto gateway = open_gateway("lathe-1", 1);
   ASSERT_TRUE(server->announces.take());

@@ -1,4 +1,4 @@
-// Orders, clocks and databases that are not as they should be.
+// Clocks, databases and limits of the system that are not as they should be.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <csignal>
