@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/integration/line_shop.hpp"
+#include "tests/integration/line_gateway.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
@@ -24,25 +24,26 @@ class AttendedLine : public testing::Test {
  protected:
   test_support::Finished panel(const std::string& verb) const {
     return test_support::run_to_end(
-        {program_path("dncgw"), "panel", "--state", shop_.state(), verb},
-        shop_.state() / "panel.out");
+        {program_path("dncgw"), "panel", "--state", gateway_.state(), verb},
+        gateway_.state() / "panel.out");
   }
   test_support::PtyCable cable_;
-  LineShop shop_{{.address = cable_.control(), .settings = kSettings, .is_unattended = false}};
+  LineGateway gateway_{
+      {.address = cable_.control(), .settings = kSettings, .is_unattended = false}};
   test_support::HostLine host_{cable_.host(), host_settings()};
 };
 
 TEST_F(AttendedLine, RunsWhatComesWhenCycleStartIsGivenAtItsPanel) {
   host_.send(kProgram);
-  ASSERT_TRUE(shop_.wait_logged("run begins with text from line"));
+  ASSERT_TRUE(gateway_.wait_logged("run begins with text from line"));
   const auto status = panel("status");
   EXPECT_EQ(status.status, 0);
   EXPECT_NE(status.output.find("remote_enable=not_given waits_for=cycle_start"), std::string::npos)
       << status.output;
-  EXPECT_EQ(shop_.runs_ended(), 0U);
+  EXPECT_EQ(gateway_.runs_ended(), 0U);
   EXPECT_EQ(panel("cycle-start").output, "ok\n");
-  ASSERT_TRUE(shop_.wait_ended(1));
-  EXPECT_EQ(shop_.outputs(), std::vector<std::string>{"DONE"});
+  ASSERT_TRUE(gateway_.wait_ended(1));
+  EXPECT_EQ(gateway_.outputs(), std::vector<std::string>{"DONE"});
 }
 
 TEST_F(AttendedLine, RefusesAtItsPanelWithAReasonAndAStatus) {

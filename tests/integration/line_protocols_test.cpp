@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/base/digest.hpp"
-#include "tests/integration/line_shop.hpp"
+#include "tests/integration/line_gateway.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
 
@@ -48,15 +48,15 @@ TEST_P(LineProtocol, FeedsRunsAndPrintsBack) {
     host.answer_with(text);
     arguments.insert(arguments.end(), {"--line-request", request});
   }
-  LineShop shop(
+  LineGateway gateway(
       {.address = cable.control(), .settings = settings, .speed = "max", .arguments = arguments});
   if (request.empty()) host.send(text);
   ASSERT_TRUE(eventually([&] { return host.sent() > text.size() && host.is_idle(); }));
   if (GetParam().host_expects) host.receive();
-  ASSERT_TRUE(shop.wait_ended(1));
+  ASSERT_TRUE(gateway.wait_ended(1));
   EXPECT_TRUE(eventually([&] { return host.received().find("DONE WELL\n") != std::string::npos; }))
       << host.received() << testing::PrintToString(host.failures());
-  const auto endings = shop.endings();
+  const auto endings = gateway.endings();
   ASSERT_GE(endings.size(), 1U);
   EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
 }

@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "protocol/base/digest.hpp"
-#include "tests/integration/line_shop.hpp"
+#include "tests/integration/line_gateway.hpp"
 #include "tests/integration/system.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
@@ -43,23 +43,23 @@ class ServedLine {
   void switch_on() {
     std::vector<std::string> arguments;
     if (!request_.empty()) arguments = {"--line-request", request_};
-    shop.emplace(LineShop::Options{.address = cable.control(),
-                                   .settings = settings_,
-                                   .speed = "max",
-                                   .arguments = std::move(arguments)});
+    gateway.emplace(LineGateway::Options{.address = cable.control(),
+                                         .settings = settings_,
+                                         .speed = "max",
+                                         .arguments = std::move(arguments)});
   }
   nlohmann::json port_view() const { return system.rest().get("/api/v1/ports/port-1").json(); }
   std::string start(const std::string& name, const std::string& text) {
     system.push(name, text);
     std::string id = system.start_run(name, "old-lathe");
     // Its operator asks when the host is ready, as at the real ones: a DC1 comes only once.
-    if (!shop) switch_on();
+    if (!gateway) switch_on();
     return id;
   }
 
   System system;
   PtyCable cable;
-  std::optional<LineShop> shop;
+  std::optional<LineGateway> gateway;
 
  private:
   std::vector<std::string> settings_;
@@ -103,17 +103,17 @@ TEST_P(LineSystem, FromTheServerOverTheLineToTheMachineAndBackIntoTheReport) {
   const auto run = line.system.wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
   EXPECT_EQ(run.value("sent", 0U), text.size()) << run.dump();
-  ASSERT_TRUE(line.shop->wait_ended(1));
+  ASSERT_TRUE(line.gateway->wait_ended(1));
   if (GetParam().prints_back) {
     EXPECT_TRUE(eventually([&] { return line.system.report_lines(id) == expected; }))
         << testing::PrintToString(line.system.report_lines(id)) << "\n"
         << line.system.rest().get("/api/v1/ports/port-1/recording").body;
   }
-  const auto endings = line.shop->endings();
+  const auto endings = line.gateway->endings();
   ASSERT_GE(endings.size(), 1U);
   EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
   EXPECT_EQ(endings[0].executed, blocks_of(text));
-  EXPECT_EQ(line.shop->outputs(), expected);
+  EXPECT_EQ(line.gateway->outputs(), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -142,8 +142,8 @@ TEST(LineSystemCommands, RunsNothingThatWasNotCommandedAndThenWhatIsStarted) {
     const std::string text = "G20 G98\nG1 X1. Z-1. F50.\nM30\n";
     const std::string id = line.start("O0077", text);
     EXPECT_EQ(line.system.wait_ended(id).value("state", ""), "completed") << flow;
-    ASSERT_TRUE(line.shop->wait_ended(1)) << flow;
-    const auto endings = line.shop->endings();
+    ASSERT_TRUE(line.gateway->wait_ended(1)) << flow;
+    const auto endings = line.gateway->endings();
     ASSERT_EQ(endings.size(), 1U) << flow;
     EXPECT_EQ(endings[0].executed, 3U) << flow;
   }
@@ -162,7 +162,7 @@ TEST(LineSystemLoss, EndsTheRunAtAKnownBlockWhenTheCableIsPulled) {
   EXPECT_FALSE(line.port_view().value("open", true));
 
   // The server's sent counter and the control's text differ by what is in transit.
-  const auto endings = line.shop->endings();
+  const auto endings = line.gateway->endings();
   ASSERT_EQ(endings.size(), 1U);
   const auto& ending = endings[0];
   const auto sent = run.value("sent", std::uint64_t{0});
@@ -189,8 +189,8 @@ TEST(LineSystemLoss, ResumesACheckedProtocolWhenTheCableIsBack) {
   line.cable.plug_in();
   const auto run = line.system.wait_ended(id);
   EXPECT_EQ(run.value("state", ""), "completed") << run.dump();
-  ASSERT_TRUE(line.shop->wait_ended(1));
-  const auto endings = line.shop->endings();
+  ASSERT_TRUE(line.gateway->wait_ended(1));
+  const auto endings = line.gateway->endings();
   ASSERT_GE(endings.size(), 1U);
   EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
   EXPECT_EQ(endings[0].executed, blocks_of(text));

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "protocol/base/digest.hpp"
-#include "tests/integration/line_shop.hpp"
+#include "tests/integration/line_gateway.hpp"
 #include "tests/support/line/device_server.hpp"
 #include "tests/support/line/host_line.hpp"
 #include "tests/support/line/pty.hpp"
@@ -69,10 +69,10 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   const test_support::TemporaryFolder folder;
   const auto setup = folder.path() / "setup.toml";
   std::ofstream(setup) << "units = \"in\"\nanswers = [\"1\"]\n";
-  LineShop shop({.address = cable.control(),
-                 .settings = kSettings,
-                 .speed = "100x",
-                 .arguments = {"--line-buffer", "1024", "--setup", setup}});
+  LineGateway gateway({.address = cable.control(),
+                       .settings = kSettings,
+                       .speed = "100x",
+                       .arguments = {"--line-buffer", "1024", "--setup", setup}});
   HostLine host(cable.host(), host_settings());
   // At the question the control waits for the end of a long move, and its memory fills up.
   const std::string text =
@@ -80,9 +80,9 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
   host.send(text);
   EXPECT_TRUE(eventually([&] { return host.is_stopped(); })) << "the memory was never full";
   EXPECT_LT(host.sent(), 4096U);
-  ASSERT_TRUE(shop.wait_ended(1, 120s));
+  ASSERT_TRUE(gateway.wait_ended(1, 120s));
   EXPECT_TRUE(host.is_idle());
-  const auto endings = shop.endings();
+  const auto endings = gateway.endings();
   ASSERT_EQ(endings.size(), 1U);
   EXPECT_EQ(endings[0].outcome, dds::RunOutcome::Completed) << endings[0].reason;
   EXPECT_EQ(endings[0].executed, blocks_of(text));
@@ -92,39 +92,39 @@ TEST(Line, DripFeedsAProgramLargerThanTheControlsMemory) {
 
 TEST(Line, PrintsBackWhileItIsFed) {
   PtyCable cable;
-  LineShop shop({.address = cable.control(), .settings = kSettings});
+  LineGateway gateway({.address = cable.control(), .settings = kSettings});
   HostLine host(cable.host(), host_settings());
   host.send(printing(200));
-  ASSERT_TRUE(shop.wait_ended(1));
+  ASSERT_TRUE(gateway.wait_ended(1));
   EXPECT_TRUE(eventually([&] { return host.received() == printed(200); })) << host.received();
-  EXPECT_EQ(shop.outputs().size(), 200U) << "and to the record";
+  EXPECT_EQ(gateway.outputs().size(), 200U) << "and to the record";
 }
 
 TEST(Line, RunsOneProgramAfterTheOther) {
   PtyCable cable;
-  LineShop shop({.address = cable.control(), .settings = kSettings});
+  LineGateway gateway({.address = cable.control(), .settings = kSettings});
   HostLine host(cable.host(), host_settings());
   for (std::size_t run = 1; run <= 3; ++run) {
     host.send(printing(static_cast<int>(run)) + "%\n");
-    ASSERT_TRUE(shop.wait_ended(run));
+    ASSERT_TRUE(gateway.wait_ended(run));
     // What is after the end of a program is not the beginning of the next: it has to be quiet.
     std::this_thread::sleep_for(700ms);
   }
-  const auto endings = shop.endings();
+  const auto endings = gateway.endings();
   ASSERT_EQ(endings.size(), 3U);
   for (const auto& ending : endings) EXPECT_EQ(ending.outcome, dds::RunOutcome::Completed);
 }
 
 TEST(Line, StopsAfterTheLastCompleteBlockWhenTheCableIsPulled) {
   PtyCable cable;
-  LineShop shop({.address = cable.control(), .settings = kSettings});
+  LineGateway gateway({.address = cable.control(), .settings = kSettings});
   HostLine host(cable.host(), host_settings());
   const std::string text = contour(200'000);
   host.send(text);
   ASSERT_TRUE(eventually([&] { return host.sent() > 5000; }));
   cable.unplug_control();
-  ASSERT_TRUE(shop.wait_ended(1));
-  const auto endings = shop.endings();
+  ASSERT_TRUE(gateway.wait_ended(1));
+  const auto endings = gateway.endings();
   ASSERT_EQ(endings.size(), 1U);
   const auto& ending = endings[0];
   EXPECT_EQ(ending.outcome, dds::RunOutcome::Alarmed);
@@ -137,7 +137,7 @@ TEST(Line, StopsAfterTheLastCompleteBlockWhenTheCableIsPulled) {
 
 TEST(Line, TakesTheNextProgramWhenTheHostsPortIsBack) {
   PtyCable cable;
-  LineShop shop({.address = cable.control(), .settings = kSettings});
+  LineGateway gateway({.address = cable.control(), .settings = kSettings});
   HostLine host(cable.host(), host_settings());
   host.send(contour(200'000));
   ASSERT_TRUE(eventually([&] { return host.sent() > 3000; }));
@@ -147,26 +147,26 @@ TEST(Line, TakesTheNextProgramWhenTheHostsPortIsBack) {
   cable.plug_in();
   ASSERT_TRUE(eventually([&] { return host.is_open(); }));
   host.send("X[1\n");  // the operator's reset: what is left of the block cannot be
-  ASSERT_TRUE(shop.wait_ended(1));
+  ASSERT_TRUE(gateway.wait_ended(1));
   std::this_thread::sleep_for(700ms);
   host.send(printing(5));
-  ASSERT_TRUE(shop.wait_ended(2));
+  ASSERT_TRUE(gateway.wait_ended(2));
   EXPECT_TRUE(eventually([&] { return host.received() == printed(5); }));
 }
 
 TEST(Line, FollowsADeviceServer) {
   DeviceServer server;
-  LineShop shop({.address = server.address(), .settings = kSettings});
+  LineGateway gateway({.address = server.address(), .settings = kSettings});
   HostLine host(server.control(), host_settings());
   host.send(printing(20));
-  ASSERT_TRUE(shop.wait_ended(1));
+  ASSERT_TRUE(gateway.wait_ended(1));
   EXPECT_TRUE(eventually([&] { return host.received() == printed(20); }));
   server.switch_off();
-  ASSERT_TRUE(shop.wait_logged("closed the connection"));
+  ASSERT_TRUE(gateway.wait_logged("closed the connection"));
   server.switch_on();
-  ASSERT_TRUE(shop.wait_logged("is open", 2));
+  ASSERT_TRUE(gateway.wait_logged("is open", 2));
   host.send(printing(3));
-  ASSERT_TRUE(shop.wait_ended(2));
+  ASSERT_TRUE(gateway.wait_ended(2));
   EXPECT_TRUE(eventually([&] { return host.received() == printed(20) + printed(3); }));
 }
 

@@ -68,18 +68,19 @@ Value value_of(const std::string& line) {
           number_after(line, "DEV"), static_cast<int>(number_after(line, "OUT"))};
 }
 
-struct Shop {
+struct ProbeSetup {
   std::string surfaces;
   std::string start = "{ X = 0.0, Y = 0.0, Z = 0.0 }";
   std::string more = "";
   std::string ball = fmt::format("[[variable]]\nname = \"#520\"\nvalue = {:.1f}\n", kBall);
 };
 
-Report run(const Shop& shop, const std::string& blocks) {
+Report run(const ProbeSetup& probing, const std::string& blocks) {
   const Dialect* control = *find_dialect("fanuc");
-  const auto setup = parse_setup(fmt::format("start = {}\n{}{}[probe]\nsurface = [{}]\n",
-                                             shop.start, shop.more, shop.ball, shop.surfaces),
-                                 control->units);
+  const auto setup =
+      parse_setup(fmt::format("start = {}\n{}{}[probe]\nsurface = [{}]\n", probing.start,
+                              probing.more, probing.ball, probing.surfaces),
+                  control->units);
   Report report;
   if (!setup) {
     report.alarm = setup.error().what;
@@ -270,7 +271,7 @@ TEST(ProbingMacros, IncrementalModeComesBack) {
 
 struct Refusal {
   std::string name, surfaces, blocks, alarm;
-  std::string ball = Shop{}.ball;
+  std::string ball = ProbeSetup{}.ball;
 };
 
 class ProbingAlarms : public testing::TestWithParam<Refusal> {};

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// What the network may do at a machine at which people may be.
 namespace dripline::gateway {
@@ -68,162 +68,164 @@ INSTANTIATE_TEST_SUITE_P(
 class AttendedMachine : public testing::Test {
  protected:
   AttendedMachine() {
-    shop_.make_attended();
-    shop_.push("O1", "OUT FIRST\nX40\nSTOP\nX0\nEND\n");
+    fixture_.make_attended();
+    fixture_.push("O1", "OUT FIRST\nX40\nSTOP\nX0\nEND\n");
   }
   bool reaches(WaitsFor waits_for) {
-    return shop_.run_until([&] { return shop_.status && shop_.status->waits_for == waits_for; });
+    return fixture_.run_until(
+        [&] { return fixture_.status && fixture_.status->waits_for == waits_for; });
   }
   dds::CommandResult give(CommandAction action, double value = 0, const char* argument = "") {
-    dds::Command command = shop_.command(action);
+    dds::Command command = fixture_.command(action);
     command.value = value;
     command.argument = argument;
-    return shop_.send(command);
+    return fixture_.send(command);
   }
-  Shop shop_{"1x"};
+  GatewayFixture fixture_{"1x"};
 };
 
 TEST_F(AttendedMachine, WaitsForCycleStartAtTheMachine) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_EQ(shop_.status->execution, Execution::Waiting);
-  EXPECT_EQ(shop_.status->message, kAwaitsCycleStart);
-  EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::NotGiven);
-  EXPECT_EQ(shop_.status->run, "run-1");
+  EXPECT_EQ(fixture_.status->execution, Execution::Waiting);
+  EXPECT_EQ(fixture_.status->message, kAwaitsCycleStart);
+  EXPECT_EQ(fixture_.status->remote_enable, RemoteEnable::NotGiven);
+  EXPECT_EQ(fixture_.status->run, "run-1");
   EXPECT_EQ(give(CommandAction::Resume).reason, kNoConsent);
-  shop_.run_until([] { return false; });
-  EXPECT_TRUE(shop_.lines().empty()) << "nothing of the program happens";
-  EXPECT_EQ(shop_.status->position[0], 0);
+  fixture_.run_until([] { return false; });
+  EXPECT_TRUE(fixture_.lines().empty()) << "nothing of the program happens";
+  EXPECT_EQ(fixture_.status->position[0], 0);
 
-  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
-  ASSERT_TRUE(shop_.run_until([&] { return shop_.status->position[0] != 0; }));
-  EXPECT_EQ(shop_.lines(), std::vector<std::string>{"FIRST"});
-  EXPECT_EQ(shop_.records[1].text, "at the machine's panel: cycle start");
+  EXPECT_EQ(fixture_.panel("cycle-start"), "ok");
+  ASSERT_TRUE(fixture_.run_until([&] { return fixture_.status->position[0] != 0; }));
+  EXPECT_EQ(fixture_.lines(), std::vector<std::string>{"FIRST"});
+  EXPECT_EQ(fixture_.records[1].text, "at the machine's panel: cycle start");
 }
 
 TEST_F(AttendedMachine, RunsToItsEndByItsPanelAlone) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  EXPECT_EQ(fixture_.panel("cycle-start"), "ok");
   ASSERT_TRUE(
-      shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
-  EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
+      fixture_.run_until([&] { return fixture_.status->execution == Execution::ProgramStopped; }));
+  EXPECT_EQ(fixture_.status->waits_for, WaitsFor::CycleStart);
   EXPECT_EQ(give(CommandAction::Resume).reason, kNoConsent);
-  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
-  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop_.panel("cycle-start"), "refused no run is active");
+  EXPECT_EQ(fixture_.panel("cycle-start"), "ok");
+  EXPECT_EQ(fixture_.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture_.panel("cycle-start"), "refused no run is active");
 }
 
 TEST_F(AttendedMachine, IsStartedFromAfarWithTheRemoteEnable) {
-  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  EXPECT_EQ(fixture_.panel("remote-enable on"), "ok");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(
-      shop_.run_until([&] { return shop_.status->execution == Execution::ProgramStopped; }));
-  EXPECT_EQ(shop_.status->remote_enable, RemoteEnable::Given);
+      fixture_.run_until([&] { return fixture_.status->execution == Execution::ProgramStopped; }));
+  EXPECT_EQ(fixture_.status->remote_enable, RemoteEnable::Given);
   EXPECT_TRUE(give(CommandAction::Resume).accepted);
-  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture_.ended().outcome, RunOutcome::Completed);
 
-  EXPECT_EQ(shop_.panel("remote-enable off"), "ok");
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  EXPECT_EQ(fixture_.panel("remote-enable off"), "ok");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
 }
 
 TEST_F(AttendedMachine, IsNotMovedByTheEnableItself) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
-  shop_.run_until([] { return false; });
-  EXPECT_EQ(shop_.status->waits_for, WaitsFor::CycleStart);
-  EXPECT_EQ(shop_.status->position[0], 0);
+  EXPECT_EQ(fixture_.panel("remote-enable on"), "ok");
+  fixture_.run_until([] { return false; });
+  EXPECT_EQ(fixture_.status->waits_for, WaitsFor::CycleStart);
+  EXPECT_EQ(fixture_.status->position[0], 0);
   EXPECT_TRUE(give(CommandAction::Resume).accepted);
-  ASSERT_TRUE(shop_.run_until([&] { return shop_.status->position[0] != 0; }));
+  ASSERT_TRUE(fixture_.run_until([&] { return fixture_.status->position[0] != 0; }));
 }
 
 TEST_F(AttendedMachine, CanAlwaysBeStopped) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
   EXPECT_TRUE(give(CommandAction::Hold).accepted);
   EXPECT_TRUE(give(CommandAction::FeedOverride, 0.5).accepted);
   EXPECT_EQ(give(CommandAction::FeedOverride, 0.6).reason, kNoConsent);
   EXPECT_TRUE(give(CommandAction::Abort).accepted);
-  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Aborted);
-  EXPECT_EQ(shop_.count(dds::RecordKind::Output), 0U);
+  EXPECT_EQ(fixture_.ended().outcome, RunOutcome::Aborted);
+  EXPECT_EQ(fixture_.count(dds::RecordKind::Output), 0U);
 }
 
 TEST_F(AttendedMachine, GivesUpARunThatNobodyBegins) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  shop_.clock.steady += 1800s;
-  const auto end = shop_.ended();
+  fixture_.clock.steady += 1800s;
+  const auto end = fixture_.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Aborted);
   EXPECT_EQ(end.reason, "no cycle start at the machine within 1800 s");
   EXPECT_EQ(end.executed, 0U);
 }
 
 TEST_F(AttendedMachine, LosesTheEnableWithTheEmergencyStop) {
-  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
+  EXPECT_EQ(fixture_.panel("remote-enable on"), "ok");
   ASSERT_TRUE(give(CommandAction::Switch, 1, "emergency_stop").accepted);
   EXPECT_EQ(give(CommandAction::Switch, 0, "emergency_stop").reason, kNoConsent);
-  EXPECT_EQ(shop_.panel("remote-enable on"),
+  EXPECT_EQ(fixture_.panel("remote-enable on"),
             "refused the emergency stop is pressed: release it first");
-  EXPECT_EQ(shop_.panel("emergency-stop off"), "ok");
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  EXPECT_EQ(fixture_.panel("emergency-stop off"), "ok");
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
 }
 
 TEST_F(AttendedMachine, ForgetsTheEnableWithItsProcess) {
-  EXPECT_EQ(shop_.panel("remote-enable on"), "ok");
-  shop_.restart_gateway();
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  EXPECT_EQ(fixture_.panel("remote-enable on"), "ok");
+  fixture_.restart_gateway();
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
 }
 
 TEST_F(AttendedMachine, EndsARunThatWaitsWhenItsEmergencyStopWasPressed) {
-  ASSERT_TRUE(shop_.start("O1").accepted);
+  ASSERT_TRUE(fixture_.start("O1").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_EQ(shop_.panel("emergency-stop"), "ok");
-  EXPECT_EQ(shop_.panel("cycle-start"), "refused the emergency stop is pressed: release it first");
-  EXPECT_EQ(shop_.panel("emergency-stop off"), "ok");
-  EXPECT_EQ(shop_.ended().reason, "EMERGENCY STOP");
+  EXPECT_EQ(fixture_.panel("emergency-stop"), "ok");
+  EXPECT_EQ(fixture_.panel("cycle-start"),
+            "refused the emergency stop is pressed: release it first");
+  EXPECT_EQ(fixture_.panel("emergency-stop off"), "ok");
+  EXPECT_EQ(fixture_.ended().reason, "EMERGENCY STOP");
 }
 
 TEST_F(AttendedMachine, AnswersItsProgramAtThePanel) {
-  shop_.push("O2", "ASK DEPTH\nEND\n");
-  ASSERT_TRUE(shop_.start("O2").accepted);
+  fixture_.push("O2", "ASK DEPTH\nEND\n");
+  ASSERT_TRUE(fixture_.start("O2").accepted);
   ASSERT_TRUE(reaches(WaitsFor::CycleStart));
-  EXPECT_EQ(shop_.panel("cycle-start"), "ok");
+  EXPECT_EQ(fixture_.panel("cycle-start"), "ok");
   ASSERT_TRUE(reaches(WaitsFor::Answer));
   EXPECT_EQ(give(CommandAction::Answer, 0, "5").reason, kNoConsent);
-  EXPECT_EQ(shop_.panel("answer 7"), "ok");
-  EXPECT_EQ(shop_.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop_.lines(), std::vector<std::string>{"7"});
+  EXPECT_EQ(fixture_.panel("answer 7"), "ok");
+  EXPECT_EQ(fixture_.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture_.lines(), std::vector<std::string>{"7"});
 }
 
 TEST(UnattendedMachine, IsStartedFromAfarAndSaysSo) {
-  Shop shop;
-  shop.push("O1", "X4\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.status->remote_enable, RemoteEnable::Unattended);
-  EXPECT_TRUE(shop.panel("remote-enable on").starts_with("refused this machine is unattended"));
+  GatewayFixture fixture;
+  fixture.push("O1", "X4\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.status->remote_enable, RemoteEnable::Unattended);
+  EXPECT_TRUE(fixture.panel("remote-enable on").starts_with("refused this machine is unattended"));
 }
 
 /// Pressed at the machine.
 TEST(UnattendedMachine, KeepsAnEmergencyStopOfItsPanelUntilItIsReleasedThere) {
-  Shop shop;
-  EXPECT_EQ(shop.panel("emergency-stop"), "ok");
-  dds::Command release = shop.command(CommandAction::Switch);
+  GatewayFixture fixture;
+  EXPECT_EQ(fixture.panel("emergency-stop"), "ok");
+  dds::Command release = fixture.command(CommandAction::Switch);
   release.argument = "emergency_stop";
-  EXPECT_EQ(shop.send(release).reason,
+  EXPECT_EQ(fixture.send(release).reason,
             "the emergency stop was pressed at the machine's panel: release it there");
-  EXPECT_EQ(shop.panel("emergency-stop off"), "ok");
-  shop.push("O1", "X4\nEND\n");
-  EXPECT_TRUE(shop.start("O1").accepted);
+  EXPECT_EQ(fixture.panel("emergency-stop off"), "ok");
+  fixture.push("O1", "X4\nEND\n");
+  EXPECT_TRUE(fixture.start("O1").accepted);
 }
 
 TEST(UnattendedMachine, TellsItsPanelWhatItDoes) {
-  Shop shop("1x");
-  EXPECT_EQ(shop.panel("status"),
+  GatewayFixture fixture("1x");
+  EXPECT_EQ(fixture.panel("status"),
             "ok READY remote_enable=unattended waits_for=nothing emergency_stop=released");
 }
 

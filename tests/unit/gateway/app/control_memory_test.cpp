@@ -8,7 +8,7 @@
 #include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/dialects/tnc155/dialect.hpp"
 #include "storage/sqlite/database.hpp"
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// What a control keeps from one program to the next. Rows: CEN-074, CEN-171, NGC-016.
 namespace dripline::gateway {
@@ -23,11 +23,11 @@ interpreter::Setup setup_of(const interpreter::Dialect& control, const std::stri
 }
 
 /// Runs programs one after the other, each pushed under a name of its own.
-class MemoryShop : public Shop {
+class MemoryFixture : public GatewayFixture {
  public:
-  explicit MemoryShop(const interpreter::Dialect& control, const std::string& toml = "",
-                      const std::string& speed = "max")
-      : Shop(control, setup_of(control, toml), speed) {}
+  explicit MemoryFixture(const interpreter::Dialect& control, const std::string& toml = "",
+                         const std::string& speed = "max")
+      : GatewayFixture(control, setup_of(control, toml), speed) {}
 
   dds::RunEndText run(const std::string& text, const std::string& setup_toml = "") {
     const std::string name = "P" + std::to_string(++programs_);
@@ -66,10 +66,10 @@ constexpr const char* kPrint =
     "O0002\nP1=PB50\nP2=P500\nP3=P511\nPOPEN P0\nDPRNT[A#10 B#1 C#2 D#3]\nPCLOS\nM30\n";
 
 TEST(CenturionMemory, OutlivesTheProgram) {
-  MemoryShop shop(interpreter::kCenturionDialect);
-  const Lines before = shop.printed(kPrint);
-  shop.run(kChange);
-  const Lines after = shop.printed(kPrint);
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  const Lines before = fixture.printed(kPrint);
+  fixture.run(kChange);
+  const Lines after = fixture.printed(kPrint);
   ASSERT_EQ(after.size(), 1U);
   EXPECT_NE(after, before);
   EXPECT_NE(after[0].find("7.5"), std::string::npos) << after[0];
@@ -78,27 +78,27 @@ TEST(CenturionMemory, OutlivesTheProgram) {
 }
 
 TEST(CenturionMemory, OutlivesTheGateway) {
-  MemoryShop shop(interpreter::kCenturionDialect);
-  shop.run(kChange);
-  const Lines after = shop.printed(kPrint);
-  shop.restart_gateway();
-  EXPECT_EQ(shop.printed(kPrint), after);
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  fixture.run(kChange);
+  const Lines after = fixture.printed(kPrint);
+  fixture.restart_gateway();
+  EXPECT_EQ(fixture.printed(kPrint), after);
 }
 
 TEST(CenturionMemory, IsReportedBeforeTheEndOfTheRun) {
-  MemoryShop shop(interpreter::kCenturionDialect);
-  shop.run(kChange);
-  EXPECT_EQ(shop.reported(),
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  fixture.run(kChange);
+  EXPECT_EQ(fixture.reported(),
             R"({"part":1,"parts":1,"cells":{"P10":[7.5,0],"P500":[1.25,0],"P511":[0.5,0],)"
             R"("PB50":[2,1]}})");
-  ASSERT_GE(shop.records.size(), 2U);
-  EXPECT_EQ(shop.records.back().kind, dds::RecordKind::RunEnded);
+  ASSERT_GE(fixture.records.size(), 2U);
+  EXPECT_EQ(fixture.records.back().kind, dds::RecordKind::RunEnded);
   const auto reports = [&] {
-    return std::count_if(shop.records.begin(), shop.records.end(),
+    return std::count_if(fixture.records.begin(), fixture.records.end(),
                          [](const dds::Record& record) { return record.device == "memory"; });
   };
   ASSERT_EQ(reports(), 1);
-  shop.run("O0003\nG0 X1\nM30\n");
+  fixture.run("O0003\nG0 X1\nM30\n");
   EXPECT_EQ(reports(), 1) << "there is nothing new";
 }
 
@@ -107,56 +107,57 @@ constexpr const char* kPrintP10 = "O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n";
 
 /// A part that was not made is not counted.
 TEST(CenturionMemory, IsThatOfTheBlocksThatWereExecuted) {
-  MemoryShop shop(interpreter::kCenturionDialect, "", "1x");
-  shop.push("O1", kSlow);
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->position[0] > 100; }));
-  ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
-  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
-  EXPECT_NE(shop.printed(kPrintP10).at(0).find('1'), std::string::npos);
+  MemoryFixture fixture(interpreter::kCenturionDialect, "", "1x");
+  fixture.push("O1", kSlow);
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(
+      fixture.run_until([&] { return fixture.status && fixture.status->position[0] > 100; }));
+  ASSERT_TRUE(fixture.send(fixture.command(dds::CommandAction::Abort)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Aborted);
+  EXPECT_EQ(fixture.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
+  EXPECT_NE(fixture.printed(kPrintP10).at(0).find('1'), std::string::npos);
 }
 
 TEST(CenturionMemory, IsKeptThroughAKillInTheMiddle) {
-  MemoryShop shop(interpreter::kCenturionDialect, "", "1x");
-  shop.push("O1", kSlow);
-  ASSERT_TRUE(shop.start("O1").accepted);
-  const SteadyTime begun = shop.clock.steady;
-  ASSERT_TRUE(
-      shop.run_until([&] { return shop.clock.steady > begun + std::chrono::milliseconds(1500); }));
-  shop.restart_gateway();
-  ASSERT_TRUE(shop.run_until([&] { return shop.count(dds::RecordKind::RunEnded) == 1; }));
-  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
-  EXPECT_NE(shop.printed(kPrintP10).at(0).find('1'), std::string::npos);
+  MemoryFixture fixture(interpreter::kCenturionDialect, "", "1x");
+  fixture.push("O1", kSlow);
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  const SteadyTime begun = fixture.clock.steady;
+  ASSERT_TRUE(fixture.run_until(
+      [&] { return fixture.clock.steady > begun + std::chrono::milliseconds(1500); }));
+  fixture.restart_gateway();
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.count(dds::RecordKind::RunEnded) == 1; }));
+  EXPECT_EQ(fixture.reported(), R"({"part":1,"parts":1,"cells":{"P10":[1,0]}})");
+  EXPECT_NE(fixture.printed(kPrintP10).at(0).find('1'), std::string::npos);
 }
 
 TEST(CenturionMemory, IsKeptInTheUnitOfTheSetup) {
-  MemoryShop shop(interpreter::kCenturionDialect);
-  shop.run("O0001\nG21\nG10\nP500=25.4\nG11\nM30\n");
-  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P500":[1,0]}})");
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  fixture.run("O0001\nG21\nG10\nP500=25.4\nG11\nM30\n");
+  EXPECT_EQ(fixture.reported(), R"({"part":1,"parts":1,"cells":{"P500":[1,0]}})");
 }
 
 /// A change of the setup is intended; all else stays as the control has it.
 TEST(CenturionMemory, GivesWayToASetupThatWasChanged) {
-  MemoryShop shop(interpreter::kCenturionDialect);
+  MemoryFixture fixture(interpreter::kCenturionDialect);
   const std::string setup = "[[variable]]\nname = \"P10\"\nvalue = 3\n";
-  shop.run("O0001\nP10=7\nP11=8\nM30\n", setup);
+  fixture.run("O0001\nP10=7\nP11=8\nM30\n", setup);
   const std::string print = "O0002\nPOPEN P0\nDPRNT[A#10 B#11]\nPCLOS\nM30\n";
-  const Lines kept = shop.printed(print, setup);
+  const Lines kept = fixture.printed(print, setup);
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_NE(kept[0].find('7'), std::string::npos) << kept[0];
-  const Lines changed = shop.printed(print, "[[variable]]\nname = \"P10\"\nvalue = 4\n");
+  const Lines changed = fixture.printed(print, "[[variable]]\nname = \"P10\"\nvalue = 4\n");
   ASSERT_EQ(changed.size(), 1U);
   EXPECT_NE(changed[0].find('4'), std::string::npos) << changed[0];
   EXPECT_NE(changed[0].find('8'), std::string::npos) << changed[0];
-  EXPECT_EQ(shop.reported(), R"({"part":1,"parts":1,"cells":{"P11":[8,0]}})");
+  EXPECT_EQ(fixture.reported(), R"({"part":1,"parts":1,"cells":{"P11":[8,0]}})");
 }
 
 TEST(CenturionMemory, IsClearedByASetupThatNamesIt) {
-  MemoryShop shop(interpreter::kCenturionDialect);
-  shop.run("O0001\nP10=7\nM30\n");
-  const Lines cleared = shop.printed("O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n",
-                                     "[[variable]]\nname = \"P10\"\nvalue = 0\n");
+  MemoryFixture fixture(interpreter::kCenturionDialect);
+  fixture.run("O0001\nP10=7\nM30\n");
+  const Lines cleared = fixture.printed("O0002\nPOPEN P0\nDPRNT[A#10]\nPCLOS\nM30\n",
+                                        "[[variable]]\nname = \"P10\"\nvalue = 0\n");
   ASSERT_EQ(cleared.size(), 1U);
   EXPECT_EQ(cleared[0].find('7'), std::string::npos) << cleared[0];
 }
@@ -168,28 +169,29 @@ class CenturionStart : public testing::Test {
   static constexpr const char* kCount =
       "O0001\nG98 F900\nP10=P10+1\nG0 X1 Z1\nN30 G1 X2\nP11=P11+1\nN40 G1 X3\nM30\n";
 
-  CenturionStart() { shop.push("O1", kCount); }
+  CenturionStart() { fixture.push("O1", kCount); }
   dds::RunEndText run_from(const std::string& place) {
-    dds::Command command = shop.start_command("O1");
+    dds::Command command = fixture.start_command("O1");
     command.argument = place;
-    const auto result = shop.send(command);
+    const auto result = fixture.send(command);
     EXPECT_TRUE(result.accepted) << result.reason;
     // The approach stops for the operator.
-    EXPECT_TRUE(shop.run_until([&] {
-      return shop.status &&
-             (shop.status->run.empty() || shop.status->execution == dds::Execution::ProgramStopped);
+    EXPECT_TRUE(fixture.run_until([&] {
+      return fixture.status && (fixture.status->run.empty() ||
+                                fixture.status->execution == dds::Execution::ProgramStopped);
     }));
-    if (!shop.status->run.empty()) (void)shop.send(shop.command(dds::CommandAction::Resume));
-    return shop.ended();
+    if (!fixture.status->run.empty())
+      (void)fixture.send(fixture.command(dds::CommandAction::Resume));
+    return fixture.ended();
   }
   std::string kept() {
-    return shop.printed("O0002\nPOPEN P0\nDPRNT[#10[20] #11[20]]\nPCLOS\nM30\n").at(0);
+    return fixture.printed("O0002\nPOPEN P0\nDPRNT[#10[20] #11[20]]\nPCLOS\nM30\n").at(0);
   }
   void run_whole() {
-    ASSERT_TRUE(shop.start("O1").accepted);
-    ASSERT_EQ(shop.ended().outcome, RunOutcome::Completed);
+    ASSERT_TRUE(fixture.start("O1").accepted);
+    ASSERT_EQ(fixture.ended().outcome, RunOutcome::Completed);
   }
-  MemoryShop shop{interpreter::kCenturionDialect};
+  MemoryFixture fixture{interpreter::kCenturionDialect};
 };
 
 TEST_F(CenturionStart, IsRefusedWhereWhatWasCountedWouldCountTwice) {
@@ -215,7 +217,7 @@ TEST_F(CenturionStart, GoesThroughTheProgramWithTheMemoryOfItsBegin) {
 
 TEST_F(CenturionStart, KnowsTheMemoryOfTheBeginAfterARestart) {
   run_whole();
-  shop.restart_gateway();
+  fixture.restart_gateway();
   EXPECT_EQ(run_from("N40 memory=begin").outcome, RunOutcome::Completed);
   EXPECT_EQ(kept(), "01 01");
 }
@@ -223,9 +225,9 @@ TEST_F(CenturionStart, KnowsTheMemoryOfTheBeginAfterARestart) {
 TEST_F(CenturionStart, KnowsNoMemoryOfTheBeginOfAnotherProgram) {
   run_whole();
   EXPECT_EQ(kept(), "01 01");  // another program has begun since
-  dds::Command command = shop.start_command("O1");
+  dds::Command command = fixture.start_command("O1");
   command.argument = "N40 memory=begin";
-  const auto result = shop.send(command);
+  const auto result = fixture.send(command);
   EXPECT_FALSE(result.accepted);
   EXPECT_NE(result.reason.find("last run that began at its first block"), std::string::npos)
       << result.reason;
@@ -235,54 +237,55 @@ TEST_F(CenturionStart, KnowsNoMemoryOfTheBeginOfAnotherProgram) {
 TEST_F(CenturionStart, ChangesNothingBeforeItsFirstBlockIsExecuted) {
   run_whole();
   for (const char* place : {"N40 memory=begin", "N40 memory=now"}) {
-    dds::Command command = shop.start_command("O1");
+    dds::Command command = fixture.start_command("O1");
     command.argument = place;
-    ASSERT_TRUE(shop.send(command).accepted);
-    ASSERT_TRUE(shop.run_until(
-        [&] { return shop.status && shop.status->execution == dds::Execution::ProgramStopped; }));
-    ASSERT_TRUE(shop.send(shop.command(dds::CommandAction::Abort)).accepted);
-    EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+    ASSERT_TRUE(fixture.send(command).accepted);
+    ASSERT_TRUE(fixture.run_until([&] {
+      return fixture.status && fixture.status->execution == dds::Execution::ProgramStopped;
+    }));
+    ASSERT_TRUE(fixture.send(fixture.command(dds::CommandAction::Abort)).accepted);
+    EXPECT_EQ(fixture.ended().outcome, RunOutcome::Aborted);
     run_whole();  // the begin of the next start
   }
   EXPECT_EQ(kept(), "03 03");
 }
 
 TEST_F(CenturionStart, TakesNothingThatItDoesNotKnow) {
-  dds::Command command = shop.start_command("O1");
+  dds::Command command = fixture.start_command("O1");
   command.argument = "N30 speed=9";
-  EXPECT_FALSE(shop.send(command).accepted);
+  EXPECT_FALSE(fixture.send(command).accepted);
 }
 
 /// A row that was changed after the gateway's back, and a file that is gone.
 class DamagedMemory : public testing::Test {
  protected:
-  void SetUp() override { shop.run(kChange); }
+  void SetUp() override { fixture.run(kChange); }
   void expect_refused(const std::string& why) {
-    shop.push("O9", kPrint);
-    const auto result = shop.start("O9");
+    fixture.push("O9", kPrint);
+    const auto result = fixture.start("O9");
     EXPECT_FALSE(result.accepted);
     EXPECT_NE(result.reason.find(why), std::string::npos) << result.reason;
-    ASSERT_TRUE(shop.run_until([&] { return shop.status.has_value(); }));
-    EXPECT_NE(shop.status->message.find(why), std::string::npos) << shop.status->message;
+    ASSERT_TRUE(fixture.run_until([&] { return fixture.status.has_value(); }));
+    EXPECT_NE(fixture.status->message.find(why), std::string::npos) << fixture.status->message;
   }
   void change(const std::string& sql) {
-    shop.gateway.reset();
-    auto database = storage::sqlite::Database::open(shop.folder() / "outbox.sqlite");
+    fixture.gateway.reset();
+    auto database = storage::sqlite::Database::open(fixture.folder() / "outbox.sqlite");
     ASSERT_TRUE(database) << database.error().what;
     const auto done = database->execute(sql);
     ASSERT_TRUE(done) << done.error().what;
   }
-  MemoryShop shop{interpreter::kCenturionDialect};
+  MemoryFixture fixture{interpreter::kCenturionDialect};
 };
 
 TEST_F(DamagedMemory, BeginsNothingUntilItIsDiscarded) {
   change("UPDATE memory SET value = '1.35' WHERE name = 'P500'");
-  shop.restart_gateway();
+  fixture.restart_gateway();
   expect_refused("not as it was written");
-  shop.restart_gateway();
+  fixture.restart_gateway();
   expect_refused("not as it was written");
-  EXPECT_EQ(shop.panel("discard-memory"), "ok");
-  const Lines after = shop.printed(kPrint);
+  EXPECT_EQ(fixture.panel("discard-memory"), "ok");
+  const Lines after = fixture.printed(kPrint);
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(after[0].find("1.35"), std::string::npos) << after[0];
   EXPECT_EQ(after[0].find("7.5"), std::string::npos) << after[0];
@@ -290,85 +293,89 @@ TEST_F(DamagedMemory, BeginsNothingUntilItIsDiscarded) {
 
 TEST_F(DamagedMemory, WithARowLessIsNoticed) {
   change("DELETE FROM memory WHERE name = 'P10'");
-  shop.restart_gateway();
+  fixture.restart_gateway();
   expect_refused("not as it was written");
 }
 
 TEST_F(DamagedMemory, OfARunsBeginIsNoticed) {
-  shop.run("O0003\nM30\n");  // begins with what the first one left
+  fixture.run("O0003\nM30\n");  // begins with what the first one left
   change("UPDATE memory_beginning SET value = '9' WHERE name = 'P10'");
-  shop.restart_gateway();
+  fixture.restart_gateway();
   expect_refused("not as it was written");
 }
 
 TEST_F(DamagedMemory, IsNotDiscardedUnderARun) {
-  shop.push("O1", kSlow);
-  MemoryShop slow(interpreter::kCenturionDialect, "", "1x");
+  fixture.push("O1", kSlow);
+  MemoryFixture slow(interpreter::kCenturionDialect, "", "1x");
   slow.push("O1", kSlow);
   ASSERT_TRUE(slow.start("O1").accepted);
   EXPECT_TRUE(slow.panel("discard-memory").starts_with("refused run"));
 }
 
 TEST(FanucMemory, KeepsVariablesFrom500AndOffsets) {
-  MemoryShop shop(interpreter::kFanucDialect);
-  shop.run("O0001\n#500=7.5\n#100=9\n#1=8\nG10 L2 P1 X1.5\nG10 L10 P3 R2.5\n#3901=4\nM30\n");
-  shop.restart_gateway();
-  const Lines after = shop.printed(
+  MemoryFixture fixture(interpreter::kFanucDialect);
+  fixture.run("O0001\n#500=7.5\n#100=9\n#1=8\nG10 L2 P1 X1.5\nG10 L10 P3 R2.5\n#3901=4\nM30\n");
+  fixture.restart_gateway();
+  const Lines after = fixture.printed(
       "O0002\nPOPEN\nDPRNT[#500[33]*#5221[33]*#2003[33]*#3901[33]*#100[33]]\nPCLOS\nM30\n");
   ASSERT_EQ(after.size(), 1U);
   for (const char* number : {"7.500", "1.500", "2.500", "4.000"})
     EXPECT_NE(after[0].find(number), std::string::npos) << number << " in " << after[0];
   EXPECT_EQ(after[0].find("9.000"), std::string::npos) << after[0];
-  EXPECT_NE(shop.reported().find(R"("#500":[7.5,null])"), std::string::npos) << shop.reported();
-  EXPECT_NE(shop.reported().find(R"("G54.X":[1.5,0])"), std::string::npos) << shop.reported();
+  EXPECT_NE(fixture.reported().find(R"("#500":[7.5,null])"), std::string::npos)
+      << fixture.reported();
+  EXPECT_NE(fixture.reported().find(R"("G54.X":[1.5,0])"), std::string::npos) << fixture.reported();
 }
 
 TEST(FanucMemory, KeepsVariablesFrom100UntilPowerOffIfResetLeavesThem) {
-  MemoryShop shop(interpreter::kFanucDialect, "[control]\nreset_clears_commons = false\n");
+  MemoryFixture fixture(interpreter::kFanucDialect, "[control]\nreset_clears_commons = false\n");
   const std::string print = "O0002\nPOPEN\nDPRNT[#100[33]]\nPCLOS\nM30\n";
-  shop.run("O0001\n#100=9\nM30\n");
-  EXPECT_NE(shop.printed(print).at(0).find("9.000"), std::string::npos);
-  shop.restart_gateway();
-  EXPECT_EQ(shop.printed(print).at(0).find("9.000"), std::string::npos);
+  fixture.run("O0001\n#100=9\nM30\n");
+  EXPECT_NE(fixture.printed(print).at(0).find("9.000"), std::string::npos);
+  fixture.restart_gateway();
+  EXPECT_EQ(fixture.printed(print).at(0).find("9.000"), std::string::npos);
 }
 
 TEST(Rs274Memory, KeepsWhatItsParameterFileLists) {
   const std::string setup =
       "[control]\nprofile = \"linuxcnc\"\n[[variable]]\nname = \"#100\"\nvalue = 0\n"
       "[[tool]]\nnumber = 1\nlength = 10\nradius = 2\n";
-  MemoryShop shop(interpreter::kRs274NgcDialect, setup);
-  shop.run("#100=7.5\n#101=8.5\nG10 L2 P2 X1.25\nG10 L1 P1 Z12.5\nM2\n");
+  MemoryFixture fixture(interpreter::kRs274NgcDialect, setup);
+  fixture.run("#100=7.5\n#101=8.5\nG10 L2 P2 X1.25\nG10 L1 P1 Z12.5\nM2\n");
   const std::string print = "(LOGOPEN,a)\n(LOG,#100 #101 #5241)\n(LOGCLOSE)\nT1 M6\n(LOG,x)\nM2\n";
-  const Lines same_session = shop.printed(print);
+  const Lines same_session = fixture.printed(print);
   ASSERT_FALSE(same_session.empty());
   EXPECT_NE(same_session[0].find("7.5"), std::string::npos) << same_session[0];
   EXPECT_NE(same_session[0].find("8.5"), std::string::npos) << same_session[0];
   EXPECT_NE(same_session[0].find("1.25"), std::string::npos) << same_session[0];
-  shop.restart_gateway();
-  const Lines next_session = shop.printed(print);
+  fixture.restart_gateway();
+  const Lines next_session = fixture.printed(print);
   ASSERT_FALSE(next_session.empty());
   EXPECT_NE(next_session[0].find("7.5"), std::string::npos) << next_session[0];
   EXPECT_EQ(next_session[0].find("8.5"), std::string::npos) << next_session[0];
-  EXPECT_NE(shop.reported().find(R"("tool.1.Z":[12.5,10])"), std::string::npos) << shop.reported();
+  EXPECT_NE(fixture.reported().find(R"("tool.1.Z":[12.5,10])"), std::string::npos)
+      << fixture.reported();
 }
 
 TEST(TncMemory, BeginsEveryProgramWithoutQParameters) {
-  MemoryShop shop(interpreter::kTnc155Dialect);
-  shop.run("0 BEGIN PGM 1 MM\n1 FN 0: Q1 = +7,5\n2 L C+730 R0 F9999 M94\n3 END PGM 1 MM\n");
-  EXPECT_EQ(shop.reported().find("Q1"), std::string::npos) << shop.reported();
+  MemoryFixture fixture(interpreter::kTnc155Dialect);
+  fixture.run("0 BEGIN PGM 1 MM\n1 FN 0: Q1 = +7,5\n2 L C+730 R0 F9999 M94\n3 END PGM 1 MM\n");
+  EXPECT_EQ(fixture.reported().find("Q1"), std::string::npos) << fixture.reported();
 }
 
 /// M94 moves the datum of the rotary axis by whole revolutions: what is C+730 when its block begins
 /// is C+10 then.
 TEST(TncMemory, KeepsTheDatumThatM94Moves) {
-  MemoryShop shop(interpreter::kTnc155Dialect);
+  MemoryFixture fixture(interpreter::kTnc155Dialect);
   const std::string turn =
       "0 BEGIN PGM 1 MM\n1 L C+730 R0 F9999\n2 L C+20 R0 F9999 M94\n3 END PGM 1 MM\n";
-  shop.run(turn);
-  EXPECT_NE(shop.reported().find(R"("datum.C":[720,0])"), std::string::npos) << shop.reported();
-  shop.restart_gateway();
-  shop.run(turn);  // from the datum that is kept
-  EXPECT_NE(shop.reported().find(R"("datum.C":[1440,0])"), std::string::npos) << shop.reported();
+  fixture.run(turn);
+  EXPECT_NE(fixture.reported().find(R"("datum.C":[720,0])"), std::string::npos)
+      << fixture.reported();
+  fixture.restart_gateway();
+  fixture.run(turn);  // from the datum that is kept
+  EXPECT_NE(fixture.reported().find(R"("datum.C":[1440,0])"), std::string::npos)
+      << fixture.reported();
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "gateway/app/state_folder.hpp"
 #include "gateway/machine/simulated_machine.hpp"
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 namespace dripline::gateway {
 namespace {
@@ -16,77 +16,78 @@ using dds::RunOutcome;
 using std::chrono::milliseconds;
 
 TEST(Gateway, RunsAProgramAndReportsIt) {
-  Shop shop;
-  shop.push("O1", with_reports(100, 3));
-  ASSERT_TRUE(shop.start("O1").accepted);
-  const auto end = shop.ended();
+  GatewayFixture fixture;
+  fixture.push("O1", with_reports(100, 3));
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Completed);
   EXPECT_EQ(end.executed, 401u);
   EXPECT_EQ(end.accepted, 401u);
-  EXPECT_EQ(end.sent, shop.programs["O1"].size());
-  EXPECT_EQ(end.content_sha256, sha256(shop.programs["O1"]).hex());
-  EXPECT_EQ(end.content_length, shop.programs["O1"].size());
+  EXPECT_EQ(end.sent, fixture.programs["O1"].size());
+  EXPECT_EQ(end.content_sha256, sha256(fixture.programs["O1"]).hex());
+  EXPECT_EQ(end.content_length, fixture.programs["O1"].size());
   EXPECT_EQ(end.line, 401u);
-  const auto lines = shop.lines();
+  const auto lines = fixture.lines();
   ASSERT_EQ(lines.size(), 100u);
   for (int i = 0; i < 100; ++i)
     EXPECT_EQ(lines[static_cast<std::size_t>(i)], "LINE " + std::to_string(i));
-  EXPECT_EQ(shop.records.front().kind, RecordKind::RunStarted);
-  EXPECT_EQ(shop.records.back().kind, RecordKind::RunEnded);
-  EXPECT_EQ(shop.execution_probe().blocks_done, 401u);
-  EXPECT_EQ(shop.execution_probe().outputs_done, 100u);
+  EXPECT_EQ(fixture.records.front().kind, RecordKind::RunStarted);
+  EXPECT_EQ(fixture.records.back().kind, RecordKind::RunEnded);
+  EXPECT_EQ(fixture.execution_probe().blocks_done, 401u);
+  EXPECT_EQ(fixture.execution_probe().outputs_done, 100u);
 }
 
 TEST(Gateway, ShowsARunningAndThenACompletedStatus) {
-  Shop shop("1x");
-  shop.push("O1", "X100\nX0\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->feed_mm_per_min > 0; }));
-  EXPECT_EQ(shop.status->execution, Execution::Active);
-  EXPECT_EQ(shop.status->run, "run-1");
-  EXPECT_EQ(shop.status->program, "O1");
-  EXPECT_GT(shop.status->buffered_seconds, 0);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->run.empty(); }));
-  EXPECT_EQ(shop.status->execution, Execution::ProgramCompleted);
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X100\nX0\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(
+      fixture.run_until([&] { return fixture.status && fixture.status->feed_mm_per_min > 0; }));
+  EXPECT_EQ(fixture.status->execution, Execution::Active);
+  EXPECT_EQ(fixture.status->run, "run-1");
+  EXPECT_EQ(fixture.status->program, "O1");
+  EXPECT_GT(fixture.status->buffered_seconds, 0);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->run.empty(); }));
+  EXPECT_EQ(fixture.status->execution, Execution::ProgramCompleted);
 }
 
 /// CEN-228. The interpreter is ahead of the machine; what is shown belongs to the block in motion.
 TEST(Gateway, ShowsTheModesOfTheBlockThatIsExecuted) {
-  Shop shop("1x");
-  shop.push("O1", "X100\nX0\nX100\nX0\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X100\nX0\nX100\nX0\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
   for (const std::uint64_t line : {1U, 3U}) {
-    ASSERT_TRUE(shop.run_until([&] {
-      return shop.status && shop.status->line == line && shop.status->feed_mm_per_min > 0;
+    ASSERT_TRUE(fixture.run_until([&] {
+      return fixture.status && fixture.status->line == line && fixture.status->feed_mm_per_min > 0;
     }));
-    EXPECT_GT(shop.status->accepted, line) << "the interpreter is ahead";
-    ASSERT_TRUE(shop.status->modes);
-    EXPECT_EQ(shop.status->modes->tool_radius, static_cast<double>(line));
-    EXPECT_EQ(shop.status->modes->motion, dds::MotionKind::Line);
-    EXPECT_EQ(shop.status->modes->work_system, "G54.1 P7");
-    EXPECT_EQ(shop.status->modes->cycle, "drill");
-    EXPECT_FALSE(shop.status->modes->tool);
+    EXPECT_GT(fixture.status->accepted, line) << "the interpreter is ahead";
+    ASSERT_TRUE(fixture.status->modes);
+    EXPECT_EQ(fixture.status->modes->tool_radius, static_cast<double>(line));
+    EXPECT_EQ(fixture.status->modes->motion, dds::MotionKind::Line);
+    EXPECT_EQ(fixture.status->modes->work_system, "G54.1 P7");
+    EXPECT_EQ(fixture.status->modes->cycle, "drill");
+    EXPECT_FALSE(fixture.status->modes->tool);
   }
 }
 
 TEST(Gateway, RealTimeMotionTakesItsTime) {
-  Shop shop("1x");
-  shop.push("O1", "X100\nX0\nEND\n");  // 200 mm at no more than 5000 mm/min: 2.4 s and more
-  ASSERT_TRUE(shop.start("O1").accepted);
-  const SteadyTime before = shop.clock.steady;
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_GT(shop.clock.steady - before, milliseconds(2000));
-  EXPECT_LT(shop.clock.steady - before, milliseconds(4000));
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X100\nX0\nEND\n");  // 200 mm at no more than 5000 mm/min: 2.4 s and more
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  const SteadyTime before = fixture.clock.steady;
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_GT(fixture.clock.steady - before, milliseconds(2000));
+  EXPECT_LT(fixture.clock.steady - before, milliseconds(4000));
 }
 
 TEST(Gateway, RefusesWhatItCannotRun) {
-  Shop shop("1x");
-  shop.push("O1", "X100\nX0\nEND\n");
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X100\nX0\nEND\n");
   const auto refusal = [&](auto change) {
-    dds::Command command = shop.start_command("O1");
+    dds::Command command = fixture.start_command("O1");
     change(command);
-    const auto result = shop.send(command);
+    const auto result = fixture.send(command);
     EXPECT_FALSE(result.accepted);
     return result.reason;
   };
@@ -95,93 +96,93 @@ TEST(Gateway, RefusesWhatItCannotRun) {
   EXPECT_NE(refusal([](auto& o) { o.run.clear(); }).find("run"), std::string::npos);
   EXPECT_NE(refusal([](auto& o) { o.program = "../O1"; }).find("../O1"), std::string::npos);
   EXPECT_NE(refusal([](auto& o) { o.revision = "abc"; }).find("revision"), std::string::npos);
-  EXPECT_EQ(refusal([&](auto& o) { o.deadline = shop.steady_time() - milliseconds(500); }),
+  EXPECT_EQ(refusal([&](auto& o) { o.deadline = fixture.steady_time() - milliseconds(500); }),
             "the command came 0.5 s after its deadline");
-  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(fixture.start("O1").accepted);
   EXPECT_NE(refusal([](auto&) {}).find("busy"), std::string::npos);
-  EXPECT_EQ(shop.count(RecordKind::RunStarted), 1u);
+  EXPECT_EQ(fixture.count(RecordKind::RunStarted), 1u);
 }
 
 TEST(Gateway, TheSameOrderGetsTheSameAnswerEvenAfterARestart) {
-  Shop shop;
-  shop.push("O1", "END\n");
-  const dds::Command start = shop.start_command("O1");
-  EXPECT_TRUE(shop.send(start).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  const std::size_t stored = shop.records.size();
-  shop.clock.steady += std::chrono::seconds(10);  // expired by now, and still known
-  EXPECT_TRUE(shop.send(start).accepted);
-  shop.restart_gateway();
-  dds::Command again = shop.command(CommandAction::Start);  // another command for the same run
+  GatewayFixture fixture;
+  fixture.push("O1", "END\n");
+  const dds::Command start = fixture.start_command("O1");
+  EXPECT_TRUE(fixture.send(start).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  const std::size_t stored = fixture.records.size();
+  fixture.clock.steady += std::chrono::seconds(10);  // expired by now, and still known
+  EXPECT_TRUE(fixture.send(start).accepted);
+  fixture.restart_gateway();
+  dds::Command again = fixture.command(CommandAction::Start);  // another command for the same run
   dds::Command repeated = start;
   repeated.session = again.session;
-  EXPECT_TRUE(shop.send(repeated).accepted);
+  EXPECT_TRUE(fixture.send(repeated).accepted);
   repeated.id = again.id;
   repeated.deadline = again.deadline;
-  EXPECT_TRUE(shop.send(repeated).accepted);
-  EXPECT_EQ(shop.records.size(), stored);
+  EXPECT_TRUE(fixture.send(repeated).accepted);
+  EXPECT_EQ(fixture.records.size(), stored);
 }
 
 /// HD-191: interrupted, and terminated.
 TEST(Gateway, HoldsResumesAndAborts) {
-  Shop shop("1x");
-  shop.push("O1", "X400\nX0\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Hold)).accepted);
-  ASSERT_TRUE(shop.run_until([&] {
-    return shop.status->execution == Execution::FeedHold && shop.status->feed_mm_per_min == 0;
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X400\nX0\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->feed_mm_per_min > 0; }));
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Hold)).accepted);
+  ASSERT_TRUE(fixture.run_until([&] {
+    return fixture.status->execution == Execution::FeedHold && fixture.status->feed_mm_per_min == 0;
   }));
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  EXPECT_FALSE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->feed_mm_per_min > 0; }));
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
-  const auto end = shop.ended();
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_FALSE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->feed_mm_per_min > 0; }));
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Abort)).accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Aborted);
   EXPECT_EQ(end.executed, 0u);
-  EXPECT_FALSE(shop.send(shop.command(CommandAction::Hold)).accepted);
+  EXPECT_FALSE(fixture.send(fixture.command(CommandAction::Hold)).accepted);
 }
 
 TEST(Gateway, InterpretsNothingMoreAfterAnAbort) {
-  Shop shop("1x");
+  GatewayFixture fixture("1x");
   std::string text;
   for (int i = 0; i < 50'000; ++i) text += i % 2 == 0 ? "X1\n" : "X2\n";
-  shop.push("O1", text + "END\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
+  fixture.push("O1", text + "END\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
   constexpr std::uint64_t kFull = machine::SimulatedMachine::kQueuedActions;
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->accepted > kFull; }));
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
-  EXPECT_LT(shop.ended().accepted, kFull + 1000);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->accepted > kFull; }));
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Abort)).accepted);
+  EXPECT_LT(fixture.ended().accepted, kFull + 1000);
 }
 
 TEST(Gateway, AsksOnlyForSecondsOfMotionAhead) {
-  Shop shop("1x");
+  GatewayFixture fixture("1x");
   std::string text;
   for (int i = 0; i < 200'000; ++i) text += i % 2 == 0 ? "X10\n" : "X20\n";
-  shop.push("O1", text + "END\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->executed > 3; }));
-  EXPECT_GT(shop.status->sent, 32'000u);
-  EXPECT_LT(shop.status->sent, 300'000u);
+  fixture.push("O1", text + "END\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->executed > 3; }));
+  EXPECT_GT(fixture.status->sent, 32'000u);
+  EXPECT_LT(fixture.status->sent, 300'000u);
 }
 
 TEST(Gateway, OrdersForAnotherRunAreRefused) {
-  Shop shop("1x");
-  shop.push("O1", "X400\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  dds::Command hold = shop.command(CommandAction::Hold);
+  GatewayFixture fixture("1x");
+  fixture.push("O1", "X400\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  dds::Command hold = fixture.command(CommandAction::Hold);
   hold.run = "run-77";
-  EXPECT_FALSE(shop.send(hold).accepted);
+  EXPECT_FALSE(fixture.send(hold).accepted);
 }
 
 /// Row: TK-30.
 TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
-  Shop shop("1x");
+  GatewayFixture fixture("1x");
   const auto change = [&](CommandAction action, double value, const std::string& name = "") {
-    dds::Command command = shop.command(action);
+    dds::Command command = fixture.command(action);
     command.value = value;
     command.argument = name;
-    return shop.send(command).accepted;
+    return fixture.send(command).accepted;
   };
   EXPECT_TRUE(change(CommandAction::FeedOverride, 0.5));
   EXPECT_FALSE(change(CommandAction::FeedOverride, 3));
@@ -190,121 +191,123 @@ TEST(Gateway, SwitchesAndOverridesAreCheckedAndShown) {
   EXPECT_TRUE(change(CommandAction::Switch, 1, "single_block"));
   EXPECT_FALSE(change(CommandAction::Switch, 1, "turbo"));
   EXPECT_FALSE(change(CommandAction::Switch, 2, "optional_stop"));
-  ASSERT_TRUE(shop.run_until([&] { return shop.status && shop.status->single_block; }));
-  EXPECT_EQ(shop.status->feed_override, 0.5);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status && fixture.status->single_block; }));
+  EXPECT_EQ(fixture.status->feed_override, 0.5);
 }
 
 TEST(Gateway, StopsBetweenBlocksInSingleBlock) {
-  Shop shop;
-  dds::Command single = shop.command(CommandAction::Switch);
+  GatewayFixture fixture;
+  dds::Command single = fixture.command(CommandAction::Switch);
   single.argument = "single_block";
   single.value = 1;
-  ASSERT_TRUE(shop.send(single).accepted);
-  shop.push("O1", "X1\nX2\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
+  ASSERT_TRUE(fixture.send(single).accepted);
+  fixture.push("O1", "X1\nX2\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
   for (std::uint64_t block = 1; block <= 2; ++block) {
-    ASSERT_TRUE(shop.run_until([&] {
-      return shop.status->execution == Execution::Interrupted && shop.status->executed == block;
+    ASSERT_TRUE(fixture.run_until([&] {
+      return fixture.status->execution == Execution::Interrupted &&
+             fixture.status->executed == block;
     })) << block;
-    EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
+    EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
   }
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
 }
 
 TEST(Gateway, WaitsAtAProgramStopUntilResumed) {
-  Shop shop;
-  shop.push("O1", "X1\nSTOP\nOUT A\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->execution == Execution::ProgramStopped; }));
-  EXPECT_TRUE(shop.run_until([&] { return shop.count(RecordKind::Stop) == 1; }));
-  EXPECT_EQ(shop.status->message, "program stop");
-  EXPECT_TRUE(shop.lines().empty());
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.lines(), std::vector<std::string>{"A"});
+  GatewayFixture fixture;
+  fixture.push("O1", "X1\nSTOP\nOUT A\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(
+      fixture.run_until([&] { return fixture.status->execution == Execution::ProgramStopped; }));
+  EXPECT_TRUE(fixture.run_until([&] { return fixture.count(RecordKind::Stop) == 1; }));
+  EXPECT_EQ(fixture.status->message, "program stop");
+  EXPECT_TRUE(fixture.lines().empty());
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.lines(), std::vector<std::string>{"A"});
 }
 
 TEST(Gateway, AsksTheSetupFirstAndThenTheOperator) {
-  Shop shop;
-  shop.setup.answers = {"5.0"};
-  shop.restart_gateway();
-  shop.push("O1", "ASK FIRST\nASK SECOND\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  ASSERT_TRUE(shop.run_until([&] { return shop.status->message == "asks: SECOND"; }));
-  EXPECT_EQ(shop.status->execution, Execution::Waiting);
-  EXPECT_EQ(shop.send(shop.command(CommandAction::Resume)).reason,
+  GatewayFixture fixture;
+  fixture.setup.answers = {"5.0"};
+  fixture.restart_gateway();
+  fixture.push("O1", "ASK FIRST\nASK SECOND\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  ASSERT_TRUE(fixture.run_until([&] { return fixture.status->message == "asks: SECOND"; }));
+  EXPECT_EQ(fixture.status->execution, Execution::Waiting);
+  EXPECT_EQ(fixture.send(fixture.command(CommandAction::Resume)).reason,
             "the program waits for an answer to: SECOND");
-  dds::Command answer = shop.command(CommandAction::Answer);
+  dds::Command answer = fixture.command(CommandAction::Answer);
   answer.argument = "7";
-  EXPECT_TRUE(shop.send(answer).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"5.0", "7"}));
+  EXPECT_TRUE(fixture.send(answer).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.lines(), (std::vector<std::string>{"5.0", "7"}));
 }
 
 TEST(Gateway, KnowsWhatTheServerSentWithTheStart) {
-  Shop shop;
-  shop.push("O1", "TOOLS\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  (void)shop.ended();
-  auto command = shop.start_command("O1");
+  GatewayFixture fixture;
+  fixture.push("O1", "TOOLS\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  (void)fixture.ended();
+  auto command = fixture.start_command("O1");
   command.setup = "[[tool]]\nnumber = 4\n[[tool]]\nnumber = 5\n";
-  ASSERT_TRUE(shop.send(command).accepted);
-  (void)shop.ended();
-  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"0", "2"}));
+  ASSERT_TRUE(fixture.send(command).accepted);
+  (void)fixture.ended();
+  EXPECT_EQ(fixture.lines(), (std::vector<std::string>{"0", "2"}));
 }
 
 TEST(Gateway, RefusesAStartWithASetupItCannotRead) {
-  Shop shop;
-  shop.push("O1", "END\n");
-  auto command = shop.start_command("O1");
+  GatewayFixture fixture;
+  fixture.push("O1", "END\n");
+  auto command = fixture.start_command("O1");
   command.setup = "[[tool]]\nnumber = 4\ncolor = 1\n";
-  const auto result = shop.send(command);
+  const auto result = fixture.send(command);
   EXPECT_FALSE(result.accepted);
   EXPECT_NE(result.reason.find("color"), std::string::npos) << result.reason;
   EXPECT_NE(result.reason.find("server's setup"), std::string::npos) << result.reason;
 }
 
 TEST(Gateway, ProbesTheSetupsWorkpiece) {
-  Shop shop;
-  shop.setup.workpiece.add(interpreter::ProbePlane{interpreter::Axis::X, Length::mm(-3)});
-  shop.restart_gateway();
-  shop.push("O1", "PROBE\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  ASSERT_EQ(shop.count(RecordKind::Probe), 1u);
-  const auto probe = dds::decode_probe(shop.records[1].text).value();
+  GatewayFixture fixture;
+  fixture.setup.workpiece.add(interpreter::ProbePlane{interpreter::Axis::X, Length::mm(-3)});
+  fixture.restart_gateway();
+  fixture.push("O1", "PROBE\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  ASSERT_EQ(fixture.count(RecordKind::Probe), 1u);
+  const auto probe = dds::decode_probe(fixture.records[1].text).value();
   EXPECT_TRUE(probe.tripped);
   EXPECT_DOUBLE_EQ(probe.at.at('X'), -3);
 }
 
 TEST(Gateway, AnAlarmEndsTheRunAtTheBlockBefore) {
-  Shop shop;
-  shop.push("O1", "X1\nOUT A\nBAD\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  const auto end = shop.ended();
+  GatewayFixture fixture;
+  fixture.push("O1", "X1\nOUT A\nBAD\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
   EXPECT_EQ(end.reason, "TOY0001 bad word");
   EXPECT_EQ(end.executed, 2u);
   EXPECT_EQ(end.line, 2u);
-  EXPECT_EQ(shop.count(RecordKind::Alarm), 1u);
-  EXPECT_TRUE(shop.start("O1").accepted) << "the next run may begin";
+  EXPECT_EQ(fixture.count(RecordKind::Alarm), 1u);
+  EXPECT_TRUE(fixture.start("O1").accepted) << "the next run may begin";
 }
 
 TEST(Gateway, CallsAndJumpsWorkWhileFed) {
-  Shop shop;
-  shop.push("O2", "HELLO\n");
-  shop.push("O1", "OUT A\nCALL O2\nJUMP\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"A", "HELLO", "A", "HELLO", "A", "HELLO"}));
+  GatewayFixture fixture;
+  fixture.push("O2", "HELLO\n");
+  fixture.push("O1", "OUT A\nCALL O2\nJUMP\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.lines(), (std::vector<std::string>{"A", "HELLO", "A", "HELLO", "A", "HELLO"}));
 }
 
 TEST(Gateway, TextThatIsNotUtf8IsReportedAsText) {
-  Shop shop;
-  shop.push("O1", "OUT CAF\xe9 \xc3\xa9\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.lines(), std::vector<std::string>{"CAF\xEF\xBF\xBD \xc3\xa9"});
+  GatewayFixture fixture;
+  fixture.push("O1", "OUT CAF\xe9 \xc3\xa9\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.lines(), std::vector<std::string>{"CAF\xEF\xBF\xBD \xc3\xa9"});
 }
 
 TEST(GatewayOptions, UnknownKeysAndBadValuesAreNamed) {

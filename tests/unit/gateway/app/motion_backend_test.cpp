@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 #include "tests/unit/gateway/app/toy_motion.hpp"
 
 /// The gateway on a back end that is not the simulated machine and can do less.
@@ -13,31 +13,31 @@ using dds::RunOutcome;
 class MotionBackendTest : public testing::Test {
  protected:
   MotionBackendTest() {
-    shop.motion = [](machine::ExecutionSink& sink) { return std::make_unique<ToyMotion>(sink); };
-    shop.restart_gateway();
+    fixture.motion = [](machine::ExecutionSink& sink) { return std::make_unique<ToyMotion>(sink); };
+    fixture.restart_gateway();
   }
   dds::RunEndText run(const std::string& text) {
-    shop.push("O1", text);
-    const auto started = shop.start("O1");
+    fixture.push("O1", text);
+    const auto started = fixture.start("O1");
     EXPECT_TRUE(started.accepted) << started.reason;
-    return shop.ended();
+    return fixture.ended();
   }
   std::string refusal_of(CommandAction action, const std::string& argument, double value) {
-    dds::Command command = shop.command(action);
+    dds::Command command = fixture.command(action);
     command.argument = argument;
     command.value = value;
-    return shop.send(command).reason;
+    return fixture.send(command).reason;
   }
-  Shop shop{"1x"};  // a machine in real time
+  GatewayFixture fixture{"1x"};  // a machine in real time
 };
 
 TEST_F(MotionBackendTest, RunsAProgramAndCountsWhatTheBackEndHasExecuted) {
   const auto end = run("X1\nOUT A\nX4\nOUT B\nEND\n");
   EXPECT_EQ(end.outcome, RunOutcome::Completed);
   EXPECT_EQ(end.executed, 5U);
-  EXPECT_EQ(shop.lines(), (std::vector<std::string>{"A", "B"}));
-  EXPECT_TRUE(shop.run_until([&] { return shop.status->position[0] == 4; }));
-  EXPECT_EQ(shop.status->axes, 1U) << "X alone";
+  EXPECT_EQ(fixture.lines(), (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(fixture.run_until([&] { return fixture.status->position[0] == 4; }));
+  EXPECT_EQ(fixture.status->axes, 1U) << "X alone";
 }
 
 TEST_F(MotionBackendTest, EndsARunAtABlockThatTheBackEndCannotExecute) {
@@ -56,12 +56,12 @@ TEST_F(MotionBackendTest, EndsARunAtAnArcAFeedOrAThreadThatTheBackEndCannotExecu
 
 TEST_F(MotionBackendTest, AnswersTheProgramsQuestionsForAnInput) {
   EXPECT_EQ(run("PIN 3\nEND\n").outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.lines(), std::vector<std::string>{"high"});
+  EXPECT_EQ(fixture.lines(), std::vector<std::string>{"high"});
 }
 
 TEST_F(MotionBackendTest, RefusesASetupThatDisagreesWithTheMachine) {
   ASSERT_EQ(run("X7\nEND\n").outcome, RunOutcome::Completed);
-  const auto second = shop.start("O1");
+  const auto second = fixture.start("O1");
   EXPECT_FALSE(second.accepted);
   EXPECT_EQ(second.reason, "X is at 7 mm, the setup begins at 0 mm");
 }
@@ -78,14 +78,15 @@ TEST_F(MotionBackendTest, RefusesCommandsThatTheBackEndCannotCarryOut) {
 }
 
 TEST_F(MotionBackendTest, HoldsResumesAndAborts) {
-  shop.serves_text = false;
-  shop.push("O1", "X1\nEND\n");
-  ASSERT_TRUE(shop.start("O1").accepted);
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Hold)).accepted);
-  EXPECT_TRUE(shop.run_until([&] { return shop.status->execution == dds::Execution::FeedHold; }));
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  EXPECT_TRUE(shop.send(shop.command(CommandAction::Abort)).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Aborted);
+  fixture.serves_text = false;
+  fixture.push("O1", "X1\nEND\n");
+  ASSERT_TRUE(fixture.start("O1").accepted);
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Hold)).accepted);
+  EXPECT_TRUE(
+      fixture.run_until([&] { return fixture.status->execution == dds::Execution::FeedHold; }));
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_TRUE(fixture.send(fixture.command(CommandAction::Abort)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Aborted);
 }
 
 TEST(MotionChoice, NamesTheBackEndsItKnows) {

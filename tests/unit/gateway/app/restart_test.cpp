@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/interpreter/dialects/tnc155/dialect.hpp"
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// A program that was interrupted and is started again in its middle, at the gateway.
 namespace dripline::gateway {
@@ -19,9 +19,9 @@ const std::string kContour =
     "8 L X+0 Y+50 RR\n9 L X+60 Y+50 RR F9000\n10 L X+60 Y-20 R0\n11 L X+70 Y-20\n"
     "12 END PGM 16 MM\n";
 
-class RestartShop : public Shop {
+class RestartShop : public GatewayFixture {
  public:
-  RestartShop() : Shop(interpreter::kTnc155Dialect, {}, "max") {}
+  RestartShop() : GatewayFixture(interpreter::kTnc155Dialect, {}, "max") {}
 
   dds::CommandResult start_from(const std::string& program, const std::string& from) {
     dds::Command command = start_command(program);
@@ -47,65 +47,65 @@ class RestartShop : public Shop {
 
 // HD-192: in a contour: what the run has lost is named, and nothing moves or turns.
 TEST(TncRestart, RefusesToLoseTheContour) {
-  RestartShop shop;
-  shop.push("16", kContour);
-  shop.interrupt("16");
-  const auto before = shop.position();
-  const auto stops = shop.count(dds::RecordKind::Stop);
-  ASSERT_TRUE(shop.start_from("16", "N9").accepted);
-  const auto end = shop.ended();
+  RestartShop fixture;
+  fixture.push("16", kContour);
+  fixture.interrupt("16");
+  const auto before = fixture.position();
+  const auto stops = fixture.count(dds::RecordKind::Stop);
+  ASSERT_TRUE(fixture.start_from("16", "N9").accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
   EXPECT_THAT(end.reason, HasSubstr("TNC-START-UNDEFINED"));
   EXPECT_THAT(end.reason, HasSubstr("block 6 on: start there"));
-  EXPECT_EQ(shop.position(), before);
-  EXPECT_EQ(shop.count(dds::RecordKind::Stop), stops) << "not even asked";
-  EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Off);
+  EXPECT_EQ(fixture.position(), before);
+  EXPECT_EQ(fixture.count(dds::RecordKind::Stop), stops) << "not even asked";
+  EXPECT_EQ(fixture.status->modes->spindle, dds::SpindleState::Off);
 }
 
 // HD-192: before the contour: tool, shift and spindle are back, after the operator has looked.
 TEST(TncRestart, RebuildsToolShiftAndSpindle) {
-  RestartShop shop;
-  shop.push("16", kContour);
-  shop.interrupt("16");
-  ASSERT_TRUE(shop.start_from("16", "N5").accepted);
-  ASSERT_TRUE(shop.stops("operator stop"));
-  EXPECT_THAT(shop.status->message, HasSubstr("operator stop: start at block 5: tool 1 L+20.000 "
-                                              "R+5.000, S 1000 M05, datum shift X+100.000"));
-  EXPECT_EQ(shop.status->modes->tool, 1);
-  EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Off);
-  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  ASSERT_TRUE(shop.stops("program stop"));
-  EXPECT_NEAR(shop.position()[0], 105, 1e-6) << "X0 of the shifted datum, and the radius";
-  EXPECT_EQ(shop.status->modes->spindle, dds::SpindleState::Clockwise);
-  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_NEAR(shop.position()[0], 170, 1e-6);
+  RestartShop fixture;
+  fixture.push("16", kContour);
+  fixture.interrupt("16");
+  ASSERT_TRUE(fixture.start_from("16", "N5").accepted);
+  ASSERT_TRUE(fixture.stops("operator stop"));
+  EXPECT_THAT(fixture.status->message, HasSubstr("operator stop: start at block 5: tool 1 L+20.000 "
+                                                 "R+5.000, S 1000 M05, datum shift X+100.000"));
+  EXPECT_EQ(fixture.status->modes->tool, 1);
+  EXPECT_EQ(fixture.status->modes->spindle, dds::SpindleState::Off);
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  ASSERT_TRUE(fixture.stops("program stop"));
+  EXPECT_NEAR(fixture.position()[0], 105, 1e-6) << "X0 of the shifted datum, and the radius";
+  EXPECT_EQ(fixture.status->modes->spindle, dds::SpindleState::Clockwise);
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_NEAR(fixture.position()[0], 170, 1e-6);
 }
 
 // HD-194: the machine is where it was stopped, not where a program begins.
 TEST(TncRestart, LooksAtWhereTheMachineIs) {
-  RestartShop shop;
-  shop.push("17",
-            "0 BEGIN PGM 17 MM\n1 L X+0 Y+0 Z+50 R0 F9000\n2 L Z-5\n3 STOP\n4 L Z+50\n"
-            "5 L X+40 Y+40\n6 END PGM 17 MM\n");
-  shop.interrupt("17");
-  ASSERT_TRUE(shop.start_from("17", "N5").accepted);
-  ASSERT_TRUE(shop.stops("operator stop"));
-  EXPECT_THAT(shop.status->message,
+  RestartShop fixture;
+  fixture.push("17",
+               "0 BEGIN PGM 17 MM\n1 L X+0 Y+0 Z+50 R0 F9000\n2 L Z-5\n3 STOP\n4 L Z+50\n"
+               "5 L X+40 Y+40\n6 END PGM 17 MM\n");
+  fixture.interrupt("17");
+  ASSERT_TRUE(fixture.start_from("17", "N5").accepted);
+  ASSERT_TRUE(fixture.stops("operator stop"));
+  EXPECT_THAT(fixture.status->message,
               HasSubstr("the program is at Z+50.000, the machine at Z-5.000"));
-  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  const auto end = shop.ended();
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
   EXPECT_THAT(end.reason, HasSubstr("Z is at -5.000 and the program has it at 50.000 here"));
-  EXPECT_NEAR(shop.position()[0], 0, 1e-6);
+  EXPECT_NEAR(fixture.position()[0], 0, 1e-6);
 }
 
 // A block that is not in the program, or that the program does not come to.
 TEST(TncRestart, RefusesABlockThatIsNotThere) {
-  RestartShop shop;
-  shop.push("16", kContour);
-  ASSERT_TRUE(shop.start_from("16", "N77").accepted);
-  const auto end = shop.ended();
+  RestartShop fixture;
+  fixture.push("16", kContour);
+  ASSERT_TRUE(fixture.start_from("16", "N77").accepted);
+  const auto end = fixture.ended();
   EXPECT_EQ(end.outcome, RunOutcome::Alarmed);
   EXPECT_THAT(end.reason, HasSubstr("SELECTED BLOCK NOT ADDRESSED: block 77"));
 }

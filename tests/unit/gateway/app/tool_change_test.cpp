@@ -4,7 +4,7 @@
 #include "gateway/interpreter/dialects/fanuc/dialect.hpp"
 #include "gateway/interpreter/dialects/rs274ngc/dialect.hpp"
 #include "gateway/interpreter/dialects/tnc155/dialect.hpp"
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 /// Where tools are changed by hand the machine waits, and the operator is shown which tool.
 namespace dripline::gateway {
@@ -38,28 +38,28 @@ class ToolChangeAtTheGateway : public testing::TestWithParam<ToolChangeCase> {};
 // CEN-142, HD-135: PROGRAM_STOPPED until resume.
 TEST_P(ToolChangeAtTheGateway, WaitsWithoutAChanger) {
   const ToolChangeCase& given = GetParam();
-  Shop shop(given.control, setup_of(given.without_changer), "max");
-  shop.push("1", given.program);
-  ASSERT_TRUE(shop.start("1").accepted);
-  ASSERT_TRUE(shop.run_until(
-      [&] { return shop.status && shop.status->execution == Execution::ProgramStopped; }));
-  EXPECT_EQ(shop.status->message, given.message);
-  const double there = shop.status->position[0];
-  for (int turn = 0; turn < 50; ++turn) shop.run_until([&] { return true; });
-  EXPECT_EQ(shop.status->position[0], there) << "it waits for as long as it takes";
-  EXPECT_EQ(shop.count(dds::RecordKind::RunEnded), 0U);
-  ASSERT_TRUE(shop.send(shop.command(CommandAction::Resume)).accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_NE(shop.status->position[0], there);
+  GatewayFixture fixture(given.control, setup_of(given.without_changer), "max");
+  fixture.push("1", given.program);
+  ASSERT_TRUE(fixture.start("1").accepted);
+  ASSERT_TRUE(fixture.run_until(
+      [&] { return fixture.status && fixture.status->execution == Execution::ProgramStopped; }));
+  EXPECT_EQ(fixture.status->message, given.message);
+  const double there = fixture.status->position[0];
+  for (int turn = 0; turn < 50; ++turn) fixture.run_until([&] { return true; });
+  EXPECT_EQ(fixture.status->position[0], there) << "it waits for as long as it takes";
+  EXPECT_EQ(fixture.count(dds::RecordKind::RunEnded), 0U);
+  ASSERT_TRUE(fixture.send(fixture.command(CommandAction::Resume)).accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_NE(fixture.status->position[0], there);
 }
 
 TEST_P(ToolChangeAtTheGateway, GoesOnWithAChanger) {
   const ToolChangeCase& given = GetParam();
-  Shop shop(given.control, setup_of(given.with_changer), "max");
-  shop.push("1", given.program);
-  ASSERT_TRUE(shop.start("1").accepted);
-  EXPECT_EQ(shop.ended().outcome, RunOutcome::Completed);
-  EXPECT_EQ(shop.count(dds::RecordKind::Stop), 0U);
+  GatewayFixture fixture(given.control, setup_of(given.with_changer), "max");
+  fixture.push("1", given.program);
+  ASSERT_TRUE(fixture.start("1").accepted);
+  EXPECT_EQ(fixture.ended().outcome, RunOutcome::Completed);
+  EXPECT_EQ(fixture.count(dds::RecordKind::Stop), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -76,10 +76,11 @@ INSTANTIATE_TEST_SUITE_P(
 // FAN-059, NGC-029: a changer does it, and nothing waits.
 TEST(ToolChange, IsNoStopWhereTheMachineHasAChanger) {
   const auto runs_through = [](const interpreter::Dialect& control, const std::string& program) {
-    Shop shop(control, {}, "max");
-    shop.push("1", program);
-    EXPECT_TRUE(shop.start("1").accepted);
-    return shop.ended().outcome == RunOutcome::Completed && shop.count(dds::RecordKind::Stop) == 0;
+    GatewayFixture fixture(control, {}, "max");
+    fixture.push("1", program);
+    EXPECT_TRUE(fixture.start("1").accepted);
+    return fixture.ended().outcome == RunOutcome::Completed &&
+           fixture.count(dds::RecordKind::Stop) == 0;
   };
   EXPECT_TRUE(
       runs_through(interpreter::kFanucDialect, "%\nO0001\nG90 G21 G00 X2.\nT2 M06\nX3.\nM30\n%\n"));

@@ -1,4 +1,4 @@
-#include "tests/unit/gateway/app/shop.hpp"
+#include "tests/unit/gateway/app/gateway_fixture.hpp"
 
 #include <cstring>
 #include <fstream>
@@ -10,7 +10,7 @@ namespace dripline::gateway {
 
 using std::chrono::milliseconds;
 
-struct Shop::Process {
+struct GatewayFixture::Process {
   Process(const std::filesystem::path& folder, std::uint64_t outbox_bytes)
       : outbox(report::Outbox::open(folder / "outbox.sqlite", {.max_bytes = outbox_bytes}).value()),
         journal(report::RunJournal::open(folder / "run.journal").value()),
@@ -20,10 +20,11 @@ struct Shop::Process {
   ExecutionProbe execution_probe;
 };
 
-Shop::Shop(const std::string& speed) : Shop(toy_control(), {}, speed) {}
+GatewayFixture::GatewayFixture(const std::string& speed)
+    : GatewayFixture(toy_control(), {}, speed) {}
 
-Shop::Shop(const interpreter::Dialect& control, interpreter::Setup its_setup,
-           const std::string& speed)
+GatewayFixture::GatewayFixture(const interpreter::Dialect& control, interpreter::Setup its_setup,
+                               const std::string& speed)
     : setup(std::move(its_setup)), control_(control) {
   options_.machine = "lathe-1";
   options_.control = control.name;
@@ -31,9 +32,9 @@ Shop::Shop(const interpreter::Dialect& control, interpreter::Setup its_setup,
   restart_gateway();
 }
 
-Shop::~Shop() = default;
+GatewayFixture::~GatewayFixture() = default;
 
-void Shop::restart_gateway() {
+void GatewayFixture::restart_gateway() {
   gateway.reset();
   process_.reset();
   process_ = std::make_unique<Process>(folder_.path(), outbox_bytes);
@@ -54,17 +55,17 @@ void Shop::restart_gateway() {
   gateway->receive(ServerSeen{is_up}, clock.steady);
 }
 
-void Shop::connect(bool up) {
+void GatewayFixture::connect(bool up) {
   is_up = up;
   gateway->receive(ServerSeen{up}, clock.steady);
 }
 
-void Shop::make_attended() {
+void GatewayFixture::make_attended() {
   options_.is_unattended = false;
   restart_gateway();
 }
 
-std::string Shop::panel(const std::string& line) {
+std::string GatewayFixture::panel(const std::string& line) {
   std::string answer;
   gateway->receive(
       PanelRequest{parse_panel_command(line).value(), [&](std::string text) { answer = text; }},
@@ -72,7 +73,7 @@ std::string Shop::panel(const std::string& line) {
   return answer;
 }
 
-bool Shop::run_until(const std::function<bool()>& done, milliseconds step) {
+bool GatewayFixture::run_until(const std::function<bool()>& done, milliseconds step) {
   const SteadyTime limit = clock.steady + std::chrono::minutes(1);
   while (clock.steady < limit) {
     gateway->turn(clock.steady);
@@ -83,11 +84,11 @@ bool Shop::run_until(const std::function<bool()>& done, milliseconds step) {
   return false;
 }
 
-std::chrono::microseconds Shop::steady_time() const {
+std::chrono::microseconds GatewayFixture::steady_time() const {
   return std::chrono::duration_cast<std::chrono::microseconds>(clock.steady.time_since_epoch());
 }
 
-dds::Command Shop::command(dds::CommandAction action) {
+dds::Command GatewayFixture::command(dds::CommandAction action) {
   dds::Command command;
   command.machine = "lathe-1";
   command.id = "order-" + std::to_string(++commands_);
@@ -99,7 +100,7 @@ dds::Command Shop::command(dds::CommandAction action) {
   return command;
 }
 
-dds::Command Shop::start_command(const std::string& program) {
+dds::Command GatewayFixture::start_command(const std::string& program) {
   dds::Command start = command(dds::CommandAction::Start);
   start.run = "run-" + std::to_string(++runs_);
   start.program = program;
@@ -110,14 +111,14 @@ dds::Command Shop::start_command(const std::string& program) {
   return start;
 }
 
-dds::CommandResult Shop::send(const dds::Command& command) {
+dds::CommandResult GatewayFixture::send(const dds::Command& command) {
   results.erase(command.id);
   gateway->receive(command, clock.steady);
   run_until([&] { return results.count(command.id) > 0; }, milliseconds(1));
   return results.at(command.id);
 }
 
-dds::RunEndText Shop::ended() {
+dds::RunEndText GatewayFixture::ended() {
   const std::size_t before = count(dds::RecordKind::RunEnded);
   const bool has =
       run_until([&] { return count(dds::RecordKind::RunEnded) > before; }) || !records.empty();
@@ -125,7 +126,7 @@ dds::RunEndText Shop::ended() {
   return dds::decode_run_end(records.back().text).value();
 }
 
-std::vector<std::string> Shop::lines() const {
+std::vector<std::string> GatewayFixture::lines() const {
   std::vector<std::string> all;
   for (const dds::Record& record : records) {
     if (record.kind == dds::RecordKind::Output) all.push_back(record.text);
@@ -133,46 +134,46 @@ std::vector<std::string> Shop::lines() const {
   return all;
 }
 
-std::size_t Shop::count(dds::RecordKind kind) const {
+std::size_t GatewayFixture::count(dds::RecordKind kind) const {
   std::size_t found = 0;
   for (const dds::Record& record : records) found += record.kind == kind ? 1 : 0;
   return found;
 }
 
-ExecutionProbe::Counts Shop::execution_probe() const {
+ExecutionProbe::Counts GatewayFixture::execution_probe() const {
   std::ifstream file(folder() / "execution_probe", std::ios::binary);
   ExecutionProbe::Counts counts;
   file.read(reinterpret_cast<char*>(&counts), sizeof counts);
   return counts;
 }
 
-Result<void> Shop::write(const dds::Announce& message) {
+Result<void> GatewayFixture::write(const dds::Announce& message) {
   announced.push_back(message);
   return {};
 }
-Result<void> Shop::write(const dds::Status& message) {
+Result<void> GatewayFixture::write(const dds::Status& message) {
   status = message;
   return {};
 }
-Result<void> Shop::write(const dds::Record& message) {
+Result<void> GatewayFixture::write(const dds::Record& message) {
   if (is_up && message.number == records.size() + 1) records.push_back(message);
   return {};
 }
-Result<void> Shop::write(const dds::CommandResult& message) {
+Result<void> GatewayFixture::write(const dds::CommandResult& message) {
   results[message.id] = message;
   return {};
 }
-Result<void> Shop::write(const dds::BlockRequest& message) {
+Result<void> GatewayFixture::write(const dds::BlockRequest& message) {
   if (is_up && serves_text) requests_.push_back(message);
   return {};
 }
 
-std::string Shop::text_of(const dds::BlockRequest& request) const {
+std::string GatewayFixture::text_of(const dds::BlockRequest& request) const {
   const auto found = programs.find(request.program.empty() ? program_ : request.program);
   return found == programs.end() ? std::string() : found->second;
 }
 
-void Shop::serve() {
+void GatewayFixture::serve() {
   if (!is_up) return;
   for (const dds::BlockRequest& request : std::exchange(requests_, {})) {
     const std::string text = text_of(request);

@@ -1,4 +1,4 @@
-#include "tests/integration/line_shop.hpp"
+#include "tests/integration/line_gateway.hpp"
 
 #include <gtest/gtest.h>
 #include <csignal>
@@ -12,15 +12,15 @@ namespace dripline::integration {
 
 using test_support::eventually;
 
-LineShop::LineShop(Options options) : options_(std::move(options)) {
+LineGateway::LineGateway(Options options) : options_(std::move(options)) {
   start();
 }
 
-LineShop::~LineShop() {
+LineGateway::~LineGateway() {
   if (testing::Test::HasFailure()) std::fprintf(stderr, "%s\n", log().c_str());
 }
 
-void LineShop::start() {
+void LineGateway::start() {
   std::vector<std::string> command{program_path("dncgw"),
                                    "--machine",
                                    "lathe-1",
@@ -49,14 +49,14 @@ void LineShop::start() {
   EXPECT_TRUE(wait_logged("is open")) << gateway_->output();
 }
 
-std::string LineShop::log() const {
+std::string LineGateway::log() const {
   std::ifstream file(folder_.path() / "log", std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
-std::size_t LineShop::logged(std::string_view text) const {
+std::size_t LineGateway::logged(std::string_view text) const {
   const std::string all = log();
   std::size_t times = 0;
   for (std::size_t at = all.find(text); at != std::string::npos; at = all.find(text, at + 1))
@@ -64,19 +64,19 @@ std::size_t LineShop::logged(std::string_view text) const {
   return times;
 }
 
-std::size_t LineShop::runs_ended() const {
+std::size_t LineGateway::runs_ended() const {
   return logged("run ended");
 }
 
-bool LineShop::wait_ended(std::size_t runs, std::chrono::milliseconds limit) const {
+bool LineGateway::wait_ended(std::size_t runs, std::chrono::milliseconds limit) const {
   return eventually([&] { return runs_ended() >= runs; }, limit);
 }
 
-bool LineShop::wait_logged(std::string_view text, std::size_t times) const {
+bool LineGateway::wait_logged(std::string_view text, std::size_t times) const {
   return eventually([&] { return logged(text) >= times; });
 }
 
-const std::vector<dds::Record>& LineShop::records() {
+const std::vector<dds::Record>& LineGateway::records() {
   if (records_) return *records_;
   gateway_->signal(SIGTERM);
   EXPECT_EQ(gateway_->wait(std::chrono::seconds(10)), 0) << log();
@@ -86,7 +86,7 @@ const std::vector<dds::Record>& LineShop::records() {
   return *records_;
 }
 
-std::vector<dds::RunEndText> LineShop::endings() {
+std::vector<dds::RunEndText> LineGateway::endings() {
   std::vector<dds::RunEndText> endings;
   for (const dds::Record& record : records()) {
     if (record.kind != dds::RecordKind::RunEnded) continue;
@@ -97,7 +97,7 @@ std::vector<dds::RunEndText> LineShop::endings() {
   return endings;
 }
 
-std::vector<std::string> LineShop::outputs() {
+std::vector<std::string> LineGateway::outputs() {
   std::vector<std::string> lines;
   for (const dds::Record& record : records()) {
     if (record.kind == dds::RecordKind::Output) lines.push_back(record.text);

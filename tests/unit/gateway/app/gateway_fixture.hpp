@@ -28,12 +28,13 @@ class TestClock final : public Clock {
 
 /// A gateway with everything around it in a test's hands: its clock, its server and its disk.
 /// The server answers requests and acknowledges records between two turns, while `is_up`.
-class Shop : public dds::GatewayEndpoint {
+class GatewayFixture : public dds::GatewayEndpoint {
  public:
   /// Of the toy control.
-  explicit Shop(const std::string& speed = "max");
-  Shop(const interpreter::Dialect& control, interpreter::Setup its_setup, const std::string& speed);
-  ~Shop() override;
+  explicit GatewayFixture(const std::string& speed = "max");
+  GatewayFixture(const interpreter::Dialect& control, interpreter::Setup its_setup,
+                 const std::string& speed);
+  ~GatewayFixture() override;
 
   /// A new process on the same disk, as after a kill (what was not committed is gone).
   void restart_gateway();

@@ -13,7 +13,7 @@ namespace dripline::integration {
 
 /// A real gateway that plays a Centurion lathe at the end of a line, without a server. Failures are
 /// reported through gtest assertions.
-class LineShop {
+class LineGateway {
  public:
   struct Options {
     std::string address;
@@ -22,8 +22,8 @@ class LineShop {
     std::vector<std::string> arguments = {};
     bool is_unattended = true;  ///< else as a gateway with a line is by itself
   };
-  explicit LineShop(Options options);
-  ~LineShop();
+  explicit LineGateway(Options options);
+  ~LineGateway();
 
   /// Runs that have ended, from the log.
   std::size_t runs_ended() const;
