@@ -26,7 +26,7 @@ void Context::print(std::string_view text) const {
 }
 
 void add_json_flag(Command command, Context& context) {
-  command.add_flag("--json", context.wants_json, "Print JSON instead of text for people");
+  command.add_flag("--json", context.wants_json, "Print JSON instead of text");
 }
 
 client::RetryPolicy retry_policy() {

@@ -29,14 +29,14 @@ Examples:
   dnc edit 15.h --delete 5..7
 
 Exit status:
-  0    it went well
-  1    the program, the run or the server refused
+  0    success
+  1    refused by the program, the run or the server
   2    usage, an unreadable file, an unknown control
   3    the server is not reachable
   4    the server does not accept the token
-  130  ended by Ctrl-C; a watched run continues
+  130  interrupted by Ctrl-C; a watched run continues
 
-`dnc VERB --help` and `dnc VERB VERB --help` say more. NO_COLOR is respected.)";
+See `dnc VERB --help` and `dnc GROUP VERB --help`. NO_COLOR is respected.)";
 
 void add_connection_options(CLI::App& app, Context& context) {
   auto& location = context.location;
@@ -46,7 +46,7 @@ void add_connection_options(CLI::App& app, Context& context) {
       ->type_name("FILE");
   app.add_option("--ca", location.ca_file, "PEM file of the authority to trust for https")
       ->type_name("FILE");
-  app.add_option("--state", location.state_dir, "State folder of a server on this machine")
+  app.add_option("--state", location.state_dir, "State folder of a server on this computer")
       ->type_name("DIR");
 }
 

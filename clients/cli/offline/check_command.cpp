@@ -98,8 +98,8 @@ Result<interpreter::OfflineOutcome> run(const OfflineProgram& program, const Che
 
 /// The program went to its end past the block that was to be looked at.
 int never_there(const CheckCommand& command) {
-  fmt::print(stderr, "dnc: {}: block {} is not met before the end of the program\n", command.file,
-             command.to);
+  fmt::print(stderr, "dnc: {}: block {} is not reached before the end of the program\n",
+             command.file, command.to);
   return kExitNo;
 }
 
@@ -183,13 +183,13 @@ void add_check_command(Command app, Context& context) {
   add_json_flag(command, context);
   command.footer(
       "No server is needed. Called programs come from the setup's library, or from FILE's "
-      "folder;\nwarnings, alarms and stops in one name its file. The check continues over "
-      "stops, and ends a program that\nrepeats without end with an alarm.\n"
-      "A program that a tnc155 could not keep in its memory (3100 blocks, 999 in one "
-      "program, 32 programs)\nis warned of; with memory_limits = true in the setup's [control] it "
-      "is an alarm.\n\nExit status: 0 the end was reached, or the block of --to; 1 an alarm, or "
-      "that block was not met;\n2 usage, unreadable file, unknown control.\n\nExamples:\n  dnc "
-      "check --control centurion shaft.nc\n  dnc check --to 40 15.h\n  dnc check --stops 15.h");
+      "folder;\nwarnings, alarms and stops in one name its file. The check continues over stops, "
+      "and ends a program that\nrepeats without end with an alarm.\nA program that does not fit a "
+      "tnc155's memory (3100 blocks, 999 in one program, 32 programs) gives a\nwarning, or with "
+      "memory_limits = true in the setup's [control] an alarm.\n\nExit status: 0 the end was "
+      "reached, or the block of --to; 1 an alarm, or that block was not reached;\n2 usage, "
+      "unreadable file, unknown control.\n\nExamples:\n  dnc check --control centurion shaft.nc\n  "
+      "dnc check --to 40 15.h\n  dnc check --stops 15.h");
   command.callback([&context, options] { context.status = check(context, *options); });
 }
 

@@ -139,14 +139,14 @@ int list_events(Context& context, const ConversationalCommand& command) {
 using Options = std::shared_ptr<ConversationalCommand>;
 
 void add_post(Command group, Context& context, const Options& options) {
-  auto post_verb = group.add_subcommand("post", "Write the program of an event file");
+  auto post_verb = group.add_subcommand("post", "Post an event file as program text");
   post_verb.add_option("FILE", options->file, "TOML with [[event]] tables, or the same as JSON")
       .required();
   post_verb.add_option("-o,--output", options->output,
                        "File to write [standard output]; it is written whole or not at all");
-  post_verb.add_flag(
-      "--printed-crest-formula", options->has_printed_crest_formula,
-      "Compute threads by their crest as the manual prints it, not as geometry has it");
+  post_verb.add_flag("--printed-crest-formula", options->has_printed_crest_formula,
+                     "Use the manual's printed formula for threads given by their crest, although "
+                     "its geometry is wrong");
   post_verb.callback([&context, options] { context.status = post(*options); });
 }
 

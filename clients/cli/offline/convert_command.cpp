@@ -23,7 +23,7 @@ struct ConvertCommand {
   std::string input, output, from = "auto", to = "ascii", end_of_block, title;
   std::optional<unsigned> leader, trailer;
   bool is_listing = false, has_no_rewind_stop = false, has_parentheses = false;
-  bool keeps_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
+  bool refuses_comments = false, replaces_wrong = false, keeps_head = false, is_strict = false;
   bool has_decimal_point = false;
   bool has_to = false;
   std::optional<std::int32_t> increment;
@@ -79,7 +79,7 @@ TapeConversion::Parts parts_of(const ConvertCommand& command, CharacterCode from
   parts.to.has_rewind_stop = is_tape && !command.has_no_rewind_stop;
   parts.to.has_parentheses = command.has_parentheses;
   parts.drops_comments =
-      to == CharacterCode::Eia && !command.has_parentheses && !command.keeps_comments;
+      to == CharacterCode::Eia && !command.has_parentheses && !command.refuses_comments;
   return parts;
 }
 
@@ -290,13 +290,13 @@ void add_options(Command command, ConvertCommand& options) {
                      "Punch this many blank rows in front, 10 to an inch [tapes: 100]");
   command.add_option("--trailer", options.trailer,
                      "Punch this many blank rows at the end [tapes: 100]");
-  command.add_option("--title", options.title, "Punch a title that people can read");
+  command.add_option("--title", options.title, "Punch a human-readable title into the leader");
   command.add_flag("--no-rewind-stop", options.has_no_rewind_stop,
-                   "Put no rewind stop before the first block");
+                   "Omit the rewind stop before the first block");
   command.add_flag("--eia-parentheses", options.has_parentheses,
                    "Punch ( and ) in EIA as 1A and 4A, as some controls read them");
-  command.add_flag("--keep-comments", options.keeps_comments,
-                   "Refuse comments in EIA instead of leaving them out");
+  command.add_flag("--refuse-comments", options.refuses_comments,
+                   "Fail on comments, which EIA cannot carry, instead of leaving them out");
   command.add_flag("--keep-head", options.keeps_head,
                    "Read the text before the first end of block as a block");
   command.add_flag("--replace-wrong", options.replaces_wrong,

@@ -87,7 +87,7 @@ std::string report_text(const Report& report, bool has_color) {
                {"IN s", Align::Right},
                {"WAITS s", Align::Right},
                {"FOR CHARACTERS", Align::Right},
-               {"FEED THAT WOULD DO " + unit + "/min", Align::Right}});
+               {"SUSTAINABLE FEED " + unit + "/min", Align::Right}});
   for (std::size_t i = 0; i < result.worst.size() && i < limit; ++i) {
     const auto& block = result.worst[i];
     const bool is_called = block.program != interpreter::kMainProgram;
@@ -165,15 +165,13 @@ void add_forecast_command(Command app, Context& context) {
   command.add_option("--start-ms", options->start_ms,
                      "Start time of a reader before each block [tape readers 10, else 0]");
   command.add_option("--buffer", options->buffer,
-                     "Characters the control holds ahead [0: the next block]");
+                     "Characters the control buffers [0: the next block]");
   command.add_option("--limit", options->limit, "Blocks to list [20]");
   add_json_flag(command, context);
   command.footer(
-      "No server is needed. Times are without acceleration.\n\nExit status: 0 no block starves, 1 "
-      "some do or the program alarms, 2 usage.\n\nExample:\n  dnc forecast --control "
-      "tektronix-1704 --line tektronix1704-eia part.nc\n  dnc forecast --line 4800e71 --buffer "
-      "4096 "
-      "surface.nc");
+      "No server is needed. Times ignore acceleration.\n\nExit status: 0 no block starves, 1 some "
+      "do or the program alarms, 2 usage.\n\nExample:\n  dnc forecast --control tektronix-1704 "
+      "--line tektronix1704 part.nc\n  dnc forecast --line 4800e71 --buffer 4096 surface.nc");
   command.callback([&context, options] { context.status = forecast(context, *options); });
 }
 

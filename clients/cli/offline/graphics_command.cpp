@@ -249,11 +249,12 @@ void add_turning_options(Command command, GraphicsCommand& options) {
       .group(kGroup);
   command
       .add_option("--tool-width", options.tool_widths,
-                  "Diameter of a drill, width of a blade, by offset, e.g. 5=10; may be repeated")
+                  "Diameter of a drill, width of a grooving or parting tool, by offset, e.g. 5=10; "
+                  "may be repeated")
       .group(kGroup);
   command
       .add_option("--insert", options.insert_degrees,
-                  "Angle between the edges of tools of types 1 to 4 [55]")
+                  "Included angle of the insert, tool types 1 to 4 [55]")
       .check(in_range(10.0, 87.0))
       .group(kGroup);
 }
@@ -292,7 +293,7 @@ void add_graphics_command(Command app, Context& context) {
   command.add_option("--heights", options->heights,
                      "Write the surface as numbers to this JSON file");
   command.add_option("--hardcopy", options->print,
-                     "Write the picture as bytes for a matrix printer");
+                     "Write the picture in the codes of a dot-matrix printer");
   command
       .add_option("--printer", options->printer,
                   "epson or ti-850 [that of the setup's MP 226 to 233, else epson]")

@@ -8,8 +8,9 @@ namespace dripline::cli {
 /// FILE, --control and --setup, as both offline verbs take them.
 inline void add_offline_options(Command command, OfflineCommand& options) {
   command.add_option("FILE", options.file, "The NC program").required();
-  command.add_option("--control", options.control,
-                     "Its control, e.g. centurion (default: found out from the text and name)");
+  command.add_option(
+      "--control", options.control,
+      "Its control, e.g. centurion (default: detected from the text and the file name)");
   command.add_option("--setup", options.setup,
                      "TOML file: start, tools, offsets, variables, answers, probe surfaces, "
                      "options of the control, library of called programs");

@@ -309,7 +309,7 @@ void add_touch_options(Command command, TouchCommand& options) {
 
 void add_touch_command(Command app, Context& context) {
   auto command = app.add_subcommand(
-      "touch", "The TNC 155's touch probe functions on the workpiece of a setup file");
+      "touch", "Run the TNC 155's touch probe functions on the workpiece of a setup file");
   auto options = std::make_shared<TouchCommand>();
   command
       .add_option("FUNCTION", options->function,
@@ -325,15 +325,12 @@ void add_touch_command(Command app, Context& context) {
   add_json_flag(command, context);
   command.footer(
       "No server is needed. Circle and radius take the touches in the order +, - of the first "
-      "axis, "
-      "then of\nthe second; a corner two of each side. With a basic rotation in the setup the "
-      "datum "
-      "applies to the\nrotated coordinates. Values for the setup are in the setup's units. "
-      "The "
-      "fourth axis rotates about the\nmachine's zero.\n\nExit status: 0 measured, 1 not touched or "
-      "not measurable, 2 usage.\n\nExamples:\n  dnc touch circle --setup bore.toml --ball 2 "
-      "X+:50,40,-5 X-:50,40,-5 Y+:50,40,-5 Y-:50,40,-5\n  dnc touch corner --setup vice.toml "
-      "--rotation-touches --datum 0,0 X+:-20,15,-5 X+:-20,35,-5");
+      "axis, then of\nthe second; corner takes two on each side. With a basic rotation in the "
+      "setup the datum applies to the\nrotated coordinates. Values for the setup are in the "
+      "setup's units. The fourth axis rotates about the\nmachine's zero.\n\nExit status: 0 "
+      "measured, 1 no contact, or not measurable, 2 usage.\n\nExamples:\n  dnc touch circle "
+      "--setup bore.toml --ball 2 X+:50,40,-5 X-:50,40,-5 Y+:50,40,-5 Y-:50,40,-5\n  dnc touch "
+      "corner --setup vice.toml --rotation-touches --datum 0,0 X+:-20,15,-5 X+:-20,35,-5");
   command.callback([&context, options] { context.status = run_touch(context, *options); });
 }
 

@@ -121,11 +121,12 @@ std::shared_ptr<PortCommand> add_port_options(Command command, Context& context)
   command.add_option("--address", options->address,
                      "/dev/ttyUSB0, tcp://HOST:PORT or rfc2217://HOST:PORT");
   command.add_option("--template", options->line_template,
-                     "Usual line of a control, see dnc port templates");
+                     "Template of the control's line settings; see dnc port templates");
   command.add_option("--rules", options->rules_file,
                      "TOML file with the rules for texts from the control");
   command.add_option("SETTING", options->settings,
-                     "KEY=VALUE instead of the template's, or a line such as 9600e72");
+                     "Override a setting of the template (KEY=VALUE), or give rate, parity, data "
+                     "and stop bits in short form (9600e72)");
   add_json_flag(command, context);
   return options;
 }
@@ -164,8 +165,8 @@ Command add_by_name(Command group, Context& context, const char* verb, const cha
 }
 
 void add_templates(Command group, Context& context) {
-  auto command =
-      group.add_subcommand("templates", "List the lines of known controls, or show one in full");
+  auto command = group.add_subcommand(
+      "templates", "List the line templates of known controls, or show one in full");
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The template (default: list them)");
   add_json_flag(command, context);
@@ -230,7 +231,7 @@ void add_port_commands(Command app, Context& context) {
   auto list = group.add_subcommand("list", "List all ports with the state of their lines");
   add_json_flag(list, context);
   list.callback([&context] { context.status = list_ports(context); });
-  add_json_flag(add_by_name(group, context, "show", "One port", show_port), context);
+  add_json_flag(add_by_name(group, context, "show", "Show a port", show_port), context);
   add_by_name(group, context, "remove", "Close a line and remove the port", remove);
   add_json_flag(add_by_name(group, context, "enable", "Open the line", enable), context);
   add_json_flag(add_by_name(group, context, "disable", "Close the line, keep the port", disable),

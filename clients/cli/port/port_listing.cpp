@@ -23,7 +23,7 @@ void print_template(Context& context, const client::PortTemplates& all,
   details.add("for", one.title);
   details.add("control", one.control);
   context.print(details);
-  Table table({{"SETTING"}, {"VALUE"}, {"WHAT IT DECIDES"}, {"MAY BE"}});
+  Table table({{"SETTING"}, {"VALUE"}, {"MEANING"}, {"ALLOWED"}});
   for (const auto& row : all.settings) {
     const auto value = one.settings.find(row.key);
     const std::string text = value == one.settings.end() ? "" : value->second;

@@ -94,8 +94,8 @@ void add_port_page_command(Command group, Context& context) {
   file.excludes(line);
   add_json_flag(command, context);
   command.footer(
-      "Examples:\n  dnc port page --for centurion > page.toml   # what to dial in at the control\n"
-      "  dnc port page page.toml                     # template and settings for dnc port add");
+      "Examples:\n  dnc port page --for centurion > page.toml   # what to set at the control\n  "
+      "dnc port page page.toml                     # template and settings for dnc port add");
   command.callback([&context, options] {
     const bool has_line = !options->line.empty();
     if (!has_line && options->file.empty()) {

@@ -150,7 +150,7 @@ int report(Context& context, const client::Port& port, const std::vector<Differe
     }
     context.print(json_text(nlohmann::ordered_json{{"port", port.name}, {"differences", list}}));
   } else if (found.empty()) {
-    context.print(fmt::format("Port {} is set as its control's parameters are.\n", port.name));
+    context.print(fmt::format("Port {} matches its control's parameters.\n", port.name));
   } else {
     for (const auto& one : found) {
       context.print(
@@ -194,10 +194,9 @@ int run(Context& context, const ParametersCommand& command) {
 }  // namespace
 
 void add_port_parameters_command(Command group, Context& context) {
-  auto command = group.add_subcommand(
-      "parameters",
-      "The interface of a TNC 151/155 by its machine parameters: the line that fits them,\n"
-      "the parameters for a line, or whether a port is set as its control is");
+  auto command = group.add_subcommand("parameters",
+                                      "Derive the line from a TNC 151/155's machine parameters, or "
+                                      "the parameters from a line,\nor compare a port with them");
   auto options = std::make_shared<ParametersCommand>();
   auto file = command.add_option("FILE", options->file,
                                  "A setup (TOML), or parameters as the control sends them: MP0: "
@@ -213,12 +212,11 @@ void add_port_parameters_command(Command group, Context& context) {
   add_json_flag(command, context);
   command.footer(
       "MP 71 and 218 to 224 apply; the letter in headings is the setup's heading_letter, else that "
-      "of MP 218,\nelse %. Only --port needs a server.\n\n"
-      "Exit status: 0 well, 1 the port is set otherwise, 2 usage, or a value no line can have.\n\n"
-      "Examples:\n  dnc port parameters mill-3.toml            # template and settings for dnc "
-      "port "
-      "add\n  dnc port parameters --for tnc155-bcc > mp  # what to set at the control\n"
-      "  dnc port parameters --port line-3          # does the port fit its machine's setup?");
+      "of MP 218,\nelse %. Only --port needs a server.\n\nExit status: 0 the settings match, 1 "
+      "they differ, 2 usage, or a value that no line can have.\n\nExamples:\n  dnc port parameters "
+      "mill-3.toml            # template and settings for dnc port add\n  dnc port parameters "
+      "--for tnc155-bcc > mp  # what to set at the control\n  dnc port parameters --port line-3    "
+      "      # does the port fit its machine's setup?");
   command.callback([&context, options] { context.status = run(context, *options); });
 }
 

@@ -203,16 +203,17 @@ void add_port_replay_command(Command group, Context& context) {
                   "The control: a template (dnc port templates) or a dialect")
       .required();
   command.add_option("--dialect", options->dialect,
-                     "Whose interpreter runs what arrives (default: the template's)");
+                     "Dialect that interprets the received program (default: the template's)");
   command.add_option("SETTING", options->settings,
-                     "KEY=VALUE instead of the template's, or a line such as 9600e72");
+                     "Override a setting of the template (KEY=VALUE), or give rate, parity, data "
+                     "and stop bits in short form (9600e72)");
   add_json_flag(command, context);
   command.footer(
       "No server is needed. What was sent goes to the simulated control, and its answers are "
       "compared\nwith the recorded ones where a protocol decides them (XMODEM, HEIDENHAIN "
       "blockwise); what the\ncontrol sent goes to a simulated host.\n\nExit status: 0 no "
-      "deviation, 1 there are some, 2 the recording cannot be read.\n\nExample:\n  dnc port "
-      "recording line-3 -o night.jsonl\n  dnc port replay night.jsonl --against tnc155-bcc");
+      "deviations, 1 deviations, 2 the recording cannot be read.\n\nExample:\n  dnc port recording "
+      "line-3 -o night.jsonl\n  dnc port replay night.jsonl --against tnc155-bcc");
   command.callback([&context, options] { context.status = run_replay(context, *options); });
 }
 

@@ -127,26 +127,21 @@ void add_send(Command group, Context& context) {
   add_json_flag(command, context);
   command.footer(
       "The control must be ready to receive. One program is sent unchanged. Several are sent one "
-      "after "
-      "the\nother, each from its O line (or with one made from its name), framed once as the "
-      "line's "
-      "settings\nrequire; a control that splits at O numbers stores them as single programs. This "
-      "is "
-      "no "
-      "run.\n\nExample:\n  dnc port send line-2 O0100 O0200 O0300@4");
+      "after the\nother, each from its O line (or with one made from its name), framed once as the "
+      "line's settings\nrequire; a control that splits at O numbers stores them as single "
+      "programs. No run is created.\n\nExample:\n  dnc port send line-2 O0100 O0200 O0300@4");
   command.callback([&context, options] { context.status = send(context, *options); });
 }
 
 void add_receive(Command group, Context& context) {
-  auto command = group.add_subcommand("receive", "Ask the control for a program (XMODEM)");
+  auto command = group.add_subcommand("receive", "Request a program from the control (XMODEM)");
   auto options = std::make_shared<ReceiveCommand>();
   command.add_option("PORT", options->port, "The port").required();
   command.add_flag("--no-wait", options->is_left, "Do not wait for it");
   command.footer(
       "Over XMODEM the receiver begins: this makes the server ask while the operator starts to "
-      "send. "
-      "It\nbecomes a held revision, one for each O number where the port extracts programs. All "
-      "other lines\naccept what their control sends at any time.");
+      "send. It\nbecomes a revision pending approval, one for each O number where the port "
+      "extracts programs. All other\nlines accept what their control sends at any time.");
   command.callback([&context, options] { context.status = receive(context, *options); });
 }
 
@@ -155,7 +150,7 @@ void add_receive(Command group, Context& context) {
 void add_port_transfer_commands(Command group, Context& context) {
   add_send(group, context);
   add_receive(group, context);
-  auto command = group.add_subcommand("stop", "End a transfer that belongs to no run");
+  auto command = group.add_subcommand("stop", "Abort a transfer of dnc port send or receive");
   auto name = std::make_shared<std::string>();
   command.add_option("PORT", *name, "The port").required();
   command.callback([&context, name] { context.status = stop(context, *name); });

@@ -84,7 +84,7 @@ void add_switch(Command group, Context& context) {
   command.add_option("STATE", options->state, "on or off").required().check(one_of({"on", "off"}));
   command.footer(
       "It works with or without a run; dnc run switch does the same for the machine of a "
-      "run.\n\nExample:\n  dnc machine switch mill-1 emergency_stop off");
+      "run.\n\nExample:\n  dnc machine switch mill-1 single_block on");
   command.callback([&context, options] { context.status = set_switch(context, *options); });
 }
 

@@ -129,7 +129,7 @@ int show(Context& context, const MemoryCommand& command) {
     context.print(json_text(to_json(*found, cells)));
     return kExitOk;
   }
-  Table table({{"NAME"}, {"VALUE", Align::Right}, {"BY THE SETUP", Align::Right}});
+  Table table({{"NAME"}, {"VALUE", Align::Right}, {"FROM SETUP", Align::Right}});
   for (const auto& [name, cell] : cells)
     table.add({name, number_text(cell.value), number_text(cell.base)});
   context.print(table);
@@ -246,22 +246,20 @@ std::pair<Command, std::shared_ptr<MemoryCommand>> add_verb(Command group, Conte
 }  // namespace
 
 void add_memory_commands(Command app, Context& context) {
-  auto group =
-      app.add_subcommand("memory", "Memory that a control keeps from programs: variables, offsets");
+  auto group = app.add_subcommand("memory", "Retained memory of a control: variables, offsets");
   group.require_subcommand(1);
   group.footer(
-      "It is reported at the end of each run that changed it. At the next start what is kept wins "
-      "over the "
-      "setup,\nexcept where the setup was changed since. Restoring and clearing make a new "
-      "version of the\nsetup, which takes effect at the next start.");
+      "The retained memory is reported at the end of each run that changed it. At the next start "
+      "it takes\nprecedence over the setup, except where the setup was changed since. restore and "
+      "clear make a new\nversion of the setup, in force from the next start.");
 
   constexpr const char* kFilter = "List only names that contain this text";
-  auto [showing, show_options] = add_verb(group, context, "show", "Show what it keeps now", show);
+  auto [showing, show_options] = add_verb(group, context, "show", "Show the retained memory", show);
   showing.add_option("--run", show_options->run, kRunHelp);
   showing.add_option("--filter", show_options->filter, kFilter);
   add_json_flag(showing, context);
 
-  auto [listing, unused] = add_verb(group, context, "list", "The runs that changed it", list);
+  auto [listing, unused] = add_verb(group, context, "list", "List the runs that changed it", list);
   (void)unused;
   add_json_flag(listing, context);
 
@@ -274,13 +272,16 @@ void add_memory_commands(Command app, Context& context) {
       group, context, "restore", "Restore what a run left, of this or another machine", restore);
   restoring.add_option("RUN", restore_options->run, kRunHelp).required();
   restoring.add_option("--filter", restore_options->filter, kFilter);
-  restoring.add_option("-m,--comment", restore_options->comment, "Why, for the list of setups");
+  restoring.add_option("-m,--comment", restore_options->comment,
+                       "Give a reason; shown in the list of setups");
   add_json_flag(restoring, context);
 
   auto [clearing, clear_options] =
-      add_verb(group, context, "clear", "Begin again with what the setup gives", clear);
+      add_verb(group, context, "clear",
+               "Clear the retained memory: the next start uses the setup's values", clear);
   clearing.add_option("--filter", clear_options->filter, kFilter);
-  clearing.add_option("-m,--comment", clear_options->comment, "Why, for the list of setups");
+  clearing.add_option("-m,--comment", clear_options->comment,
+                      "Give a reason; shown in the list of setups");
   add_json_flag(clearing, context);
 }
 

@@ -169,12 +169,12 @@ void add_judgment(Command group, Context& context, const char* verb, const char*
   auto options = std::make_shared<RevisionCommand>();
   command.add_option("NAME", options->program, "The program").required();
   command.add_option("REV", options->revision, "Its revision").required();
-  command.footer(
-      "A program that an operator punched out at a control is stored as a held revision: it is "
-      "listed\nand can be pulled, but no run takes it before it is accepted. The decision is "
-      "in "
-      "the audit\ntrail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o punched.nc\n  dnc "
-      "program accept O0200 3");
+  command.footer(fmt::format(
+      "A program that an operator sent from a control is stored as a revision pending approval: it "
+      "is listed\nand can be pulled, but no run takes it before it is accepted. The decision is in "
+      "the audit trail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o received.nc\n  dnc "
+      "program {} O0200 3",
+      verb));
   command.callback([&context, options, action] { context.status = action(context, *options); });
 }
 
@@ -185,10 +185,10 @@ void add_push(Command group, Context& context) {
   command.add_option("--name", options->name, "Name in the library (default: FILE's name)");
   command.add_option(
       "--control", options->control,
-      "The control it is written for, e.g. centurion (default: the server finds out)");
-  command.add_option("--comment", options->comment, "Say what changed; kept with the revision");
+      "The control it is written for, e.g. centurion (default: detected by the server)");
+  command.add_option("--comment", options->comment, "State what changed; kept with the revision");
   command.add_flag("--force", options->overrides_protection,
-                   "Also where the program there is protected against change (tnc155: P, G50)");
+                   "Replace the program even if it is protected against editing (tnc155: P, G50)");
   add_json_flag(command, context);
   command.footer(
       "The content is sent in pieces with a SHA-256 that the server checks. When the connection "
@@ -205,16 +205,16 @@ void add_pull(Command group, Context& context) {
   command.add_option("NAME", options->name, "The program").required();
   command.add_option("-o,--output", options->output,
                      "File to write, - for standard output (default: NAME here)");
-  command.add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command.add_option("--revision", options->revision, "Revision to fetch (default: the latest)");
   command.footer(
-      "FILE appears only when all of it is there and its SHA-256 is right. On standard output the "
-      "bytes\ncome first and the check last: look at the exit status.\n\nExample:\n  dnc program "
+      "The output file is written only when it is complete and its SHA-256 matches. On standard "
+      "output the\nbytes come before the check: test the exit status.\n\nExample:\n  dnc program "
       "pull O0200 --revision 3 -o shaft.nc");
   command.callback([&context, options] { context.status = pull(context, *options); });
 }
 
 void add_show(Command group, Context& context) {
-  auto command = group.add_subcommand("show", "One program and all its revisions");
+  auto command = group.add_subcommand("show", "Show a program and all its revisions");
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The program").required();
   add_json_flag(command, context);
@@ -222,21 +222,21 @@ void add_show(Command group, Context& context) {
 }
 
 void add_remove(Command group, Context& context) {
-  auto command = group.add_subcommand("remove", "Take a program out of the library");
+  auto command = group.add_subcommand(
+      "remove", "Remove a program from the library; its runs and reports stay");
   auto options = std::make_shared<RemoveCommand>();
   command.add_option("NAME", options->name, "The program").required();
   command.add_flag("--force", options->overrides_protection,
-                   "Also a program that is protected against erasing (tnc155: P, G50)");
+                   "Remove even a protected program (tnc155: P, G50)");
   command.callback([&context, options] { context.status = remove_program(context, *options); });
 }
 
 void add_copy(Command group, Context& context) {
-  auto command =
-      group.add_subcommand("copy", "Make a new program of another one's latest revision");
+  auto command = group.add_subcommand("copy", "Copy a program's revision to a new program");
   auto options = std::make_shared<MoveCommand>();
   command.add_option("NAME", options->from, "The program").required();
   command.add_option("NEW", options->to, "Name of the copy; no program may have it").required();
-  command.add_option("--revision", options->revision, "Which revision (default: the latest)");
+  command.add_option("--revision", options->revision, "Revision to copy (default: the latest)");
   command.footer(
       "The copy begins with that revision as its first; its source is in its comment "
       "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
@@ -250,8 +250,8 @@ void add_rename(Command group, Context& context) {
   command.add_option("NEW", options->to, "Its new name; no program may have it").required();
   command.footer(
       "All its revisions, runs and reports go with it. It is refused while a run uses the program "
-      "or a\nrevision from a machine waits for acceptance. The text stays as it is: an O number in "
-      "it too.\n\nExample:\n  dnc program rename O0200 O0210");
+      "or a\nrevision of it is pending approval. The text stays as it is: an O number in it "
+      "too.\n\nExample:\n  dnc program rename O0200 O0210");
   command.callback([&context, options] { context.status = rename_program(context, *options); });
 }
 
@@ -262,12 +262,14 @@ void add_program_commands(Command app, Context& context) {
   group.require_subcommand(1);
   add_push(group, context);
   add_pull(group, context);
-  auto list = group.add_subcommand("list", "All programs with their latest revision");
+  auto list = group.add_subcommand("list", "List all programs with their latest revision");
   add_json_flag(list, context);
   list.callback([&context] { context.status = list_programs(context); });
   add_show(group, context);
-  add_judgment(group, context, "accept", "Put a held revision in force", accept_revision);
-  add_judgment(group, context, "reject", "Hide a held revision for ever", reject_revision);
+  add_judgment(group, context, "accept", "Approve a pending revision, so that it can run",
+               accept_revision);
+  add_judgment(group, context, "reject", "Reject a pending revision and hide it permanently",
+               reject_revision);
   add_remove(group, context);
   add_copy(group, context);
   add_rename(group, context);

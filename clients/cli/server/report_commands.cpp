@@ -189,7 +189,7 @@ constexpr const char* kReportHelp =
     "Run: its id, the beginning of it, or latest; or a machine: what it printed outside any run";
 
 void add_export(Command group, Context& context) {
-  auto command = group.add_subcommand("export", "Write a run's report lines for other programs");
+  auto command = group.add_subcommand("export", "Export a run's report lines as text, CSV or JSON");
   auto options = std::make_shared<ExportCommand>();
   options->format = "text";
   command.add_option("RUN|MACHINE", options->run, kReportHelp).required();
@@ -199,7 +199,8 @@ void add_export(Command group, Context& context) {
                      "File to write, - for standard output (default: -)");
   command.footer(
       "text holds exactly the lines that the machine put out, in order; csv and json add time, "
-      "device\nand place.\n\nExample:\n  dnc report export latest --format csv -o profile.csv");
+      "device, block\nand line.\n\nExample:\n  dnc report export latest --format csv -o "
+      "profile.csv");
   command.callback([&context, options] { context.status = export_report(context, *options); });
 }
 
@@ -210,19 +211,21 @@ void add_report_commands(Command app, Context& context) {
   group.require_subcommand(1);
 
   auto list_command = group.add_subcommand(
-      "list", "Runs that reported lines, newest first, and machines that printed outside runs");
+      "list",
+      "List runs that reported lines, newest first, and machines that printed outside runs");
   auto options = std::make_shared<ListCommand>();
-  list_command.add_option("--machine", options->query.machine, "Only of this machine");
-  list_command.add_option("--program", options->query.program, "Only of this program");
-  list_command.add_option("--limit", options->limit, "At most this many, 0 for all (default: 20)");
+  list_command.add_option("--machine", options->query.machine, "List only runs of this machine");
+  list_command.add_option("--program", options->query.program, "List only runs of this program");
+  list_command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(list_command, context);
   list_command.callback([&context, options] { context.status = list(context, *options); });
 
   auto shown = std::make_shared<ShowCommand>();
   auto show_command = group.add_subcommand("show", "Print the report of a run, or a machine's own");
   show_command.add_option("RUN|MACHINE", shown->run, kReportHelp).required();
-  show_command.add_flag("--raw", shown->is_raw,
-                        "On a terminal, too, print control characters instead of \\x1b");
+  show_command.add_flag(
+      "--raw", shown->is_raw,
+      "Print control characters unchanged, also on a terminal (otherwise as \\x1b)");
   add_json_flag(show_command, context);
   show_command.callback([&context, shown] { context.status = show(context, *shown); });
 

@@ -134,26 +134,27 @@ void add_start(Command group, Context& context) {
   command.add_option("MACHINE", options->request.machine, "The machine").required();
   command.add_option("PROGRAM", options->request.program, "The program in the library").required();
   command.add_option("--revision", options->request.revision,
-                     "Which revision (default: the latest)");
+                     "Revision to start (default: the latest)");
   command.add_option(
       "--from", options->request.from,
       "Begin at a block (N120), a line (L7), a byte (B4096), a tool (T3) or after blocks "
       "(+25)");
   auto send = command.add_flag_callback(
       "--send-head", [options] { options->request.head = "send"; },
-      "On a serial line: send the words before the beginning that the rest relies on first (units, "
-      "feed, tool ...)");
+      "On a serial line: before the start block, send the modal words (units, feed, tool ...) that "
+      "the rest of the program depends on");
   command
       .add_flag_callback(
           "--modes-set", [options] { options->request.head = "set"; },
-          "On a serial line: they are in force at the control, nothing is sent for them")
+          "On a serial line: confirm that those modal words are already in force at the control; "
+          "nothing is sent for them")
       .excludes(send);
   command
       .add_option(
           "--memory", options->request.memory,
-          "With --from at a gateway: look through the skipped part with the control's memory "
-          "(variables, offsets) as it was at the begin of the machine's last run of this "
-          "revision, or as it is now, so that the skipped part applies once more")
+          "With --from at a gateway: search the skipped part with the control's memory (variables, "
+          "offsets) as it was when this machine's last run of the revision began (begin), or as it "
+          "is now (now); with now, the changes in the skipped part are applied again")
       .check(one_of({"begin", "now"}));
   command.add_option("--pass", options->request.pass,
                      "With --from at a gateway: start at this pass of the block (loops, "
@@ -163,16 +164,13 @@ void add_start(Command group, Context& context) {
       .excludes(follow);
   add_json_flag(command, context);
   command.footer(
-      "On a serial line a run with --from is refused while the rest of the program relies on words "
-      "before it;\nthey are named, with the line each is in and the blocks that --send-head would "
-      "send.\nAt a gateway the program is looked through: a start that would lose what the control "
-      "keeps, "
-      "or whose\nblock is in a loop or a subprogram, is refused unless --memory and --pass name "
-      "what is "
-      "meant.\n\n"
-      "With --follow or --wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C "
-      "ends\nthe watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 "
-      "--follow");
+      "On a serial line a start with --from is refused while the rest of the program depends on "
+      "modal words\nbefore the start block. The refusal names each with its line, and the blocks "
+      "that --send-head would send.\nAt a gateway the control searches the program up to the start "
+      "block. A start is refused if it would apply\nchanges of the memory twice, or if its block "
+      "is in a loop or a subprogram, unless --memory and --pass\ndecide it.\n\nWith --follow or "
+      "--wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C ends\nthe "
+      "watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 --follow");
   command.callback([&context, options] { context.status = start(context, *options); });
 }
 

@@ -46,7 +46,7 @@ void add_plain(Command group, Context& context, const std::string& action, const
 }
 
 void add_answer(Command group, Context& context) {
-  auto command = group.add_subcommand("answer", "Answer the question a run waits with");
+  auto command = group.add_subcommand("answer", "Answer the prompt that a run is waiting for");
   auto options = std::make_shared<RunControlCommand>();
   command.add_option("ID", options->run, kRunHelp).required();
   command.add_option("TEXT", options->text, "Text that the operator would type").required();
@@ -148,9 +148,9 @@ std::string command_text(const client::CommandRequest& command) {
 }
 
 void add_run_control_commands(Command group, Context& context) {
-  add_plain(group, context, "hold", "Feed hold: stop moving, keep the place");
-  add_plain(group, context, "resume", "Go on after a hold, a stop or a single block");
-  add_plain(group, context, "abort", "End a run for good");
+  add_plain(group, context, "hold", "Hold the feed; dnc run resume continues");
+  add_plain(group, context, "resume", "Resume after a hold, a stop or a single block");
+  add_plain(group, context, "abort", "Abort a run; it cannot be resumed");
   add_answer(group, context);
   add_switch(group, context);
   add_override(group, context);

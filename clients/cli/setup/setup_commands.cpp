@@ -171,7 +171,7 @@ void add_import(Command group, Context& context) {
                      "TOML file whose [control] names the TNC's model and software; what that "
                      "control lacks is refused");
   command.add_option("--map", options->map,
-                     "Centurion: which of its numbers from P200 on is which of Dripline's "
+                     "Centurion: which of its numbers from P500 on is which of Dripline's "
                      "(deploy/examples/centurion-parameters.map)");
   command.add_option("-o,--output", options->output,
                      "TOML file to write, - for standard output [-]");
@@ -212,7 +212,7 @@ void add_saving_options(Verb& verb, Context& context) {
   verb.command.add_option("-m,--comment", verb.options->comment,
                           "Give a reason; shown in the list");
   verb.command.add_option("--control", verb.options->control,
-                          "Control of a machine that was never connected, e.g. tnc155");
+                          "Control, for a machine that has never been connected, e.g. tnc155");
   add_json_flag(verb.command, context);
 }
 
@@ -235,10 +235,10 @@ void add_setup_commands(Command app, Context& context) {
   auto showing = add_verb(group, context, "show", "Show the tables of a setup", show);
   showing.command.add_option("-r,--revision", showing.options->revision, "Version [newest]");
   showing.command.add_option("--control", showing.options->control,
-                             "Control of a machine that was never connected, e.g. tnc155");
+                             "Control, for a machine that has never been connected, e.g. tnc155");
   showing.command
       .add_option("--holds", showing.options->holds,
-                  "A TNC: programs of the server that its memory has, for its vacant blocks")
+                  "TNC: count vacant blocks as if these programs of the server were in its memory")
       .type_name("PROGRAM");
   showing.command.footer(
       "For a TNC also its MOD functions in the control's order, and the user parameters.");
@@ -257,8 +257,8 @@ void add_setup_commands(Command app, Context& context) {
                              "File to write, - for standard output [-]");
 
   auto exporting = add_verb(group, context, "export",
-                            "As the control takes it: a TNC's tools (its program 0); a Centurion's "
-                            "parameters (G10), with --map in its own numbers",
+                            "Write a setup in the control's own format: a TNC's tools (program 0), "
+                            "a Centurion's parameters (G10); with --map in the control's numbers",
                             export_form);
   exporting.command.add_option("--control", exporting.options->control,
                                "tnc155 or centurion [the machine's]");
@@ -280,7 +280,8 @@ void add_setup_commands(Command app, Context& context) {
   add_setup_changes(group, context);
 
   auto restoring = add_verb(group, context, "restore", "Make an old version the newest", restore);
-  restoring.command.add_option("REVISION", restoring.options->revision, "Which").required();
+  restoring.command.add_option("REVISION", restoring.options->revision, "Version to restore")
+      .required();
   add_saving_options(restoring, context);
 }
 

@@ -85,14 +85,14 @@ client::Reply<std::optional<SetupMenu>> menu_of(client::Client& client, const cl
 }
 
 std::string menu_tables(const SetupMenu& menu, bool has_color) {
-  Table functions({{"MOD FUNCTION"}, {"VALUE"}, {"MAY BE"}});
+  Table functions({{"MOD FUNCTION"}, {"VALUE"}, {"ALLOWED"}});
   for (const auto& function : menu.functions) {
     functions.add({function.name, function.value, function.range});
   }
   std::string text = functions.render(has_color);
   if (menu.parameters.empty()) return text;
   Table parameters(
-      {{"NO", Align::Right}, {"USER PARAMETER"}, {"MP"}, {"VALUE", Align::Right}, {"MAY BE"}});
+      {{"NO", Align::Right}, {"USER PARAMETER"}, {"MP"}, {"VALUE", Align::Right}, {"ALLOWED"}});
   std::size_t number = 0;
   for (const auto& parameter : menu.parameters) {
     parameters.add({std::to_string(++number), parameter.text,

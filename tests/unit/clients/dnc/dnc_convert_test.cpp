@@ -118,9 +118,10 @@ TEST_F(DncConvert, LeavesCommentsOutOfEiaAndSaysSo) {
   ASSERT_EQ(done.status, 0) << done.err;
   EXPECT_EQ(done.err, "dnc: 1 comments left out, EIA has no parentheses\n");
   EXPECT_EQ(dnc({"convert", "b.ptp", "-o", "-"}).out, "%\nN1G1X2\nN2M30\n");
-  EXPECT_EQ(dnc({"convert", "a.nc", "--from", "ascii", "-o", "c", "--to", "eia", "--keep-comments"})
-                .status,
-            1);
+  EXPECT_EQ(
+      dnc({"convert", "a.nc", "--from", "ascii", "-o", "c", "--to", "eia", "--refuse-comments"})
+          .status,
+      1);
   ASSERT_EQ(
       dnc({"convert", "a.nc", "--from", "ascii", "-o", "c", "--to", "eia", "--eia-parentheses"})
           .status,

@@ -219,7 +219,7 @@ TEST_F(DncEdit, ChecksUpToABlockAndSaysHowTheMachineStandsThere) {
   EXPECT_EQ(dnc({"check", "--to", "L6", "15.h"}).status, 0);
   const auto never = dnc({"check", "--to", "70", "15.h"});
   EXPECT_EQ(never.status, 1);
-  EXPECT_EQ(never.err, "dnc: 15.h: block 70 is not met before the end of the program\n");
+  EXPECT_EQ(never.err, "dnc: 15.h: block 70 is not reached before the end of the program\n");
   EXPECT_EQ(dnc({"check", "--to", "Z", "15.h"}).status, 2);
 }
 

@@ -122,13 +122,13 @@ TEST_F(DncSetup, ShowsTheModFunctionsOfATnc) {
   const std::string shown_text = squeezed(shown.out);
   std::size_t at = 0;
   for (const char* line :
-       {"MOD FUNCTION VALUE MAY BE", "VACANT BLOCKS 3100 of 3100", "CHANGE MM/INCH mm mm, inch",
+       {"MOD FUNCTION VALUE ALLOWED", "VACANT BLOCKS 3100 of 3100", "CHANGE MM/INCH mm mm, inch",
         "POSITION DATA DIST ACTL, REF, LAG, NOML, DIST",
         "POSITION DISPLAY large small, large (not in ISO)", "BLOCK NUMBER INCREMENT 5 0 to 99",
         "BAUD RATE 4800 110, 150, 300, 600, 1200, 2400, 4800, 9600",
         "LIMIT X+ +500.000 mm -30000.000 mm to +30000.000 mm", "LIMIT X- off", "LIMIT IV- off",
         "NC SOFTWARE NUMBER 227 020 08", "PLC SOFTWARE NUMBER -", "USER PARAMETERS 2 at most 16",
-        "CODE NUMBER", "NO USER PARAMETER MP VALUE MAY BE", "1 FEED LIMIT MP80 2 -1 to 8",
+        "CODE NUMBER", "NO USER PARAMETER MP VALUE ALLOWED", "1 FEED LIMIT MP80 2 -1 to 8",
         "2 USER PAR. 2 MP173 1"}) {
     const std::size_t found = shown_text.find(line, at);
     EXPECT_NE(found, std::string::npos) << line << "\n" << shown.out;

@@ -95,9 +95,10 @@ TEST(DncHelp, IsThereForEveryVerb) {
 TEST(DncHelp, DocumentsTheExitStatus) {
   const Dnc dnc(DNC_PATH);
   const auto result = dnc({"--help"});
-  for (const char* line : {"0    it went well", "1    the program, the run or the server refused",
-                           "2    usage", "3    the server is not reachable",
-                           "4    the server does not accept the token", "130  ended by Ctrl-C"}) {
+  for (const char* line :
+       {"0    success", "1    refused by the program, the run or the server", "2    usage",
+        "3    the server is not reachable", "4    the server does not accept the token",
+        "130  interrupted by Ctrl-C"}) {
     EXPECT_NE(result.out.find(line), std::string::npos) << line;
   }
 }
