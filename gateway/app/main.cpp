@@ -216,9 +216,8 @@ int panel_main(int argc, char** argv) {
   app.add_option("--state", state, "Its gateway's state folder [STATE/gateways/MACHINE]");
   app.add_option("VERB", words, "Action at the panel, with its argument")->required();
   app.footer("Verbs:\n" + panel_verbs() +
-             "\nThe same lines are understood at the socket `panel` in the state folder, one "
-             "answer line each.\nExit status: 0 done, 1 refused or no gateway there, 2 wrong "
-             "usage.");
+             "\nThe socket `panel` in the state folder takes the same lines; each line gets one "
+             "line in answer.\nExit status: 0 done, 1 refused or no gateway there, 2 usage error.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -259,12 +258,13 @@ int main(int argc, char** argv) {
   std::string file;
   GatewayOptions options;
   process::SettingsReader reader(option_rows(), options);
-  app.add_option("--config", file, "TOML file with the same keys; the command line wins")
-      ->type_name("file");
+  app.add_option("--config", file,
+                 "TOML file with the same keys; the command line takes precedence")
+      ->type_name("FILE");
   reader.declare(app);
   app.footer(
-      "dncgw panel --help: actions at the machine itself.\n"
-      "Exit status: 0 stopped by SIGTERM or SIGINT, 1 could not continue, 2 wrong usage.");
+      "dncgw panel --help: actions at the machine itself.\nExit status: 0 stopped by SIGTERM or "
+      "SIGINT, 1 could not continue, 2 usage error.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -30,7 +30,7 @@ Result<void> read_host(HttpAddress& address) {
     address.is_ipv6 = true;
     return {};
   }
-  return fail(Errc::Syntax, "host '{}' is not an address of this machine or localhost",
+  return fail(Errc::Syntax, "host '{}' is not an address of this computer or localhost",
               address.host);
 }
 

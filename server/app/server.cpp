@@ -177,7 +177,7 @@ struct Server::Parts {
     const auto announced = folder.announce(announcement);
     const bool was_announced = is_announced.exchange(announced.has_value());
     if (announced || !was_announced) return;
-    process::log_error("dnc on this machine needs --server {}: {}", url, announced.error().what);
+    process::log_error("dnc on this computer needs --server {}: {}", url, announced.error().what);
   }
 
   /// Every few seconds, on the watch's thread: what a full disk has kept from being done is tried

@@ -24,44 +24,46 @@ constexpr std::uint64_t kLongestMs = 600'000;
 constexpr std::uint64_t kMaxConnections = 800;  ///< DDS waits with select(): below 1,000 files
 
 constexpr std::array kRows{
-    Row{"state", "DIR", "", "", "folder of the database, the token and dncd.json",
+    Row{"state", "DIR", "", "", "Folder of the database, the token and dncd.json",
         text_value<&Settings::state>()},
-    Row{"http", "HOST:PORT", "", "", "address of the REST API; port 0 takes a free one",
+    Row{"http", "HOST:PORT", "", "", "Address of the REST API; port 0 takes a free one",
         text_value<&Settings::http>()},
     Row{"tls-certificate", "FILE", "", "",
-        "certificate chain (PEM); needed to listen beyond this machine",
+        "Certificate chain (PEM); needed to listen beyond this computer (loopback)",
         text_value<&Settings::tls_certificate>()},
-    Row{"tls-key", "FILE", "", "", "private key of the certificate (PEM)",
+    Row{"tls-key", "FILE", "", "", "Private key of the certificate (PEM)",
         text_value<&Settings::tls_key>()},
     Row{"http-connections", "NUMBER", "", "",
-        "connections to the REST API at once; a new one replaces the longest silent one",
+        "Connections to the REST API at once; a new one replaces the one that has been idle "
+        "longest",
         number_value<16, kMaxConnections, &Settings::http_connections>()},
     Row{"http-connections-per-address", "NUMBER", "", "",
-        "connections from one address at once; raise it behind a proxy",
+        "Connections from one address at once; raise it behind a proxy",
         number_value<4, kMaxConnections, &Settings::http_connections_per_address>()},
     Row{"http-event-streams", "NUMBER", "", "",
-        "event streams at once; at most half of the connections",
+        "Event streams at once; at most half of the connections",
         number_value<1, kMaxConnections, &Settings::http_event_streams>()},
     Row{"dds-domain", "NUMBER", "", "", "DDS domain",
         number_value<0, 230, &Settings::dds_domain>()},
-    Row{"dds-tag", "TEXT", "", "", "name of this system; systems with different tags are separate",
+    Row{"dds-tag", "TEXT", "", "", "Name of this system; systems with different tags are separate",
         text_value<&Settings::dds_tag>()},
-    Row{"dds-interface", "NAME", "", "", "network interface or address that leads to the gateways",
+    Row{"dds-interface", "NAME", "", "", "Network interface or address that leads to the gateways",
         text_value<&Settings::dds_interface>()},
     Row{"dds-open-network", "yes|no", "", "",
-        "yes: allow DDS beyond this machine although it has no authentication; only on a network "
+        "yes: allow DDS beyond this computer although it has no authentication; only on a network "
         "of its own",
         yes_no_value<&Settings::dds_open_network>()},
-    Row{"discovery-interval-ms", "NUMBER", "ms", "", "time between two announcements of DDS",
+    Row{"discovery-interval-ms", "NUMBER", "ms", "", "Interval between two announcements of DDS",
         number_value<10, kLongestMs, &Settings::discovery_interval_ms>()},
-    Row{"lease-ms", "NUMBER", "ms", "", "silence after which a gateway is given up",
+    Row{"lease-ms", "NUMBER", "ms", "", "Consider a gateway disconnected after this much silence",
         number_value<100, kLongestMs, &Settings::lease_ms>()},
-    Row{"log", "FILE", "", "standard error", "log file", text_value<&Settings::log>()},
-    Row{"log-level", "LEVEL", "", "", "debug, info, warn, error or off",
+    Row{"log", "FILE", "", "standard error", "Log file", text_value<&Settings::log>()},
+    Row{"log-level", "LEVEL", "", "",
+        "Lowest level that is logged: debug, info, warn, error or off",
         text_value<&Settings::log_level>()},
-    Row{"log-mb", "NUMBER", "MB", "", "size at which the log file is numbered and a new one begun",
+    Row{"log-mb", "NUMBER", "MB", "", "Rotate the log file at this size",
         number_value<1, 10'000, &Settings::log_mb>()},
-    Row{"log-files", "NUMBER", "", "", "numbered log files to keep",
+    Row{"log-files", "NUMBER", "", "", "Keep this many rotated log files",
         number_value<0, 1000, &Settings::log_files>()},
 };
 
@@ -111,13 +113,15 @@ CommandLine read_command_line(int argc, const char* const* argv) {
                    "dncd");
   program.set_version_flag("--version", std::string("dncd ") + DRIPLINE_VERSION);
   program.footer(
-      "Exit codes: 0 ended by a signal, 1 could not start or continue, 2 wrong use or unsafe "
+      "Exit status: 0 ended by a signal, 1 could not start or continue, 2 usage error or unsafe "
       "settings.");
   std::string config;
-  program.add_option("--config", config, "TOML file with these settings; the command line wins")
+  program
+      .add_option("--config", config,
+                  "TOML file with these settings; the command line takes precedence")
       ->type_name("FILE");
   program.add_flag("--begin-empty", line.settings.begin_empty,
-                   "begin with an empty database where the one of this folder was lost");
+                   "Start with an empty database if this folder's database is missing");
   process::SettingsReader reader(std::span<const Row>(kRows), line.settings);
   reader.declare(program);
   try {

@@ -112,7 +112,7 @@ std::vector<std::string> System::gateway_command(const std::string& machine,
                                    options_.speed,
                                    "--log",
                                    folder() / (state + ".log"),
-                                   "--execution_probe",
+                                   "--execution-probe",
                                    folder() / (state + ".execution_probe")};
   append_network(command);
   command.insert(command.end(), options_.gateway_arguments.begin(),

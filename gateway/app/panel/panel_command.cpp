@@ -29,25 +29,26 @@ struct VerbRow {
 };
 
 constexpr std::array kRows{
-    VerbRow{"status", Verb::Status, Takes::Nothing, "what the machine does and waits for"},
+    VerbRow{"status", Verb::Status, Takes::Nothing, "print what the machine does and waits for"},
     VerbRow{"cycle-start", Verb::CycleStart, Takes::Nothing,
             "begin the program that waits, or resume after a hold or a stop"},
     VerbRow{"remote-enable on|off", Verb::RemoteEnable, Takes::State,
             "let the network start the machine, or no longer"},
-    VerbRow{"hold", Verb::Hold, Takes::Nothing, "feed hold"},
+    VerbRow{"hold", Verb::Hold, Takes::Nothing, "hold the feed"},
     VerbRow{"abort", Verb::Abort, Takes::Nothing, "end the run"},
     VerbRow{"emergency-stop [on|off]", Verb::EmergencyStop, Takes::StateOrPressed,
             "press it (on), or release it"},
     VerbRow{"answer TEXT", Verb::Answer, Takes::Text, "answer the program's question"},
     VerbRow{"switch NAME on|off", Verb::Switch, Takes::NameAndState,
-            "single_block, optional_stop, block_skip or handwheel"},
-    VerbRow{"feed-override PERCENT", Verb::FeedOverride, Takes::Percent, ""},
-    VerbRow{"rapid-override PERCENT", Verb::RapidOverride, Takes::Percent, ""},
-    VerbRow{"spindle-override PERCENT", Verb::SpindleOverride, Takes::Percent, ""},
+            "set single_block, optional_stop, block_skip or handwheel"},
+    VerbRow{"feed-override PERCENT", Verb::FeedOverride, Takes::Percent, "set the feed override"},
+    VerbRow{"rapid-override PERCENT", Verb::RapidOverride, Takes::Percent,
+            "set the rapid override"},
+    VerbRow{"spindle-override PERCENT", Verb::SpindleOverride, Takes::Percent,
+            "set the spindle override"},
     VerbRow{"handwheel CLICKS", Verb::Handwheel, Takes::Count, "turn it, in handwheel mode"},
-    VerbRow{
-        "discard-memory", Verb::DiscardMemory, Takes::Nothing,
-        "drop what the control has kept (variables, offsets): after a damage, or to begin again"},
+    VerbRow{"discard-memory", Verb::DiscardMemory, Takes::Nothing,
+            "discard the retained memory (variables, offsets), e.g. when it is damaged"},
 };
 
 std::string_view first_word(std::string_view text) {
