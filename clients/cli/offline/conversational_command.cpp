@@ -54,7 +54,7 @@ int post(const ConversationalCommand& command) {
 }
 
 ordered_json limits_json(const conversational::Limits& limits) {
-  return {{"least", limits.min}, {"most", limits.max}, {"decimals", limits.decimals}};
+  return {{"min", limits.min}, {"max", limits.max}, {"decimals", limits.decimals}};
 }
 
 ordered_json field_json(const FieldDescription& field) {

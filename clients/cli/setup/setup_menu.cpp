@@ -116,8 +116,8 @@ void add_menu(const SetupMenu& menu, nlohmann::ordered_json& json) {
                           {"text", parameter.text},
                           {"machine_parameter", parameter.parameter},
                           {"value", parameter.value},
-                          {"least", number(parameter.least)},
-                          {"most", number(parameter.most)}});
+                          {"min", number(parameter.min)},
+                          {"max", number(parameter.max)}});
   }
   json["mod_functions"] = std::move(functions);
   json["user_parameters"] = std::move(parameters);

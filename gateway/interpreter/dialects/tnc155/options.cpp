@@ -174,7 +174,7 @@ constexpr auto kRows = in_table(
                    {110, 9'600}, "baud")},
         Row{{"machine_parameters", "table", "kept for the control and sent to it: { MP71 = 515 }"}},
         Row{{"user_parameters", "list of tables",
-             "machine parameters the operator may set: parameter, text, value, least, most"}},
+             "machine parameters the operator may set: parameter, text, value, min, max"}},
     });
 
 /// Options that turn on what the control's version has not.

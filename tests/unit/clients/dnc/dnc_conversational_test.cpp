@@ -41,7 +41,7 @@ TEST_F(DncConversational, ListsEventsForPeopleAndPrograms) {
   const auto json = nlohmann::json::parse(dnc({"conversational", "events", "--json"}).out);
   EXPECT_EQ(json["events"].size(), 36u);
   EXPECT_EQ(json["events"][0]["type"], "program_setup");
-  EXPECT_EQ(json["events"][0]["fields"][0]["english"]["most"], 9999);
+  EXPECT_EQ(json["events"][0]["fields"][0]["english"]["max"], 9999);
   EXPECT_EQ(dnc({"conversational", "events", "mill"}).status, 2);
 }
 

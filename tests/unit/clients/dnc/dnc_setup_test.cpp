@@ -35,8 +35,8 @@ machine_parameters = { MP71 = 515, MP80 = 2 }
 parameter = 80
 text = "FEED LIMIT"
 value = 2      # in steps
-least = -1
-most = 8
+min = -1
+max = 8
 [[control.user_parameters]]
 parameter = 173
 value = 1
@@ -140,7 +140,7 @@ TEST_F(DncSetup, ShowsTheModFunctionsOfATnc) {
                             "range":"ACTL, REF, LAG, NOML, DIST"})"));
   EXPECT_EQ(data.at("user_parameters").at(0),
             json::parse(R"({"number":1,"text":"FEED LIMIT","machine_parameter":80,"value":2.0,
-                            "least":-1.0,"most":8.0})"));
+                            "min":-1.0,"max":8.0})"));
 }
 
 // HD-081, HD-052: what is left of the memory beside the programs it has.

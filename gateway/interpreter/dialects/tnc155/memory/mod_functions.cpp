@@ -46,14 +46,14 @@ std::string or_dash(const std::string& text) {
 
 std::string range_text(const UserParameter& parameter) {
   const auto text = [](double number) { return fmt::format("{:.12g}", number); };
-  if (!parameter.least) return parameter.most ? "at most " + text(*parameter.most) : "";
-  if (!parameter.most) return "at least " + text(*parameter.least);
-  return text(*parameter.least) + " to " + text(*parameter.most);
+  if (!parameter.min) return parameter.max ? "at most " + text(*parameter.max) : "";
+  if (!parameter.max) return "at least " + text(*parameter.min);
+  return text(*parameter.min) + " to " + text(*parameter.max);
 }
 
 Result<void> check_value(const UserParameter& parameter, double value) {
-  const bool is_below = parameter.least && value < *parameter.least;
-  const bool is_above = parameter.most && value > *parameter.most;
+  const bool is_below = parameter.min && value < *parameter.min;
+  const bool is_above = parameter.max && value > *parameter.max;
   if (!is_below && !is_above) return {};
   return fail(Errc::LimitExceeded, "{} (MP{}): {:.12g} is not {}", parameter.text,
               parameter.parameter, value, range_text(parameter));

@@ -19,7 +19,7 @@ struct UserParameter {
   int parameter = 0;  ///< its number, MP
   std::string text;   ///< of the dialog: "USER PAR. 1" and so on where the builder gave none
   double value = 0;
-  std::optional<double> least, most;
+  std::optional<double> min, max;
 };
 
 /// Errors: LimitExceeded, with the parameter, the value and its range.

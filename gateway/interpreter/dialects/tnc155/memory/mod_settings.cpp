@@ -127,19 +127,19 @@ class UserParameterReader {
   Result<void> take(const OptionEntry& entry) {
     if (entry.key == "text") return take_text(entry.value);
     const auto number = as_number(entry.value);
-    const bool is_known = entry.key == "parameter" || entry.key == "value" ||
-                          entry.key == "least" || entry.key == "most";
+    const bool is_known = entry.key == "parameter" || entry.key == "value" || entry.key == "min" ||
+                          entry.key == "max";
     if (!is_known) {
-      return wrong(fmt::format(
-          "{} is nothing a user parameter has; it has parameter, text, value, least, most",
-          entry.key));
+      return wrong(
+          fmt::format("{} is nothing a user parameter has; it has parameter, text, value, min, max",
+                      entry.key));
     }
     if (!number) return wrong(fmt::format("{} is not a number", entry.key));
     if (entry.key == "parameter") return take_parameter(*number);
-    if (entry.key == "least") {
-      read_.least = *number;
-    } else if (entry.key == "most") {
-      read_.most = *number;
+    if (entry.key == "min") {
+      read_.min = *number;
+    } else if (entry.key == "max") {
+      read_.max = *number;
     } else {
       read_.value = *number;
       has_value_ = true;
@@ -167,9 +167,9 @@ class UserParameterReader {
   }
 
   Result<UserParameter> check_range() const {
-    const auto least = read_.least, most = read_.most;
-    if (least && most && *least > *most) {
-      return wrong(fmt::format("least, {}, is more than most, {}", *least, *most));
+    const auto min = read_.min, max = read_.max;
+    if (min && max && *min > *max) {
+      return wrong(fmt::format("min, {}, is more than max, {}", *min, *max));
     }
     if (auto good = check_value(read_, read_.value); !good) return wrong(good.error().what);
     return read_;

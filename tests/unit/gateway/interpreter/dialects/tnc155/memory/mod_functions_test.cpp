@@ -113,15 +113,15 @@ INSTANTIATE_TEST_SUITE_P(
                     "option user_parameters: 1: MP237: there are MP0 to MP236"},
         WrongOption{"unknown_key", one("parameter = 7\nvalue = 1\ncolor = 2"),
                     "option user_parameters: 1: color is nothing a user parameter has; it has "
-                    "parameter, text, value, least, most"},
+                    "parameter, text, value, min, max"},
         WrongOption{"out_of_range",
-                    one("parameter = 7\nvalue = 9\nleast = 0\nmost = 8\n"
+                    one("parameter = 7\nvalue = 9\nmin = 0\nmax = 8\n"
                         "text = \"COOLANT\""),
                     "option user_parameters: 1: COOLANT (MP7): 9 is not 0 to 8"},
-        WrongOption{"below", one("parameter = 7\nvalue = -1\nleast = 0"),
+        WrongOption{"below", one("parameter = 7\nvalue = -1\nmin = 0"),
                     "option user_parameters: 1: USER PAR. 1 (MP7): -1 is not at least 0"},
-        WrongOption{"range", one("parameter = 7\nvalue = 1\nleast = 2\nmost = 1"),
-                    "option user_parameters: 1: least, 2, is more than most, 1"},
+        WrongOption{"range", one("parameter = 7\nvalue = 1\nmin = 2\nmax = 1"),
+                    "option user_parameters: 1: min, 2, is more than max, 1"},
         WrongOption{"twice", one("parameter = 7\nvalue = 1\n") + one("parameter = 7\nvalue = 1\n"),
                     "option user_parameters: 2: MP7 is one already"},
         WrongOption{"named_twice",
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
 // HD-086: up to 16, with the builder's text or the control's own.
 TEST(UserParameters, HaveTextsAndAreFoundByThem) {
   const auto settings =
-      settings_of(one("parameter = 173\ntext = \"KEEP DATUM\"\nvalue = 1\nleast = 0\nmost = 1\n") +
+      settings_of(one("parameter = 173\ntext = \"KEEP DATUM\"\nvalue = 1\nmin = 0\nmax = 1\n") +
                   one("parameter = 80\nvalue = 2.5\n"));
   ASSERT_TRUE(settings) << settings.error().what;
   ASSERT_EQ(settings->user_parameters.size(), 2u);
