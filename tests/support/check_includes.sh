@@ -28,7 +28,7 @@ gateway/machine: protocol/base gateway/interpreter gateway/machine
 gateway/feed: protocol gateway/interpreter gateway/machine gateway/feed storage/sqlite
 gateway/report: protocol gateway/interpreter gateway/machine gateway/report storage/sqlite
 gateway/app: protocol gateway storage/sqlite
-server/library: protocol/base storage gateway/interpreter server/library
+server/library: protocol/base protocol/process storage gateway/interpreter server/library
 server/machines: protocol storage gateway/interpreter server/library server/machines
 server/ports: protocol storage gateway/interpreter server/library server/machines server/ports
 server/api: protocol storage gateway/interpreter server/library server/machines server/ports server/api
