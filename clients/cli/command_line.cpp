@@ -1,11 +1,21 @@
 #include "clients/cli/command_line.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
 namespace dripline::cli {
+namespace {
+
+/// The validator's name is what stands for the value in the help, in the place of its description.
+Check named(CLI::Validator validator, const std::string& words) {
+  return Check(std::move(validator.name(words).description("")));
+}
+
+}  // namespace
 
 Check::Check(std::function<std::string(std::string&)> judge, const std::string& words)
     : Check(CLI::Validator(std::move(judge), words)) {}
@@ -14,16 +24,16 @@ Check::Check(CLI::Validator validator)
     : validator_(std::make_shared<const CLI::Validator>(std::move(validator))) {}
 
 Check one_of(const std::vector<std::string>& words) {
-  return Check(CLI::IsMember(words));
+  return named(CLI::IsMember(words), fmt::format("{}", fmt::join(words, "|")));
 }
 
 Check one_of_numbers(const std::vector<int>& numbers) {
-  return Check(CLI::IsMember(numbers));
+  return named(CLI::IsMember(numbers), fmt::format("{}", fmt::join(numbers, "|")));
 }
 
 template <class T>
 Check in_range(T first, T last) {
-  return Check(CLI::Range(first, last));
+  return named(CLI::Range(first, last), fmt::format("{}..{}", first, last));
 }
 
 template Check in_range(int, int);
@@ -31,11 +41,11 @@ template Check in_range(unsigned, unsigned);
 template Check in_range(double, double);
 
 Check positive_number() {
-  return Check(CLI::PositiveNumber);
+  return named(CLI::PositiveNumber, "NUMBER>0");
 }
 
 Check non_negative_number() {
-  return Check(CLI::NonNegativeNumber);
+  return named(CLI::NonNegativeNumber, "NUMBER>=0");
 }
 
 Option Option::required() const {
@@ -47,6 +57,8 @@ Option Option::type_name(const std::string& name) const {
 }
 
 Option Option::check(const Check& check) const {
+  if (const std::string& words = check.validator().get_name(); !words.empty())
+    option_->type_name(words);
   return Option(option_->check(check.validator()));
 }
 

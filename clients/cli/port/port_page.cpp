@@ -87,7 +87,8 @@ void add_port_page_command(Command group, Context& context) {
       "page", "Convert the serial page of a Centurion to a line, or a line to the page");
   auto options = std::make_shared<PageCommand>();
   auto file = command.add_option("FILE", options->file, "Page, as `--for` prints it");
-  auto line = command.add_option("--for", options->line, "Template or short form of a line");
+  auto line =
+      command.add_option("--for", options->line, "Print the page for this template or short form");
   command.add_option("--set", options->changes, "Settings of that line, KEY=VALUE").needs(line);
   command.add_flag("--secondary", options->is_secondary,
                    "The line is connected to the secondary port");

@@ -201,7 +201,8 @@ void add_port_parameters_command(Command group, Context& context) {
   auto file = command.add_option("FILE", options->file,
                                  "A setup (TOML), or parameters as the control sends them: MP0: "
                                  "...");
-  auto line = command.add_option("--for", options->line, "Template or short form of a line");
+  auto line = command.add_option("--for", options->line,
+                                 "Print the parameters for this template or short form");
   command.add_option("--set", options->changes, "Settings of that line, KEY=VALUE").needs(line);
   auto port = command.add_option("--port", options->port,
                                  "Compare this port with FILE, or with its machine's setup");

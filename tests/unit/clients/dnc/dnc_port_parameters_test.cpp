@@ -87,7 +87,7 @@ TEST_F(DncPortAgainstParameters, FindNoDifferenceWhereThereIsNone) {
   serve_setup("[control]\nmachine_parameters = { MP71 = 515, MP222 = 168, MP223 = 0 }\n");
   const auto fits = parameters("--port", "line-1");
   EXPECT_EQ(fits.status, 0) << fits.err;
-  EXPECT_EQ(fits.out, "Port line-1 is set as its control's parameters are.\n");
+  EXPECT_EQ(fits.out, "Port line-1 matches its control's parameters.\n");
 }
 
 TEST_F(DncPortAgainstParameters, NameTheMachineWhoseSetupSaysNothing) {

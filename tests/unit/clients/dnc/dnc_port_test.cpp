@@ -146,7 +146,7 @@ TEST_F(DncPort, ShowsTemplatesAndWhatTheirSettingsMean) {
             std::string::npos)
       << list;
   const auto one = dnc({"port", "templates", "tnc155"}).out;
-  EXPECT_NE(one.find("flow     heidenhain  who holds whom   none|xonxoff\n"), std::string::npos)
+  EXPECT_NE(one.find("flow     heidenhain  who holds whom  none|xonxoff\n"), std::string::npos)
       << one;
   const auto unknown = dnc({"port", "templates", "none"});
   EXPECT_EQ(unknown.status, 1);

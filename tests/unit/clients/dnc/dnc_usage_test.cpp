@@ -103,6 +103,14 @@ TEST(DncHelp, DocumentsTheExitStatus) {
   }
 }
 
+TEST(DncHelp, ShowsWhatAValueMayBe) {
+  const Dnc dnc(DNC_PATH);
+  const std::string states = dnc({"run", "switch", "--help"}).out;
+  EXPECT_NE(states.find("STATE on|off REQUIRED"), std::string::npos) << states;
+  const std::string range = dnc({"graphics", "--help"}).out;
+  EXPECT_NE(range.find("--tilt 5..90"), std::string::npos) << range;
+}
+
 TEST(DncVersion, IsOneLine) {
   const Dnc dnc(DNC_PATH);
   const auto result = dnc({"--version"});
