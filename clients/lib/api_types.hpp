@@ -212,7 +212,7 @@ struct Port {
   bool enabled = true;
   Settings effective;
   bool open = false;
-  std::string trouble;
+  std::string fault;
   struct Line {
     std::string phase;
     bool stopped = false, stopping = false;

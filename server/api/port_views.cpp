@@ -86,7 +86,7 @@ json port_json(const ports::PortView& view) {
       {"enabled", view.port.is_enabled},
       {"effective", settings_json(view.settings)},
       {"open", view.is_open},
-      {"trouble", optional_text(view.fault)},
+      {"fault", optional_text(view.fault)},
       {"line", line_json(view.line)},
       {"run", optional_text(view.run)},
       {"transfer", view.transfer ? transfer_json(*view.transfer) : json(nullptr)},

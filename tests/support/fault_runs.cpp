@@ -37,7 +37,7 @@ std::string end_story(const LineEnd& end) {
   std::string story = fmt::format("receptions {} sends {} received '{}'\n", end.receptions,
                                   end.sends, end.received);
   for (const Error& error : end.failures) story += "  failed: " + error.what + '\n';
-  for (const Error& error : end.faults) story += "  trouble: " + error.what + '\n';
+  for (const Error& error : end.faults) story += "  fault: " + error.what + '\n';
   return story;
 }
 

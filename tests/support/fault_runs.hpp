@@ -38,7 +38,7 @@ struct FaultRun {
   /// In words, for a failed test.
   std::string story() const;
 
-  bool is_reported() const;  ///< an end reported trouble or failure
+  bool is_reported() const;  ///< an end reported a fault or a failure
   bool is_exact() const { return receiver->receptions == 1 && receiver->received == expected; }
   bool has_ended() const;  ///< each end is idle, or waits where the protocol lets it
 };

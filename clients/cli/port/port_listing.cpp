@@ -13,7 +13,7 @@ void add_row(Table& table, const client::Port& port, const std::string& now) {
   table.add({port.name, port.machine, port.address, line_text(port.effective),
              Cell(short_state(port), style_of_state(port)), wait_text(port, now),
              short_id(port.run), bytes_text(port.sent), bytes_text(port.received),
-             Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad)});
+             Cell(port.fault, port.fault.empty() ? Style::Plain : Style::Bad)});
 }
 
 void print_template(Context& context, const client::PortTemplates& all,
@@ -77,7 +77,7 @@ int list_ports(Context& context) {
                {"RUN"},
                {"SENT", Align::Right},
                {"RECEIVED", Align::Right},
-               {"TROUBLE"}});
+               {"FAULT"}});
   const std::string now = to_iso8601(SystemClock().now());
   for (const auto& port : *ports) add_row(table, port, now);
   context.print(table);

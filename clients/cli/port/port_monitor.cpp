@@ -91,7 +91,7 @@ class PortMonitor {
     if (context_.wants_json) return;
     std::string state = state_text(port);
     if (port.request) state += "; " + request_text(port.request);
-    if (!port.trouble.empty()) state += "; " + port.trouble;
+    if (!port.fault.empty()) state += "; " + port.fault;
     if (state != state_) note("state", state);
     state_ = state;
     live_ = fmt::format("{}  {}  → {}  ← {}", name_, state, bytes_text(port.sent),

@@ -10,7 +10,7 @@ namespace {
 
 /// A line that is not there: tried for the first time, or in vain.
 std::string closed_text(const client::Port& port) {
-  return port.trouble.empty() ? "opening" : "closed";
+  return port.fault.empty() ? "opening" : "closed";
 }
 
 std::string value_of(const client::Settings& settings, const std::string& key) {
@@ -90,7 +90,7 @@ std::string wait_text(const client::Port& port, std::string_view now) {
 
 Style style_of_state(const client::Port& port) {
   if (!port.enabled) return Style::Faint;
-  if (!port.open) return port.trouble.empty() ? Style::Busy : Style::Bad;
+  if (!port.open) return port.fault.empty() ? Style::Busy : Style::Bad;
   const bool is_held = port.line.stopped || !port.line.waiting_for.empty();
   return is_held ? Style::Busy : Style::Good;
 }
@@ -112,7 +112,7 @@ Details port_details(const client::Port& port) {
   details.add("own settings", own_settings_text(port.settings));
   details.add("line", line_text(port.effective));
   details.add("state", Cell(state_text(port), style_of_state(port)));
-  details.add("trouble", Cell(port.trouble, port.trouble.empty() ? Style::Plain : Style::Bad));
+  details.add("fault", Cell(port.fault, port.fault.empty() ? Style::Plain : Style::Bad));
   details.add("run", port.run);
   details.add("request", request_text(port.request));
   details.add("transfer", transfer_text(port.transfer));

@@ -307,7 +307,7 @@ void members(V& v, Is<Port> auto& x) {
   v("enabled", x.enabled);
   v("effective", x.effective);
   v("open", x.open);
-  v("trouble", x.trouble);
+  v("fault", x.fault);
   v("line", x.line);
   v("run", x.run);
   v("transfer", x.transfer);

@@ -43,7 +43,7 @@ TEST(PortText, SaysWhatTheLineDoes) {
   port.open = false;
   EXPECT_EQ(state_text(port), "opening");
   EXPECT_EQ(style_of_state(port), Style::Busy);
-  port.trouble = "there is no such device";
+  port.fault = "there is no such device";
   EXPECT_EQ(state_text(port), "closed");
   EXPECT_EQ(style_of_state(port), Style::Bad);
   port.enabled = false;
@@ -70,7 +70,7 @@ TEST(PortText, SaysInAListingHowLongALineWaits) {
   EXPECT_EQ(wait_text(port, "2026-11-21T07:52:40Z"), "DC1");
   port.open = false;
   EXPECT_EQ(short_state(port), "opening");
-  port.trouble = "hung up";
+  port.fault = "hung up";
   EXPECT_EQ(short_state(port), "closed");
 }
 

@@ -108,7 +108,7 @@ TEST_F(DncPort, ListsPortsAndWhatTheirLinesWaitFor) {
   waiting["run"] = "aa11bb22cc";
   auto closed = port_json("line-3");
   closed["open"] = false;
-  closed["trouble"] = "/dev/ttyUSB0: no such device";
+  closed["fault"] = "/dev/ttyUSB0: no such device";
   server.set_answer("GET /api/v1/ports", {{"ports", {port_json("line-1"), waiting, closed}}});
   const auto list = dnc({"port", "list"});
   EXPECT_EQ(list.status, 0) << list.err;

@@ -44,7 +44,7 @@ json port_json(const std::string& name) {
           {"enabled", true},
           {"effective", {{"line", "4800e71"}, {"flow", "xonxoff"}, {"baud", "4800"}}},
           {"open", true},
-          {"trouble", nullptr},
+          {"fault", nullptr},
           {"line",
            {{"phase", "idle"},
             {"stopped", false},

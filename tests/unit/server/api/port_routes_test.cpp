@@ -82,7 +82,7 @@ TEST_F(PortRoutes, ShowTheStateOfALine) {
   EXPECT_EQ(port["run"], "R-1");
   EXPECT_EQ(port["sent"], 12345);
   EXPECT_EQ(port["received"], 7);
-  EXPECT_EQ(port["trouble"], "parity error");
+  EXPECT_EQ(port["fault"], "parity error");
   EXPECT_EQ(port["waiting_since"], to_iso8601(clock_.now()));
   EXPECT_TRUE(port["request"].is_null());
   view.request = {.since = clock_.now(), .program = "15", .answer = ""};
