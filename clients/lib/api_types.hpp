@@ -97,7 +97,7 @@ struct Coordinates {
   std::map<std::string, double> target;  ///< the end of the current move
   std::map<std::string, double> distance_to_go;
   /// The following error; absent: not measured.
-  std::optional<std::map<std::string, double>> lag = {};
+  std::optional<std::map<std::string, double>> following_error = {};
   /// Absent without a run, or when its control reports none.
   std::optional<ProgramFrame> program = {};
 };

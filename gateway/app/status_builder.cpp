@@ -121,7 +121,7 @@ dds::ActiveModes StatusBuilder::modes(const machine::MachineStatus& now) const {
 dds::Coordinates StatusBuilder::coordinates(const machine::MachineStatus& now) const {
   dds::Coordinates shown;
   shown.target = values_of(now.target);
-  shown.lag.emplace();
+  shown.following_error.emplace();
   if (!parts_.run.session) return shown;
   const auto& frame = parts_.run.session->frame_at(now.origin.block);
   if (frame) shown.program = shown_frame(*frame, now);

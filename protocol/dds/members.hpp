@@ -128,7 +128,7 @@ void members(V&& v, Is<ProgramFrame> auto& m) {
 template <class V>
 void members(V&& v, Is<Coordinates> auto& m) {
   v(DRIPLINE_MEMBER(target));
-  v(DRIPLINE_MEMBER(lag), PresentIf{DRIPLINE_FIELD(has_lag)});
+  v(DRIPLINE_MEMBER(following_error), PresentIf{DRIPLINE_FIELD(has_following_error)});
   v(Member{"program", m.program, "", [](auto& sample) -> auto& { return sample;
 }
 }  // namespace dripline::dds

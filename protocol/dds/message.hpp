@@ -140,7 +140,7 @@ struct ProgramFrame {
 
 struct Coordinates {
   std::array<double, 9> target{};  ///< machine coordinates
-  std::optional<std::array<double, 9>> lag = {};
+  std::optional<std::array<double, 9>> following_error = {};
   std::optional<ProgramFrame> program = {};
   friend bool operator==(const Coordinates&, const Coordinates&) = default;
 };

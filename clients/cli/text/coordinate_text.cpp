@@ -59,7 +59,8 @@ void add_coordinates(Details& details, const client::MachineStatus& status) {
   }
   details.add("reference (REF)", axes_text(status.position) + " mm");
   details.add("distance to go (DIST)", axes_text(all.distance_to_go) + " mm");
-  details.add("lag (LAG)", all.lag ? axes_text(*all.lag) + " mm" : "not measured");
+  details.add("following error (LAG)",
+              all.following_error ? axes_text(*all.following_error) + " mm" : "not measured");
   if (all.program) add_frame(details, *all.program);
 }
 

@@ -132,7 +132,7 @@ template <class V>
 void members(V& v, Is<Coordinates> auto& x) {
   v("target", x.target);
   v("distance_to_go", x.distance_to_go);
-  v("lag", x.lag);
+  v("following_error", x.following_error);
   v("program", x.program);
 }
 

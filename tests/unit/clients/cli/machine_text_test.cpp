@@ -115,7 +115,7 @@ TEST(MachineDetails, ShowPositionDisplaysAndTransformations) {
   machine.status->modes->spindle = "counterclockwise";
   machine.status->coordinates = client::Coordinates{.target = {{"X", 20}, {"Z", -3}},
                                                     .distance_to_go = {{"X", 7.5}, {"Z", 0}},
-                                                    .lag = {{{"X", 0}, {"Z", 0}}},
+                                                    .following_error = {{{"X", 0}, {"Z", 0}}},
                                                     .program = client::ProgramFrame{}};
   client::ProgramFrame& frame = *machine.status->coordinates->program;
   frame.position = {{"Z", 2}, {"X", 1}};
@@ -135,7 +135,7 @@ TEST(MachineDetails, ShowPositionDisplaysAndTransformations) {
     EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
   }
   EXPECT_EQ(text.find("emergency"), std::string::npos);
-  machine.status->coordinates->lag.reset();
+  machine.status->coordinates->following_error.reset();
   machine.status->coordinates->program.reset();
   machine.status->emergency_stop = true;
   text = machine_details(machine).render(false);

@@ -20,7 +20,7 @@ nlohmann::json status_json() {
       "work_system":"G54","cycle":null,"dwell_seconds":0,"surface_speed":false,"spindle_speed":800,
       "spindle_load":null,"flood":true,"mist":false,"tool_axis":"Z","spindle":"clockwise"},
       "coordinates":{"target":{"X":2,"Z":-2},"distance_to_go":{"X":0.5,"Z":0},
-      "lag":{"X":0,"Z":0},"program":{"position":{"X":1,"Z":2},"target":{"X":1.5,"Z":2},
+      "following_error":{"X":0,"Z":0},"program":{"position":{"X":1,"Z":2},"target":{"X":1.5,"Z":2},
       "datum":{"X":1,"Z":0},"shift":{"X":-0.5,"Z":0},"rotation":30,"basic_rotation":0.5,
       "scale":{"X":0.5,"Z":1},"mirrored":["X"],"pole":{"X":3,"Y":4}}},
       "emergency_stop":true,"remote_enable":"not_given","waits_for":"cycle_start"})");

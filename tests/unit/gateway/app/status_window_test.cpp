@@ -27,7 +27,7 @@ TEST(StatusWindow, IsOfTheBlockThatIsExecuted) {
   ASSERT_TRUE(fixture.status->coordinates);
   const dds::Coordinates& all = *fixture.status->coordinates;
   EXPECT_NEAR(all.target[0], 10 - 50, 1e-9) << "turned by 90 degrees about X10";
-  EXPECT_EQ(all.lag, (std::array<double, 9>{}));
+  EXPECT_EQ(all.following_error, (std::array<double, 9>{}));
   ASSERT_TRUE(all.program);
   EXPECT_EQ(all.program->shift[0], 10) << "not the 99 of a later block";
   EXPECT_EQ(all.program->rotation, 90);

@@ -60,19 +60,19 @@ TEST_F(Endpoint, DeliversEveryKindOfMessageUnchanged) {
                              .mist = true,
                              .tool_axis = 2,
                              .spindle = SpindleState::Counterclockwise};
-  status.coordinates =
-      Coordinates{.target = {1, 2, 3, 4, 5, 6, 7, 8, 9},
-                  .lag = std::array<double, 9>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
-                  .program = ProgramFrame{.position = {9, 8, 7, 6, 5, 4, 3, 2, 1},
-                                          .target = {-1, -2, -3, -4, -5, -6, -7, -8, -9},
-                                          .datum = {10, 20, 30, 40, 50, 60, 70, 80, 90},
-                                          .shift = {11, 21, 31, 41, 51, 61, 71, 81, 91},
-                                          .rotation = 30,
-                                          .basic_rotation = 2.5,
-                                          .scale = {0.5, 1, 2},
-                                          .mirrored = 0b101,
-                                          .pole_axes = 0b011,
-                                          .pole = {3, 4, 5}}};
+  status.coordinates = Coordinates{
+      .target = {1, 2, 3, 4, 5, 6, 7, 8, 9},
+      .following_error = std::array<double, 9>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
+      .program = ProgramFrame{.position = {9, 8, 7, 6, 5, 4, 3, 2, 1},
+                              .target = {-1, -2, -3, -4, -5, -6, -7, -8, -9},
+                              .datum = {10, 20, 30, 40, 50, 60, 70, 80, 90},
+                              .shift = {11, 21, 31, 41, 51, 61, 71, 81, 91},
+                              .rotation = 30,
+                              .basic_rotation = 2.5,
+                              .scale = {0.5, 1, 2},
+                              .mirrored = 0b101,
+                              .pole_axes = 0b011,
+                              .pole = {3, 4, 5}}};
   status.emergency_stop = true;
   status.steady = 81'000'000us;
   status.remote_enable = RemoteEnable::NotGiven;

@@ -17,7 +17,7 @@ using Names = std::vector<std::string>;
 const std::map<std::string, Names> kOutsideTheLists{
     {"Announce", {"heard"}},
     {"ActiveModes", {"is_present"}},
-    {"Coordinates", {"is_present", "has_lag", "has_program"}},
+    {"Coordinates", {"is_present", "has_following_error", "has_program"}},
     {"BlockData", {"crc"}},
 };
 

@@ -306,8 +306,9 @@ TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   status.waits_for = dds::WaitsFor::CycleStart;
   status.modes.emplace().tool_axis = 2;
   status.modes->spindle = dds::SpindleState::Clockwise;
-  status.coordinates = dds::Coordinates{
-      .target = {5, 2, -3}, .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{}};
+  status.coordinates = dds::Coordinates{.target = {5, 2, -3},
+                                        .following_error = std::array<double, 9>{},
+                                        .program = dds::ProgramFrame{}};
   dds::ProgramFrame& frame = *status.coordinates->program;
   frame.position = {11, 12, 13};
   frame.shift = {-10, -10, -10};
@@ -325,7 +326,7 @@ TEST_F(ApiHandlers, ShowThePositionDisplaysAndTheStatusWindow) {
   EXPECT_EQ(shown["modes"]["spindle"], "clockwise");
   const Json& coordinates = shown["coordinates"];
   EXPECT_EQ(coordinates["distance_to_go"], (Json{{"X", 4.0}, {"Y", 0.0}, {"Z", -6.0}}));
-  EXPECT_EQ(coordinates["lag"], (Json{{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}));
+  EXPECT_EQ(coordinates["following_error"], (Json{{"X", 0.0}, {"Y", 0.0}, {"Z", 0.0}}));
   EXPECT_EQ(coordinates["program"]["position"], (Json{{"X", 11.0}, {"Y", 12.0}, {"Z", 13.0}}));
   EXPECT_EQ(coordinates["program"]["shift"]["X"], -10);
   EXPECT_EQ(coordinates["program"]["scale"]["Y"], 0.5);

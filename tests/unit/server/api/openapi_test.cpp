@@ -148,8 +148,9 @@ TEST_F(OpenApi, FitsTheRealAnswers) {
   status.axes = 0b111;
   status.modes.emplace().tool_axis = 2;
   status.modes->spindle = dds::SpindleState::Clockwise;
-  status.coordinates = dds::Coordinates{
-      .lag = std::array<double, 9>{}, .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};
+  status.coordinates =
+      dds::Coordinates{.following_error = std::array<double, 9>{},
+                       .program = dds::ProgramFrame{.mirrored = 1, .pole_axes = 3}};
   machines_.views[0].status = status;
 
   expect_described("GET", "/api/v1/health", get("/api/v1/health"));
