@@ -37,7 +37,7 @@ Result<interpreter::Setup> RunLoop::setup_of(const StartOrigin& origin) const {
     const bool is_former = from.memory == StartMemory::Begin;
     setup.control.set("start_memory", {std::string(is_former ? "begin" : "now"), 0});
   }
-  setup.stands = parts_.machine.status().position;
+  setup.position = parts_.machine.status().position;
   return setup;
 }
 
@@ -46,7 +46,7 @@ Result<void> RunLoop::begin(const report::ActiveRun& run, std::unique_ptr<feed::
   if (parts_.machine.panel().emergency_stop) return fail(Errc::Busy, "{}", kEmergencyStop);
   const auto setup = setup_of(origin);
   if (!setup) return fail(setup.error());
-  const interpreter::Position at = setup->stands.value_or(setup->start);
+  const interpreter::Position at = setup->position.value_or(setup->start);
   if (auto done = parts_.machine.check_begin(at); !done) return done;
   auto session =
       RunSession::make({.run = run,

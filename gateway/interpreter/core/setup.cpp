@@ -234,8 +234,8 @@ void read_file(Table& file, Setup& setup) {
   if (file.has("units")) setup.units = file.reading().units;
   file.table("start", {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
              [&](Table& start) { start.axes(kEveryAxis, setup.start); });
-  file.table("stands", {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
-             [&](Table& stands) { stands.axes(kEveryAxis, setup.stands.emplace()); });
+  file.table("position", {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"},
+             [&](Table& position) { position.axes(kEveryAxis, setup.position.emplace()); });
   file.table("switches", {"block_skip", "optional_stop", "mirror", "single_block", "dry_run"},
              [&](Table& switches) { read_switches(switches, setup.switches); });
   read_date_time(file, setup);
@@ -281,7 +281,7 @@ Result<Setup> parse(std::string_view text, Units units,
 
 Result<Setup> parse_setup(std::string_view text, Units units) {
   return parse(text, units,
-               {"start", "stands", "units", "switches", "date_time", "answers", "tool", "offset",
+               {"start", "position", "units", "switches", "date_time", "answers", "tool", "offset",
                 "variable", "probe", "control", "library"});
 }
 

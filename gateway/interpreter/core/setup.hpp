@@ -45,7 +45,7 @@ struct VariableRecord {
 struct Setup {
   Position start;
   /// The place of the machine when a program is resumed in its middle, if not `start`.
-  std::optional<Position> stands;
+  std::optional<Position> position;
   std::optional<Units> units;
   Switches switches;
   std::optional<LocalTime> date_time;

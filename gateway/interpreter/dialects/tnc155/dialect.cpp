@@ -89,7 +89,7 @@ Result<std::unique_ptr<Interpreter>> make(const Setup& setup, ProgramSource& sou
   if (options->start_block >= 0) {
     state.start.is_searching = true;
     state.start.block = options->start_block;
-    state.start.actual = setup.stands.value_or(setup.start);
+    state.start.actual = setup.position.value_or(setup.start);
   }
   return std::unique_ptr<Interpreter>(std::make_unique<TncInterpreter>(
       *std::move(options), std::move(state), std::move(tools), source, sink));

@@ -178,8 +178,8 @@ Result<void> load_memory(const Setup& setup, ModalState& state, Parameters& para
   state.position = {in_units(setup.start.linear(Axis::X), state.units),
                     in_units(setup.start.linear(Axis::Z), state.units)};
   state.previous = state.position;
-  const Position& machine = setup.stands.value_or(setup.start);
-  if (auto checked = load_axes(machine, "stands"); !checked) return checked;
+  const Position& machine = setup.position.value_or(setup.start);
+  if (auto checked = load_axes(machine, "position"); !checked) return checked;
   state.searched_from = {machine.linear(Axis::X).mm(), machine.linear(Axis::Z).mm()};
   if (auto done = load_power_on(setup.control, state, parameters); !done) return done;
   const auto is_diameter = stored_x_is_diameter(setup.control);
