@@ -1,6 +1,9 @@
 #include "clients/tools/conversational/impl/walk.hpp"
 
 namespace dripline::conversational {
+
+using enum Quantity;
+
 namespace {
 
 void walk_return(Form& form, ReturnPoint& point) {
@@ -10,33 +13,22 @@ void walk_return(Form& form, ReturnPoint& point) {
 }
 
 void walk_clearance(Form& form, Quantity quantity, Entry& clearance) {
-  form.number({.name = "clearance",
-               .word = "R",
-               .quantity = quantity,
-               .help = "rapid moves end here",
-               .is_required = true},
-              clearance);
+  form.number(Field{"clearance", "R", quantity, "rapid moves end here"}.required(), clearance);
 }
 
 void walk_feed(Form& form, Entry& feed) {
-  form.number(
-      {.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "blank: the feed in force"},
-      feed);
+  form.number({"feed", "F", Feed, "blank: the feed in force"}, feed);
 }
 
-void walk_pecks(Form& form, Entry& increment, Entry& clearance, bool applies_clearance) {
-  form.number({.name = "increment",
-               .word = "Q",
-               .help = "depth of each peck, unsigned",
-               .is_required = true,
-               .min = 0},
-              increment);
-  form.number({.name = "peck_clearance",
-               .word = "E",
-               .help = "distance before the last depth at which rapid ends",
-               .applies = applies_clearance,
-               .min = 0},
-              clearance);
+void walk_pecks(Form& form, Entry& increment, Entry& clearance) {
+  form.number(
+      Field{"increment", "Q", Length, "depth of each peck, unsigned"}.required().at_least(0),
+      increment);
+  form.number(
+      Field{"peck_clearance", "E", Length, "distance before the last depth at which rapid ends"}
+
+          .at_least(0),
+      clearance);
 }
 
 }  // namespace
@@ -44,88 +36,54 @@ void walk_pecks(Form& form, Entry& increment, Entry& clearance, bool applies_cle
 void walk(Form& form, DrillCycle& event) {
   walk_feed(form, event.feed);
   walk_return(form, event.return_point);
-  walk_clearance(form, Quantity::Length, event.clearance);
-  form.number({.name = "z", .word = "Z", .help = "final depth", .is_required = true}, event.z);
+  walk_clearance(form, Length, event.clearance);
+  form.number(Field{"z", "Z", Length, "final depth"}.required(), event.z);
   if (event.kind == Drilling::DrillDwell || event.kind == Drilling::BoreDwell) {
-    form.number({.name = "dwell",
-                 .word = "P",
-                 .quantity = Quantity::Seconds,
-                 .help = "seconds at the bottom"},
-                event.dwell);
+    form.number({"dwell", "P", Seconds, "seconds at the bottom"}, event.dwell);
   }
   if (event.kind != Drilling::DrillPeck) return;
-  form.number({.name = "first_depth", .word = "V", .help = "Z of the first peck"},
-              event.first_depth);
-  walk_pecks(form, event.increment, event.peck_clearance, true);
+  form.number({"first_depth", "V", Length, "Z of the first peck"}, event.first_depth);
+  walk_pecks(form, event.increment, event.peck_clearance);
 }
 
 void walk(Form& form, TapCycle& event) {
-  form.number({.name = "speed",
-               .word = "S",
-               .quantity = Quantity::Speed,
-               .help = "blank: the speed in force"},
-              event.speed);
-  form.number({.name = "threads_per_unit",
-               .word = "P",
-               .quantity = Quantity::Factor,
-               .help = "threads per inch or mm of the tap",
-               .is_required = true,
-               .min = 0.0001},
+  form.number({"speed", "S", Speed, "blank: the speed in force"}, event.speed);
+  form.number(Field{"threads_per_unit", "P", Factor, "threads per inch or mm of the tap"}
+                  .required()
+                  .at_least(0.0001),
               event.threads_per_unit);
   walk_return(form, event.return_point);
-  walk_clearance(form, Quantity::Length, event.clearance);
-  form.number({.name = "z",
-               .word = "Z",
-               .help = "depth at which the spindle is reversed",
-               .is_required = true},
+  walk_clearance(form, Length, event.clearance);
+  form.number(Field{"z", "Z", Length, "depth at which the spindle is reversed"}.required(),
               event.z);
 }
 
 void walk(Form& form, GrooveCycle& event) {
   const bool is_face = event.work == Work::Facing;
-  const Quantity depth = is_face ? Quantity::Length : Quantity::Diameter;
+  const Quantity depth = is_face ? Length : Diameter;
   walk_feed(form, event.feed);
   walk_return(form, event.return_point);
   walk_clearance(form, depth, event.clearance);
-  form.number({.name = "x",
-               .word = "X",
-               .quantity = Quantity::Diameter,
-               .help = is_face ? "final diameter; blank: one column of pecks" : "final depth",
-               .is_required = !is_face},
+  form.number(Field{"x", "X", Diameter,
+                    is_face ? "final diameter; blank: one column of pecks" : "final depth"}
+                  .required(!is_face),
               event.x);
-  form.number({.name = "z",
-               .word = "Z",
-               .help = is_face ? "final depth" : "end of the groove; blank: one column of pecks",
-               .is_required = is_face},
+  form.number(Field{"z", "Z", Length,
+                    is_face ? "final depth" : "end of the groove; blank: one column of pecks"}
+                  .required(is_face),
               event.z);
-  form.number(
-      {.name = "first_depth", .word = "V", .quantity = depth, .help = "depth of the first peck"},
-      event.first_depth);
-  walk_pecks(form, event.increment, event.peck_clearance, true);
-  form.number({.name = "peck_up",
-               .word = "U",
-               .quantity = Quantity::Radius,
-               .help = "rapid retraction after each peck",
-               .min = 0},
+  form.number({"first_depth", "V", depth, "depth of the first peck"}, event.first_depth);
+  walk_pecks(form, event.increment, event.peck_clearance);
+  form.number(Field{"peck_up", "U", Radius, "rapid retraction after each peck"}.at_least(0),
               event.peck_up);
-  form.number({.name = "step",
-               .word = is_face ? "I" : "K",
-               .quantity = Quantity::Radius,
-               .help = "step between columns, unsigned",
-               .min = 0},
-              event.step);
   form.number(
-      {.name = "relief", .word = "D", .quantity = Quantity::Radius, .help = "relief at the bottom"},
-      event.relief);
-  form.number({.name = "x_finish_stock",
-               .word = "A",
-               .quantity = Quantity::Radius,
-               .help = "stock for the finish pass",
-               .min = 0},
+      Field{"step", is_face ? "I" : "K", Radius, "step between columns, unsigned"}.at_least(0),
+      event.step);
+  form.number({"relief", "D", Radius, "relief at the bottom"}, event.relief);
+  form.number(Field{"x_finish_stock", "A", Radius, "stock for the finish pass"}.at_least(0),
               event.x_finish_stock);
-  form.number(
-      {.name = "z_finish_stock", .word = "C", .help = "stock for the finish pass", .min = 0},
-      event.z_finish_stock);
+  form.number(Field{"z_finish_stock", "C", Length, "stock for the finish pass"}.at_least(0),
+              event.z_finish_stock);
 }
 
 }  // namespace dripline::conversational

@@ -1,6 +1,9 @@
 #include "clients/tools/conversational/impl/walk.hpp"
 
 namespace dripline::conversational {
+
+using enum Quantity;
+
 namespace {
 
 struct Stocks {
@@ -8,36 +11,23 @@ struct Stocks {
 };
 
 void walk_stocks(Form& form, const Stocks& stocks) {
-  form.number(
-      {.name = "x_finish_stock", .word = "U", .quantity = Quantity::Diameter, .help = "signed"},
-      stocks.x_finish);
-  form.number({.name = "z_finish_stock", .word = "W", .help = "signed"}, stocks.z_finish);
-  form.number(
-      {.name = "x_rough_stock", .word = "I", .quantity = Quantity::Radius, .help = "signed"},
-      stocks.x_rough);
-  form.number({.name = "z_rough_stock", .word = "K", .help = "signed"}, stocks.z_rough);
+  form.number({"x_finish_stock", "U", Diameter, "signed"}, stocks.x_finish);
+  form.number({"z_finish_stock", "W", Length, "signed"}, stocks.z_finish);
+  form.number({"x_rough_stock", "I", Radius, "signed"}, stocks.x_rough);
+  form.number({"z_rough_stock", "K", Length, "signed"}, stocks.z_rough);
 }
 
 }  // namespace
 
 void walk_start_point(Form& form, Entry& x, Entry& z) {
-  form.number({.name = "start_x",
-               .word = "X",
-               .quantity = Quantity::Diameter,
-               .help = "where the cycle starts",
-               .is_required = true},
-              x);
-  form.number(
-      {.name = "start_z", .word = "Z", .help = "where the cycle starts", .is_required = true}, z);
+  form.number(Field{"start_x", "X", Diameter, "where the cycle starts"}.required(), x);
+  form.number(Field{"start_z", "Z", Length, "where the cycle starts"}.required(), z);
 }
 
 void walk_pattern_number(Form& form, std::optional<int>& pattern) {
-  form.whole({.name = "pattern",
-              .word = "N",
-              .quantity = Quantity::Count,
-              .help = "number of the pattern; its labels are N98nn and N99nn",
-              .is_required = true,
-              .max = 99},
+  form.whole(Field{"pattern", "N", Count, "number of the pattern; its labels are N98nn and N99nn"}
+                 .required()
+                 .at_most(99),
              pattern);
 }
 
@@ -48,46 +38,23 @@ void walk_compensation(Form& form, Compensation& compensation) {
 
 void walk_taper(Form& form, const Field& taper, bool& is_tapered, Entry& value) {
   form.toggle({.name = "taper", .help = "shape of the cut"}, {"straight", "tapered"}, is_tapered);
-  Field field = taper;
-  field.applies = is_tapered;
-  field.is_required = true;
-  field.condition = "taper = tapered";
-  form.number(field, value);
+  form.number(taper.required().only(is_tapered, "taper = tapered"), value);
 }
 
 void walk_cut_end(Form& form, const CutEnd& end) {
   form.toggle({.name = "dimensions", .help = "dimensions of the end point"},
               {"absolute", "incremental"}, end.dimensions);
   const bool is_absolute = end.dimensions == Dimensions::Absolute;
-  form.number({.name = "x",
-               .word = "X",
-               .quantity = Quantity::Diameter,
-               .help = "end",
-               .is_required = true,
-               .applies = is_absolute,
-               .condition = "dimensions = absolute"},
-              end.x);
-  form.number({.name = "u",
-               .word = "U",
-               .quantity = Quantity::Diameter,
-               .help = "from the start point",
-               .is_required = true,
-               .applies = !is_absolute,
-               .condition = "dimensions = incremental"},
+  form.number(
+      Field{"x", "X", Diameter, "end"}.required().only(is_absolute, "dimensions = absolute"),
+      end.x);
+  form.number(Field{"u", "U", Diameter, "from the start point"}.required().only(
+                  !is_absolute, "dimensions = incremental"),
               end.u);
-  form.number({.name = "z",
-               .word = "Z",
-               .help = "end",
-               .is_required = true,
-               .applies = is_absolute,
-               .condition = "dimensions = absolute"},
+  form.number(Field{"z", "Z", Length, "end"}.required().only(is_absolute, "dimensions = absolute"),
               end.z);
-  form.number({.name = "w",
-               .word = "W",
-               .help = "from the start point",
-               .is_required = true,
-               .applies = !is_absolute,
-               .condition = "dimensions = incremental"},
+  form.number(Field{"w", "W", Length, "from the start point"}.required().only(
+                  !is_absolute, "dimensions = incremental"),
               end.w);
 }
 
@@ -95,25 +62,16 @@ void walk(Form& form, RoughCycle& event) {
   const bool is_turning = event.work == Work::Turning;
   walk_stocks(
       form, {event.x_finish_stock, event.z_finish_stock, event.x_rough_stock, event.z_rough_stock});
-  form.number({.name = "first_depth",
-               .word = "V",
-               .quantity = is_turning ? Quantity::Diameter : Quantity::Length,
-               .help = is_turning ? "diameter of the first cut" : "Z of the first cut"},
+  form.number({"first_depth", "V", is_turning ? Diameter : Length,
+               is_turning ? "diameter of the first cut" : "Z of the first cut"},
               event.first_depth);
-  form.number({.name = "cut_increment",
-               .word = "D",
-               .quantity = is_turning ? Quantity::Radius : Quantity::Length,
-               .help = "from cut to cut, unsigned",
-               .is_required = true,
-               .min = 0},
+  form.number(Field{"cut_increment", "D", is_turning ? Radius : Length, "from cut to cut, unsigned"}
+                  .required()
+                  .at_least(0),
               event.cut_increment);
   form.toggle({.name = "relief", .help = "how the tool leaves a cut"}, {"pattern", "45 degrees"},
               event.relief);
-  form.number({.name = "clearance",
-               .word = "R",
-               .quantity = Quantity::Radius,
-               .help = "how far the tool pulls away",
-               .min = 0},
+  form.number(Field{"clearance", "R", Radius, "how far the tool pulls away"}.at_least(0),
               event.clearance);
   walk_compensation(form, event.compensation);
   walk_start_point(form, event.start_x, event.start_z);
@@ -123,13 +81,9 @@ void walk(Form& form, RoughCycle& event) {
 void walk(Form& form, PatternRepeat& event) {
   walk_stocks(
       form, {event.x_finish_stock, event.z_finish_stock, event.x_rough_stock, event.z_rough_stock});
-  form.whole({.name = "passes",
-              .word = "D",
-              .quantity = Quantity::Count,
-              .help = "how often the pattern is followed",
-              .is_required = true,
-              .min = 1},
-             event.passes);
+  form.whole(
+      Field{"passes", "D", Count, "how often the pattern is followed"}.required().at_least(1),
+      event.passes);
   walk_compensation(form, event.compensation);
   walk_start_point(form, event.start_x, event.start_z);
   walk_pattern_number(form, event.pattern);
@@ -139,29 +93,21 @@ void walk(Form&, EndCycle&) {}
 
 void walk(Form& form, FinishCycle& event) {
   walk_pattern_number(form, event.pattern);
-  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "for the pattern"},
-              event.feed);
-  form.number(
-      {.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "for the pattern"},
-      event.speed);
+  form.number({"feed", "F", Feed, "for the pattern"}, event.feed);
+  form.number({"speed", "S", Speed, "for the pattern"}, event.speed);
   walk_start_point(form, event.start_x, event.start_z);
 }
 
 void walk(Form& form, SingleCut& event) {
   const bool is_turning = event.work == Work::Turning;
   walk_compensation(form, event.compensation);
-  form.number({.name = "feed", .word = "F", .quantity = Quantity::Feed, .help = "feed of the cut"},
-              event.feed);
-  form.number(
-      {.name = "speed", .word = "S", .quantity = Quantity::Speed, .help = "speed of the cut"},
-      event.speed);
+  form.number({"feed", "F", Feed, "feed of the cut"}, event.feed);
+  form.number({"speed", "S", Speed, "speed of the cut"}, event.speed);
   walk_start_point(form, event.start_x, event.start_z);
   walk_cut_end(form, {event.dimensions, event.x, event.u, event.z, event.w});
   walk_taper(form,
-             {.name = is_turning ? "i" : "k",
-              .word = is_turning ? "I" : "K",
-              .quantity = is_turning ? Quantity::Radius : Quantity::Length,
-              .help = "taper over the cut, signed"},
+             {is_turning ? "i" : "k", is_turning ? "I" : "K", is_turning ? Radius : Length,
+              "taper over the cut, signed"},
              event.is_tapered, event.taper);
 }
 

@@ -27,7 +27,7 @@ enum class Quantity {
   Comment
 };
 
-/// One field of a screen.
+/// One field of a screen: `Field{"x", "X", Quantity::Diameter, "end"}.required()`.
 struct Field {
   std::string_view name = {};  ///< its key in a file
   std::string_view word = {};  ///< the letter the screen shows, empty for a toggle
@@ -38,6 +38,21 @@ struct Field {
   std::string_view condition = {};  ///< those choices, to be read: "coordinates = polar"
   double min = std::numeric_limits<double>::lowest();  ///< in addition to the quantity's
   double max = std::numeric_limits<double>::max();
+
+  Field required(bool is = true) const { return with(&Field::is_required, is); }
+  Field only(bool is_chosen, std::string_view choices) const {
+    return with(&Field::applies, is_chosen).with(&Field::condition, choices);
+  }
+  Field at_least(double limit) const { return with(&Field::min, limit); }
+  Field at_most(double limit) const { return with(&Field::max, limit); }
+
+ private:
+  template <class Value>
+  Field with(Value Field::*member, Value value) const {
+    Field changed = *this;
+    changed.*member = value;
+    return changed;
+  }
 };
 
 struct Limits {
