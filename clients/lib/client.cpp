@@ -109,8 +109,16 @@ Reply<HttpResponse> Client::exchange(const HttpRequest& request) {
   return response;
 }
 
+Reply<void> Client::perform(HttpRequest request, std::string_view body) {
+  if (!body.empty()) request.body = body;
+  auto response = exchange(request);
+  if (!response) return failed(response.error());
+  return {};
+}
+
 template <class T>
-Reply<T> Client::fetch(const HttpRequest& request) {
+Reply<T> Client::fetch(HttpRequest request, std::string_view body) {
+  if (!body.empty()) request.body = body;
   auto response = exchange(request);
   if (!response) return failed(response.error());
   auto json = parse_json(response->body);
@@ -144,20 +152,15 @@ Reply<std::vector<T>> Client::fetch_list(const std::string& path, const char* me
   return list;
 }
 
-template Reply<Setup> Client::fetch(const HttpRequest&);
-template Reply<std::vector<Setup>> Client::fetch_list(const std::string&, const char*);
-template Reply<std::vector<Memory>> Client::fetch_list(const std::string&, const char*);
-template Reply<Port> Client::fetch(const HttpRequest&);
-template Reply<PortTest> Client::fetch(const HttpRequest&);
-template Reply<Transfer> Client::fetch(const HttpRequest&);
-template Reply<RuleVerdict> Client::fetch(const HttpRequest&);
-template Reply<PortTemplates> Client::fetch(const HttpRequest&);
+template Reply<Port> Client::fetch(HttpRequest, std::string_view);
+template Reply<PortTest> Client::fetch(HttpRequest, std::string_view);
+template Reply<Transfer> Client::fetch(HttpRequest, std::string_view);
+template Reply<RuleVerdict> Client::fetch(HttpRequest, std::string_view);
+template Reply<PortTemplates> Client::fetch(HttpRequest, std::string_view);
 template Reply<std::vector<Port>> Client::fetch_list(const std::string&, const char*);
 
 Reply<void> Client::health() {
-  auto response = exchange(get(path_of("health")));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(get(path_of("health")));
 }
 
 Reply<ServerInfo> Client::server() {
@@ -175,26 +178,19 @@ Reply<ProgramHistory> Client::program(std::string_view name) {
 Reply<void> Client::remove_program(std::string_view name, bool overrides_protection) {
   std::string path = path_of("programs", name);
   if (overrides_protection) path = with_query(std::move(path), "force", "true");
-  auto response = exchange(with_method("DELETE", path));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("DELETE", path));
 }
 
 Reply<Revision> Client::copy_program(std::string_view from, const std::string& to,
                                      std::optional<std::uint64_t> revision) {
   Json json{{"to", to}};
   if (revision) json["revision"] = *revision;
-  const std::string body = dumped(json);
-  HttpRequest http = with_method("POST", path_of("programs", from) + "/copy");
-  http.body = body;
-  return fetch<Revision>(http);
+  return fetch<Revision>(with_method("POST", path_of("programs", from) + "/copy"), dumped(json));
 }
 
 Reply<ProgramHistory> Client::rename_program(std::string_view from, const std::string& to) {
-  const std::string body = dumped({{"to", to}});
-  HttpRequest http = with_method("POST", path_of("programs", from) + "/rename");
-  http.body = body;
-  return fetch<ProgramHistory>(http);
+  return fetch<ProgramHistory>(with_method("POST", path_of("programs", from) + "/rename"),
+                               dumped({{"to", to}}));
 }
 
 Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t revision) {
@@ -203,10 +199,8 @@ Reply<Revision> Client::accept_revision(std::string_view name, std::uint64_t rev
 }
 
 Reply<void> Client::reject_revision(std::string_view name, std::uint64_t revision) {
-  auto response = exchange(with_method(
+  return perform(with_method(
       "POST", fmt::format("{}/revisions/{}/reject", path_of("programs", name), revision)));
-  if (!response) return failed(response.error());
-  return {};
 }
 
 Reply<Content> Client::content(const ContentRange& range) {
@@ -240,10 +234,7 @@ Reply<Upload> Client::open_upload(const UploadRequest& request) {
   Json json{{"program", request.program}};
   if (!request.control.empty()) json["control"] = request.control;
   if (!request.comment.empty()) json["comment"] = request.comment;
-  const std::string body = dumped(json);
-  HttpRequest http = with_method("POST", path_of("uploads"));
-  http.body = body;
-  return fetch<Upload>(http);
+  return fetch<Upload>(with_method("POST", path_of("uploads")), dumped(json));
 }
 
 Reply<Upload> Client::upload(std::string_view id) {
@@ -263,16 +254,11 @@ Reply<Revision> Client::commit_upload(std::string_view id, const CommitRequest& 
   Json json = Json::object();
   if (!request.sha256.empty()) json["sha256"] = request.sha256;
   if (request.overrides_protection) json["force"] = true;
-  const std::string body = dumped(json);
-  HttpRequest http = with_method("POST", path_of("uploads", id) + "/commit");
-  http.body = body;
-  return fetch<Revision>(http);
+  return fetch<Revision>(with_method("POST", path_of("uploads", id) + "/commit"), dumped(json));
 }
 
 Reply<void> Client::drop_upload(std::string_view id) {
-  auto response = exchange(with_method("DELETE", path_of("uploads", id)));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("DELETE", path_of("uploads", id)));
 }
 
 Reply<std::vector<Machine>> Client::machines() {
@@ -283,6 +269,30 @@ Reply<Machine> Client::machine(std::string_view name) {
   return fetch<Machine>(get(path_of("machines", name)));
 }
 
+Reply<std::vector<Setup>> Client::setups(std::string_view machine, Page page) {
+  return fetch_list<Setup>(with_page(path_of("machines", machine) + "/setups", page), "setups");
+}
+
+Reply<Setup> Client::setup(std::string_view machine, std::optional<std::uint64_t> revision) {
+  const std::string number = revision ? std::to_string(*revision) : "";
+  return fetch<Setup>(get(with_query(path_of("machines", machine) + "/setup", "revision", number)));
+}
+
+Reply<Setup> Client::save_setup(const SetupRequest& request) {
+  std::string path = path_of("machines", request.machine) + "/setup";
+  path = with_query(std::move(path), "comment", request.comment);
+  path = with_query(std::move(path), "base", request.base ? std::to_string(*request.base) : "");
+  HttpRequest http = with_method("PUT", with_query(std::move(path), "control", request.control));
+  http.content_type = "application/toml";
+  return fetch<Setup>(http, request.text);
+}
+
+Reply<std::vector<Memory>> Client::memories(std::string_view machine, std::string_view run,
+                                            Page page) {
+  const std::string path = with_query(path_of("machines", machine) + "/memory", "run", run);
+  return fetch_list<Memory>(with_page(path, page), "memories");
+}
+
 Reply<Run> Client::start_run(const RunRequest& request) {
   Json json{{"machine", request.machine}, {"program", request.program}};
   if (request.revision) json["revision"] = *request.revision;
@@ -290,10 +300,7 @@ Reply<Run> Client::start_run(const RunRequest& request) {
   if (!request.head.empty()) json["head"] = request.head;
   if (!request.memory.empty()) json["memory"] = request.memory;
   if (request.pass) json["pass"] = *request.pass;
-  const std::string body = dumped(json);
-  HttpRequest http = with_method("POST", path_of("runs"));
-  http.body = body;
-  return fetch<Run>(http);
+  return fetch<Run>(with_method("POST", path_of("runs")), dumped(json));
 }
 
 Reply<std::vector<Run>> Client::runs(const RunQuery& query) {
@@ -317,12 +324,7 @@ Reply<void> Client::command_machine(std::string_view machine, const CommandReque
 }
 
 Reply<void> Client::send_command(const std::string& path, const CommandRequest& request) {
-  const std::string body = command_body(request);
-  HttpRequest http = with_method("POST", path + "/commands");
-  http.body = body;
-  auto response = exchange(http);
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("POST", path + "/commands"), command_body(request));
 }
 
 Reply<std::vector<Record>> Client::records(std::string_view run, std::string_view kind, Page page) {
@@ -341,9 +343,7 @@ Reply<void> Client::export_report(std::string_view run, std::string_view format,
                                   const std::function<bool(std::string_view)>& sink) {
   HttpRequest request = get(with_query(path_of("reports", run), "format", format));
   request.on_body = sink;
-  auto response = exchange(request);
-  if (!response) return failed(response.error());
-  return {};
+  return perform(request);
 }
 
 Reply<std::vector<MachineReport>> Client::machine_reports() {
@@ -354,9 +354,7 @@ Reply<void> Client::export_machine_report(std::string_view machine, std::string_
                                           const std::function<bool(std::string_view)>& sink) {
   HttpRequest request = get(with_query(path_of("machines", machine) + "/report", "format", format));
   request.on_body = sink;
-  auto response = exchange(request);
-  if (!response) return failed(response.error());
-  return {};
+  return perform(request);
 }
 
 }  // namespace dripline::client

@@ -179,8 +179,10 @@ class Client {
  private:
   Reply<void> send_command(const std::string& path, const CommandRequest& request);
   Reply<HttpResponse> exchange(const HttpRequest& request);
+  /// Both send `body` unless it is empty.
+  Reply<void> perform(HttpRequest request, std::string_view body = {});
   template <class T>
-  Reply<T> fetch(const HttpRequest& request);
+  Reply<T> fetch(HttpRequest request, std::string_view body = {});
   template <class T>
   Reply<std::vector<T>> fetch_list(const std::string& path, const char* member);
 

@@ -25,36 +25,25 @@ Reply<Port> Client::save_port(const PortRequest& request) {
                       {"enabled", request.enabled}};
   if (!request.line_template.empty()) json["template"] = request.line_template;
   if (!request.rules.empty()) json["rules"] = request.rules;
-  const std::string body = dumped(json);
-  HttpRequest http = with_method("PUT", path_of("ports", request.name));
-  http.body = body;
-  return fetch<Port>(http);
+  return fetch<Port>(with_method("PUT", path_of("ports", request.name)), dumped(json));
 }
 
 Reply<void> Client::remove_port(std::string_view name) {
-  auto response = exchange(with_method("DELETE", path_of("ports", name)));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("DELETE", path_of("ports", name)));
 }
 
 Reply<Transfer> Client::send_programs(std::string_view port,
                                       const std::vector<std::string>& programs) {
-  const std::string body = dumped({{"programs", programs}});
-  HttpRequest http = with_method("POST", path_of("ports", port) + "/transfers");
-  http.body = body;
-  return fetch<Transfer>(http);
+  return fetch<Transfer>(with_method("POST", path_of("ports", port) + "/transfers"),
+                         dumped({{"programs", programs}}));
 }
 
 Reply<void> Client::receive_program(std::string_view port) {
-  auto response = exchange(with_method("POST", path_of("ports", port) + "/receive"));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("POST", path_of("ports", port) + "/receive"));
 }
 
 Reply<void> Client::stop_transfer(std::string_view port) {
-  auto response = exchange(with_method("DELETE", path_of("ports", port) + "/transfers"));
-  if (!response) return failed(response.error());
-  return {};
+  return perform(with_method("DELETE", path_of("ports", port) + "/transfers"));
 }
 
 Reply<PortTest> Client::test_port(std::string_view name) {
@@ -62,19 +51,15 @@ Reply<PortTest> Client::test_port(std::string_view name) {
 }
 
 Reply<RuleVerdict> Client::test_rules(std::string_view name, std::string_view text) {
-  const std::string body = dumped({{"text", text}});
-  HttpRequest http = with_method("POST", path_of("ports", name) + "/test-rules");
-  http.body = body;
-  return fetch<RuleVerdict>(http);
+  return fetch<RuleVerdict>(with_method("POST", path_of("ports", name) + "/test-rules"),
+                            dumped({{"text", text}}));
 }
 
 Reply<void> Client::recording(std::string_view name,
                               const std::function<bool(std::string_view)>& sink) {
   HttpRequest request = get(path_of("ports", name) + "/recording");
   request.on_body = sink;
-  auto response = exchange(request);
-  if (!response) return failed(response.error());
-  return {};
+  return perform(request);
 }
 
 Reply<PortTemplates> Client::port_templates() {
