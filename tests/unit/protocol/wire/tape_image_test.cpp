@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "clients/tools/lines/tape_listing.hpp"
 #include "protocol/wire/tape_title.hpp"
 
 namespace dripline::wire {
@@ -169,27 +168,6 @@ TEST(TapeTitle, HoldsNoEndOfBlockOfAnyCode) {
       EXPECT_NE(kind, RowKind::CarriageReturn);
     }
   }
-}
-
-TEST(TapeListing, ShowsHolesValueAndMeaningHoweverItIsCut) {
-  const auto rows = bytes(std::string_view("\0\0\x0B\x80\x45\x10\x7F\x03\x0D\0", 10));
-  std::string whole, pieces;
-  TapeListing one(Eia), many(Eia);
-  one.list(rows, whole);
-  one.finish(whole);
-  for (const auto row : rows) many.list({&row, 1}, pieces);
-  many.finish(pieces);
-  EXPECT_EQ(whole, pieces);
-  EXPECT_EQ(whole,
-            "         1  .....:...  00       blank, 2 rows\n"
-            "         3  ....o:.oo  0B  %    rewind stop\n"
-            "         4  o....:...  80       end of block\n"
-            "         5  .o...:o.o  45  N\n"
-            "         6  ...o.:...  10  SP\n"
-            "         7  .oooo:ooo  7F       delete\n"
-            "         8  .....:.oo  03       wrong parity\n"
-            "         9  ....o:o.o  0D       no character of this code\n"
-            "        10  .....:...  00       blank, 1 rows\n");
 }
 
 }  // namespace
