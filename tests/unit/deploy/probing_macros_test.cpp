@@ -10,7 +10,7 @@
 #include "gateway/interpreter/core/memory_source.hpp"
 
 /// The probing macros of deploy/macros on a simulated control and workpiece. The simulated probe
-/// has no ball: a surface stands where the center of the ball would be when it touches.
+/// has no ball: a surface is where the center of the ball would be when it touches.
 namespace dripline::interpreter {
 namespace {
 

@@ -27,7 +27,7 @@ class TestClock final : public Clock {
 };
 
 /// A gateway with everything around it in a test's hands: its clock, its server and its disk.
-/// The server answers requests and acknowledges records between two turns, while `is_up`.
+/// The server answers requests and acknowledges records between two passes, while `is_up`.
 class GatewayFixture : public dds::GatewayEndpoint {
  public:
   /// Of the toy control.

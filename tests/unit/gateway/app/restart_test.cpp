@@ -45,7 +45,7 @@ class RestartShop : public GatewayFixture {
   std::array<double, 9> position() const { return status->position; }
 };
 
-// HD-192: in a contour: what the run has lost is named, and nothing moves or turns.
+// HD-192: in a contour: what the run has lost is named, and no axis and no spindle moves.
 TEST(TncRestart, RefusesToLoseTheContour) {
   RestartShop fixture;
   fixture.push("16", kContour);

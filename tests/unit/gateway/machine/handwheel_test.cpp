@@ -123,7 +123,7 @@ TEST(Handwheel, LeavesATappingCycleOutAndSaysSo) {
 TEST(SpindleOverride, OfZeroStopsADwellOfTurnsUntilItIsRaised) {
   TestMachine test;
   test.program.spindle(600);
-  test.program.turns(5);  // half a second
+  test.program.revolve(5);  // half a second
   OperatorPanel panel;
   panel.spindle_override = 0;
   test.machine.set_panel(panel);

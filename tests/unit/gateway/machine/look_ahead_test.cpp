@@ -82,7 +82,7 @@ TEST(LookAhead, ContourOfShortBlocksObeysTheCurvesAcceleration) {
 TEST(LookAhead, OutputBetweenMovesDoesNotStopThem) {
   TestMachine test;
   test.program.line(0, 10, 1200);
-  test.program.output("half way");
+  test.program.output("half");
   test.program.line(0, 20, 1200);
   EXPECT_NEAR(test.run_all(), trapezoid(20, 20, 1000), 1e-9);
 }

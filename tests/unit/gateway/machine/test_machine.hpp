@@ -120,7 +120,7 @@ class Program {
     sink_.on_override_inhibit(lock);
   }
   void unlock() { lock({}); }
-  void turns(double revolutions) {
+  void revolve(double revolutions) {
     begin_block();
     sink_.on_dwell({origin_, 0, revolutions});
     end_block();

@@ -54,7 +54,7 @@ TEST_F(RunJournalTest, IsEmptyAfterTheRun) {
 }
 
 /// Every byte of the newest slot in turn is damaged, as a torn write would: the entry before it
-/// stands.
+/// remains.
 TEST_F(RunJournalTest, ATornSlotLeavesTheEntryBefore) {
   {
     RunJournal journal = open();

@@ -35,7 +35,7 @@ TEST_F(PortServiceTest, StopsForXoffAndShowsTheWait) {
   std::string came = line().read_until("N20 ");
   line().write("\x13");
   ASSERT_TRUE(wait([&] { return ports_->port("com1")->waiting_since.has_value(); }));
-  came += line().read_for(std::chrono::milliseconds(50));  // what was under way
+  came += line().read_for(std::chrono::milliseconds(50));  // what was in transit
   EXPECT_EQ(line().read_for(std::chrono::milliseconds(50)), "");
   EXPECT_TRUE(ports_->port("com1")->line.may_wait_without_limit);
   EXPECT_EQ(ports_->machines().machine("mill")->status->execution, dds::Execution::Waiting);

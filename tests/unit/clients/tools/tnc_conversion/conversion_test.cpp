@@ -30,7 +30,7 @@ constexpr const char* kIsoHead = "%7 G71 *\nN10 T3 G17 S800 *\n";
 
 constexpr const char* kIsoEnd = "N9999 %7 G71 *\n";
 
-/// The pairs are both ways; the end of the text becomes the last block.
+/// The pairs hold in both directions; the end of the text becomes the last block.
 TEST_P(Tnc155Conversion, PlainBecomesIso) {
   EXPECT_EQ(converted(std::string(kPlainHead) + GetParam().plain, Form::Iso),
             std::string(kIsoHead) + GetParam().iso + kIsoEnd);

@@ -58,7 +58,7 @@ TEST(Tnc155ConversionTrace, OfACornerInTheBlockOfAToolIsTheSame) {
   does_the_same(approach);
 }
 
-/// In plain language what stands in front of the corner is a block between it and its move: which
+/// In plain language what precedes the corner is a block between it and its move: which
 /// of two alarms is the first depends on it.
 TEST(Tnc155ConversionTrace, OfACornerAfterOtherWordsIsTheSame) {
   for (const char* words : {"G40", "G41", "F70", "M08", "G90 F70"}) {

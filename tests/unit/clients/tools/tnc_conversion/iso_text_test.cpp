@@ -134,7 +134,7 @@ TEST(Tnc155IsoText, FirstMoveNeedsOneCodeOfEachGroup) {
             "BEGIN PGM 1 MM\nTOOL CALL Z\nL X+1,000 R0 F M\n");
 }
 
-// HD-038, HD-199: the MIN corner is absolute whether G90 stands there or not; the plane has to be
+// HD-038, HD-199: the MIN corner is absolute with or without G90; the plane has to be
 // there.
 TEST(Tnc155IsoText, TheBlankNeedsNoG90ButAPlane) {
   const std::string head = "%1 G71\n", begin = "BEGIN PGM 1 MM\n";

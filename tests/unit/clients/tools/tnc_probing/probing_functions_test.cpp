@@ -106,15 +106,16 @@ std::string refusal(ProbingFunction function, std::vector<Touch> touches, Axis t
   const auto checked = check_touches(function, touches, tool);
   return checked ? "" : checked.error().what;
 }
-Touch way(Axis axis, ProbeDirection direction) {
+Touch touch_along(Axis axis, ProbeDirection direction) {
   return toward(axis, direction, {});
 }
 
 // HD-208, HD-209, HD-211, HD-213: each function has its directions.
 TEST(Touches, HaveTheDirectionsOfTheirFunction) {
   using enum ProbingFunction;
-  const Touch x_up = way(Axis::X, kUp), x_down = way(Axis::X, kDown), y_up = way(Axis::Y, kUp),
-              y_down = way(Axis::Y, kDown), z_up = way(Axis::Z, kUp), z_down = way(Axis::Z, kDown);
+  const Touch x_up = touch_along(Axis::X, kUp), x_down = touch_along(Axis::X, kDown),
+              y_up = touch_along(Axis::Y, kUp), y_down = touch_along(Axis::Y, kDown),
+              z_up = touch_along(Axis::Z, kUp), z_down = touch_along(Axis::Z, kDown);
   for (const auto function : {Radius, Circle}) {
     EXPECT_EQ(refusal(function, {x_up, x_down, y_up, y_down}), "");
     EXPECT_EQ(refusal(function, {z_up, z_down, x_up, x_down}, Axis::Y), "") << "Z is first in ZX";
@@ -134,10 +135,10 @@ TEST(Touches, HaveTheDirectionsOfTheirFunction) {
   EXPECT_EQ(refusal(Corner, {y_up, y_up, x_up}), "4 touches are needed, 3 are there");
   EXPECT_EQ(refusal(Length, {x_up}), "touch 1 is X+: expected the tool's axis, Z");
   EXPECT_EQ(refusal(Length, {x_up}, Axis::X), "");
-  EXPECT_EQ(refusal(Surface, {way(Axis::C, kUp)}), "");
+  EXPECT_EQ(refusal(Surface, {touch_along(Axis::C, kUp)}), "");
 }
 
-// HD-210: axis IV, whether it turns or is parallel to another.
+// HD-210: axis IV, whether it is rotary or parallel to another.
 TEST(Surfaces, AreTouchedByTheFourthAxis) {
   Workpiece workpiece;
   workpiece.add(ProbePlane{Axis::Y, Length::mm(20)});

@@ -65,7 +65,7 @@ TEST(Rs274Spline, HighOrdersAndWeightsStayWhereTheirPointsAre) {
   EXPECT_EQ(last, 30);
 }
 
-/// An S that is level with its chord half-way has to be seen all the same.
+/// An S that is level with its chord at its middle has to be seen all the same.
 TEST(Rs274Spline, AnSIsNoStraightLine) {
   const PointLog log = trace("G21 F100\nG5 X30 Y0 I10 J30 P-10 Q-30\nM2\n");
   double highest = 0;

@@ -28,7 +28,7 @@ class Station {
     machine_.begin(setup.start);
   }
 
-  /// Until it stands for good.
+  /// Until it stops for good.
   machine::MachineStatus run() {
     StepState step = StepState::Ran;
     while (step == StepState::Ran && machine_.has_room()) step = interpreter_->step(1);

@@ -78,7 +78,7 @@ TEST(RandomChanger, ChangesNothingForAToolThatIsCalledOff) {
                  {"[control]\ncentral_tool_file = true\n[[tool]]\nnumber = 1\npocket = 3\n", {}})
           .events,
       ElementsAre("T1 L0 R0", "end 3"))
-      << "without a random changer pockets are nobody's";
+      << "without a random changer pockets belong to no tool";
 }
 
 TEST(RandomChanger, ReportsChangesEvenWhenTheRunEndsInAnAlarm) {

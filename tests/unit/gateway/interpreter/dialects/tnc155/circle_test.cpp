@@ -39,7 +39,7 @@ TEST(TncCircle, AHelixMovesTheToolAxis) {
   EXPECT_EQ(moves_of(helix, fourth).back(), "! PLANE WRONGLY DEFINED");
 }
 
-// HD-100, HD-103: the rest of IPA+0 is none, and so are its full turns.
+// HD-100, HD-103: the rest of IPA+0 is none, and so are its full revolutions.
 TEST(TncCircle, AHelixWithoutTurnsMovesTheToolAxisAlone) {
   EXPECT_THAT(moves_of({kStart, kPole, "CP IPA+0 IZ+5 DR+", "CP IPA+90 DR+"}),
               ElementsAre("L X10 Y0 F100", "L X10 Y0 Z5 F100", "A X0 Y10 Z5 c0,0 ccw90 F100"));
@@ -52,7 +52,8 @@ TEST(TncCircle, AHelixWithoutTurnsMovesTheToolAxisAlone) {
               "! ANGLE REFERENCE MISSING");
 }
 
-// HD-101, HD-184: the way before lies in the machine where it lay, whatever coordinates count now.
+// HD-101, HD-184: the path before stays where it was in the machine, whatever coordinates count
+// now.
 TEST(TncCircle, TangentsOutlastATransformation) {
   const auto with = [](std::vector<std::string> cycle, const std::string& tangent) {
     std::vector<std::string> blocks{"L X+0 Y+0 R0 F100", "L X+10 Y+0"};

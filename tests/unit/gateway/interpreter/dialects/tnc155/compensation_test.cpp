@@ -182,7 +182,7 @@ std::vector<std::string> with_pecking(std::vector<std::string> blocks) {
 }
 
 // HD-127, HD-138: a hole in a contour is made at its corner, as a move along Z is, and the contour
-// goes on.
+// continues.
 TEST(TncCompensation, AHoleIsMadeAtTheCorner) {
   EXPECT_THAT(
       path("+4", with_pecking({"L X+0 Y+20 Z+2 R0 F100 M03", "L X+0 Y+0 RL", "L X+50 Y+0 M99",
@@ -203,7 +203,7 @@ TEST(TncCompensation, ACycleLeavesTheProgrammedPointAlone) {
             "L X70 Y40 Z2 F100");
 }
 
-// A pocket is milled where the block before ends by itself; the contour goes on after it.
+// A pocket is milled where the block before ends by itself; the contour continues after it.
 TEST(TncCompensation, APocketDoesNotEndTheContour) {
   const auto moves =
       path("+4", {"CYCL DEF 3.0 SLOT MILLING", "CYCL DEF 3.1 SET-UP-2", "CYCL DEF 3.2 DEPTH-4",
@@ -242,7 +242,7 @@ TEST(TncCompensation, APocketBeforeTheFirstBlockLeavesTheStartUpToIt) {
               ElementsAre("L X27 Y0 Z2 F200", "L X27 Y30 Z2 F200", "L X60 Y60 Z2 F200"));
 }
 
-// HD-184: a rotation of another plane turns the hole's way into the plane of the contour.
+// HD-184: a rotation of another plane turns the hole's path into the plane of the contour.
 TEST(TncCompensation, AHoleUnderARotationOfAnotherPlaneIsNoElement) {
   const auto moves =
       path("+3", with_pecking({"TOOL CALL Y", "CYCL DEF 10.0 ROTATION", "CYCL DEF 10.1 ROT+30",

@@ -91,7 +91,7 @@ TEST(TncCorner, ARoundingNeedsRoomAndThePlane) {
   EXPECT_THAT(moves_of({"RND R5", "L X+40 Y+0 R0 F100"}).back(), "! PLANE WRONGLY DEFINED");
 }
 
-// HD-106: each stands directly after the block whose end it changes.
+// HD-106: each directly follows the block whose end it changes.
 TEST(TncCorner, OneBlockHasOneCorner) {
   for (const char* second : {"RND R6", "L 6"}) {
     for (const char* first : {"RND R5", "L 5"}) {
@@ -187,7 +187,7 @@ TEST(TncCorner, BlocksWithoutCoordinatesAreNoElements) {
   EXPECT_THAT(moves_of({"L X-10 Y+0 R0 F100", "L X+0 Y+0", "L R F M08", "CT X+10 Y+10"}).back(),
               "A X10 Y10 c0,10 ccw90 F100");
 }
-// HD-106: a corner whose second side is gone is told of.
+// HD-106: a corner whose second side is gone is reported.
 TEST(TncCorner, AContourDoesNotEndBetweenTheSidesOfACorner) {
   const auto run =
       run_blocks({"TOOL DEF 1 L+0 R+4", "TOOL CALL 1 Z S100", "L X+0 Y+20 R0 F100", "L X+0 Y+0 RL",
@@ -196,7 +196,7 @@ TEST(TncCorner, AContourDoesNotEndBetweenTheSidesOfACorner) {
   EXPECT_EQ(run.alarm_line, 9u);
 }
 
-// HD-108: the tool stands within the circle.
+// HD-108: the tool is within the circle.
 TEST(TncCorner, ARunOnArcMustNotReachTheStart) {
   EXPECT_THAT(path("+4", {"L X+0 Y+10 R0 F100", "L X+0 Y+0 RL", "RND R8", "L X+40 Y+0"}).back(),
               "! ROUNDING RADIUS TOO LARGE");

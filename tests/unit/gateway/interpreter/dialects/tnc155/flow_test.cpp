@@ -17,7 +17,7 @@ TEST(TncFlow, ARepeatPlaysItsPartOnceMoreThanItSays) {
   EXPECT_THAT(moves_of({"LBL 1", "L IX+1 R0 F MAX", "CALL LBL 1 REP 0/0"}), ElementsAre("R X1"));
 }
 
-// HD-146: an inner repeat starts anew with each pass of the outer one: 2 * 3.
+// HD-146: an inner repeat starts again with each pass of the outer one: 2 * 3.
 TEST(TncFlow, RepeatsNest) {
   EXPECT_EQ(moves_of({"LBL 15", "LBL 17", "L IX+1 R0 F MAX", "CALL LBL 17 REP 2/2",
                       "CALL LBL 15 REP 1/1"})
@@ -187,7 +187,7 @@ TEST(TncFlow, JumpsFollowTheContinuationOfLines) {
 }
 
 // HD-187, HD-137: the moves of the program that cycle 12 calls do not call it again; after it M89
-// goes on.
+// continues.
 TEST(TncFlow, M89RestsWithinTheProgramOfACycle) {
   PathSetup library;
   library.programs = {{"7",

@@ -198,7 +198,7 @@ TEST(TncMachine, AStopCallsTheCycle) {
     std::vector<std::string> all = start;
     all.insert(all.end(), blocks.begin(), blocks.end());
     auto events = events_of(all);
-    events.erase(events.begin(), events.begin() + 3);  // the tool, the spindle, the way there
+    events.erase(events.begin(), events.begin() + 3);  // the tool, the spindle, the move there
     return events;
   };
   const auto called = after({"L R F M99"});

@@ -14,7 +14,7 @@ TEST(TncMotion, StraightBlocksMoveUpToThreeAxes) {
               ElementsAre("L X10 Y20 Z-5 F100", "L X15 Y20 Z-5 F100", "L X15 Y-2.5 Z0 F100"));
 }
 
-// HD-089, HD-092, HD-238: F of linear and rotary axes together is that of the whole way: 30 mm and
+// HD-089, HD-092, HD-238: F of linear and rotary axes together is that of the whole path: 30 mm and
 // 40 degrees are 50, so the linear axes have 100 * 30 / 50. Older software: F is the rotary
 // axis's, so 100 * 30 / 40.
 TEST(TncMotion, RotaryAxesShareTheFeed) {
@@ -69,7 +69,7 @@ std::vector<std::string> with_tool5(std::vector<std::string> blocks) {
   return blocks;
 }
 
-// HD-093, HD-132: R+ makes the way of one axis longer by the tool radius, R- shorter.
+// HD-093, HD-132: R+ makes the travel of one axis longer by the tool radius, R- shorter.
 TEST(TncMotion, SingleAxisBlocksAddTheRadiusAlongTheTravel) {
   EXPECT_THAT(moves_of(with_tool5({"X+10 R0 F100", "X+40 R+", "X+10 R0", "X+40 R-"})),
               ElementsAre("L X10 F100", "L X45 F100", "L X10 F100", "L X35 F100"));
@@ -193,7 +193,7 @@ TEST(TncMotion, PolarArcsKeepTheirRadius) {
   EXPECT_THAT(moves_of({start, "CC X+10 Y+0", "CP PA+90 DR+"}).back(), "! ANGLE REFERENCE MISSING");
 }
 
-// HD-103, HD-014: two and a half turns, 2 mm a turn.
+// HD-103, HD-014: two and a half revolutions, 2 mm each.
 TEST(TncMotion, AHelixIsAPolarArcThatRises) {
   EXPECT_THAT(moves_of({"L X+10 Y+0 R0 F100", "CC X+0 Y+0", "CP IPA+900 IZ+5 DR+ R0 F"}),
               ElementsAre("L X10 Y0 F100", "A X-10 Y0 Z5 c0,0 ccw900 F100"));
@@ -263,7 +263,7 @@ TEST(TncMotion, MachineCoordinatesAreForCartesianMovesWithoutARadius) {
               "! PATH OFFSET WRONGLY STARTED");
 }
 
-// HD-120: whole turns are taken off what the program counts with; the axis stands where it stood,
+// HD-120: whole revolutions are subtracted from the program's value; the axis stays where it was,
 // so that 40 is 10 further than 750.
 TEST(TncMotion, M94TakesWholeTurnsOffARotaryAxis) {
   EXPECT_THAT(moves_of({"L C+750 R0 F100", "L IC+10 M94", "L C+20"}),

@@ -68,7 +68,7 @@ TEST(TncParameters, AnEllipseByALoop) {
       ElementsAre("L X40 Y0 F500", "L X34.641 Y10 F500", "L X20 Y17.321 F500", "L X0 Y20 F500"));
 }
 
-// HD-026, HD-161: what a parameter holds is held to the limits of what it stands for.
+// HD-026, HD-161: what a parameter holds is held to the limits of what it represents.
 TEST(TncParameters, HoldWhatCouldBeProgrammed) {
   const auto with = [](const char* value, const char* block, const char* units = "MM") {
     return run_blocks({fmt::format("FN 0: Q1 = {}", value), "CC X+0 Y+0", block},

@@ -27,7 +27,7 @@ struct PathSetup {
   std::string units = "MM";
 };
 PathRun run_blocks(const std::vector<std::string>& blocks, const PathSetup& setup = {});
-/// Runs a text as it stands.
+/// Runs a text as it is.
 PathRun run_text(const std::string& text, const PathSetup& setup = {});
 
 /// The moves only, and an alarm in the control's words, without our detail: what most tests look

@@ -196,7 +196,8 @@ TEST(TncRun, RunsIso) {
                           testing::StartsWith("end")));
 }
 
-// HD-182: the plane in the block of G73 is that of its spindle axis: G17 turns X to Y, G19 Y to Z.
+// HD-182: the plane in the block of G73 is that of its spindle axis: G17 rotates X to Y, G19 Y to
+// Z.
 TEST(TncRun, RotatesInThePlaneThatTheBlockNames) {
   const auto turned = [](const std::string& rotation) {
     return run_text("%5 G71 *\nN20 T0 G17 S100 *\nN30 G00 G40 G90 X+0 Y+0 *\nN40 " + rotation +

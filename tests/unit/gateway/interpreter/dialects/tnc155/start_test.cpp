@@ -43,7 +43,7 @@ const std::vector<std::string> kContour{"TOOL DEF 1 L+20 R+5",
                                         "L X+70 Y-20"};
 
 // HD-192: tool, datum shift, spindle, coolant and feed are those of the program at that block; the
-// operator is asked before anything turns or moves.
+// operator is asked before any axis or spindle moves.
 TEST(TncStart, RebuildsWhatTheProgramHadInForce) {
   EXPECT_THAT(from_block(11, kContour, "start = { X = 160.0, Y = -20.0 }").events,
               ElementsAre("T1 L20 R5", "stop", "S cw 1000", "coolant on", "L X170 Y-20 F500",
@@ -100,7 +100,7 @@ TEST(TncStart, RebuildsThePoleAndTheCycle) {
 }
 
 // HD-193: repeats, return addresses and the contour cannot be rebuilt: which pass was meant, and
-// on which side the tool is, nobody knows. Each is named.
+// on which side the tool is, is unknown. Each is named.
 TEST(TncStart, RefusesWhatItWouldLose) {
   EXPECT_THAT(refusal(from_block(9, kContour)), HasSubstr("block 6 on: start there"));
   EXPECT_THAT(

@@ -104,7 +104,7 @@ TEST(TncStatusWindow, OtherAxesLieAtTheirDatum) {
   WindowRun run({"L C+750 R0 F900", "L C+40 M94"});
   run.step(2);
   EXPECT_NEAR(run.programmed()[5], 40, 1e-9);
-  EXPECT_EQ(run.frame().datum[5], 720) << "M94 took two turns off what is shown";
+  EXPECT_EQ(run.frame().datum[5], 720) << "M94 took two revolutions off what is shown";
 }
 
 /// The gateway asks for the frame only when the number is another.

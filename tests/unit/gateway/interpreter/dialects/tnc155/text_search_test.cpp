@@ -62,7 +62,7 @@ TEST(Tnc155TextSearch, FindsBlocksAfterOthersOfTheirLine) {
   EXPECT_EQ(label_in(kSeveralInALine, 8), "-");
 }
 
-// HD-028: whether a line without N goes on with the block before it is an option.
+// HD-028: whether a line without N continues the block before it is an option.
 TEST(Tnc155TextSearch, FollowsTheContinuationOfLines) {
   const std::string text = "%1 G71\nN10 X+1\nG98 L5\nY+9\nN20 X+2\n";
   EXPECT_EQ(label_in(text, 5), "2: N10 X+1\n");

@@ -118,7 +118,7 @@ TEST(Tnc155Version, TakesSpeedsAbove9000FromSoftware06) {
             "TNC-WRONG-RPM 2 ! WRONG RPM:");
 }
 
-// HD-238, HD-089: 30 mm and 40 degrees at F100; before software 03 the axis turns at 100.
+// HD-238, HD-089: 30 mm and 40 degrees at F100; before software 03 the axis rotates at 100.
 TEST(Tnc155Version, SplitsTheFeedWithARotaryAxisFromSoftware03) {
   const Blocks turn{"TOOL CALL 0 Z S 100", "L X+30 C+40 R0 F100"};
   EXPECT_EQ(moves_of(turn, software(3)), Blocks{"L X30 C40 F60"});
@@ -137,7 +137,7 @@ TEST(Tnc155Version, WarnsOfABlankOnATnc151) {
             on_151.events.size() - 1);
 }
 
-// HD-238: what a block asks for is told where the run comes to it, also in a called program.
+// HD-238: what a block asks for is reported where the run comes to it, also in a called program.
 TEST(Tnc155Version, TellsTheLineOfACalledProgram) {
   PathSetup setup = software(5);
   setup.programs = {{"7", "0 BEGIN PGM 7 MM\n1 CC X+0\n2 TOOL CALL 0 Z S 12000\n3 END PGM 7 MM\n"}};

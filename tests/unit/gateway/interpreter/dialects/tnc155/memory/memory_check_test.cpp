@@ -148,7 +148,7 @@ TEST_F(Tnc155Memory, RefusesALabelSetTwiceThoughItIsNeverMet) {
             Texts{"NUMBER ALREADY ALLOCATED: LBL 5 is set twice"});
 }
 
-// HD-144: whether the run comes there or not, and whatever stands before.
+// HD-144: whether the run comes there or not, and whatever precedes it.
 TEST_F(Tnc155Memory, WarnsOfALabelSetTwiceWhereverItStands) {
   const Texts twice{
       "NUMBER ALREADY ALLOCATED: LBL 4 is set twice; it can only be transferred blockwise"};

@@ -159,7 +159,7 @@ TEST(ControlOptionsOfATnc, TakeTheBlockAStartBeginsAt) {
   EXPECT_FALSE(of("N65535"));
 }
 
-// What is wrong is told with its value and its limit.
+// What is wrong is reported with its value and its limit.
 TEST(ControlOptionsOfATnc, NameTheValueAndTheLimit) {
   const auto wrong = [](const std::string& option) {
     return read_options(*parse_setup("[control]\n" + option)).error().what;
