@@ -64,7 +64,7 @@ struct RunFilter {
   bool with_outputs = false;  ///< only runs that have stored report lines
 };
 
-/// What a machine reports of a run under way.
+/// What a machine reports of an active run.
 struct RunProgress {
   std::string machine, run;
   Counters counters;

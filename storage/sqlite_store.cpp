@@ -1,11 +1,49 @@
 #include "storage/sqlite_store.hpp"
 
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
 #include "storage/impl/program_repository.hpp"
 #include "storage/impl/repositories.hpp"
 #include "storage/impl/upload_repository.hpp"
-#include "storage/sqlite/deadline.hpp"
 
 namespace dripline::storage {
+namespace {
+
+/// While it lives, what runs on the database is interrupted once the time is over or `stop` was
+/// requested. The database must outlive it.
+class Deadline {
+ public:
+  Deadline(sqlite::Database& database, std::chrono::milliseconds limit, std::stop_token stop)
+      : stop_(std::move(stop)), watch_([this, &database, limit](const std::stop_token& over) {
+          watch(database, std::chrono::steady_clock::now() + limit, over);
+        }) {}
+  bool has_passed() const { return has_passed_; }
+
+ private:
+  void watch(sqlite::Database& database, std::chrono::steady_clock::time_point limit,
+             const std::stop_token& over) {
+    constexpr std::chrono::milliseconds kLook{20};
+    std::unique_lock lock(mutex_);
+    while (!over.stop_requested()) {
+      if (stop_.stop_requested() || std::chrono::steady_clock::now() >= limit) {
+        has_passed_ = true;
+        database.interrupt();  // again at every look: one between two statements is lost
+      }
+      changed_.wait_for(lock, over, kLook, [] { return false; });
+    }
+  }
+
+  const std::stop_token stop_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::atomic<bool> has_passed_ = false;
+  std::jthread watch_;  // last: it uses the others
+};
+
+}  // namespace
 
 struct SqliteStore::Repositories {
   Repositories(std::unique_ptr<Connections> opened, const Clock& clock, std::uint64_t cache_bytes)
@@ -47,7 +85,7 @@ SqliteStore::~SqliteStore() = default;
 
 Result<bool> SqliteStore::check(std::chrono::milliseconds limit, const std::stop_token& stop) {
   return repositories_->connections->read([&](sqlite::Database& database) -> Result<bool> {
-    const sqlite::Deadline deadline(database, limit, stop);
+    const Deadline deadline(database, limit, stop);
     const auto verdict = database.text("PRAGMA quick_check(1)");
     if (deadline.has_passed()) return false;
     if (!verdict) return fail(verdict.error());

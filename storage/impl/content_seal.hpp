@@ -23,7 +23,7 @@ using ChunkDigests = std::vector<Digest>;
 Result<void> seal_content(sqlite::Database& database, const ContentRow& content,
                           const Digest& digest);
 
-/// Null: it is not sealed yet. Errors: Corrupt, naming the chunk where that can be told.
+/// Null: it is not sealed yet. Errors: Corrupt, naming the chunk where that is known.
 Result<std::shared_ptr<const ChunkDigests>> check_seal(sqlite::Database& database,
                                                        const ContentRow& content,
                                                        const Digest& digest);

@@ -64,10 +64,10 @@ Result<std::optional<Revision>> checked(Result<std::optional<BoundRevision>> fou
 }
 
 Result<std::optional<BoundRevision>> newest(sqlite::Database& database, const std::string& program,
-                                            std::string_view standing) {
+                                            std::string_view decision) {
   static const std::string kSql =
       select_visible("AND revision.standing = ?2 ORDER BY revision.number DESC LIMIT 1");
-  return sqlite::first_row(database, kSql, read_bound, program, standing);
+  return sqlite::first_row(database, kSql, read_bound, program, decision);
 }
 
 /// Why there is no latest revision.
@@ -108,9 +108,9 @@ Result<ProgramRow> program_row(sqlite::Database& database, const std::string& na
 /// The revision that the upload would only repeat.
 Result<std::optional<Revision>> find_same(sqlite::Database& database, const Upload& upload,
                                           std::int64_t content) {
-  for (const std::string_view standing : {"accepted", "held"}) {
-    if (standing == "held" && !upload.is_held) break;
-    auto known = newest(database, upload.program, standing);
+  for (const std::string_view decision : {"accepted", "held"}) {
+    if (decision == "held" && !upload.is_held) break;
+    auto known = newest(database, upload.program, decision);
     if (!known) return fail(known.error());
     // One whose row is damaged is not repeated: the upload becomes a new one.
     if (!*known || (*known)->named != (*known)->revision.content) continue;
@@ -122,11 +122,11 @@ Result<std::optional<Revision>> find_same(sqlite::Database& database, const Uplo
 }
 
 Result<void> set_standing(sqlite::Database& database, const Judgment& judgment,
-                          std::string_view standing, std::optional<UtcTime> accepted) {
+                          std::string_view decision, std::optional<UtcTime> accepted) {
   return sqlite::run(database,
                      "UPDATE revision SET standing = ?3, accepted_us = ?4 WHERE number = ?2 AND "
                      "program = (SELECT id FROM program WHERE name = ?1)",
-                     judgment.program, judgment.number, standing, accepted);
+                     judgment.program, judgment.number, decision, accepted);
 }
 
 Result<void> write_down(sqlite::Database& database, const Judgment& judgment,
