@@ -6,7 +6,7 @@
 #include "protocol/dds/message.hpp"
 
 /// The members of every message, each listed once: encoding, decoding, the checks, the JSON of the
-/// API (server/api/status_view.cpp) and the fuzz targets visit these lists, and tests compare them
+/// API (server/api/views.cpp) and the fuzz targets visit these lists, and tests compare them
 /// with dripline.idl, with openapi.json and with the client library. A visitor `v` is called once
 /// for each member, in the order of the IDL:
 ///
@@ -110,6 +110,10 @@ void members(V&& v, Is<ActiveModes> auto& m) {
   v(DRIPLINE_MEMBER(spindle));
 }
 
+struct WholeSample {
+  auto& operator()(auto& sample) const { return sample; }
+};
+
 /// Its members lie among those of the Coordinates in the IDL.
 template <class V>
 void members(V&& v, Is<ProgramFrame> auto& m) {
@@ -129,11 +133,7 @@ template <class V>
 void members(V&& v, Is<Coordinates> auto& m) {
   v(DRIPLINE_MEMBER(target));
   v(DRIPLINE_MEMBER(following_error), PresentIf{DRIPLINE_FIELD(has_following_error)});
-  v(Member{"program", m.program, "", [](auto& sample) -> auto& { return sample;
-}
-}  // namespace dripline::dds
-,
-    PresentIf{DRIPLINE_FIELD(has_program)});
+  v(Member{"program", m.program, "", WholeSample{}}, PresentIf{DRIPLINE_FIELD(has_program)});
 }
 
 template <class V>

@@ -1,9 +1,6 @@
 #include "protocol/serial/channel.hpp"
 
-#include "protocol/serial/address.hpp"
-#include "protocol/serial/impl/rfc2217_channel.hpp"
-#include "protocol/serial/impl/tcp_channel.hpp"
-#include "protocol/serial/impl/tty_channel.hpp"
+#include "protocol/serial/impl/channels.hpp"
 
 namespace dripline::serial {
 

@@ -31,24 +31,17 @@ template <Key kKey, std::uint64_t kLeast, std::uint64_t kMax, auto... kPath>
 constexpr SettingRow number(std::string_view text) {
   return {kKey.view(), "number", text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
-            const auto parsed = parse_number(kKey.view(), value, {kLeast, kMax});
-            if (!parsed) return fail(parsed.error());
-            at<kPath...>(settings) = static_cast<unsigned>(*parsed);
-            return {};
+            return store(parse_number(kKey.view(), value, {kLeast, kMax}), at<kPath...>(settings));
           },
           [](const LineSettings& settings) { return fmt::format("{}", at<kPath...>(settings)); }};
 }
 
 template <Key kKey, auto kMember, std::uint64_t kLeast = 0>
 constexpr SettingRow duration(std::string_view text) {
-  using Duration = std::remove_reference_t<decltype(std::declval<LineSettings&>().*kMember)>;
   return {
       kKey.view(), "number", text,
       [](LineSettings& settings, std::string_view value) -> Result<void> {
-        const auto parsed = parse_number(kKey.view(), value, {kLeast, kMaximumWait});
-        if (!parsed) return fail(parsed.error());
-        settings.*kMember = Duration(static_cast<std::int64_t>(*parsed));
-        return {};
+        return store(parse_number(kKey.view(), value, {kLeast, kMaximumWait}), settings.*kMember);
       },
       [](const LineSettings& settings) { return fmt::format("{}", (settings.*kMember).count()); }};
 }
@@ -61,10 +54,7 @@ constexpr SettingRow limit(std::string_view text) {
               (settings.*kMember).reset();
               return {};
             }
-            const auto parsed = parse_number(kKey.view(), value, {1, kMaximumWait});
-            if (!parsed) return fail(parsed.error());
-            settings.*kMember = std::chrono::milliseconds(static_cast<std::int64_t>(*parsed));
-            return {};
+            return store(parse_number(kKey.view(), value, {1, kMaximumWait}), settings.*kMember);
           },
           [](const LineSettings& settings) -> std::string {
             const auto& value = settings.*kMember;
@@ -76,10 +66,7 @@ template <Key kKey, auto... kPath>
 constexpr SettingRow flag(std::string_view text) {
   return {kKey.view(), "yes|no", text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
-            const auto parsed = parse_flag(kKey.view(), value);
-            if (!parsed) return fail(parsed.error());
-            at<kPath...>(settings) = *parsed;
-            return {};
+            return store(parse_flag(kKey.view(), value), at<kPath...>(settings));
           },
           [](const LineSettings& settings) -> std::string {
             return at<kPath...>(settings) ? "yes" : "no";
@@ -90,10 +77,7 @@ template <Key kKey, auto... kPath>
 constexpr SettingRow character(std::string_view text) {
   return {kKey.view(), "character", text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
-            const auto parsed = parse_character(kKey.view(), value);
-            if (!parsed) return fail(parsed.error());
-            at<kPath...>(settings) = *parsed;
-            return {};
+            return store(parse_character(kKey.view(), value), at<kPath...>(settings));
           },
           [](const LineSettings& settings) { return character_text(at<kPath...>(settings)); }};
 }
@@ -106,10 +90,7 @@ constexpr SettingRow optional_character(std::string_view text) {
               at<kPath...>(settings).reset();
               return {};
             }
-            const auto parsed = parse_character(kKey.view(), value);
-            if (!parsed) return fail(parsed.error());
-            at<kPath...>(settings) = *parsed;
-            return {};
+            return store(parse_character(kKey.view(), value), at<kPath...>(settings));
           },
           [](const LineSettings& settings) -> std::string {
             const auto& value = at<kPath...>(settings);
@@ -145,11 +126,7 @@ template <Key kKey, const auto& kWords, auto... kPath>
 constexpr SettingRow choice(std::string_view text) {
   return {kKey.view(), kWords.type, text,
           [](LineSettings& settings, std::string_view value) -> Result<void> {
-            const auto parsed = parse_word(kKey.view(), value, kWords.words);
-            if (!parsed) return fail(parsed.error());
-            auto& target = at<kPath...>(settings);
-            target = static_cast<std::remove_reference_t<decltype(target)>>(*parsed);
-            return {};
+            return store(parse_word(kKey.view(), value, kWords.words), at<kPath...>(settings));
           },
           [](const LineSettings& settings) {
             return std::string(kWords.words[static_cast<std::size_t>(at<kPath...>(settings))]);
@@ -159,10 +136,8 @@ constexpr SettingRow choice(std::string_view text) {
 constexpr std::uint64_t kLeastReaderRate = 1, kMaxReaderRate = 100'000;
 
 Result<void> set_reader_rate(LineSettings& settings, std::string_view value) {
-  const auto parsed = parse_rate("reader_cps", value, {kLeastReaderRate, kMaxReaderRate});
-  if (!parsed) return fail(parsed.error());
-  settings.reader.characters_per_second = *parsed;
-  return {};
+  return store(parse_rate("reader_cps", value, {kLeastReaderRate, kMaxReaderRate}),
+               settings.reader.characters_per_second);
 }
 
 Result<void> set_short_form(LineSettings& settings, std::string_view value) {

@@ -31,4 +31,12 @@ std::string character_text(char character);
 Result<std::size_t> parse_word(std::string_view key, std::string_view value,
                                std::span<const std::string_view> words);
 
+/// Stores what was parsed; `member` is unchanged by an error.
+template <class T, class Member>
+Result<void> store(const Result<T>& parsed, Member& member) {
+  if (!parsed) return fail(parsed.error());
+  member = static_cast<Member>(*parsed);
+  return {};
+}
+
 }  // namespace dripline::wire

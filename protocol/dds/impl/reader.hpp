@@ -2,13 +2,32 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 
+#include "protocol/dds/endpoint.hpp"
 #include "protocol/dds/impl/decode.hpp"
 #include "protocol/dds/impl/entity.hpp"
-#include "protocol/dds/impl/rejections.hpp"
 #include "protocol/dds/qos.hpp"
 
 namespace dripline::dds {
+
+/// Counts the messages an endpoint dropped. Any thread.
+class Rejections {
+ public:
+  void add(const char* topic, std::string_view reason) {
+    std::lock_guard lock(mutex_);
+    ++rejected_.messages;
+    rejected_.last_reason = fmt::format("{}: {}", topic, reason);
+  }
+  Rejected get() const {
+    std::lock_guard lock(mutex_);
+    return rejected_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Rejected rejected_;
+};
 
 /// Receives the samples of one topic. Called on DDS threads, one at a time for each reader.
 template <class Message>

@@ -1,4 +1,4 @@
-#include "protocol/serial/impl/tcp_channel.hpp"
+#include "protocol/serial/impl/channels.hpp"
 
 #include <sys/socket.h>
 #include <cerrno>

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "protocol/wire/tape_title.hpp"
-
 namespace dripline::wire {
 namespace {
 
