@@ -1,6 +1,6 @@
 -- Version 2: serial ports, and revisions that wait for acceptance.
 
--- What came from a machine ('held') runs nowhere until somebody accepts it; 'rejected' is hidden for ever.
+-- What came from a machine ('held') runs nowhere until a person accepts it; 'rejected' is hidden for ever.
 ALTER TABLE revision ADD COLUMN standing TEXT NOT NULL DEFAULT 'accepted'
   CHECK (standing IN ('accepted', 'held', 'rejected'));
 ALTER TABLE revision ADD COLUMN accepted_us INTEGER;  -- when it was accepted; NULL: held, or never held
