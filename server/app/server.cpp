@@ -10,7 +10,7 @@
 #include "server/api/api.hpp"
 #include "server/api/http_server.hpp"
 #include "server/library/audit_trail.hpp"
-#include "server/library/dialect_catalog.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/library/health_watch.hpp"
 #include "server/library/programs.hpp"
 #include "server/machines/machine_notices.hpp"

@@ -33,9 +33,9 @@ struct Settings {
   std::vector<storage::Port> ports;  ///< saved at the start, over what is stored under their names
 };
 
-/// Sets what a TOML file holds: the settings of dncd and its serial ports (port_table.hpp), whose
-/// files are looked for in `folder`. Errors: Syntax (also an unknown key, a wrong type),
-/// LimitExceeded, NotFound; they name key and line.
+/// Sets what a TOML file holds: the settings of dncd and its serial ports, whose files are looked
+/// for in `folder`. Errors: Syntax (also an unknown key, a wrong type), LimitExceeded, NotFound;
+/// they name key and line.
 Result<void> apply_toml(Settings& settings, std::string_view toml, const std::string& folder = "");
 
 /// What the command line asks for: run, or print something and end.

@@ -92,11 +92,10 @@ Result<void> StateFolder::expect_database(bool begin_empty) const {
     return {};
   }
   if (is_there || !std::filesystem::exists(identity_file(), ec)) return {};
-  return fail(
-      Errc::Corrupt,
-      "the database of this folder, {}, is {}: restore it from a backup, or start once with "
-      "--begin-empty to begin without programs, runs and reports",
-      database().string(), size == 0 ? "empty" : "missing");
+  return fail(Errc::Corrupt,
+              "the database of this folder, {}, is {}: restore it from a backup, or start once "
+              "with --begin-empty to begin without programs, runs and reports",
+              database().string(), size == 0 ? "empty" : "missing");
 }
 
 Result<void> StateFolder::remember_database(const std::string& identity) const {

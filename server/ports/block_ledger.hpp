@@ -20,8 +20,8 @@ struct BlockPlace {
 std::int64_t sequence_number(std::string_view block);
 
 /// Turns stored program text into text that a line is offered (no CR, LF after every block) and
-/// remembers the position of the blocks under way in both, so that a number of characters sent can
-/// be given in bytes and blocks of the program. Keeps a few numbers per block under way. Pure; one
+/// remembers the position of the blocks in transit in both, so that a number of characters sent can
+/// be given in bytes and blocks of the program. Keeps a few numbers per block in transit. Pure; one
 /// thread.
 class BlockLedger {
  public:

@@ -267,7 +267,7 @@ void LineSession::on_event(wire::Event event, wire::Discipline& line, wire::Line
   }
 }
 
-/// Both directions may have been under way; the one that the line still does has not failed.
+/// Both directions may have been active; the one that the line still does has not failed.
 void LineSession::on_failed(const Error& error, wire::Discipline& line) {
   host_.on_fault(error);
   if (error.code == Errc::Io) return on_lost(error, line);

@@ -120,7 +120,7 @@ class LineSession {
   void on_open(wire::Discipline& line, wire::LineTime now);
   /// Called some times a second.
   void poll(wire::Discipline& line, wire::LineTime now);
-  /// The owner stops: what is under way ends.
+  /// The owner stops: what is in progress ends.
   void stop(const std::string& reason);
 
   std::optional<SendProgress> progress() const;

@@ -50,7 +50,7 @@ class PortLine final : public std::enable_shared_from_this<PortLine>, private Se
   ~PortLine() override;
   /// Opens the line; when that cannot even be tried, `view` shows why.
   void open();
-  /// In order: the line is closed, what was under way ends with the reason, the recorder is
+  /// In order: the line is closed, what was in progress ends with the reason, the recorder is
   /// flushed. Later calls find a closed line.
   void close(const std::string& reason);
 

@@ -31,7 +31,7 @@ class Strand {
   static void enter(const std::shared_ptr<Lane>& lane, Task task);
   static void run_one(const std::shared_ptr<Lane>& lane);
 
-  std::shared_ptr<Lane> lane_;  ///< tasks under way share it
+  std::shared_ptr<Lane> lane_;  ///< running tasks share it
 };
 
 }  // namespace dripline::ports

@@ -1,6 +1,12 @@
 #include "server/ports/requests/remote_request_handler.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "gateway/interpreter/core/called_program_names.hpp"
 #include "protocol/base/random.hpp"
@@ -11,10 +17,94 @@
 #include "server/ports/line_transfer.hpp"
 #include "server/ports/programs/program_head.hpp"
 #include "server/ports/programs/program_stream.hpp"
-#include "server/ports/requests/answer_text.hpp"
+#include "storage/store.hpp"
 
 namespace dripline::ports {
 namespace {
+
+constexpr std::size_t kMaxListed = 200;
+constexpr std::size_t kMaxComment = 60;
+constexpr std::string_view kSigns = " .-+/=:,";
+
+bool is_offered(const storage::ProgramSummary& program, const std::string& control) {
+  const auto& latest = program.latest;
+  if (program.is_removed || latest.is_held) return false;
+  return control.empty() || latest.control.empty() || latest.control == control;
+}
+
+/// Capitals, digits and `.-+/=:,` only, at most 60 characters: what every control takes in a
+/// comment.
+std::string comment_text(std::string_view words) {
+  std::string text;
+  for (const char c : words.substr(0, kMaxComment)) {
+    const bool is_small = c >= 'a' && c <= 'z';
+    const bool is_plain =
+        (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || kSigns.find(c) != kSigns.npos;
+    if (is_small) {
+      text += static_cast<char>(c - 'a' + 'A');
+    } else {
+      text += is_plain ? c : ' ';
+    }
+  }
+  return text;
+}
+
+/// `words` broken at blanks into at most four lines of that length; none for no words.
+std::vector<std::string> comment_lines(std::string_view words) {
+  constexpr std::size_t kMaxLines = 4;
+  std::vector<std::string> lines;
+  while (!words.empty() && lines.size() < kMaxLines) {
+    auto end = words.size() <= kMaxComment ? words.size() : words.rfind(' ', kMaxComment);
+    if (end == std::string_view::npos || end == 0) end = kMaxComment;
+    lines.emplace_back(words.substr(0, end));
+    words.remove_prefix(end);
+    words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+  }
+  return lines;
+}
+
+/// A program called `name` ("O9998") that shows these lines and does nothing.
+std::string comment_program(const std::string& name, std::span<const std::string> lines) {
+  std::string text = fmt::format("%\n{}\n", name);
+  for (const auto& line : lines) text += fmt::format("({})\n", comment_text(line));
+  return text + "M30\n%\n";
+}
+
+/// One line for each program that can be sent to a machine with that control (empty: any), at most
+/// kMaxListed, and a last line with the number of the rest.
+std::vector<std::string> listing(std::span<const storage::ProgramSummary> programs,
+                                 const std::string& control) {
+  std::vector<std::string> lines;
+  std::size_t more = 0;
+  for (const auto& program : programs) {
+    if (!is_offered(program, control)) continue;
+    if (lines.size() >= kMaxListed) {
+      ++more;
+      continue;
+    }
+    const auto& latest = program.latest;
+    lines.push_back(fmt::format("{} {}{}{}", latest.program, latest.size,
+                                latest.comment.empty() ? "" : " ", latest.comment.substr(0, 30)));
+  }
+  if (more > 0) lines.push_back(fmt::format("AND {} MORE", more));
+  return lines;
+}
+
+/// Those of them that a protocol with numbered programs can name and that are known to be for
+/// `control`, in order of their numbers.
+std::vector<storage::Revision> numbered_programs(std::span<const storage::ProgramSummary> programs,
+                                                 const std::string& control) {
+  std::map<std::pair<std::size_t, std::string>, storage::Revision> in_order;
+  for (const auto& program : programs) {
+    const std::string number = program_number(program.latest.program);
+    const bool is_for_it = !control.empty() && program.latest.control == control;
+    if (number.empty() || !is_for_it || !is_offered(program, control)) continue;
+    in_order.emplace(std::pair(number.size(), number), program.latest);
+  }
+  std::vector<storage::Revision> revisions;
+  for (auto& [number, revision] : in_order) revisions.push_back(std::move(revision));
+  return revisions;
+}
 
 constexpr const char* kAuthor = "request from the control";
 constexpr std::uint64_t kMaxPrograms = 10'000;

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "server/app/settings.hpp"
-#include "server/library/dialect_catalog.hpp"
+#include "server/library/control_catalog.hpp"
 #include "server/ports/port_settings.hpp"
 #include "server/ports/requests/rule_reader.hpp"
 

@@ -1,4 +1,4 @@
-#include "server/library/dialect_catalog.hpp"
+#include "server/library/control_catalog.hpp"
 #include "tests/unit/server/api/server_fixture.hpp"
 
 namespace dripline::server_test {
