@@ -1,10 +1,12 @@
 #include "server/api/bodies.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "protocol/base/names.hpp"
 #include "server/api/json_object.hpp"
+#include "server/api/request.hpp"
 #include "server/machines/start_point.hpp"
 
 namespace dripline::api {
@@ -54,6 +56,29 @@ Result<void> check_value(const ActionRow& row, double value) {
   if (value >= 0 && value <= kMaxOverride) return {};
   return fail(Errc::LimitExceeded, "value {} of {} must be 0 to {}, 1 is 100 %", value, row.name,
               kMaxOverride);
+}
+
+Result<void> check_size(const storage::Port& port) {
+  if (port.settings.size() > storage::kMaxPortSettings) {
+    return fail(Errc::LimitExceeded, "member 'settings' has {} members: at most {}",
+                port.settings.size(), storage::kMaxPortSettings);
+  }
+  if (port.address.empty()) return fail(Errc::Syntax, "member 'address' is empty");
+  return {};
+}
+
+/// "NAME" or "NAME@REVISION".
+Result<ports::ProgramChoice> parse_choice(const std::string& text) {
+  const auto at = text.find('@');
+  ports::ProgramChoice choice{.program = text.substr(0, at), .revision = {}};
+  if (auto good = check_program_name(choice.program); !good) return fail(good.error());
+  if (at == std::string::npos) return choice;
+  const auto number = parse_unsigned(text.substr(at + 1));
+  if (number) {
+    choice.revision = *number;
+    return choice;
+  }
+  return fail(Errc::Syntax, "'{}': expected a program, or PROGRAM@REVISION", text);
 }
 
 }  // namespace
@@ -185,6 +210,48 @@ Result<machines::CommandRequest> decode_machine_command(std::string_view body) {
               "action '{}' is for a run; a machine takes switch, feed_override, rapid_override and "
               "spindle_override",
               dds::to_string(command->action));
+}
+
+Result<storage::Port> decode_port(const std::string& name, std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  storage::Port port;
+  port.name = name;
+  port.machine = object->required_text("machine", kMaxName);
+  port.address = object->required_text("address", kMaxAddress);
+  port.line_template = object->optional_text("template", kMaxName).value_or("");
+  port.settings = object->optional_scalars("settings", kMaxSettingValue);
+  port.rules = object->optional_text("rules", storage::kMaxPortRules).value_or("");
+  port.is_enabled = object->optional_flag("enabled").value_or(true);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  if (auto good = check_port_name(port.name); !good) return fail(good.error());
+  if (auto good = check_machine_name(port.machine); !good) return fail(good.error());
+  if (auto good = check_size(port); !good) return fail(good.error());
+  std::stable_partition(port.settings.begin(), port.settings.end(),
+                        [](const auto& setting) { return setting.first == "line"; });
+  return port;
+}
+
+Result<std::vector<ports::ProgramChoice>> decode_transfer(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  const auto texts = object->optional_texts("programs", kMaxName, ports::kMaxTransferPrograms);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  std::vector<ports::ProgramChoice> choices;
+  for (const auto& text : texts) {
+    auto choice = parse_choice(text);
+    if (!choice) return fail(choice.error());
+    choices.push_back(*std::move(choice));
+  }
+  return choices;
+}
+
+Result<std::string> decode_rules_text(std::string_view body) {
+  auto object = JsonObject::parse(body);
+  if (!object) return fail(object.error());
+  auto text = object->required_text("text", kMaxRulesText);
+  if (auto good = object->finish(); !good) return fail(good.error());
+  return text;
 }
 
 }  // namespace dripline::api

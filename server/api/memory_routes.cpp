@@ -33,18 +33,13 @@ Response list_memories(Services& services, const Request& request) {
   const std::string machine = request.parameter("name");
   if (const auto known = services.machines.machine(machine); !known)
     return error_response(known.error());
-  const auto memories = services.runs.memories(machine, run, page);
-  if (!memories) return error_response(memories.error());
-  auto list = json::array();
-  for (const auto& memory : *memories) list.push_back(memory_json(memory));
-  return json_response(200, {{"memories", std::move(list)}});
+  return list_response("memories", services.runs.memories(machine, run, page), memory_json);
 }
 
 }  // namespace
 
 void add_memory_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/machines/{name}/memory",
-             [&](const Request& request) { return list_memories(services, request); });
+  router.add("GET", "/api/v1/machines/{name}/memory", with(services, list_memories));
 }
 
 }  // namespace dripline::api

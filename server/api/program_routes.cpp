@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api/bodies.hpp"
-#include "server/api/byte_range.hpp"
+#include "server/api/request.hpp"
 #include "server/api/routes.hpp"
 #include "server/api/views.hpp"
 
@@ -74,8 +74,8 @@ Response remove_program(Services& services, const Request& request) {
   }
   const auto protection =
       force == "true" ? library::Protection::Override : library::Protection::Respect;
-  const auto removed = services.programs.remove(request.parameter("name"), request.who, protection);
-  return removed ? no_content() : error_response(removed.error());
+  return empty_response(
+      services.programs.remove(request.parameter("name"), request.who, protection));
 }
 
 Result<std::uint64_t> revision_number(const Request& request) {
@@ -96,8 +96,7 @@ Response accept_revision(Services& services, const Request& request) {
 Response reject_revision(Services& services, const Request& request) {
   const auto number = revision_number(request);
   if (!number) return error_response(number.error());
-  const auto rejected = services.programs.reject(request.parameter("name"), *number, request.who);
-  return rejected ? no_content() : error_response(rejected.error());
+  return empty_response(services.programs.reject(request.parameter("name"), *number, request.who));
 }
 
 /// Reads `range` of the content piece by piece.
@@ -166,22 +165,16 @@ Response send_content(Services& services, const Request& request) {
 }  // namespace
 
 void add_program_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/programs",
-             [&](const Request& request) { return list_programs(services, request); });
-  router.add("GET", "/api/v1/programs/{name}",
-             [&](const Request& request) { return show_program(services, request); });
-  router.add("DELETE", "/api/v1/programs/{name}",
-             [&](const Request& request) { return remove_program(services, request); });
-  router.add("POST", "/api/v1/programs/{name}/copy",
-             [&](const Request& request) { return copy_program(services, request); });
-  router.add("POST", "/api/v1/programs/{name}/rename",
-             [&](const Request& request) { return rename_program(services, request); });
+  router.add("GET", "/api/v1/programs", with(services, list_programs));
+  router.add("GET", "/api/v1/programs/{name}", with(services, show_program));
+  router.add("DELETE", "/api/v1/programs/{name}", with(services, remove_program));
+  router.add("POST", "/api/v1/programs/{name}/copy", with(services, copy_program));
+  router.add("POST", "/api/v1/programs/{name}/rename", with(services, rename_program));
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/accept",
-             [&](const Request& request) { return accept_revision(services, request); });
+             with(services, accept_revision));
   router.add("POST", "/api/v1/programs/{name}/revisions/{number}/reject",
-             [&](const Request& request) { return reject_revision(services, request); });
-  router.add("GET", "/api/v1/programs/{name}/content",
-             [&](const Request& request) { return send_content(services, request); });
+             with(services, reject_revision));
+  router.add("GET", "/api/v1/programs/{name}/content", with(services, send_content));
 }
 
 }  // namespace dripline::api

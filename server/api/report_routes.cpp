@@ -22,21 +22,13 @@ Response list_reports(Services& services, const Request& request) {
   filter.program = query.text("program");
   filter.with_outputs = true;
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto runs = services.runs.runs(filter, page);
-  if (!runs) return error_response(runs.error());
-  auto list = nlohmann::json::array();
-  for (const auto& run : *runs) list.push_back(report_json(run));
-  return json_response(200, {{"reports", std::move(list)}});
+  return list_response("reports", services.runs.runs(filter, page), report_json);
 }
 
 Response list_machine_reports(Services& services, const Request& request) {
   QueryReader query(request);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto reports = services.runs.machine_reports();
-  if (!reports) return error_response(reports.error());
-  auto list = nlohmann::json::array();
-  for (const auto& report : *reports) list.push_back(machine_report_json(report));
-  return json_response(200, {{"reports", std::move(list)}});
+  return list_response("reports", services.runs.machine_reports(), machine_report_json);
 }
 
 std::string content_type(library::ReportFormat format) {
@@ -82,14 +74,10 @@ Response send_report(Services& services, const Request& request) {
 }  // namespace
 
 void add_report_routes(Router& router, Services& services) {
-  router.add("GET", "/api/v1/machine-reports",
-             [&](const Request& request) { return list_machine_reports(services, request); });
-  router.add("GET", "/api/v1/machines/{name}/report",
-             [&](const Request& request) { return send_machine_report(services, request); });
-  router.add("GET", "/api/v1/reports",
-             [&](const Request& request) { return list_reports(services, request); });
-  router.add("GET", "/api/v1/reports/{run}",
-             [&](const Request& request) { return send_report(services, request); });
+  router.add("GET", "/api/v1/machine-reports", with(services, list_machine_reports));
+  router.add("GET", "/api/v1/machines/{name}/report", with(services, send_machine_report));
+  router.add("GET", "/api/v1/reports", with(services, list_reports));
+  router.add("GET", "/api/v1/reports/{run}", with(services, send_report));
 }
 
 }  // namespace dripline::api

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,5 +51,15 @@ class QueryReader {
 
 /// All of `text` as a number without sign. Errors: Syntax.
 Result<std::uint64_t> parse_unsigned(std::string_view text);
+
+struct ByteRange {
+  std::uint64_t first = 0;
+  std::uint64_t length = 0;
+};
+
+/// One range of `size` bytes from a Range header: `bytes=a-b`, `bytes=a-`, `bytes=-n`. nullopt when
+/// there is no header. Errors: LimitExceeded (it is after the end), Syntax, Unsupported (several
+/// ranges).
+Result<std::optional<ByteRange>> parse_byte_range(std::string_view header, std::uint64_t size);
 
 }  // namespace dripline::api

@@ -56,11 +56,7 @@ Response list_audit(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto entries = services.audit.entries(page);
-  if (!entries) return error_response(entries.error());
-  auto list = nlohmann::json::array();
-  for (const auto& entry : *entries) list.push_back(audit_json(entry));
-  return json_response(200, {{"entries", std::move(list)}});
+  return list_response("entries", services.audit.entries(page), audit_json);
 }
 
 /// A listener first receives the state of every machine, then the changes.
@@ -105,12 +101,9 @@ void add_server_routes(Router& router, Services& services) {
     response.body = openapi_text();
     return response;
   });
-  router.add("GET", "/api/v1/server",
-             [&](const Request& request) { return describe_server(services, request); });
-  router.add("GET", "/api/v1/audit",
-             [&](const Request& request) { return list_audit(services, request); });
-  router.add("GET", "/api/v1/events",
-             [&](const Request& request) { return open_events(services, request); });
+  router.add("GET", "/api/v1/server", with(services, describe_server));
+  router.add("GET", "/api/v1/audit", with(services, list_audit));
+  router.add("GET", "/api/v1/events", with(services, open_events));
 }
 
 }  // namespace dripline::api

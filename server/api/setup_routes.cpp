@@ -11,11 +11,7 @@ Response list_setups(Services& services, const Request& request) {
   QueryReader query(request);
   const storage::Page page = read_page(query);
   if (auto good = query.finish(); !good) return error_response(good.error());
-  const auto setups = services.setups.list(request.parameter("name"), page);
-  if (!setups) return error_response(setups.error());
-  auto list = nlohmann::json::array();
-  for (const auto& setup : *setups) list.push_back(setup_json(setup));
-  return json_response(200, {{"setups", std::move(list)}});
+  return list_response("setups", services.setups.list(request.parameter("name"), page), setup_json);
 }
 
 Response show_setup(Services& services, const Request& request) {
@@ -70,12 +66,9 @@ Response save_setup(Services& services, const Request& request) {
 
 void add_setup_routes(Router& router, Services& services) {
   const std::string machine = "/api/v1/machines/{name}";
-  router.add("GET", machine + "/setups",
-             [&](const Request& request) { return list_setups(services, request); });
-  router.add("GET", machine + "/setup",
-             [&](const Request& request) { return show_setup(services, request); });
-  router.add("PUT", machine + "/setup",
-             [&](const Request& request) { return save_setup(services, request); });
+  router.add("GET", machine + "/setups", with(services, list_setups));
+  router.add("GET", machine + "/setup", with(services, show_setup));
+  router.add("PUT", machine + "/setup", with(services, save_setup));
 }
 
 }  // namespace dripline::api

@@ -47,24 +47,19 @@ Response commit_upload(Services& services, const Request& request) {
 }
 
 Response abandon_upload(Services& services, const Request& request) {
-  const auto abandoned = services.programs.abandon(request.parameter("id"));
-  return abandoned ? no_content() : error_response(abandoned.error());
+  return empty_response(services.programs.abandon(request.parameter("id")));
 }
 
 }  // namespace
 
 void add_upload_routes(Router& router, Services& services) {
-  router.add("POST", "/api/v1/uploads",
-             [&](const Request& request) { return begin_upload(services, request); });
+  router.add("POST", "/api/v1/uploads", with(services, begin_upload));
   router.add("GET", "/api/v1/uploads/{id}", [&](const Request& request) {
     return answer_upload(200, services.programs.upload(request.parameter("id")));
   });
-  router.add("PUT", "/api/v1/uploads/{id}/content",
-             [&](const Request& request) { return append_upload(services, request); });
-  router.add("POST", "/api/v1/uploads/{id}/commit",
-             [&](const Request& request) { return commit_upload(services, request); });
-  router.add("DELETE", "/api/v1/uploads/{id}",
-             [&](const Request& request) { return abandon_upload(services, request); });
+  router.add("PUT", "/api/v1/uploads/{id}/content", with(services, append_upload));
+  router.add("POST", "/api/v1/uploads/{id}/commit", with(services, commit_upload));
+  router.add("DELETE", "/api/v1/uploads/{id}", with(services, abandon_upload));
 }
 
 }  // namespace dripline::api

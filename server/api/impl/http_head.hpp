@@ -22,7 +22,7 @@ Result<Request> to_request(const RequestHead& head);
 
 /// How the end of a response is marked.
 struct Framing {
-  std::optional<std::uint64_t> length;  ///< absent: chunked, or until the connection ends
+  std::optional<std::uint64_t> length = {};  ///< absent: chunked, or until the connection ends
   bool is_chunked = false;
   bool keeps_alive = true;
 };

@@ -6,15 +6,13 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/redirect_error.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
 #include "protocol/process/log.hpp"
 #include "server/api/impl/http_head.hpp"
+#include "server/api/impl/signal.hpp"
 #include "server/api/impl/transport.hpp"
 
 namespace dripline::api {
@@ -41,29 +39,6 @@ constexpr auto kDiscardLimit = 5s;  ///< for a refused body to be read away
 constexpr std::uint64_t kDiscardSize = 8ull * 1024 * 1024;
 constexpr int kStreamBuffer = 64 * 1024;  ///< bytes that the kernel buffers for a listener
 
-/// Wakes a coroutine from other handlers of the same thread. It has one waiter.
-class Signal {
- public:
-  explicit Signal(asio::io_context& io) : timer_(io) {}
-  void set() {
-    is_set_ = true;
-    timer_.cancel();
-  }
-  /// True: the signal was set, and this wait resets it; false: `until` has passed.
-  awaitable<bool> wait(Clock::time_point until = Clock::time_point::max()) {
-    if (!is_set_) {
-      timer_.expires_at(until);
-      error_code ignored;
-      co_await timer_.async_wait(asio::redirect_error(asio::use_awaitable, ignored));
-    }
-    co_return std::exchange(is_set_, false);
-  }
-
- private:
-  asio::steady_timer timer_;
-  bool is_set_ = false;
-};
-
 class Session final : public HttpSession, public std::enable_shared_from_this<Session> {
  public:
   Session(HttpShared& shared, std::unique_ptr<Transport> transport, bool is_reserve)
@@ -86,18 +61,18 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
 
   awaitable<void> serve(Seat& seat) {
     if (!co_await transport_->open(limits_.handshake)) co_return;
-    bool goes_on = true;
-    for (bool is_first = true; goes_on && may_go_on(); is_first = false) {
+    bool continues = true;
+    for (bool is_first = true; continues && may_continue(); is_first = false) {
       seat.set(is_first ? State::Opening : State::Idle);
-      goes_on = co_await serve_request(is_first, seat);
+      continues = co_await serve_request(is_first, seat);
     }
-    if (may_go_on()) co_await transport_->say_goodbye(kFarewell);
+    if (may_continue()) co_await transport_->say_goodbye(kFarewell);
   }
 
  private:
   using Parser = http::request_parser<http::string_body>;
 
-  bool may_go_on() const { return !is_closed_ && !shared_.is_stopping; }
+  bool may_continue() const { return !is_closed_ && !shared_.is_stopping; }
 
   /// True: another request may follow.
   awaitable<bool> serve_request(bool is_first, Seat& seat) {
@@ -114,7 +89,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     is_old_ = parser.get().version() < 11;
     auto request = to_request(parser.get().base());
     if (!request) {
-      const Response refused = refuse_head(request.error());
+      const int status = request.error().code == Errc::LimitExceeded ? 431 : 400;
+      const Response refused = refusal(status, request.error().code, request.error().what);
       co_await refuse(refused);
       co_return false;
     }
@@ -147,11 +123,6 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     }
     if (answer->source) co_return co_await send_source(*std::move(answer));
     co_return co_await send(*answer);
-  }
-
-  static Response refuse_head(const Error& error) {
-    const bool is_large = error.code == Errc::LimitExceeded;
-    return refusal(is_large ? 431 : 400, error.code, error.what);
   }
 
   /// Parses and reads until the head, or all, of the message is there. `until` is asked before each
@@ -205,9 +176,8 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     const error_code error =
         co_await advance(parser, true, [&] { return std::min(end, Clock::now() + limits_.body); });
     if (!error) co_return std::nullopt;
-    auto refused = refusal_of(error);
-    if (!refused) refused = client_gone();
-    co_return refused;
+    const auto refused = refusal_of(error);
+    co_return refused ? refused : client_gone();
   }
 
   static std::optional<Response> client_gone() {
@@ -219,11 +189,11 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
   awaitable<bool> take_memory(std::uint64_t size, BodyMemory::Share& share) {
     const auto end = Clock::now() + limits_.body;
     const auto waiter = shared_.body_memory.wait([this] { woken_.set(); });
-    while (!shared_.body_memory.has(size) && may_go_on() && Clock::now() < end) {
+    while (!shared_.body_memory.has(size) && may_continue() && Clock::now() < end) {
       co_await woken_.wait(end);
     }
     shared_.body_memory.remove(waiter);
-    if (!may_go_on() || !shared_.body_memory.has(size)) co_return false;
+    if (!may_continue() || !shared_.body_memory.has(size)) co_return false;
     share = shared_.body_memory.take(size);
     co_return true;
   }
@@ -266,16 +236,14 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       return shared_.handlers.handle(std::move(*held));
     };
     auto answer = co_await on_worker<Response>(std::move(work), waits);
-    if (!answer && may_go_on()) {
+    if (!answer && may_continue()) {
       answer = refusal(503, Errc::Busy, "the server could not take this request now");
     }
     co_return answer;
   }
 
   awaitable<bool> send(const Response& response) {
-    Framing framing;
-    framing.length = response.body.size();
-    framing.keeps_alive = keeps_alive_;
+    const Framing framing{.length = response.body.size(), .keeps_alive = keeps_alive_};
     std::string text = head_text(response, framing);
     const bool has_body = !is_head_only_ && response.status != 204;
     const bool is_small = response.body.size() <= kSmallBody;
@@ -294,7 +262,7 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
     transport_->socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
     const auto end = Clock::now() + kDiscardLimit;
     std::uint64_t discarded = 0;
-    while (may_go_on() && discarded < kDiscardSize && Clock::now() < end) {
+    while (may_continue() && discarded < kDiscardSize && Clock::now() < end) {
       buffer_.clear();
       const auto patience = std::min<Clock::time_point>(end, Clock::now() + kFarewell);
       const std::size_t size = co_await transport_->read(buffer_.prepare(kReadBody), patience);
@@ -342,44 +310,35 @@ class Session final : public HttpSession, public std::enable_shared_from_this<Se
       co_await send(refused);
       co_return;
     }
-    bound_stream();
+    // A listener that is gone or hung must not keep megabytes in the kernel.
+    error_code ignored;
+    transport_->socket().set_option(asio::socket_base::send_buffer_size(kStreamBuffer), ignored);
     const auto events = std::move(response.events);
     events->on_ready([weakly = weak_from_this(), &io = shared_.io] {
       asio::post(io, [weakly] {
         if (const auto self = weakly.lock()) self->woken_.set();
       });
     });
-    Framing framing;
-    framing.is_chunked = !is_old_;
-    framing.keeps_alive = false;
+    const Framing framing{.is_chunked = !is_old_, .keeps_alive = false};
     response.headers.emplace_back("Cache-Control", "no-cache");
     watch_for_end();
     const std::string head = head_text(response, framing);
     std::string text = ": events follow\n\n";
-    bool goes_on = co_await write(head);
-    while (goes_on && may_go_on() && !is_left_) {
+    bool continues = co_await write(head);
+    while (continues && may_continue() && !is_left_) {
       const std::string chunk = framing.is_chunked ? chunk_text(text) : text;
-      goes_on = co_await write(chunk);
+      continues = co_await write(chunk);
       const auto beat = Clock::now() + shared_.options.heartbeat;
-      for (text.clear(); goes_on && text.empty() && may_go_on() && !is_left_;) {
-        if (events->is_closed()) {
-          goes_on = false;
-          break;
-        }
-        text = events->take();
-        if (!text.empty()) break;
+      for (text.clear(); continues && text.empty() && may_continue() && !is_left_;) {
+        continues = !events->is_closed();
+        if (continues) text = events->take();
+        if (!continues || !text.empty()) break;
         const bool is_woken = co_await woken_.wait(beat);
         if (!is_woken) text = ": alive\n\n";
       }
     }
     events->on_ready({});
-    if (framing.is_chunked && may_go_on() && !is_left_) co_await write("0\r\n\r\n");
-  }
-
-  /// A listener that is gone or hung must not keep megabytes in the kernel.
-  void bound_stream() {
-    error_code ignored;
-    transport_->socket().set_option(asio::socket_base::send_buffer_size(kStreamBuffer), ignored);
+    if (framing.is_chunked && may_continue() && !is_left_) co_await write("0\r\n\r\n");
   }
 
   /// A listener sends nothing more, so any input means its end. Peeks at the socket: reading

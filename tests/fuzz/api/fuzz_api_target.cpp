@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <cstdlib>
 
-#include "server/api/byte_range.hpp"
 #include "server/api/request.hpp"
 
 namespace {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <functional>
 
-#include "server/api/port_bodies.hpp"
-
 namespace dripline::api {
 namespace {
 

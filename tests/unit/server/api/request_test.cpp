@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "server/api/byte_range.hpp"
 #include "server/api/http_address.hpp"
 #include "server/api/token.hpp"
 
