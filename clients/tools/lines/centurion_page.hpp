@@ -40,7 +40,7 @@ struct PageRow {
   std::string_view type;  ///< for people
   std::string_view text;  ///< what the page calls it
   /// Errors: Syntax, LimitExceeded, naming key, value and what is allowed.
-  Result<void> (*set)(CenturionPage& page, std::string_view value);
+  Result<void> (*set)(CenturionPage& page, std::string_view key, std::string_view value);
   std::string (*get)(const CenturionPage& page);  ///< as `set` reads it
 };
 std::span<const PageRow> page_rows();

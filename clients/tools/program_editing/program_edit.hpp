@@ -58,4 +58,31 @@ Result<EditedProgram> edit_lines(std::string_view text, std::span<const BlockCha
 /// "\r\n" where the text's first line ends so, else "\n".
 std::string_view line_end_of(std::string_view text);
 
+struct WordChange {
+  enum class Kind : std::uint8_t {
+    Set,       ///< the word gets another value
+    LeaveOut,  ///< the word is taken out: what is in force stays
+    Shorten,   ///< the block ends in front of the word
+  };
+  Kind kind = Kind::Set;
+  std::int64_t block = 0;  ///< its number
+  std::string word;        ///< Set: address and value, "X+5"; else the address alone
+};
+
+/// The blocks that have a word with one of the addresses that were looked for.
+struct WordSearch {
+  struct Found {
+    std::int64_t block = kNoNumber;
+    std::uint64_t line = 0;  ///< it begins in
+    std::string text;        ///< in one line
+  };
+  /// A block that cannot be read, so its words are not known.
+  struct Unread {
+    Found block;
+    std::string reason;
+  };
+  std::vector<Found> found;
+  std::vector<Unread> unread;
+};
+
 }  // namespace dripline::program_editing

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "clients/tools/program_editing/program_edit.hpp"
-#include "clients/tools/program_editing/word_edit.hpp"
 #include "protocol/base/result.hpp"
 
 namespace dripline::program_editing {

@@ -57,9 +57,9 @@ Result<void> check_ways(const NumberedIsoBlock& numbered, const ModesBefore& bef
   const bool has_plane = block.has(IsoGroup::Plane) && !block.has_code(IsoGroup::Cycle, 73);
   if ((before.is_plane_open && !has_plane) ||
       (before.is_compensation_open && !block.has(IsoGroup::Compensation))) {
-    return refuse(numbered.line,
-                  "whether a plane and a compensation were programmed depends on where the run "
-                  "comes from");
+    return refuse(
+        numbered.line,
+        "whether a plane and a compensation were programmed depends on where the run comes from");
   }
   const int motion = has_motion ? block.code(IsoGroup::Motion) : before.modes.motion;
   if (before.is_turn_open && (motion == 5 || motion == 15)) {
@@ -161,11 +161,10 @@ class IsoToPlain {
     if (block.kind != BlockKind::Rounding || block.rounding == RoundingUse::Unstated) return {};
     const RoundingUse use = track.use_of(blocks_, i);
     if (use == block.rounding) return {};
-    return refuse(lines_[i],
-                  use == RoundingUse::Unstated
-                      ? "what RND would do depends on where the run comes from"
-                      : "RND in this place would not be the rounding, approach or departure that "
-                        "the G code says");
+    return refuse(lines_[i], use == RoundingUse::Unstated
+                                 ? "what RND would do depends on where the run comes from"
+                                 : "RND in this place would not be the rounding, approach or "
+                                   "departure that the G code says");
   }
 
   Result<std::string> write() const {

@@ -48,7 +48,7 @@ Result<void> check_touches(ProbingFunction function, std::span<const Touch> touc
 /// Where the stylus was at contact. Along U, V, W it moves as along X, Y, Z; about A, B, C it
 /// circles the machine's zero, on the axis' side of a workpiece that lies as at 0 degrees, and
 /// travel is in degrees. Errors: NotFound, TOUCH POINT INACCESSIBLE: no contact within the travel,
-/// or deflected at the start; LimitExceeded (the ball is on the axis it turns about).
+/// or deflected at the start; LimitExceeded (the ball is on the axis of rotation).
 Result<Position> touch(const Workpiece& workpiece, const Stylus& stylus, const Touch& touch);
 
 /// The surface's coordinate along the touch's axis: of the tip along the tool, of the ball's rim

@@ -31,18 +31,7 @@ void walk(Form& form, Mirror& event);
 void walk(Form& form, FloatingZero& event);
 void walk(Form& form, EndOfProgram& event);
 
-/// What several screens share.
+/// What the screens of lines and threads share.
 void walk_extend_back(Form& form, ExtendBack& back);
-void walk_start_point(Form& form, Entry& x, Entry& z);
-void walk_pattern_number(Form& form, std::optional<int>& pattern);
-void walk_compensation(Form& form, Compensation& compensation);
-/// Straight or tapered, and the taper under `name`.
-void walk_taper(Form& form, const Field& taper, bool& is_tapered, Entry& value);
-/// Where a cut ends: x and z, or u and w.
-struct CutEnd {
-  Dimensions& dimensions;
-  Entry &x, &u, &z, &w;
-};
-void walk_cut_end(Form& form, const CutEnd& end);
 
 }  // namespace dripline::conversational

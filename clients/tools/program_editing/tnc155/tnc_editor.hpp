@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "clients/tools/program_editing/program_edit.hpp"
-#include "clients/tools/program_editing/word_edit.hpp"
 
 /// Editing of blocks (`program_editing.cpp`) and words (`word_editing.cpp`) as on the TNC 151/155.
 /// Contracts: `ProgramEditor`.
