@@ -106,41 +106,25 @@ class SampleReader {
   std::optional<Error>& error_;
 };
 
-template <class Message>
-Result<Message> read(const SampleOf<Message>& sample) {
-  Message message;
+}  // namespace
+
+template <class Sample>
+Result<MessageOf<Sample>> decode(const Sample& sample) {
+  MessageOf<Sample> message;
   std::optional<Error> error;
-  members(SampleReader<SampleOf<Message>>(sample, error), message);
+  members(SampleReader<Sample>(sample, error), message);
   if (error) return fail(*std::move(error));
   if (auto checked = check(message); !checked) return fail(checked.error());
   return message;
 }
 
-}  // namespace
-
-Result<Announce> decode(const dripline_idl_Announce& s) {
-  return read<Announce>(s);
-}
-Result<Status> decode(const dripline_idl_Status& s) {
-  return read<Status>(s);
-}
-Result<Record> decode(const dripline_idl_Record& s) {
-  return read<Record>(s);
-}
-Result<RecordAck> decode(const dripline_idl_RecordAck& s) {
-  return read<RecordAck>(s);
-}
-Result<Command> decode(const dripline_idl_Command& s) {
-  return read<Command>(s);
-}
-Result<CommandResult> decode(const dripline_idl_CommandResult& s) {
-  return read<CommandResult>(s);
-}
-Result<BlockRequest> decode(const dripline_idl_BlockRequest& s) {
-  return read<BlockRequest>(s);
-}
-Result<BlockData> decode(const dripline_idl_BlockData& s) {
-  return read<BlockData>(s);
-}
+template Result<Announce> decode(const SampleOf<Announce>&);
+template Result<Status> decode(const SampleOf<Status>&);
+template Result<Record> decode(const SampleOf<Record>&);
+template Result<RecordAck> decode(const SampleOf<RecordAck>&);
+template Result<Command> decode(const SampleOf<Command>&);
+template Result<CommandResult> decode(const SampleOf<CommandResult>&);
+template Result<BlockRequest> decode(const SampleOf<BlockRequest>&);
+template Result<BlockData> decode(const SampleOf<BlockData>&);
 
 }  // namespace dripline::dds

@@ -117,8 +117,10 @@ class SampleWriter {
   Result<void>& result_;
 };
 
+}  // namespace
+
 template <class Message>
-Result<void> write(const Message& message, SampleOf<Message>& sample) {
+Result<void> encode(const Message& message, SampleOf<Message>& sample) {
   auto result = check(message);
   if (!result) return result;
   sample = {};
@@ -126,31 +128,13 @@ Result<void> write(const Message& message, SampleOf<Message>& sample) {
   return result;
 }
 
-}  // namespace
-
-Result<void> encode(const Announce& m, dripline_idl_Announce& s) {
-  return write(m, s);
-}
-Result<void> encode(const Status& m, dripline_idl_Status& s) {
-  return write(m, s);
-}
-Result<void> encode(const Record& m, dripline_idl_Record& s) {
-  return write(m, s);
-}
-Result<void> encode(const RecordAck& m, dripline_idl_RecordAck& s) {
-  return write(m, s);
-}
-Result<void> encode(const Command& m, dripline_idl_Command& s) {
-  return write(m, s);
-}
-Result<void> encode(const CommandResult& m, dripline_idl_CommandResult& s) {
-  return write(m, s);
-}
-Result<void> encode(const BlockRequest& m, dripline_idl_BlockRequest& s) {
-  return write(m, s);
-}
-Result<void> encode(const BlockData& m, dripline_idl_BlockData& s) {
-  return write(m, s);
-}
+template Result<void> encode(const Announce&, SampleOf<Announce>&);
+template Result<void> encode(const Status&, SampleOf<Status>&);
+template Result<void> encode(const Record&, SampleOf<Record>&);
+template Result<void> encode(const RecordAck&, SampleOf<RecordAck>&);
+template Result<void> encode(const Command&, SampleOf<Command>&);
+template Result<void> encode(const CommandResult&, SampleOf<CommandResult>&);
+template Result<void> encode(const BlockRequest&, SampleOf<BlockRequest>&);
+template Result<void> encode(const BlockData&, SampleOf<BlockData>&);
 
 }  // namespace dripline::dds

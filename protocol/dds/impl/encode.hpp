@@ -10,13 +10,7 @@
 /// (check.hpp), LimitExceeded (a member does not fit its bound in the IDL).
 namespace dripline::dds {
 
-Result<void> encode(const Announce& message, dripline_idl_Announce& sample);
-Result<void> encode(const Status& message, dripline_idl_Status& sample);
-Result<void> encode(const Record& message, dripline_idl_Record& sample);
-Result<void> encode(const RecordAck& message, dripline_idl_RecordAck& sample);
-Result<void> encode(const Command& message, dripline_idl_Command& sample);
-Result<void> encode(const CommandResult& message, dripline_idl_CommandResult& sample);
-Result<void> encode(const BlockRequest& message, dripline_idl_BlockRequest& sample);
-Result<void> encode(const BlockData& message, dripline_idl_BlockData& sample);
+template <class Message>
+Result<void> encode(const Message& message, SampleOf<Message>& sample);
 
 }  // namespace dripline::dds

@@ -10,6 +10,8 @@ namespace dripline::dds {
 
 template <class Message>
 struct Topic;
+template <class Sample>
+struct MessageOfSample;
 
 #define DRIPLINE_TOPIC(Message)                                                                 \
   template <>                                                                                   \
@@ -17,6 +19,10 @@ struct Topic;
     using Sample = dripline_idl_##Message;                                                      \
     static constexpr const char* kName = "dripline_" #Message;                                  \
     static const dds_topic_descriptor_t& descriptor() { return dripline_idl_##Message##_desc; } \
+  };                                                                                            \
+  template <>                                                                                   \
+  struct MessageOfSample<dripline_idl_##Message> {                                              \
+    using Type = Message;                                                                       \
   }
 
 DRIPLINE_TOPIC(Announce);
@@ -31,5 +37,7 @@ DRIPLINE_TOPIC(BlockData);
 
 template <class Message>
 using SampleOf = typename Topic<Message>::Sample;
+template <class Sample>
+using MessageOf = typename MessageOfSample<Sample>::Type;
 
 }  // namespace dripline::dds
