@@ -18,28 +18,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct CodeName {
-  std::string_view name;
-  Errc code;
-};
-constexpr CodeName kCodes[] = {
-    {"syntax", Errc::Syntax},
-    {"conflict", Errc::Conflict},
-    {"unsupported", Errc::Unsupported},
-    {"limit_exceeded", Errc::LimitExceeded},
-    {"not_found", Errc::NotFound},
-    {"busy", Errc::Busy},
-    {"timeout", Errc::Timeout},
-    {"corrupt", Errc::Corrupt},
-    {"io", Errc::Io},
-    {"denied", Errc::Denied},
-};
-
+/// The inverse of to_string.
 Errc code_of(std::string_view name) {
-  for (const auto& row : kCodes) {
-    if (row.name == name) return row.code;
+  using enum Errc;
+  for (const Errc code : {Syntax, Conflict, Unsupported, LimitExceeded, NotFound, Busy, Timeout,
+                          Corrupt, Io, Denied}) {
+    if (to_string(code) == name) return code;
   }
-  return Errc::Io;
+  return Io;
 }
 
 std::string with_page(std::string path, Page page) {

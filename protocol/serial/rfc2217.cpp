@@ -179,19 +179,8 @@ std::vector<ComPortCommand> setup_commands(const wire::LineSettings& settings) {
   constexpr std::uint32_t kNoFlow = 1, kHardwareFlow = 3, kNoInboundFlow = 14,
                           kHardwareInboundFlow = 16, kFaults = 2 | 4 | 8 | 16, kAllLines = 255;
   const auto parity = [&]() -> std::uint32_t {
-    switch (settings.parity) {
-      case wire::Parity::None:
-        return 1;
-      case wire::Parity::Odd:
-        return 2;
-      case wire::Parity::Even:
-        return 3;
-      case wire::Parity::Mark:
-        return 4;
-      case wire::Parity::Space:
-        return 5;
-    }
-    return 1;
+    constexpr std::uint32_t kCodes[] = {1, 3, 2, 4, 5};  // none, even, odd, mark, space
+    return kCodes[static_cast<std::size_t>(settings.parity)];
   }();
   const bool is_hardware = wire::is_held_by_cts(settings);
   const std::uint32_t stop = settings.stop_bits == wire::StopBits::One   ? 1

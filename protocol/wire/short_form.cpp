@@ -10,15 +10,8 @@ namespace {
 constexpr std::string_view kParityLetters = "neoms";  // in the order of Parity
 
 std::string_view stop_bits_text(StopBits bits) {
-  switch (bits) {
-    case StopBits::One:
-      return "1";
-    case StopBits::OneAndHalf:
-      return "1.5";
-    case StopBits::Two:
-      return "2";
-  }
-  return "1";
+  constexpr std::string_view kTexts[] = {"1", "1.5", "2"};
+  return kTexts[static_cast<std::size_t>(bits)];
 }
 
 std::optional<StopBits> stop_bits_of(std::string_view text) {

@@ -17,17 +17,8 @@ json optional_text(std::string_view text) {
 }
 
 std::string_view phase_name(wire::Phase phase) {
-  switch (phase) {
-    case wire::Phase::Idle:
-      return "idle";
-    case wire::Phase::Sending:
-      return "sending";
-    case wire::Phase::Receiving:
-      return "receiving";
-    case wire::Phase::Requesting:
-      return "requesting";
-  }
-  return "idle";
+  constexpr std::string_view kNames[] = {"idle", "sending", "receiving", "requesting"};
+  return kNames[static_cast<std::size_t>(phase)];
 }
 
 json settings_json(const wire::LineSettings& settings) {
@@ -62,7 +53,7 @@ std::string hex(std::string_view bytes) {
   std::string text;
   text.reserve(2 * bytes.size());
   for (const char c : bytes) {
-    fmt::format_to(std::back_inserter(text), "{:02x}", static_cast<unsigned char>(c));
+    text += fmt::format("{:02x}", static_cast<unsigned char>(c));
   }
   return text;
 }

@@ -142,17 +142,9 @@ Json diagnostic_json(const CheckReport& report, const Event& event) {
 }
 
 std::string_view kind_text(interpreter::StopKind kind) {
-  switch (kind) {
-    case interpreter::StopKind::Optional:
-      return "optional stop";
-    case interpreter::StopKind::ToolChange:
-      return "tool change by hand";
-    case interpreter::StopKind::Operator:
-      return "waits for the operator";
-    case interpreter::StopKind::Program:
-      break;
-  }
-  return "program stop";
+  constexpr std::string_view kTexts[] = {"program stop", "optional stop", "tool change by hand",
+                                         "waits for the operator"};
+  return kTexts[static_cast<std::size_t>(kind)];
 }
 
 std::string stop_lines(const CheckReport& report) {

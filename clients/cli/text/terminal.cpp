@@ -19,21 +19,9 @@ bool color_is_wanted() {
 }
 
 std::string_view sequence(Style style) {
-  switch (style) {
-    case Style::Heading:
-      return "\x1b[1m";
-    case Style::Good:
-      return "\x1b[32m";
-    case Style::Bad:
-      return "\x1b[31m";
-    case Style::Busy:
-      return "\x1b[36m";
-    case Style::Faint:
-      return "\x1b[2m";
-    case Style::Plain:
-      break;
-  }
-  return "";
+  constexpr std::string_view kSequences[] = {"",         "\x1b[1m",  "\x1b[32m",
+                                             "\x1b[31m", "\x1b[36m", "\x1b[2m"};
+  return kSequences[static_cast<std::size_t>(style)];
 }
 
 }  // namespace

@@ -43,19 +43,8 @@ class FormLister : public Form {
 }  // namespace
 
 std::string_view to_string(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::Number:
-      return "number";
-    case FieldKind::Whole:
-      return "whole";
-    case FieldKind::Text:
-      return "text";
-    case FieldKind::Feedrate:
-      return "feed or rapid";
-    case FieldKind::Choice:
-      return "choice";
-  }
-  return "";
+  constexpr std::string_view kWords[] = {"number", "whole", "text", "feed or rapid", "choice"};
+  return kWords[static_cast<std::size_t>(kind)];
 }
 
 std::vector<EventDescription> describe_events() {

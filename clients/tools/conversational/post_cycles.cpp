@@ -59,19 +59,8 @@ std::string_view code_of(ReturnPoint point) {
 }
 
 std::string_view code_of(Drilling kind) {
-  switch (kind) {
-    case Drilling::Drill:
-      return "G81";
-    case Drilling::DrillDwell:
-      return "G82";
-    case Drilling::DrillPeck:
-      return "G83";
-    case Drilling::Bore:
-      return "G85";
-    case Drilling::BoreDwell:
-      return "G89";
-  }
-  return "";
+  constexpr std::string_view kCodes[] = {"G81", "G82", "G83", "G85", "G89"};
+  return kCodes[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace

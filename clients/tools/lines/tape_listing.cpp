@@ -18,27 +18,10 @@ std::string holes(std::uint8_t row) {
 }
 
 std::string_view meaning(RowKind kind) {
-  switch (kind) {
-    case RowKind::Text:
-      return "";
-    case RowKind::BlockEnd:
-      return "end of block";
-    case RowKind::CarriageReturn:
-      return "carriage return";
-    case RowKind::RewindStop:
-      return "rewind stop";
-    case RowKind::Blank:
-      return "blank";
-    case RowKind::Delete:
-      return "delete";
-    case RowKind::Ignored:
-      return "ignored";
-    case RowKind::Unassigned:
-      return "no character of this code";
-    case RowKind::WrongParity:
-      return "wrong parity";
-  }
-  return "";
+  constexpr std::string_view kMeanings[] = {
+      "",       "end of block", "carriage return",           "rewind stop", "blank",
+      "delete", "ignored",      "no character of this code", "wrong parity"};
+  return kMeanings[static_cast<std::size_t>(kind)];
 }
 
 std::string shown(TapeRow row) {

@@ -28,19 +28,9 @@ Result<speed_t> code_of(unsigned baud) {
 }
 
 tcflag_t parity_flags(wire::Parity parity) {
-  switch (parity) {
-    case wire::Parity::None:
-      return 0;
-    case wire::Parity::Even:
-      return PARENB;
-    case wire::Parity::Odd:
-      return PARENB | PARODD;
-    case wire::Parity::Mark:
-      return PARENB | PARODD | CMSPAR;
-    case wire::Parity::Space:
-      return PARENB | CMSPAR;
-  }
-  return 0;
+  constexpr tcflag_t kFlags[] = {0, PARENB, PARENB | PARODD, PARENB | PARODD | CMSPAR,
+                                 PARENB | CMSPAR};
+  return kFlags[static_cast<std::size_t>(parity)];
 }
 
 }  // namespace

@@ -91,17 +91,10 @@ class CenturionRules final : public ControlRules {
 };
 
 std::optional<Error> CenturionRules::fault(LineFault fault) const {
-  switch (fault) {
-    case LineFault::Overrun:
-      return Error{Errc::Corrupt, "error 900: RS232 overrun"};
-    case LineFault::Parity:
-      return Error{Errc::Corrupt, "error 901: RS232 parity error"};
-    case LineFault::Framing:
-      return Error{Errc::Corrupt, "error 902: RS232 framing error"};
-    case LineFault::Break:
-      return Error{Errc::Corrupt, "error 903: RS232 break detected"};
-  }
-  return std::nullopt;
+  constexpr const char* kTexts[] = {"error 901: RS232 parity error",
+                                    "error 902: RS232 framing error", "error 900: RS232 overrun",
+                                    "error 903: RS232 break detected"};
+  return Error{Errc::Corrupt, kTexts[static_cast<std::size_t>(fault)]};
 }
 
 void CenturionRules::deliver(std::string_view text, TextSink& sink) {

@@ -21,17 +21,8 @@ class FanucRules final : public ControlRules {
 }  // namespace
 
 std::string_view fault_text(LineFault fault) {
-  switch (fault) {
-    case LineFault::Parity:
-      return "parity error";
-    case LineFault::Framing:
-      return "framing error";
-    case LineFault::Overrun:
-      return "overrun error";
-    case LineFault::Break:
-      return "break";
-  }
-  return "line error";
+  constexpr std::string_view kTexts[] = {"parity error", "framing error", "overrun error", "break"};
+  return kTexts[static_cast<std::size_t>(fault)];
 }
 
 std::unique_ptr<ControlRules> make_rules(const LineSettings& settings, Role role) {

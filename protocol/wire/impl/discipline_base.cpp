@@ -6,17 +6,8 @@ namespace dripline::wire {
 namespace {
 
 std::string_view phase_text(Phase phase) {
-  switch (phase) {
-    case Phase::Idle:
-      return "idle";
-    case Phase::Sending:
-      return "sending";
-    case Phase::Receiving:
-      return "receiving";
-    case Phase::Requesting:
-      return "asking the other end";
-  }
-  return "busy";
+  constexpr std::string_view kTexts[] = {"idle", "sending", "receiving", "asking the other end"};
+  return kTexts[static_cast<std::size_t>(phase)];
 }
 
 }  // namespace

@@ -74,21 +74,9 @@ std::string fill_in(const std::string& argument, const std::string& value) {
 }  // namespace
 
 std::string_view to_string(RuleAction action) {
-  switch (action) {
-    case RuleAction::Send:
-      return "send";
-    case RuleAction::Directory:
-      return "directory";
-    case RuleAction::Restart:
-      return "restart";
-    case RuleAction::Program:
-      return "program";
-    case RuleAction::Report:
-      return "report";
-    case RuleAction::Ignore:
-      return "ignore";
-  }
-  return "ignore";
+  constexpr std::string_view kWords[] = {"send",    "directory", "restart",
+                                         "program", "report",    "ignore"};
+  return kWords[static_cast<std::size_t>(action)];
 }
 
 RuleHit RuleSet::judge(TextKind kind, std::string_view text, std::vector<std::string>* why) const {
