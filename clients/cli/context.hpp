@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,22 @@ class Context {
   void print(const Table& table) const { print(table.render(has_color())); }
   void print(const Details& details) const { print(details.render(has_color())); }
 };
+
+/// The callback of a command that talks to the server: calls `action` with a client and leaves its
+/// status in the context.
+template <class Options>
+void run_at_server(Command command, Context& context, std::shared_ptr<Options> options,
+                   int (*action)(Context&, client::Client&, const Options&)) {
+  command.callback([&context, options, action] {
+    if (auto client = context.connect()) context.status = action(context, *client, *options);
+  });
+}
+inline void run_at_server(Command command, Context& context,
+                          int (*action)(Context&, client::Client&)) {
+  command.callback([&context, action] {
+    if (auto client = context.connect()) context.status = action(context, *client);
+  });
+}
 
 /// Adds `--json` to a command.
 void add_json_flag(Command command, Context& context);

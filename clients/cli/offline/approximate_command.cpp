@@ -38,7 +38,7 @@ std::string blocks_text(const std::vector<interpreter::PathPoint>& points, int d
 
 std::string points_text(const std::vector<interpreter::PathPoint>& points, int decimals,
                         bool has_color) {
-  Table table({{"STEP", Align::Right}, {"X", Align::Right}, {"Y", Align::Right}});
+  Table table({right("STEP"), right("X"), right("Y")});
   for (std::size_t i = 0; i < points.size(); ++i) {
     table.add({std::to_string(i), fmt::format("{:.{}f}", points[i].x.mm(), decimals),
                fmt::format("{:.{}f}", points[i].y.mm(), decimals)});

@@ -8,7 +8,6 @@
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/table.hpp"
-#include "clients/lib/output_file.hpp"
 #include "clients/tools/conversational/catalog.hpp"
 #include "clients/tools/conversational/post.hpp"
 #include "clients/tools/conversational/reader.hpp"
@@ -27,18 +26,6 @@ struct ConversationalCommand {
   bool has_printed_crest_formula = false;
 };
 
-int write_text(const std::string& path, const std::string& text) {
-  if (path.empty() || path == "-") {
-    StandardOutput output;
-    return output.write(text) ? kExitOk : output.complain();
-  }
-  auto file = client::OutputFile::create(path);
-  if (!file) return complain(file.error());
-  auto done = file->write(text);
-  if (done) done = file->commit();
-  return done ? kExitOk : complain(done.error());
-}
-
 int post(const ConversationalCommand& command) {
   const auto text = read_small_file(command.file, conversational::kMaxFile);
   if (!text) {
@@ -48,7 +35,7 @@ int post(const ConversationalCommand& command) {
   const auto events = conversational::read_events(*text);
   const auto posted = events ? conversational::post(*events, {command.has_printed_crest_formula})
                              : Result<std::string>(fail(events.error()));
-  if (posted) return write_text(command.output, *posted);
+  if (posted) return write_to(command.output, *posted);
   complain(Error{posted.error().code, command.file + ": " + posted.error().what});
   return kExitNo;
 }
@@ -105,7 +92,7 @@ std::string default_text(const FieldDescription& field) {
 std::string event_text(const EventDescription& event, bool has_color) {
   std::string text = fmt::format("{}  ({})\n", event.type, event.title);
   if (event.fields.empty()) return text + "  no fields\n";
-  Table table({{"FIELD"}, {"WORD"}, {"VALUES"}, {"DEFAULT"}, {"ONLY WITH"}, {"MEANING"}});
+  Table table({"FIELD", "WORD", "VALUES", "DEFAULT", "ONLY WITH", "MEANING"});
   for (const auto& field : event.fields) {
     table.add({field.name, field.word, values_text(field), default_text(field), field.condition,
                field.help});
@@ -164,7 +151,7 @@ void add_new(Command group, Context& context, const Options& options) {
       .check(in_range(1, 9999));
   starter.add_option("-o,--output", options->output, "File to write [standard output]");
   starter.callback([&context, options] {
-    context.status = write_text(options->output, conversational::starter_file(options->program));
+    context.status = write_to(options->output, conversational::starter_file(options->program));
   });
 }
 

@@ -310,8 +310,8 @@ void add_options(Command command, ConvertCommand& options) {
       .check(in_range(0, 99));
   command.add_option(
       "--setup", options.setup,
-      "TNC programs: TOML file with the options of the control (decimal_sign, "
-      "iso_continuation, block_increment, model and software; what that control lacks is refused)");
+      "TNC programs: TOML file with the options of the control (decimal_sign, iso_continuation, "
+      "block_increment, model and software; what that control lacks is refused)");
   command.add_flag("--strict-blanks", options.is_strict, "Refuse blank tape inside an EIA block");
 }
 
@@ -328,9 +328,8 @@ void add_convert_command(Command app, Context& context) {
       "end of block; deletes and blanks are left out.\n\nA program that begins with BEGIN PGM is "
       "plain language of a HEIDENHAIN TNC 151/155: --to iso makes it the control's ISO form "
       "(--from ascii: an ISO tape of the text), --to plain makes plain language of ISO. What has "
-      "no "
-      "counterpart in the other form is refused.\n\nExit status: 0 converted, 1 the tape or "
-      "the program cannot be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
+      "no counterpart in the other form is refused.\n\nExit status: 0 converted, 1 the tape or the "
+      "program cannot be converted, 2 usage, unreadable file.\n\nExamples:\n  dnc convert "
       "shaft.ptp -o shaft.nc\n  dnc convert shaft.nc -o shaft.ptp --to eia --title SHAFT-4\n  dnc "
       "convert shaft.ptp --list | less\n  dnc convert plate.h -o plate.i --to iso");
   command.callback([&context, command, options] {

@@ -144,10 +144,10 @@ Result<void> change_all(const EditCommand& command, const EditedText& original,
 Result<EditedProgram> edited_program(const EditCommand& command, const EditedText& original) {
   const bool may_change = command.place.overrides_protection || command.unprotects;
   if (original.is_protected() && !may_change) {
-    return fail(Errc::Conflict,
-                "{} is protected against editing; --unprotect lifts that, --force edits it all the "
-                "same",
-                original.name());
+    return fail(
+        Errc::Conflict,
+        "{} is protected against editing; --unprotect lifts that, --force edits it all the same",
+        original.name());
   }
   auto edited = change_blocks(command, original);
   if (!edited) return edited;
@@ -287,8 +287,8 @@ void add_word_options(Command command, EditCommand& options) {
       .allow_extra_args(false);
   command
       .add_option("--find", options.wanted,
-                  "List the blocks that have a word with this address: X, IX, F, \"TOOL CALL\"; "
-                  "Q finds every use")
+                  "List the blocks that have a word with this address: X, IX, F, \"TOOL CALL\"; Q "
+                  "finds every use")
       .type_name("ADDRESS")
       .allow_extra_args(false);
 }
@@ -312,14 +312,13 @@ void add_edit_command(Command app, Context& context) {
       .type_name("BLOCK TEXT")
       .allow_extra_args(false);
   add_word_options(command, *options);
-  auto renumber =
-      command
-          .add_option("--renumber", options->increment,
-                      "Renumber all blocks as the control does; in ISO with this step, 0: no "
-                      "numbers [block_increment of --setup, else 10]")
-          .expected(0, 1)
-          .check(in_range(0, 99))
-          .type_name("STEP");
+  auto renumber = command
+                      .add_option("--renumber", options->increment,
+                                  "Renumber all blocks as the control does; in ISO with this step, "
+                                  "0: no numbers [block_increment of --setup, else 10]")
+                      .expected(0, 1)
+                      .check(in_range(0, 99))
+                      .type_name("STEP");
   command.add_option("--setup", options->setup,
                      "TOML file with the options of the control (block_increment)");
   auto protects = command.add_flag("--protect", options->protects,
@@ -334,12 +333,11 @@ void add_edit_command(Command app, Context& context) {
       "after\n"
       "it are renumbered. Words are named by their address as written in the block (X is not IX);\n"
       "values are set first, then words are removed. Blocks of other controls are named by line,\n"
-      "and have no words. The changed blocks are shown; a file is "
-      "replaced as a whole or not at all.\n\nExit status: 0 done, 1 the control or the server "
-      "refused and nothing was changed, 2 usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 "
-      "--insert-after 9 \"L X+10 R0 F MAX M\"\n  dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc "
-      "edit 15.h --find \"TOOL CALL\"\n  dnc edit --program 15.h --replace 4 \"TOOL CALL 2 Z "
-      "S800\" --comment \"new tool\"");
+      "and have no words. The changed blocks are shown; a file is replaced as a whole or not at "
+      "all.\n\nExit status: 0 done, 1 the control or the server refused and nothing was changed, 2 "
+      "usage.\n\nExamples:\n  dnc edit 15.h --delete 5..7 --insert-after 9 \"L X+10 R0 F MAX M\"\n "
+      " dnc edit 15.h --set 4 F250 --leave-out 5 M\n  dnc edit 15.h --find \"TOOL CALL\"\n  dnc "
+      "edit --program 15.h --replace 4 \"TOOL CALL 2 Z S800\" --comment \"new tool\"");
   command.callback([&context, options, renumber] {
     options->renumbers = renumber.count() > 0;
     context.status = edit(context, *options);

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "clients/cli/offline/offline_program.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/lib/byte_source.hpp"
-#include "clients/lib/output_file.hpp"
 #include "clients/lib/pull.hpp"
 #include "clients/lib/push.hpp"
 
@@ -109,14 +109,12 @@ int EditedText::save(const std::string& text, std::string& written) {
 
 int EditedText::save_file(const std::string& text, std::string& written) const {
   written = place_.output.empty() ? place_.file : place_.output;
-  auto output = client::OutputFile::create(written);
-  if (!output) return complain(output.error());
-  if (auto done = output->write(text); !done) return complain(done.error());
-  if (auto done = output->commit(); !done) return complain(done.error());
-  return kExitOk;
+  const auto done = write_file(written, text);
+  return done ? kExitOk : complain(done.error());
 }
 
-/// Somebody may have stored another revision since ours was fetched: that one is not overruled.
+/// Another client may have stored another revision since ours was fetched: that one is not
+/// overruled.
 int EditedText::push(const std::string& text, std::string& written) {
   auto client = context_.connect();
   if (!client) return context_.status;

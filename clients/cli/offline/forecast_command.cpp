@@ -81,13 +81,8 @@ std::string report_text(const Report& report, bool has_color) {
   text +=
       fmt::format("{} of them end before the next one has arrived; the axes wait. The longest:\n\n",
                   result.starved);
-  Table table({{"LINE", Align::Right},
-               {"N", Align::Right},
-               {"MOVES " + unit, Align::Right},
-               {"IN s", Align::Right},
-               {"WAITS s", Align::Right},
-               {"FOR CHARACTERS", Align::Right},
-               {"SUSTAINABLE FEED " + unit + "/min", Align::Right}});
+  Table table({right("LINE"), right("N"), right("MOVES " + unit), right("IN s"), right("WAITS s"),
+               right("FOR CHARACTERS"), right("SUSTAINABLE FEED " + unit + "/min")});
   for (std::size_t i = 0; i < result.worst.size() && i < limit; ++i) {
     const auto& block = result.worst[i];
     const bool is_called = block.program != interpreter::kMainProgram;

@@ -3,7 +3,6 @@
 #include "clients/cli/exit_status.hpp"
 #include "clients/cli/offline/mapped_file.hpp"
 #include "clients/cli/text/standard_output.hpp"
-#include "clients/lib/output_file.hpp"
 #include "clients/tools/tnc_conversion/conversion.hpp"
 
 namespace dripline::cli {
@@ -38,13 +37,6 @@ Result<std::string> converted(const FormConversion& command, client::FileSource&
   return program;
 }
 
-Result<void> write_file(const std::string& name, std::string_view text) {
-  auto output = client::OutputFile::create(name);
-  if (!output) return fail(std::move(output.error()));
-  if (auto written = output->write(text); !written) return written;
-  return output->commit();
-}
-
 }  // namespace
 
 bool is_plain_language(std::string_view head) {
@@ -65,13 +57,8 @@ int convert_form(Context& context, const FormConversion& command, client::FileSo
     complain(program.error());
     return program.error().code == Errc::Io ? kExitUsage : kExitNo;
   }
-  if (command.output == "-") {
-    StandardOutput output;
-    return output.write(*program) ? kExitOk : output.complain();
-  }
-  if (auto written = write_file(command.output, *program); !written) {
-    return complain(written.error());
-  }
+  const int status = write_to(command.output, *program);
+  if (status != kExitOk || command.output == "-") return status;
   context.print(fmt::format("Converted {} -> {} ({})\n", command.input, command.output,
                             command.to_plain ? "plain language" : "ISO"));
   return kExitOk;

@@ -223,8 +223,7 @@ int show_milled(Context& context, const GraphicsCommand& command, const OfflineP
   report(context, simulation, *program, source);
   if (!outcome->alarm) return kExitOk;
   complain(Error{Errc::Syntax,
-                 fmt::format("the program alarms in {}: {}; what it cut until then is "
-                             "shown",
+                 fmt::format("the program alarms in {}: {}; what it cut until then is shown",
                              program->alarm_place(source, *outcome), outcome->alarm->text)});
   return kExitNo;
 }

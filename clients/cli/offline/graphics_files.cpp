@@ -3,20 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "clients/lib/output_file.hpp"
 #include "clients/tools/graphics/hardcopy.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/memory_files.hpp"
 #include "gateway/interpreter/dialects/tnc155/memory/mod_functions.hpp"
 
 namespace dripline::cli {
-
-Result<void> write_file(const std::string& path, std::string_view bytes) {
-  auto file = client::OutputFile::create(path);
-  if (!file) return fail(file.error());
-  if (auto written = file->write(bytes); !written) return written;
-  return file->commit();
-}
-
 namespace {
 
 /// The printer of the control's parameters; absent: the setup has none of the eight.

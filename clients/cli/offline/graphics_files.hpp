@@ -4,12 +4,10 @@
 #include <string_view>
 
 #include "clients/cli/offline/graphics_options.hpp"
+#include "clients/cli/text/standard_output.hpp"
 #include "clients/tools/graphics/picture.hpp"
 
 namespace dripline::cli {
-
-/// The whole file or none of it. Errors: Io.
-Result<void> write_file(const std::string& path, std::string_view bytes);
 
 /// The picture as PNG, and for a printer, where the command asks for them. The printer is the one
 /// that was named, else that of the setup's machine parameters 226 to 233, else an EPSON. Errors:

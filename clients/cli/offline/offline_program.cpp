@@ -40,8 +40,7 @@ Result<const Dialect*> choose_dialect(const OfflineCommand& command, std::string
   if (candidates.size() == 1) return candidates.front();
   if (candidates.empty()) {
     return fail(Errc::NotFound,
-                "the control of {} is not clear from its text; expected --control with one of: "
-                "{}",
+                "the control of {} is not clear from its text; expected --control with one of: {}",
                 command.file, names_of(all_dialects()));
   }
   return fail(Errc::NotFound,

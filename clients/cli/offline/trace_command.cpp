@@ -42,9 +42,7 @@ int print_listing(const OfflineCommand& command) {
     complain(list.error());
     return kExitNo;
   }
-  StandardOutput output;
-  (void)output.write(*list).has_value();
-  return output.error() ? output.complain() : kExitOk;
+  return write_to("-", *list);
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ constexpr std::size_t kUsualCells = 1024;
 Result<graphics::SectionExtent> bar_of(const AxisRanges& ranges) {
   if (!ranges.low[kX] || !ranges.low[kZ] || ranges.low[1]) {
     return fail(Errc::Syntax,
-                "a bar needs X (diameters; from 0, or a tube's bore) and Z, as "
-                "X0:50,Z-80:0");
+                "a bar needs X (diameters; from 0, or a tube's bore) and Z, as X0:50,Z-80:0");
   }
   return graphics::SectionExtent{*ranges.low[kZ], *ranges.high[kZ], *ranges.low[kX] / 2,
                                  *ranges.high[kX] / 2};
@@ -232,10 +231,9 @@ int show_turned(Context& context, const GraphicsCommand& command, const OfflineP
   if (!outcome) return complain_offline(outcome.error());
   if (simulation.failure()) return complain(*simulation.failure());
   if (!simulation.part() && command.view != "path") {
-    return complain(
-        Error{Errc::NotFound,
-              "the program defines no bar (P156 its length, P157 its diameter); give one: "
-              "--blank X0:50,Z-80:0, or draw --view path"});
+    return complain(Error{Errc::NotFound,
+                          "the program defines no bar (P156 its length, P157 its diameter); give "
+                          "one: --blank X0:50,Z-80:0, or draw --view path"});
   }
   simulation.finish();
   if (auto written = write_files(command, program.setup(), simulation); !written)
@@ -243,8 +241,7 @@ int show_turned(Context& context, const GraphicsCommand& command, const OfflineP
   report(context, simulation);
   if (!outcome->alarm) return kExitOk;
   complain(Error{Errc::Syntax,
-                 fmt::format("the program alarms in {}: {}; what it cut until then is "
-                             "shown",
+                 fmt::format("the program alarms in {}: {}; what it cut until then is shown",
                              program.alarm_place(source, *outcome), outcome->alarm->text)});
   return kExitNo;
 }

@@ -1,16 +1,60 @@
 #include <memory>
+#include <string>
 
 #include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/port/port_listing.hpp"
 #include "clients/cli/port/port_monitor.hpp"
 #include "clients/cli/port/port_parameters.hpp"
 #include "clients/cli/port/port_text.hpp"
-#include "clients/cli/port/port_trial.hpp"
 #include "clients/cli/text/json_text.hpp"
 
 namespace dripline::cli {
 namespace {
+
+constexpr std::size_t kMaxText = 48 * 1024;
+
+/// Programs are kept with LF; a file from a PC may have CR LF.
+std::string with_line_feeds(std::string text) {
+  std::erase(text, '\r');
+  return text;
+}
+
+std::string verdict_text(const client::RuleVerdict& verdict) {
+  std::string action = verdict.action;
+  if (!verdict.argument.empty()) action += " " + verdict.argument;
+  if (verdict.rule.empty()) return fmt::format("no rule fires; the default is: {}", action);
+  return fmt::format("rule {} fires: {}", verdict.rule, action);
+}
+
+int test_port(Context& context, client::Client& client, const std::string& name) {
+  auto test = client.test_port(name);
+  if (!test) return complain(test.error());
+  if (context.wants_json) {
+    context.print(json_text(*test));
+  } else {
+    for (const auto& finding : test->findings) context.print(printable(finding) + "\n");
+    const auto verdict = test->passed ? styled("passed", Style::Good, context.has_color())
+                                      : styled("failed", Style::Bad, context.has_color());
+    context.print(fmt::format("{}: {}\n", printable(name), verdict));
+  }
+  return test->passed ? kExitOk : kExitNo;
+}
+
+/// Shows what the port's rules would do with the text in `file`.
+int test_rules(Context& context, const std::string& name, const std::string& file) {
+  auto text = read_small_file(file, kMaxText);
+  if (!text) return complain(text.error());
+  auto client = context.connect();
+  if (!client) return context.status;
+  auto verdict = client->test_rules(name, with_line_feeds(*std::move(text)));
+  if (const auto status = finished(context, verdict)) return *status;
+  for (const auto& reason : verdict->why) context.print("  " + printable(reason) + "\n");
+  const Style style = verdict->rule.empty() ? Style::Busy : Style::Good;
+  context.print(styled(printable(verdict_text(*verdict)), style, context.has_color()) + "\n");
+  return kExitOk;
+}
 
 struct PortCommand {
   client::PortRequest port;
@@ -43,13 +87,9 @@ Result<void> apply(client::PortRequest& port, const PortCommand& command) {
 
 int save(Context& context, client::Client& client, const client::PortRequest& request) {
   auto port = client.save_port(request);
-  if (!port) return complain(port.error());
-  if (context.wants_json) {
-    context.print(json_text(*port));
-  } else {
-    context.print(fmt::format("Port {} of {} at {}: {}, {}\n", port->name, port->machine,
-                              port->address, line_text(port->effective), state_text(*port)));
-  }
+  if (const auto status = finished(context, port)) return *status;
+  context.print(fmt::format("Port {} of {} at {}: {}, {}\n", port->name, port->machine,
+                            port->address, line_text(port->effective), state_text(*port)));
   return kExitOk;
 }
 
@@ -59,44 +99,38 @@ int add(Context& context, PortCommand command) {
   auto client = context.connect();
   if (!client) return context.status;
   if (client->port(command.port.name)) {
-    return complain(client::Failure{client::Failure::Kind::Refused, Errc::Busy,
-                                    fmt::format("port {} is there already; dnc port set changes "
-                                                "it",
-                                                command.port.name)});
+    return complain(client::Failure{
+        client::Failure::Kind::Refused, Errc::Busy,
+        fmt::format("port {} is there already; dnc port set changes it", command.port.name)});
   }
   return save(context, *client, command.port);
 }
 
-int change(Context& context, const PortCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto known = client->port(command.port.name);
+int change(Context& context, client::Client& client, const PortCommand& command) {
+  auto known = client.port(command.port.name);
   if (!known) return complain(known.error());
   auto port = request_of(*known);
   if (auto applied = apply(port, command); !applied) return complain(applied.error());
-  return save(context, *client, port);
+  return save(context, client, port);
 }
 
-int set_enabled(Context& context, const std::string& name, bool is_enabled) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto known = client->port(name);
+int set_enabled(Context& context, client::Client& client, const std::string& name,
+                bool is_enabled) {
+  auto known = client.port(name);
   if (!known) return complain(known.error());
   auto port = request_of(*known);
   port.enabled = is_enabled;
-  return save(context, *client, port);
+  return save(context, client, port);
 }
-int enable(Context& context, const std::string& name) {
-  return set_enabled(context, name, true);
+int enable(Context& context, client::Client& client, const std::string& name) {
+  return set_enabled(context, client, name, true);
 }
-int disable(Context& context, const std::string& name) {
-  return set_enabled(context, name, false);
+int disable(Context& context, client::Client& client, const std::string& name) {
+  return set_enabled(context, client, name, false);
 }
 
-int remove(Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto removed = client->remove_port(name);
+int remove(Context& context, client::Client& client, const std::string& name) {
+  auto removed = client.remove_port(name);
   if (!removed) return complain(removed.error());
   context.print(fmt::format("Removed port {}; its line is closed.\n", name));
   return kExitOk;
@@ -151,16 +185,16 @@ void add_set(Command group, Context& context) {
   command.footer(
       "KEY= removes a setting of the port, so that its template's applies again. An open line is "
       "closed\nand opened again.\n\nExample:\n  dnc port set line-3 baud=4800 eob=");
-  command.callback([&context, options] { context.status = change(context, *options); });
+  run_at_server(command, context, options, change);
 }
 
-using NamedAction = int (*)(Context&, const std::string&);
+using NamedAction = int (*)(Context&, client::Client&, const std::string&);
 Command add_by_name(Command group, Context& context, const char* verb, const char* help,
                     NamedAction action) {
   auto command = group.add_subcommand(verb, help);
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The port").required();
-  command.callback([&context, name, action] { context.status = action(context, *name); });
+  run_at_server(command, context, name, action);
   return command;
 }
 
@@ -170,7 +204,7 @@ void add_templates(Command group, Context& context) {
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The template (default: list them)");
   add_json_flag(command, context);
-  command.callback([&context, name] { context.status = list_templates(context, *name); });
+  run_at_server(command, context, name, list_templates);
 }
 
 void add_apply(Command group, Context& context) {
@@ -204,9 +238,8 @@ void add_monitor(Command group, Context& context) {
   command.footer(
       "Each line: time, direction (→ to the control, ← from it, ! an error, ~ modem lines, = "
       "the\nstate of the line), and the characters; <DC3> and its like are control characters. "
-      "Watching "
-      "changes\nnothing on the line.");
-  command.callback([&context, options] { context.status = monitor_port(context, *options); });
+      "Watching changes\nnothing on the line.");
+  run_at_server(command, context, options, monitor_port);
 }
 
 void add_recording(Command group, Context& context) {
@@ -218,7 +251,7 @@ void add_recording(Command group, Context& context) {
                      "Save it as JSON lines, - for standard output");
   command.add_flag("--hex", options->is_hex, "Show bytes in hexadecimal");
   add_json_flag(command, context);
-  command.callback([&context, options] { context.status = show_recording(context, *options); });
+  run_at_server(command, context, options, show_recording);
 }
 
 }  // namespace
@@ -230,7 +263,7 @@ void add_port_commands(Command app, Context& context) {
   add_set(group, context);
   auto list = group.add_subcommand("list", "List all ports with the state of their lines");
   add_json_flag(list, context);
-  list.callback([&context] { context.status = list_ports(context); });
+  run_at_server(list, context, list_ports);
   add_json_flag(add_by_name(group, context, "show", "Show a port", show_port), context);
   add_by_name(group, context, "remove", "Close a line and remove the port", remove);
   add_json_flag(add_by_name(group, context, "enable", "Open the line", enable), context);

@@ -23,7 +23,7 @@ void print_template(Context& context, const client::PortTemplates& all,
   details.add("for", one.title);
   details.add("control", one.control);
   context.print(details);
-  Table table({{"SETTING"}, {"VALUE"}, {"MEANING"}, {"ALLOWED"}});
+  Table table({"SETTING", "VALUE", "MEANING", "ALLOWED"});
   for (const auto& row : all.settings) {
     const auto value = one.settings.find(row.key);
     const std::string text = value == one.settings.end() ? "" : value->second;
@@ -55,41 +55,25 @@ int complain_unknown(const client::PortTemplates& all, const std::string& name) 
 
 }  // namespace
 
-int list_ports(Context& context) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto ports = client->ports();
-  if (!ports) return complain(ports.error());
-  if (context.wants_json) {
-    context.print(json_list_text("ports", *ports));
-    return kExitOk;
-  }
+int list_ports(Context& context, client::Client& client) {
+  auto ports = client.ports();
+  if (const auto status = finished(context, ports, "ports")) return *status;
   if (ports->empty()) {
     context.print("No serial port is set up; see dnc port add --help.\n");
     return kExitOk;
   }
-  Table table({{"NAME"},
-               {"MACHINE"},
-               {"ADDRESS"},
-               {"LINE"},
-               {"STATE"},
-               {"WAITS FOR"},
-               {"RUN"},
-               {"SENT", Align::Right},
-               {"RECEIVED", Align::Right},
-               {"FAULT"}});
+  Table table({"NAME", "MACHINE", "ADDRESS", "LINE", "STATE", "WAITS FOR", "RUN", right("SENT"),
+               right("RECEIVED"), "FAULT"});
   const std::string now = to_iso8601(SystemClock().now());
   for (const auto& port : *ports) add_row(table, port, now);
   context.print(table);
   return kExitOk;
 }
 
-int show_port(Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto port = client->port(name);
+int show_port(Context& context, client::Client& client, const std::string& name) {
+  auto port = client.port(name);
   if (!port) return complain(port.error());
-  const auto control_rate = baud_rate_of_control(*client, port->machine);
+  const auto control_rate = baud_rate_of_control(client, port->machine);
   if (context.wants_json) {
     auto json = client::to_json_value(*port);
     if (control_rate) json["control_baud_rate"] = *control_rate;
@@ -102,22 +86,16 @@ int show_port(Context& context, const std::string& name) {
   return kExitOk;
 }
 
-int list_templates(Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto all = client->port_templates();
-  if (!all) return complain(all.error());
-  if (context.wants_json) {
-    context.print(json_text(*all));
-    return kExitOk;
-  }
+int list_templates(Context& context, client::Client& client, const std::string& name) {
+  auto all = client.port_templates();
+  if (const auto status = finished(context, all)) return *status;
   if (!name.empty()) {
     for (const auto& one : all->templates) {
       if (one.name == name) return print_template(context, *all, one), kExitOk;
     }
     return complain_unknown(*all, name);
   }
-  Table table({{"NAME"}, {"LINE"}, {"CONTROL"}, {"FOR"}});
+  Table table({"NAME", "LINE", "CONTROL", "FOR"});
   for (const auto& one : all->templates) {
     table.add({one.name, line_text(one.settings), one.control, one.title});
   }

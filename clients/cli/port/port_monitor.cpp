@@ -11,7 +11,6 @@
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/lib/event_stream.hpp"
-#include "clients/lib/output_file.hpp"
 #include "protocol/base/clock.hpp"
 
 namespace dripline::cli {
@@ -168,34 +167,25 @@ int print_recording(Context& context, client::Client& client, const RecordingCom
 }
 
 int save_recording(client::Client& client, const RecordingCommand& command) {
-  auto file = client::OutputFile::create(command.output);
-  if (!file) return complain(file.error());
-  std::optional<Error> unwritten;
-  auto got = client.recording(command.name, [&](std::string_view bytes) {
-    if (auto written = file->write(bytes); !written) unwritten = written.error();
-    return !unwritten;
+  const int status = save_content(command.output, [&](const ContentSink& sink) {
+    return client.recording(command.name, sink);
   });
-  if (unwritten) return complain(*unwritten);
-  if (!got) return complain(got.error());
-  if (auto kept = file->commit(); !kept) return complain(kept.error());
-  fmt::print(stderr, "Wrote the recording of {} to {}\n", command.name, command.output);
-  return kExitOk;
+  if (status == kExitOk) {
+    fmt::print(stderr, "Wrote the recording of {} to {}\n", command.name, command.output);
+  }
+  return status;
 }
 
 }  // namespace
 
-int monitor_port(Context& context, const MonitorCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
+int monitor_port(Context& context, client::Client& client, const MonitorCommand& command) {
   catch_interrupts();
-  return PortMonitor(context, *client, command).run();
+  return PortMonitor(context, client, command).run();
 }
 
-int show_recording(Context& context, const RecordingCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  if (!command.output.empty() && command.output != "-") return save_recording(*client, command);
-  return print_recording(context, *client, command);
+int show_recording(Context& context, client::Client& client, const RecordingCommand& command) {
+  if (!command.output.empty() && command.output != "-") return save_recording(client, command);
+  return print_recording(context, client, command);
 }
 
 }  // namespace dripline::cli

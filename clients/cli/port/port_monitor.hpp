@@ -12,13 +12,13 @@ struct MonitorCommand {
   bool is_hex = false;
 };
 /// Until Ctrl-C.
-int monitor_port(Context& context, const MonitorCommand& command);
+int monitor_port(Context& context, client::Client& client, const MonitorCommand& command);
 
 struct RecordingCommand {
   std::string name;
   std::string output;  ///< empty: for people, on standard output
   bool is_hex = false;
 };
-int show_recording(Context& context, const RecordingCommand& command);
+int show_recording(Context& context, client::Client& client, const RecordingCommand& command);
 
 }  // namespace dripline::cli

@@ -37,8 +37,8 @@ Result<void> read_setup(std::string_view text, Interface& interface) {
   if (options.find("machine_parameters") == nullptr && options.find("heading_letter") == nullptr &&
       options.find("baud_rate") == nullptr && options.find("user_parameters") == nullptr) {
     return fail(Errc::NotFound,
-                "the setup has nothing of a TNC's interface: machine_parameters, heading_letter "
-                "or baud_rate in [control]");
+                "the setup has nothing of a TNC's interface: machine_parameters, heading_letter or "
+                "baud_rate in [control]");
   }
   const auto parameters = tnc::all_machine_parameters(options);
   if (!parameters) return fail(parameters.error());
@@ -198,9 +198,8 @@ void add_port_parameters_command(Command group, Context& context) {
                                       "Derive the line from a TNC 151/155's machine parameters, or "
                                       "the parameters from a line,\nor compare a port with them");
   auto options = std::make_shared<ParametersCommand>();
-  auto file = command.add_option("FILE", options->file,
-                                 "A setup (TOML), or parameters as the control sends them: MP0: "
-                                 "...");
+  auto file = command.add_option(
+      "FILE", options->file, "A setup (TOML), or parameters as the control sends them: MP0: ...");
   auto line = command.add_option("--for", options->line,
                                  "Print the parameters for this template or short form");
   command.add_option("--set", options->changes, "Settings of that line, KEY=VALUE").needs(line);

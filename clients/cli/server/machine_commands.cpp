@@ -1,14 +1,113 @@
+#include <map>
 #include <memory>
+#include <string>
 
 #include "clients/cli/commands.hpp"
+#include "clients/cli/context.hpp"
+#include "clients/cli/interrupt.hpp"
 #include "clients/cli/server/machine_text.hpp"
-#include "clients/cli/server/machine_watch.hpp"
 #include "clients/cli/server/run_control.hpp"
+#include "clients/cli/setup/change_log.hpp"
 #include "clients/cli/text/json_text.hpp"
+#include "clients/cli/text/live_area.hpp"
 #include "clients/cli/text/value_text.hpp"
+#include "clients/lib/event_stream.hpp"
 
 namespace dripline::cli {
 namespace {
+
+using namespace std::chrono_literals;
+
+class MachineWatch {
+ public:
+  MachineWatch(Context& context, client::Client& client, std::string name)
+      : context_(context), client_(client), name_(std::move(name)) {}
+
+  int run() {
+    if (auto read = refresh(); !read) return complain(read.error());
+    client::EventStream stream(client_.address(), name_);
+    while (!is_interrupted()) {
+      auto item = stream.next(200ms);
+      if (!item) continue;
+      if (auto* lost = std::get_if<client::StreamLost>(&*item)) {
+        if (lost->failure.kind == client::Failure::Kind::Denied) return complain(lost->failure);
+        say_once(lost->failure.what + "; trying again");
+      } else if (std::holds_alternative<client::StreamOpened>(*item)) {
+        said_.clear();
+        if (auto read = refresh(); !read) say_once(read.error().what);
+      } else if (auto* machine = std::get_if<client::Machine>(&*item)) {
+        take(std::move(*machine));
+      }
+    }
+    area_.clear();
+    return kExitInterrupted;
+  }
+
+ private:
+  client::Reply<void> refresh() {
+    if (name_.empty()) {
+      auto machines = client_.machines();
+      if (!machines) return client::failed(machines.error());
+      for (auto& machine : *machines) take(std::move(machine));
+      return {};
+    }
+    auto machine = client_.machine(name_);
+    if (!machine) return client::failed(machine.error());
+    take(std::move(*machine));
+    return {};
+  }
+
+  void take(client::Machine machine) {
+    if (!name_.empty() && machine.name != name_) return;
+    const std::string line = status_line(machine);
+    if (context_.wants_json) {
+      context_.print(json_line(client::to_json_value(machine)));
+      std::fflush(stdout);
+    } else if (area_.is_live()) {
+      lines_[machine.name] = line;
+      draw();
+    } else {
+      print_change(machine, line);
+    }
+  }
+
+  void print_change(const client::Machine& machine, const std::string& line) {
+    const auto status = machine.status.value_or(client::MachineStatus{});
+    const std::string key =
+        fmt::format("{}|{}|{}|{}", machine.connected, status.execution, status.run, status.message);
+    if (!logs_[machine.name].is_worth_a_line(key, line, clock_.steady_now())) return;
+    context_.print(printable(line) + "\n");
+    std::fflush(stdout);
+  }
+
+  void draw() {
+    std::vector<std::string> lines;
+    for (const auto& [name, line] : lines_) lines.push_back(line);
+    area_.show(lines);
+  }
+
+  void say_once(const std::string& text) {
+    if (said_ == text) return;
+    said_ = text;
+    area_.clear();
+    fmt::print(stderr, "dnc: {}\n", text);
+  }
+
+  Context& context_;
+  client::Client& client_;
+  std::string name_;
+  SystemClock clock_;
+  LiveArea area_ = LiveArea::on_stderr();
+  std::map<std::string, std::string> lines_;
+  std::map<std::string, ChangeLog> logs_;
+  std::string said_;
+};
+
+/// Follows one machine (or all: empty name) until Ctrl-C; gives the exit status.
+int watch_machines(Context& context, client::Client& client, const std::string& name) {
+  catch_interrupts();
+  return MachineWatch(context, client, name).run();
+}
 
 void add_row(Table& table, const client::Machine& machine) {
   const auto status = machine.status.value_or(client::MachineStatus{});
@@ -21,44 +120,24 @@ void add_row(Table& table, const client::Machine& machine) {
              time_text(machine.last_seen), machine.connected ? status.message : ""});
 }
 
-int list_machines(Context& context) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto machines = client->machines();
-  if (!machines) return complain(machines.error());
-  if (context.wants_json) {
-    context.print(json_list_text("machines", *machines));
-    return kExitOk;
-  }
+int list_machines(Context& context, client::Client& client) {
+  auto machines = client.machines();
+  if (const auto status = finished(context, machines, "machines")) return *status;
   if (machines->empty()) {
     context.print("No machine has announced itself yet; start its gateway, dncgw.\n");
     return kExitOk;
   }
-  Table table({{"NAME"},
-               {"CONTROL"},
-               {"CONNECTED"},
-               {"EXECUTION"},
-               {"PROGRAM"},
-               {"DONE %", Align::Right},
-               {"BLOCKS", Align::Right},
-               {"POSITION mm"},
-               {"LAST SEEN"},
-               {"MESSAGE"}});
+  Table table({"NAME", "CONTROL", "CONNECTED", "EXECUTION", "PROGRAM", right("DONE %"),
+               right("BLOCKS"), "POSITION mm", "LAST SEEN", "MESSAGE"});
   for (const auto& machine : *machines) add_row(table, machine);
   context.print(table);
   return kExitOk;
 }
 
-int show_status(Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto machine = client->machine(name);
-  if (!machine) return complain(machine.error());
-  if (context.wants_json) {
-    context.print(json_text(*machine));
-  } else {
-    context.print(machine_details(*machine));
-  }
+int show_status(Context& context, client::Client& client, const std::string& name) {
+  auto machine = client.machine(name);
+  if (const auto status = finished(context, machine)) return *status;
+  context.print(machine_details(*machine));
   return kExitOk;
 }
 
@@ -66,11 +145,9 @@ struct SwitchCommand {
   std::string machine, name, state;
 };
 
-int set_switch(Context& context, const SwitchCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
+int set_switch(Context& context, client::Client& client, const SwitchCommand& command) {
   const auto request = switch_command(command.name, command.state == "on");
-  if (auto given = client->command_machine(command.machine, request); !given)
+  if (auto given = client.command_machine(command.machine, request); !given)
     return complain(given.error());
   context.print(fmt::format("{} took {}\n", command.machine, command_text(request)));
   return kExitOk;
@@ -85,7 +162,7 @@ void add_switch(Command group, Context& context) {
   command.footer(
       "It works with or without a run; dnc run switch does the same for the machine of a "
       "run.\n\nExample:\n  dnc machine switch mill-1 single_block on");
-  command.callback([&context, options] { context.status = set_switch(context, *options); });
+  run_at_server(command, context, options, set_switch);
 }
 
 }  // namespace
@@ -96,13 +173,13 @@ void add_machine_commands(Command app, Context& context) {
 
   auto list = group.add_subcommand("list", "List all machines that ever connected");
   add_json_flag(list, context);
-  list.callback([&context] { context.status = list_machines(context); });
+  run_at_server(list, context, list_machines);
 
   auto name = std::make_shared<std::string>();
   auto status = group.add_subcommand("status", "Show everything known of a machine");
   status.add_option("NAME", *name, "The machine").required();
   add_json_flag(status, context);
-  status.callback([&context, name] { context.status = show_status(context, *name); });
+  run_at_server(status, context, name, show_status);
 
   add_switch(group, context);
 
@@ -115,7 +192,7 @@ void add_machine_commands(Command app, Context& context) {
       "executes\nor reports, and of its counters every five seconds. Watching changes nothing at "
       "the "
       "machine.\n\nExample:\n  dnc machine watch lathe-1");
-  watch.callback([&context, watched] { context.status = watch_machines(context, *watched); });
+  run_at_server(watch, context, watched, watch_machines);
 }
 
 }  // namespace dripline::cli

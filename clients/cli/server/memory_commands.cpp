@@ -119,17 +119,15 @@ nlohmann::ordered_json to_json(const Found& found, const KeptMemory& cells) {
           {"cells", std::move(list)}};
 }
 
-int show(Context& context, const MemoryCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto found = wanted(*client, command);
+int show(Context& context, client::Client& client, const MemoryCommand& command) {
+  auto found = wanted(client, command);
   if (!found) return complain(found.error());
   const KeptMemory cells = filtered(found->memory, command.filter);
   if (context.wants_json) {
     context.print(json_text(to_json(*found, cells)));
     return kExitOk;
   }
-  Table table({{"NAME"}, {"VALUE", Align::Right}, {"FROM SETUP", Align::Right}});
+  Table table({"NAME", right("VALUE"), right("FROM SETUP")});
   for (const auto& [name, cell] : cells)
     table.add({name, number_text(cell.value), number_text(cell.base)});
   context.print(table);
@@ -137,14 +135,12 @@ int show(Context& context, const MemoryCommand& command) {
       found->reported.program.empty() ? "begun at the machine" : "of " + found->reported.program;
   context.print(fmt::format("As run {} {} left it, {}\n", short_id(found->reported.run), program,
                             time_text(found->reported.time)));
-  if (command.run.empty()) context.print(what_may_follow(*client, command.machine));
+  if (command.run.empty()) context.print(what_may_follow(client, command.machine));
   return kExitOk;
 }
 
-int list(Context& context, const MemoryCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto all = memories(*client, command.machine, kMaxRuns);
+int list(Context& context, client::Client& client, const MemoryCommand& command) {
+  auto all = memories(client, command.machine, kMaxRuns);
   if (!all) return complain(all.error());
   if (context.wants_json) {
     auto runs = nlohmann::ordered_json::array();
@@ -152,7 +148,7 @@ int list(Context& context, const MemoryCommand& command) {
     context.print(json_text(nlohmann::ordered_json{{"memories", std::move(runs)}}));
     return kExitOk;
   }
-  Table table({{"RUN"}, {"PROGRAM"}, {"ENDED"}, {"CELLS", Align::Right}});
+  Table table({"RUN", "PROGRAM", "ENDED", right("CELLS")});
   for (const Found& found : *all) {
     table.add({short_id(found.reported.run), found.reported.program, time_text(found.reported.time),
                std::to_string(found.memory.size())});
@@ -161,12 +157,10 @@ int list(Context& context, const MemoryCommand& command) {
   return kExitOk;
 }
 
-int compare(Context& context, const MemoryCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto now = wanted(*client, {.machine = command.machine});
+int compare(Context& context, client::Client& client, const MemoryCommand& command) {
+  auto now = wanted(client, {.machine = command.machine});
   if (!now) return complain(now.error());
-  auto then = wanted(*client, command);
+  auto then = wanted(client, command);
   if (!then) return complain(then.error());
   KeptMemory names = now->memory;
   names.insert(then->memory.begin(), then->memory.end());
@@ -174,7 +168,7 @@ int compare(Context& context, const MemoryCommand& command) {
     const auto found = memory.find(name);
     return found == memory.end() ? std::string("as the setup") : number_text(found->second.value);
   };
-  Table table({{"NAME"}, {"NOW", Align::Right}, {short_id(then->reported.run), Align::Right}});
+  Table table({"NAME", right("NOW"), right(short_id(then->reported.run))});
   bool differ = false;
   for (const auto& [name, unused] : filtered(names, command.filter)) {
     const std::string a = text_in(now->memory, name), b = text_in(then->memory, name);
@@ -200,14 +194,12 @@ int save(Context& context, client::Client& client, const MemoryCommand& command,
   return saved ? report_saved(context, *saved) : complain(saved.error());
 }
 
-int restore(Context& context, const MemoryCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto then = wanted(*client, command);
+int restore(Context& context, client::Client& client, const MemoryCommand& command) {
+  auto then = wanted(client, command);
   if (!then) return complain(then.error());
   std::map<std::string, double> variables;
   // What has changed since goes back to what the setup gives.
-  if (auto now = wanted(*client, {.machine = command.machine})) {
+  if (auto now = wanted(client, {.machine = command.machine})) {
     for (const auto& [name, cell] : filtered(now->memory, command.filter)) {
       if (cell.base) variables[name] = *cell.base;
     }
@@ -215,23 +207,21 @@ int restore(Context& context, const MemoryCommand& command) {
   for (const auto& [name, cell] : filtered(then->memory, command.filter)) {
     if (cell.value) variables[name] = *cell.value;
   }
-  return save(context, *client, command, variables,
+  return save(context, client, command, variables,
               fmt::format("memory of run {}", short_id(then->reported.run)));
 }
 
-int clear(Context& context, const MemoryCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto now = wanted(*client, {.machine = command.machine});
+int clear(Context& context, client::Client& client, const MemoryCommand& command) {
+  auto now = wanted(client, {.machine = command.machine});
   if (!now) return complain(now.error());
   std::map<std::string, double> variables;
   for (const auto& [name, cell] : filtered(now->memory, command.filter)) {
     if (cell.base) variables[name] = *cell.base;
   }
-  return save(context, *client, command, variables, "memory cleared");
+  return save(context, client, command, variables, "memory cleared");
 }
 
-using Action = int (*)(Context&, const MemoryCommand&);
+using Action = int (*)(Context&, client::Client&, const MemoryCommand&);
 
 std::pair<Command, std::shared_ptr<MemoryCommand>> add_verb(Command group, Context& context,
                                                             const char* name, const char* help,
@@ -239,7 +229,7 @@ std::pair<Command, std::shared_ptr<MemoryCommand>> add_verb(Command group, Conte
   auto verb = group.add_subcommand(name, help);
   auto options = std::make_shared<MemoryCommand>();
   verb.add_option("MACHINE", options->machine, "The machine").required();
-  verb.callback([&context, options, action] { context.status = action(context, *options); });
+  run_at_server(verb, context, options, action);
   return {verb, options};
 }
 

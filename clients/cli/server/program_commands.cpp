@@ -33,24 +33,11 @@ Cell standing_cell(const client::Program& program, const client::Revision& revis
   return "";
 }
 
-int list_programs(Context& context) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto programs = fetch_all(0, [&](client::Page page) { return client->programs(page); });
-  if (!programs) return complain(programs.error());
-  if (context.wants_json) {
-    context.print(json_list_text("programs", *programs));
-    return kExitOk;
-  }
-  Table table({{"NAME"},
-               {"REV", Align::Right},
-               {"HELD", Align::Right},
-               {"SIZE", Align::Right},
-               {"TITLE"},
-               {"CONTROL"},
-               {"CREATED"},
-               {"AUTHOR"},
-               {"COMMENT"}});
+int list_programs(Context& context, client::Client& client) {
+  auto programs = fetch_all(0, [&](client::Page page) { return client.programs(page); });
+  if (const auto status = finished(context, programs, "programs")) return *status;
+  Table table({"NAME", right("REV"), right("HELD"), right("SIZE"), "TITLE", "CONTROL", "CREATED",
+               "AUTHOR", "COMMENT"});
   std::uint64_t held = 0;
   for (const auto& program : *programs) {
     table.add({program.name, program.held ? Cell("-") : Cell(std::to_string(program.revision)),
@@ -69,15 +56,9 @@ int list_programs(Context& context) {
   return kExitOk;
 }
 
-int show_program(Context& context, const std::string& name) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto history = client->program(name);
-  if (!history) return complain(history.error());
-  if (context.wants_json) {
-    context.print(json_text(*history));
-    return kExitOk;
-  }
+int show_program(Context& context, client::Client& client, const std::string& name) {
+  auto history = client.program(name);
+  if (const auto status = finished(context, history)) return *status;
   const auto& program = history->program;
   Details details;
   details.add("program", program.name);
@@ -88,14 +69,8 @@ int show_program(Context& context, const std::string& name) {
                                                         bytes_text(program.size))));
   details.add("sha256", program.sha256);
   context.print(details);
-  Table table({{"REV", Align::Right},
-               {"STATE"},
-               {"SIZE", Align::Right},
-               {"SHA-256"},
-               {"CONTROL"},
-               {"CREATED"},
-               {"AUTHOR"},
-               {"COMMENT"}});
+  Table table(
+      {right("REV"), "STATE", right("SIZE"), "SHA-256", "CONTROL", "CREATED", "AUTHOR", "COMMENT"});
   for (const auto& revision : history->revisions) {
     table.add({std::to_string(revision.revision), standing_cell(program, revision),
                bytes_text(revision.size), short_id(revision.sha256), revision.control,
@@ -111,30 +86,24 @@ struct RemoveCommand {
   bool overrides_protection = false;
 };
 
-int remove_program(Context& context, const RemoveCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto removed = client->remove_program(command.name, command.overrides_protection);
+int remove_program(Context& context, client::Client& client, const RemoveCommand& command) {
+  auto removed = client.remove_program(command.name, command.overrides_protection);
   if (!removed) return complain(removed.error());
   context.print(
       fmt::format("Removed {} from the library; its runs and reports stay.\n", command.name));
   return kExitOk;
 }
 
-int copy_program(Context& context, const MoveCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto copy = client->copy_program(command.from, command.to, command.revision);
+int copy_program(Context& context, client::Client& client, const MoveCommand& command) {
+  auto copy = client.copy_program(command.from, command.to, command.revision);
   if (!copy) return complain(copy.error());
   context.print(fmt::format("{} revision {}: {}, {}\n", copy->program, copy->revision,
                             copy->comment, bytes_text(copy->size)));
   return kExitOk;
 }
 
-int rename_program(Context& context, const MoveCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto renamed = client->rename_program(command.from, command.to);
+int rename_program(Context& context, client::Client& client, const MoveCommand& command) {
+  auto renamed = client.rename_program(command.from, command.to);
   if (!renamed) return complain(renamed.error());
   const auto count = renamed->revisions.size();
   context.print(fmt::format("{} is now {}, with {} revision{}; its runs and reports go with it.\n",
@@ -142,10 +111,8 @@ int rename_program(Context& context, const MoveCommand& command) {
   return kExitOk;
 }
 
-int accept_revision(Context& context, const RevisionCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto accepted = client->accept_revision(command.program, command.revision);
+int accept_revision(Context& context, client::Client& client, const RevisionCommand& command) {
+  auto accepted = client.accept_revision(command.program, command.revision);
   if (!accepted) return complain(accepted.error());
   context.print(fmt::format("Accepted {} revision {}: {}, sha256 {}\n", accepted->program,
                             accepted->revision, bytes_text(accepted->size),
@@ -153,10 +120,8 @@ int accept_revision(Context& context, const RevisionCommand& command) {
   return kExitOk;
 }
 
-int reject_revision(Context& context, const RevisionCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto rejected = client->reject_revision(command.program, command.revision);
+int reject_revision(Context& context, client::Client& client, const RevisionCommand& command) {
+  auto rejected = client.reject_revision(command.program, command.revision);
   if (!rejected) return complain(rejected.error());
   context.print(fmt::format("Rejected {} revision {}; it is hidden and will never run.\n",
                             command.program, command.revision));
@@ -164,7 +129,7 @@ int reject_revision(Context& context, const RevisionCommand& command) {
 }
 
 void add_judgment(Command group, Context& context, const char* verb, const char* help,
-                  int (*action)(Context&, const RevisionCommand&)) {
+                  int (*action)(Context&, client::Client&, const RevisionCommand&)) {
   auto command = group.add_subcommand(verb, help);
   auto options = std::make_shared<RevisionCommand>();
   command.add_option("NAME", options->program, "The program").required();
@@ -175,7 +140,7 @@ void add_judgment(Command group, Context& context, const char* verb, const char*
       "the audit trail.\n\nExample:\n  dnc program pull O0200 --revision 3 -o received.nc\n  dnc "
       "program {} O0200 3",
       verb));
-  command.callback([&context, options, action] { context.status = action(context, *options); });
+  run_at_server(command, context, options, action);
 }
 
 void add_push(Command group, Context& context) {
@@ -218,7 +183,7 @@ void add_show(Command group, Context& context) {
   auto name = std::make_shared<std::string>();
   command.add_option("NAME", *name, "The program").required();
   add_json_flag(command, context);
-  command.callback([&context, name] { context.status = show_program(context, *name); });
+  run_at_server(command, context, name, show_program);
 }
 
 void add_remove(Command group, Context& context) {
@@ -228,7 +193,7 @@ void add_remove(Command group, Context& context) {
   command.add_option("NAME", options->name, "The program").required();
   command.add_flag("--force", options->overrides_protection,
                    "Remove even a protected program (tnc155: P, G50)");
-  command.callback([&context, options] { context.status = remove_program(context, *options); });
+  run_at_server(command, context, options, remove_program);
 }
 
 void add_copy(Command group, Context& context) {
@@ -240,7 +205,7 @@ void add_copy(Command group, Context& context) {
   command.footer(
       "The copy begins with that revision as its first; its source is in its comment "
       "and\nin the audit trail.\n\nExample:\n  dnc program copy O0200 O0201");
-  command.callback([&context, options] { context.status = copy_program(context, *options); });
+  run_at_server(command, context, options, copy_program);
 }
 
 void add_rename(Command group, Context& context) {
@@ -252,7 +217,7 @@ void add_rename(Command group, Context& context) {
       "All its revisions, runs and reports go with it. It is refused while a run uses the program "
       "or a\nrevision of it is pending approval. The text stays as it is: an O number in it "
       "too.\n\nExample:\n  dnc program rename O0200 O0210");
-  command.callback([&context, options] { context.status = rename_program(context, *options); });
+  run_at_server(command, context, options, rename_program);
 }
 
 }  // namespace
@@ -264,7 +229,7 @@ void add_program_commands(Command app, Context& context) {
   add_pull(group, context);
   auto list = group.add_subcommand("list", "List all programs with their latest revision");
   add_json_flag(list, context);
-  list.callback([&context] { context.status = list_programs(context); });
+  run_at_server(list, context, list_programs);
   add_show(group, context);
   add_judgment(group, context, "accept", "Approve a pending revision, so that it can run",
                accept_revision);

@@ -10,7 +10,6 @@
 #include "clients/cli/text/terminal.hpp"
 #include "clients/cli/text/value_text.hpp"
 #include "clients/cli/text/visible_text.hpp"
-#include "clients/lib/output_file.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -35,14 +34,8 @@ client::Reply<std::vector<client::MachineReport>> machine_reports(client::Client
 }
 
 Table table_of(const std::vector<client::Report>& reports) {
-  Table table({{"RUN"},
-               {"MACHINE"},
-               {"PROGRAM"},
-               {"REV", Align::Right},
-               {"STATE"},
-               {"LINES", Align::Right},
-               {"STARTED"},
-               {"ENDED"}});
+  Table table(
+      {"RUN", "MACHINE", "PROGRAM", right("REV"), "STATE", right("LINES"), "STARTED", "ENDED"});
   for (const auto& report : reports) {
     table.add({short_id(report.run), report.machine, report.program,
                std::to_string(report.revision), Cell(report.state, style_of_state(report.state)),
@@ -52,7 +45,7 @@ Table table_of(const std::vector<client::Report>& reports) {
 }
 
 Table table_of(const std::vector<client::MachineReport>& reports) {
-  Table table({{"MACHINE"}, {"LINES OUTSIDE RUNS", Align::Right}, {"FIRST"}, {"LAST"}});
+  Table table({"MACHINE", right("LINES OUTSIDE RUNS"), "FIRST", "LAST"});
   for (const auto& report : reports) {
     table.add({report.machine, std::to_string(report.lines), time_text(report.first),
                time_text(report.last)});
@@ -67,17 +60,15 @@ nlohmann::ordered_json json_array(const std::vector<T>& list) {
   return array;
 }
 
-int list(Context& context, const ListCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
+int list(Context& context, client::Client& client, const ListCommand& command) {
   auto reports = fetch_all(command.limit, [&](client::Page page) {
     client::ReportQuery query = command.query;
     query.page = page;
-    return client->reports(query);
+    return client.reports(query);
   });
   if (!reports) return complain(reports.error());
   client::Reply<std::vector<client::MachineReport>> machines{};
-  if (command.query.program.empty()) machines = machine_reports(*client, command.query.machine);
+  if (command.query.program.empty()) machines = machine_reports(client, command.query.machine);
   if (!machines) return complain(machines.error());
   if (context.wants_json) {
     context.print(json_text(nlohmann::ordered_json{{"reports", json_array(*reports)},
@@ -141,14 +132,12 @@ struct ShowCommand {
   bool is_raw = false;
 };
 
-int show(Context& context, const ShowCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto report = find_report(*client, command.run);
+int show(Context& context, client::Client& client, const ShowCommand& command) {
+  auto report = find_report(client, command.run);
   if (!report) return complain(report.error());
   const bool is_shown = terminal_of(STDOUT_FILENO).is_terminal && !command.is_raw;
   const auto controls = is_shown ? Controls::Visible : Controls::AsTheyAre;
-  if (context.wants_json) return print_report(*client, *report, "json", controls);
+  if (context.wants_json) return print_report(client, *report, "json", controls);
   if (const auto& run = report->run) {
     context.print(fmt::format("Report of run {}: {} revision {} on {}, {}, {}\n\n",
                               short_id(run->id), run->program, run->revision, run->machine,
@@ -156,33 +145,26 @@ int show(Context& context, const ShowCommand& command) {
   } else {
     context.print(fmt::format("Printed by machine {} outside any run\n\n", report->machine));
   }
-  return print_report(*client, *report, "text", controls);
+  return print_report(client, *report, "text", controls);
 }
 
 int export_to_file(client::Client& client, const ReportOf& report, const ExportCommand& command) {
-  auto file = client::OutputFile::create(command.output);
-  if (!file) return complain(file.error());
-  std::optional<Error> unwritten;
-  auto exported = report.write(client, command.format, [&](std::string_view bytes) {
-    if (auto written = file->write(bytes); !written) unwritten = written.error();
-    return !unwritten;
+  const int status = save_content(command.output, [&](const ContentSink& sink) {
+    return report.write(client, command.format, sink);
   });
-  if (unwritten) return complain(*unwritten);
-  if (!exported) return complain(exported.error());
-  if (auto kept = file->commit(); !kept) return complain(kept.error());
-  fmt::print(stderr, "Wrote the report of {} to {}\n", report.name(), command.output);
-  return kExitOk;
+  if (status == kExitOk) {
+    fmt::print(stderr, "Wrote the report of {} to {}\n", report.name(), command.output);
+  }
+  return status;
 }
 
-int export_report(Context& context, const ExportCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto report = find_report(*client, command.run);
+int export_report(Context&, client::Client& client, const ExportCommand& command) {
+  auto report = find_report(client, command.run);
   if (!report) return complain(report.error());
   if (!command.output.empty() && command.output != "-") {
-    return export_to_file(*client, *report, command);
+    return export_to_file(client, *report, command);
   }
-  return print_report(*client, *report, command.format, Controls::AsTheyAre);
+  return print_report(client, *report, command.format, Controls::AsTheyAre);
 }
 
 constexpr const char* kReportHelp =
@@ -201,7 +183,7 @@ void add_export(Command group, Context& context) {
       "text holds exactly the lines that the machine put out, in order; csv and json add time, "
       "device, block\nand line.\n\nExample:\n  dnc report export latest --format csv -o "
       "profile.csv");
-  command.callback([&context, options] { context.status = export_report(context, *options); });
+  run_at_server(command, context, options, export_report);
 }
 
 }  // namespace
@@ -218,7 +200,7 @@ void add_report_commands(Command app, Context& context) {
   list_command.add_option("--program", options->query.program, "List only runs of this program");
   list_command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(list_command, context);
-  list_command.callback([&context, options] { context.status = list(context, *options); });
+  run_at_server(list_command, context, options, list);
 
   auto shown = std::make_shared<ShowCommand>();
   auto show_command = group.add_subcommand("show", "Print the report of a run, or a machine's own");
@@ -227,7 +209,7 @@ void add_report_commands(Command app, Context& context) {
       "--raw", shown->is_raw,
       "Print control characters unchanged, also on a terminal (otherwise as \\x1b)");
   add_json_flag(show_command, context);
-  show_command.callback([&context, shown] { context.status = show(context, *shown); });
+  run_at_server(show_command, context, shown, show);
 
   add_export(group, context);
 }

@@ -21,10 +21,8 @@ struct ListCommand {
   std::uint64_t limit = 20;
 };
 
-int start(Context& context, const StartCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto run = client->start_run(command.request);
+int start(Context& context, client::Client& client, const StartCommand& command) {
+  auto run = client.start_run(command.request);
   if (!run) return complain(run.error());
   if (command.follows || command.waits) {
     if (!context.wants_json && command.follows) {
@@ -32,7 +30,7 @@ int start(Context& context, const StartCommand& command) {
       std::fflush(stdout);
     }
     const auto style = command.follows ? WatchStyle::Live : WatchStyle::Silent;
-    return watch_run(context, *client, *run, style);
+    return watch_run(context, client, *run, style);
   }
   if (context.wants_json) {
     context.print(json_text(*run));
@@ -51,33 +49,19 @@ void add_row(Table& table, const client::Run& run) {
        has_ended(run) ? duration_text(seconds_between(run.started, run.ended)) : "", run.reason});
 }
 
-int list(Context& context, const ListCommand& command) {
-  auto client = context.connect();
-  if (!client) return context.status;
+int list(Context& context, client::Client& client, const ListCommand& command) {
   auto runs = fetch_all(command.limit, [&](client::Page page) {
     client::RunQuery query = command.query;
     query.page = page;
-    return client->runs(query);
+    return client.runs(query);
   });
-  if (!runs) return complain(runs.error());
-  if (context.wants_json) {
-    context.print(json_list_text("runs", *runs));
-    return kExitOk;
-  }
+  if (const auto status = finished(context, runs, "runs")) return *status;
   if (runs->empty()) {
     context.print("No such run; dnc run start MACHINE PROGRAM makes one.\n");
     return kExitOk;
   }
-  Table table({{"RUN"},
-               {"MACHINE"},
-               {"PROGRAM"},
-               {"REV", Align::Right},
-               {"STATE"},
-               {"BLOCKS", Align::Right},
-               {"REPORT LINES", Align::Right},
-               {"STARTED"},
-               {"TOOK", Align::Right},
-               {"REASON"}});
+  Table table({"RUN", "MACHINE", "PROGRAM", right("REV"), "STATE", right("BLOCKS"),
+               right("REPORT LINES"), "STARTED", right("TOOK"), "REASON"});
   for (const auto& run : *runs) add_row(table, run);
   context.print(table);
   return kExitOk;
@@ -107,25 +91,17 @@ Details run_details(const client::Run& run) {
   return details;
 }
 
-int show(Context& context, const std::string& reference) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto run = find_run(*client, reference);
-  if (!run) return complain(run.error());
-  if (context.wants_json) {
-    context.print(json_text(*run));
-  } else {
-    context.print(run_details(*run));
-  }
+int show(Context& context, client::Client& client, const std::string& reference) {
+  auto run = find_run(client, reference);
+  if (const auto status = finished(context, run)) return *status;
+  context.print(run_details(*run));
   return kExitOk;
 }
 
-int watch(Context& context, const std::string& reference) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto run = find_run(*client, reference);
+int watch(Context& context, client::Client& client, const std::string& reference) {
+  auto run = find_run(client, reference);
   if (!run) return complain(run.error());
-  return watch_run(context, *client, *run, WatchStyle::Live);
+  return watch_run(context, client, *run, WatchStyle::Live);
 }
 
 void add_start(Command group, Context& context) {
@@ -171,7 +147,7 @@ void add_start(Command group, Context& context) {
       "is in a loop or a subprogram, unless --memory and --pass\ndecide it.\n\nWith --follow or "
       "--wait the exit status is the run's: 0 completed, 1 anything else. Ctrl-C ends\nthe "
       "watching (status 130), never the run.\n\nExample:\n  dnc run start lathe-1 O0200 --follow");
-  command.callback([&context, options] { context.status = start(context, *options); });
+  run_at_server(command, context, options, start);
 }
 
 void add_list(Command group, Context& context) {
@@ -184,7 +160,7 @@ void add_list(Command group, Context& context) {
                      "interrupted, refused");
   command.add_option("--limit", options->limit, "List at most this many, 0 for all [20]");
   add_json_flag(command, context);
-  command.callback([&context, options] { context.status = list(context, *options); });
+  run_at_server(command, context, options, list);
 }
 
 }  // namespace
@@ -199,7 +175,7 @@ void add_run_commands(Command app, Context& context) {
   auto show_command = group.add_subcommand("show", "Show everything known of a run");
   show_command.add_option("ID", *shown, kRunHelp).required();
   add_json_flag(show_command, context);
-  show_command.callback([&context, shown] { context.status = show(context, *shown); });
+  run_at_server(show_command, context, shown, show);
 
   add_run_control_commands(group, context);
 
@@ -210,7 +186,7 @@ void add_run_commands(Command app, Context& context) {
                          "Print each change as one JSON object per line");
   watch_command.footer(
       "Exit status: 0 completed, 1 anything else, 130 after Ctrl-C (the run continues).");
-  watch_command.callback([&context, watched] { context.status = watch(context, *watched); });
+  run_at_server(watch_command, context, watched, watch);
 }
 
 }  // namespace dripline::cli

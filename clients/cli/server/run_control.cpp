@@ -66,9 +66,8 @@ void add_switch(Command group, Context& context) {
   command.add_option("STATE", options->state, "on or off").required().check(one_of({"on", "off"}));
   command.footer(
       "emergency_stop brakes at once, switches spindle and coolant off and keeps the run from "
-      "continuing; "
-      "when\nit is off again the run ends as aborted. It can be released by dnc machine switch "
-      "too.\n\nExample:\n  dnc run switch latest single_block on");
+      "continuing; when\nit is off again the run ends as aborted. It can be released by dnc "
+      "machine switch too.\n\nExample:\n  dnc run switch latest single_block on");
   command.callback([&context, options] {
     context.status =
         give(context, options->run, {switch_command(options->name, options->state == "on")});
@@ -85,10 +84,8 @@ void add_handwheel(Command group, Context& context) {
       .check(in_range(1, kMaxClicks));
   command.footer(
       "In handwheel mode a program moves only as far as the handwheel is turned; the feed switch "
-      "sets "
-      "the\ndistance per click.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
-      "handwheel "
-      "latest 200");
+      "sets the\ndistance per click.\n\nExample:\n  dnc run switch latest handwheel on\n  dnc run "
+      "handwheel latest 200");
   command.callback([&context, options] {
     client::CommandRequest request = plain("handwheel");
     request.value = options->clicks;

@@ -15,17 +15,11 @@ void add_health(Details& details, const client::ServerInfo::Health& health) {
   }
 }
 
-int show_status(Context& context) {
-  auto client = context.connect();
-  if (!client) return context.status;
-  auto server = client->server();
-  if (!server) return complain(server.error());
-  if (context.wants_json) {
-    context.print(json_text(*server));
-    return kExitOk;
-  }
+int show_status(Context& context, client::Client& client) {
+  auto server = client.server();
+  if (const auto status = finished(context, server)) return *status;
   Details details;
-  details.add("server", client->address().url);
+  details.add("server", client.address().url);
   details.add("name", server->name);
   add_health(details, server->health);
   details.add("version", server->version);
@@ -49,7 +43,7 @@ void add_server_commands(Command app, Context& context) {
   group.require_subcommand(1);
   auto status = group.add_subcommand("status", "Show version, uptime and counts");
   add_json_flag(status, context);
-  status.callback([&context] { context.status = show_status(context); });
+  run_at_server(status, context, show_status);
 }
 
 }  // namespace dripline::cli

@@ -6,13 +6,11 @@
 #include "clients/cli/port/port_file.hpp"
 #include "clients/cli/setup/setup_changes.hpp"
 #include "clients/cli/setup/setup_forms.hpp"
-#include "clients/cli/setup/setup_menu.hpp"
 #include "clients/cli/setup/setup_options.hpp"
 #include "clients/cli/setup/setup_text.hpp"
 #include "clients/cli/text/json_text.hpp"
 #include "clients/cli/text/standard_output.hpp"
 #include "clients/cli/text/value_text.hpp"
-#include "clients/lib/output_file.hpp"
 
 namespace dripline::cli {
 namespace {
@@ -33,17 +31,13 @@ int list(Context& context, const SetupCommand& command) {
   if (!client) return context.status;
   auto setups = fetch_all(command.limit,
                           [&](client::Page page) { return client->setups(command.machine, page); });
-  if (!setups) return complain(setups.error());
-  if (context.wants_json) {
-    context.print(json_list_text("setups", *setups));
-    return kExitOk;
-  }
+  if (const auto status = finished(context, setups, "setups")) return *status;
   if (setups->empty()) {
     context.print(fmt::format("The server keeps no setup of {}; its gateway has its own.\n",
                               command.machine));
     return kExitOk;
   }
-  Table table({{"REV", Align::Right}, {"SIZE", Align::Right}, {"SAVED"}, {"BY"}, {"COMMENT"}});
+  Table table({right("REV"), right("SIZE"), "SAVED", "BY", "COMMENT"});
   for (const auto& setup : *setups) {
     table.add({std::to_string(setup.revision), bytes_text(setup.size), time_text(setup.created),
                setup.author, setup.comment});
@@ -83,17 +77,10 @@ int push(Context& context, const SetupCommand& command) {
 }
 
 int put_out(const std::string& path, std::string_view text, const std::string& what) {
-  if (path.empty() || path == "-") {
-    StandardOutput output;
-    (void)output.write(text).has_value();
-    return output.error() ? output.complain() : kExitOk;
-  }
-  auto file = client::OutputFile::create(path);
-  if (!file) return complain(file.error());
-  if (auto written = file->write(text); !written) return complain(written.error());
-  if (auto kept = file->commit(); !kept) return complain(kept.error());
-  fmt::print(stderr, "Wrote {} to {}\n", what, path);
-  return kExitOk;
+  const int status = write_to(path, text);
+  const bool is_file = !path.empty() && path != "-";
+  if (status == kExitOk && is_file) fmt::print(stderr, "Wrote {} to {}\n", what, path);
+  return status;
 }
 
 int pull(Context& context, const SetupCommand& command) {

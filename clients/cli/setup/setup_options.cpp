@@ -65,7 +65,7 @@ int list_options(Context& context, const OptionsCommand& command) {
       controls.push_back(to_json(*dialect));
       continue;
     }
-    Table table({{"KEY"}, {"VALUE"}, {"DEFAULT"}, {"MEANING"}});
+    Table table({"KEY", "VALUE", "DEFAULT", "MEANING"});
     for (const ListedOption& option : dialect->options()) {
       table.add({std::string(option.key.key), value_text(option), option.fallback,
                  std::string(option.key.text)});

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "clients/cli/exit_status.hpp"
+#include "clients/lib/output_file.hpp"
 
 namespace dripline::cli {
 
@@ -28,6 +29,37 @@ Result<void> StandardOutput::write(std::string_view text) {
 
 int StandardOutput::complain() const {
   return is_closed_ ? kExitClosedPipe : cli::complain(*error_);
+}
+
+Result<void> write_file(const std::string& path, std::string_view bytes) {
+  auto file = client::OutputFile::create(path);
+  if (!file) return fail(file.error());
+  if (auto written = file->write(bytes); !written) return written;
+  return file->commit();
+}
+
+int write_to(const std::string& path, std::string_view text) {
+  if (path.empty() || path == "-") {
+    StandardOutput output;
+    return output.write(text) ? kExitOk : output.complain();
+  }
+  const auto written = write_file(path, text);
+  return written ? kExitOk : complain(written.error());
+}
+
+int save_content(const std::string& path,
+                 const std::function<client::Reply<void>(const ContentSink&)>& fetch) {
+  auto file = client::OutputFile::create(path);
+  if (!file) return complain(file.error());
+  Result<void> written;
+  const auto fetched = fetch([&](std::string_view bytes) {
+    written = file->write(bytes);
+    return written.has_value();
+  });
+  if (!written) return complain(written.error());
+  if (!fetched) return complain(fetched.error());
+  const auto kept = file->commit();
+  return kept ? kExitOk : complain(kept.error());
 }
 
 }  // namespace dripline::cli

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
-#include "protocol/base/result.hpp"
+#include "clients/lib/reply.hpp"
 
 namespace dripline::cli {
 
@@ -23,5 +25,17 @@ class StandardOutput {
   std::optional<Error> error_;
   bool is_closed_ = false;
 };
+
+/// The whole file or none of it. Errors: Io.
+Result<void> write_file(const std::string& path, std::string_view bytes);
+
+/// Writes to a file, or to standard output for "-" and "". Gives the exit status.
+int write_to(const std::string& path, std::string_view text);
+
+/// The whole file or none of it, piece by piece as `fetch` passes them to its argument. Gives the
+/// exit status.
+using ContentSink = std::function<bool(std::string_view)>;
+int save_content(const std::string& path,
+                 const std::function<client::Reply<void>(const ContentSink&)>& fetch);
 
 }  // namespace dripline::cli

@@ -11,9 +11,15 @@ namespace dripline::cli {
 enum class Align { Left, Right };
 
 struct Column {
+  // Implicit, because most columns are aligned to the left.
+  Column(std::string_view text, Align side = Align::Left) : heading(text), align(side) {}
+  Column(const char* text) : Column(std::string_view(text)) {}
   std::string heading;  ///< with the unit where the cells are bare numbers
-  Align align = Align::Left;
+  Align align;
 };
+inline Column right(std::string_view heading) {
+  return {heading, Align::Right};
+}
 
 struct Cell {
   // Implicit, because most cells are plain texts.

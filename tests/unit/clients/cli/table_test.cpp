@@ -8,7 +8,7 @@ namespace dripline::cli {
 namespace {
 
 TEST(Table, AlignsColumnsAndLeavesNoBlanksAtTheEnd) {
-  Table table({{"NAME"}, {"SIZE", Align::Right}, {"COMMENT"}});
+  Table table({"NAME", right("SIZE"), "COMMENT"});
   table.add({"O1", "5 B", "first"});
   table.add({"O0200", "12.0 MB", ""});
   EXPECT_EQ(table.render(false),
@@ -18,21 +18,21 @@ TEST(Table, AlignsColumnsAndLeavesNoBlanksAtTheEnd) {
 }
 
 TEST(Table, ColorsOnlyWhenAsked) {
-  Table table({{"STATE"}});
+  Table table({"STATE"});
   table.add({Cell("alarmed", Style::Bad)});
   EXPECT_EQ(table.render(true), "\x1b[1mSTATE\x1b[0m\n\x1b[31malarmed\x1b[0m\n");
   EXPECT_EQ(table.render(false), "STATE\nalarmed\n");
 }
 
 TEST(Table, CountsCharactersNotBytes) {
-  Table table({{"NAME"}, {"X"}});
+  Table table({"NAME", "X"});
   table.add({"M\u00fcller", "1"});
   table.add({"Muller", "2"});
   EXPECT_EQ(table.render(false), "NAME    X\nM\u00fcller  1\nMuller  2\n");
 }
 
 TEST(Table, LetsNoTextSteerTheTerminal) {
-  Table table({{"COMMENT"}});
+  Table table({"COMMENT"});
   table.add({"a\x1b[2Jb\nc"});
   EXPECT_EQ(table.render(false), "COMMENT\na [2Jb c\n");
 }
