@@ -12,9 +12,9 @@
 namespace dripline::storage {
 
 /// What the server keeps, in domain words: eight interfaces, so that a service names the ones it
-/// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function may be called from any
-/// thread; each is one transaction. When it has returned success, what it wrote is on disk. Errors
-/// everywhere: Io, Busy, Corrupt (stored bytes fail their check).
+/// needs. What opens a store also checks it (`SqliteStore`: check, probe, identity). Every function
+/// may be called from any thread; each is one transaction. When it has returned success, what it
+/// wrote is on disk. Errors everywhere: Io, Busy, Corrupt (stored bytes fail their check).
 struct Store {
   ProgramStore& programs;
   UploadStore& uploads;

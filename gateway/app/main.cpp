@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/stat.h>
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <csignal>
 #include <cstdio>
 #include <fstream>

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 #include <cstdint>
 
-/// One line in the daemon's log (daemon_log.hpp). Formatting is compiled once, in log.cpp: a file that
-/// formats by spdlog itself takes three seconds more to compile. Any thread.
+/// One line in the daemon's log (daemon_log.hpp). Formatting is compiled once, in log.cpp: a file
+/// that formats by spdlog itself takes three seconds more to compile. Any thread.
 namespace dripline::process {
 
 enum class LogLevel : std::uint8_t { Debug, Info, Warning, Error };

@@ -14,9 +14,9 @@ enum class Side : std::uint8_t { Left, Right };
 /// How the tool goes round the outside of a corner. Where a rapid move follows, `Arc` means
 /// `ExtendTangents` unless `Policy::rounds_at_rapid`.
 enum class OutsideCorner : std::uint8_t {
-  ExtendTangents,  ///< both offset elements continue along their tangents: to their intersection,
-                   ///< or beyond `Policy::sharpest` each by one radius, with a straight piece
-                   ///< between
+  ExtendTangents,   ///< both offset elements continue along their tangents: to their intersection,
+                    ///< or beyond `Policy::sharpest` each by one radius, with a straight piece
+                    ///< between
   Arc,              ///< an arc of the cutter radius about the corner
   IntersectCurves,  ///< the offset lines and circles themselves, prolonged to where they meet
 };

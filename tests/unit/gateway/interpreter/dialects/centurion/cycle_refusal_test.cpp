@@ -2,8 +2,8 @@
 
 #include "tests/unit/gateway/interpreter/dialects/centurion/program_run.hpp"
 
-/// Bad words of the drilling and grooving cycles are reported before anything moves (CEN-120, CEN-129,
-/// CEN-130, CEN-133).
+/// Bad words of the drilling and grooving cycles are reported before anything moves (CEN-120,
+/// CEN-129, CEN-130, CEN-133).
 namespace dripline::interpreter::centurion {
 namespace {
 

@@ -18,8 +18,8 @@ ControlSetup with_control(const std::string& options) {
   return *setup;
 }
 
-/// Feed, spindle and single block inhibited; when a feed hold acts (0 at once, 1 later, 2 an earlier
-/// one later too); a tapping cycle.
+/// Feed, spindle and single block inhibited; when a feed hold acts (0 at once, 1 later, 2 an
+/// earlier one later too); a tapping cycle.
 Lines locks_of(const std::string& text, const ControlSetup& setup = {}) {
   ProgramRun run(text, setup);
   EXPECT_EQ(run.step(), StepState::Ended) << run.alarm();
