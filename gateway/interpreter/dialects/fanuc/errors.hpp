@@ -8,7 +8,7 @@
 namespace dripline::interpreter::fanuc {
 
 // The rows are named as enumerators are, because they are used as such.
-// NOLINTBEGIN(readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be
 struct ErrorCode {
   static constexpr DiagnosticRow TooManyDigits{"PS003", "TOO MANY DIGITS"};
   static constexpr DiagnosticRow AddressNotFound{"PS004", "ADDRESS NOT FOUND"};

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::prototrak {
 
 // The rows are named as enumerators are, because they are used as such.
-// NOLINTBEGIN(readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be
 struct Fault {
   static constexpr DiagnosticRow NoBlockEnd{"PTK0102", "no end of block"};
   static constexpr DiagnosticRow Character{"PTK0103", "invalid character"};

@@ -9,7 +9,7 @@
 namespace dripline::interpreter::rs274ngc {
 
 // The rows are named as enumerators are, because they are used as such.
-// NOLINTBEGIN(readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be
 struct ErrorCode {
   static constexpr DiagnosticRow BadCharacter{"NGC0100", "Bad character used"};
   static constexpr DiagnosticRow CommandTooLong{"NGC0101", "Command too long"};

@@ -7,7 +7,7 @@
 namespace dripline::interpreter::tektronix1704 {
 
 // The rows are named as enumerators are, because they are used as such.
-// NOLINTBEGIN(readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming): a row is named as an enumerator would be
 struct Fault {
   static constexpr DiagnosticRow Character{"TEK0103", "invalid character"};
   static constexpr DiagnosticRow TooManyDigits{"TEK0104", "too many significant digits"};
