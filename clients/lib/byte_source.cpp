@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace dripline::client {
@@ -12,12 +12,14 @@ namespace dripline::client {
 Result<FileSource> FileSource::open(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    return fail(Errc::Io, "file {} cannot be read: {}", path, std::strerror(errno));
+    return fail(Errc::Io, "file {} cannot be read: {}", path,
+                std::generic_category().message(errno));
   }
   struct stat status {};
   FileSource source(path, descriptor, 0);
   if (::fstat(descriptor, &status) != 0) {
-    return fail(Errc::Io, "file {} cannot be read: {}", path, std::strerror(errno));
+    return fail(Errc::Io, "file {} cannot be read: {}", path,
+                std::generic_category().message(errno));
   }
   if (!S_ISREG(status.st_mode)) {
     return fail(Errc::Unsupported, "{} is not a regular file, as a push that can resume needs",
@@ -43,7 +45,9 @@ Result<void> FileSource::read(std::uint64_t offset, std::span<char> into) {
   while (!into.empty()) {
     const auto got = ::pread(descriptor_, into.data(), into.size(), static_cast<off_t>(offset));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return fail(Errc::Io, "file {} cannot be read: {}", path_, std::strerror(errno));
+    if (got < 0)
+      return fail(Errc::Io, "file {} cannot be read: {}", path_,
+                  std::generic_category().message(errno));
     if (got == 0) {
       return fail(Errc::Io, "file {} ended at byte {}, it had {} when the push began", path_,
                   offset, size_);

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace dripline::client {
@@ -14,7 +14,8 @@ Result<OutputFile> OutputFile::create(const std::string& path) {
   std::string temporary = path + ".part-XXXXXX";
   const int descriptor = ::mkstemp(temporary.data());
   if (descriptor < 0) {
-    return fail(Errc::Io, "file {} cannot be written: {}", path, std::strerror(errno));
+    return fail(Errc::Io, "file {} cannot be written: {}", path,
+                std::generic_category().message(errno));
   }
   // mkstemp is private to the user; a pulled program is an ordinary file.
   const mode_t mask = ::umask(0);
@@ -42,7 +43,8 @@ Result<void> OutputFile::write(std::string_view bytes) {
     const auto written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
-      return fail(Errc::Io, "file {} cannot be written: {}", path_, std::strerror(errno));
+      return fail(Errc::Io, "file {} cannot be written: {}", path_,
+                  std::generic_category().message(errno));
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -51,7 +53,8 @@ Result<void> OutputFile::write(std::string_view bytes) {
 
 Result<void> OutputFile::commit() {
   if (::fsync(descriptor_) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    return fail(Errc::Io, "file {} cannot be completed: {}", path_, std::strerror(errno));
+    return fail(Errc::Io, "file {} cannot be completed: {}", path_,
+                std::generic_category().message(errno));
   }
   ::close(std::exchange(descriptor_, -1));
   return {};

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace dripline::cli {
@@ -27,7 +27,8 @@ struct Descriptor {
 
 Result<MappedFile> MappedFile::open(const std::string& path) {
   const auto refuse = [&path] {
-    return fail(Errc::Io, "file {} cannot be read: {}", path, std::strerror(errno));
+    return fail(Errc::Io, "file {} cannot be read: {}", path,
+                std::generic_category().message(errno));
   };
   const Descriptor descriptor(path);
   struct stat status {};

@@ -3,7 +3,7 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
+#include <system_error>
 
 #include "clients/cli/exit_status.hpp"
 #include "clients/lib/output_file.hpp"
@@ -17,8 +17,8 @@ Result<void> StandardOutput::write(std::string_view text) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       is_closed_ = errno == EPIPE;
-      error_ = Error{Errc::Io,
-                     fmt::format("standard output cannot be written: {}", std::strerror(errno))};
+      error_ = Error{Errc::Io, fmt::format("standard output cannot be written: {}",
+                                           std::generic_category().message(errno))};
       break;
     }
     text.remove_prefix(static_cast<std::size_t>(written));

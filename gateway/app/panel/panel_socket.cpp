@@ -14,6 +14,7 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ struct Answers {
 Result<Descriptor> listen_at(const std::filesystem::path& folder) {
   const auto refused = [&](const char* what) {
     return fail(Errc::Io, "panel socket in {}: {}: {}", folder.string(), what,
-                std::strerror(errno));
+                std::generic_category().message(errno));
   };
   const Descriptor place = open_folder(folder);
   if (!place) return refused("folder");
@@ -255,7 +256,8 @@ Result<std::unique_ptr<PanelSocket>> PanelSocket::open(
   if (!listening) return fail(listening.error());
   auto answers = std::make_shared<Answers>();
   answers->wake = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
-  if (!answers->wake) return fail(Errc::Io, "panel socket: {}", std::strerror(errno));
+  if (!answers->wake)
+    return fail(Errc::Io, "panel socket: {}", std::generic_category().message(errno));
   return std::unique_ptr<PanelSocket>(new PanelSocket(
       std::make_unique<Server>(*std::move(listening), std::move(on_request), std::move(answers))));
 }
@@ -263,18 +265,20 @@ Result<std::unique_ptr<PanelSocket>> PanelSocket::open(
 Result<std::string> ask_panel(const std::filesystem::path& folder, const std::string& line) {
   constexpr int kAnswerMs = 5000;
   const Descriptor place = open_folder(folder);
-  if (!place) return fail(Errc::NotFound, "{}: {}", folder.string(), std::strerror(errno));
+  if (!place)
+    return fail(Errc::NotFound, "{}: {}", folder.string(), std::generic_category().message(errno));
   const auto address = address_in(place);
   if (!address) return fail(address.error());
   const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   if (!socket || ::connect(socket.get(), generic(*address), sizeof *address) != 0) {
     return fail(Errc::NotFound, "no gateway answers in {}: {}", folder.string(),
-                std::strerror(errno));
+                std::generic_category().message(errno));
   }
   const std::string request = line + "\n";
   if (::send(socket.get(), request.data(), request.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(request.size()))
-    return fail(Errc::Io, "panel of {}: {}", folder.string(), std::strerror(errno));
+    return fail(Errc::Io, "panel of {}: {}", folder.string(),
+                std::generic_category().message(errno));
   std::string answer;
   while (answer.find('\n') == std::string::npos && answer.size() < kMaxAnswers) {
     pollfd polled{socket.get(), POLLIN, 0};

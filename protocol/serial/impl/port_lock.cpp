@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "protocol/base/descriptor.hpp"
 
@@ -100,7 +100,8 @@ std::string owner_of(const fs::path& device, const fs::path& folder) {
 Result<PortLock> PortLock::take(int descriptor, const fs::path& device, const fs::path& folder) {
   if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK)
-      return fail(Errc::Io, "{}: cannot be locked: {}", device.string(), std::strerror(errno));
+      return fail(Errc::Io, "{}: cannot be locked: {}", device.string(),
+                  std::generic_category().message(errno));
     return fail(Errc::Busy, "{} is in use by {}", device.string(), owner_of(device, folder));
   }
   const fs::path file = lock_file(device, folder);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <deque>
 #include <functional>
+#include <system_error>
 
 #include "protocol/serial/impl/tcp_socket.hpp"
 #include "protocol/serial/rfc2217.hpp"
@@ -46,7 +46,9 @@ class Rfc2217Channel final : public Channel {
   Result<void> send_commands(const std::vector<ComPortCommand>& commands);
   Result<void> flush();
   Result<void> wait_while(const std::function<bool()>& waits, const char* what, Deadline end);
-  tl::unexpected<Error> lost(const char* why) const { return fail(Errc::Io, "{}: {}", name_, why); }
+  tl::unexpected<Error> lost(const std::string& why) const {
+    return fail(Errc::Io, "{}: {}", name_, why);
+  }
 
   /// Limit of commands in progress; a server that answers none of so many is gone.
   static constexpr std::size_t kMaxOutput = 16 * 1024;
@@ -76,7 +78,7 @@ Result<void> Rfc2217Channel::fill_raw() {
   }
   if (got == 0) return lost("the other end closed the connection");
   if (errno == EAGAIN || errno == EINTR) return {};
-  return lost(std::strerror(errno));
+  return lost(std::generic_category().message(errno));
 }
 
 std::optional<std::byte> Rfc2217Channel::digest(std::byte raw) {
@@ -148,7 +150,7 @@ Result<void> Rfc2217Channel::flush() {
     const ssize_t taken = ::send(socket_.get(), output_.data(), output_.size(), MSG_NOSIGNAL);
     if (taken < 0 && errno == EINTR) continue;
     if (taken < 0 && errno == EAGAIN) break;
-    if (taken < 0) return lost(std::strerror(errno));
+    if (taken < 0) return lost(std::generic_category().message(errno));
     output_.erase(output_.begin(), output_.begin() + taken);
   }
   if (output_.size() > kMaxOutput) return lost("the device server takes no more characters");

@@ -2,7 +2,7 @@
 
 #include <sys/socket.h>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include "protocol/serial/impl/tcp_socket.hpp"
 
@@ -19,13 +19,13 @@ class TcpChannel final : public Channel {
     if (got > 0) return Received{static_cast<std::size_t>(got), std::nullopt};
     if (got == 0) return fail(Errc::Io, "{}: the other end closed the connection", name_);
     if (errno == EAGAIN || errno == EINTR) return Received{};
-    return fail(Errc::Io, "{}: {}", name_, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", name_, std::generic_category().message(errno));
   }
   Result<std::size_t> write(std::span<const std::byte> bytes) override {
     const ssize_t taken = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (taken >= 0) return static_cast<std::size_t>(taken);
     if (errno == EAGAIN || errno == EINTR) return std::size_t{0};
-    return fail(Errc::Io, "{}: {}", name_, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", name_, std::generic_category().message(errno));
   }
   /// Bytes without the network's acknowledgment do not show the state of the line.
   std::optional<std::size_t> unsent() const override { return std::nullopt; }

@@ -6,8 +6,8 @@
 #include <sys/socket.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <memory>
+#include <system_error>
 
 namespace dripline::serial {
 namespace {
@@ -77,7 +77,8 @@ Result<Descriptor> connect_tcp(const TcpAddress& address, std::chrono::milliseco
   if (error == ETIMEDOUT)
     return fail(Errc::Timeout, "{} port {}: no connection in {} ms", address.host, address.port,
                 limit.count());
-  return fail(Errc::Io, "{} port {}: {}", address.host, address.port, std::strerror(error));
+  return fail(Errc::Io, "{} port {}: {}", address.host, address.port,
+              std::generic_category().message(error));
 }
 
 }  // namespace dripline::serial

@@ -7,8 +7,8 @@
 #include <sys/sysmacros.h>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include "protocol/base/descriptor.hpp"
 #include "protocol/serial/impl/parity_marks.hpp"
@@ -80,7 +80,8 @@ Result<void> TtyChannel::fill_raw() {
     return {};
   }
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return {};
-  return fail(Errc::Io, "{}: {}", path_, got == 0 ? "hung up" : std::strerror(errno));
+  return fail(Errc::Io, "{}: {}", path_,
+              got == 0 ? std::string("hung up") : std::generic_category().message(errno));
 }
 
 Result<Received> TtyChannel::read(std::span<std::byte> room) {
@@ -130,7 +131,7 @@ Result<std::size_t> TtyChannel::write(std::span<const std::byte> bytes) {
   const ssize_t taken = ::write(descriptor_.get(), bytes.data(), bytes.size());
   if (taken >= 0) return static_cast<std::size_t>(taken);
   if (errno == EAGAIN || errno == EINTR) return std::size_t{0};
-  return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
+  return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
 }
 
 std::optional<std::size_t> TtyChannel::unsent() const {
@@ -147,7 +148,8 @@ Result<std::optional<wire::InputLines>> TtyChannel::input_lines() {
                                           .dsr = (bits & TIOCM_DSR) != 0,
                                           .dcd = (bits & TIOCM_CAR) != 0});
   }
-  if (errno == EIO || errno == ENODEV) return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
+  if (errno == EIO || errno == ENODEV)
+    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
   return std::optional<wire::InputLines>();
 }
 
@@ -157,7 +159,7 @@ Result<void> TtyChannel::set_output_lines(wire::OutputLines lines) {
   const bool is_done = (on == 0 || ::ioctl(descriptor_.get(), TIOCMBIS, &on) == 0) &&
                        (off == 0 || ::ioctl(descriptor_.get(), TIOCMBIC, &off) == 0);
   if (is_done || (errno != EIO && errno != ENODEV)) return {};  // a pty has none
-  return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
+  return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
 }
 
 Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
@@ -166,10 +168,10 @@ Result<void> TtyChannel::apply(const wire::LineSettings& settings) {
     return fail(done.error().code, "{}: {}", path_, done.error().what);
   // EINVAL: not all settings were applied; the difference is checked below.
   if (::tcsetattr(descriptor_.get(), TCSANOW, &wanted) != 0 && errno != EINVAL)
-    return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
   termios got{};
   if (::tcgetattr(descriptor_.get(), &got) != 0)
-    return fail(Errc::Io, "{}: {}", path_, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", path_, std::generic_category().message(errno));
   if (const std::string what = difference(wanted, got); !what.empty() && !is_pty_)
     return fail(Errc::Unsupported, "{}: the device does not take {} of {}", path_, what,
                 wire::short_form(settings));
@@ -192,7 +194,7 @@ tl::unexpected<Error> refusal(const std::string& path, int error) {
   if (error == EBUSY) return fail(Errc::Busy, "{} is in use by {}", path, owner_of(path));
   if (error == EACCES || error == EPERM)
     return fail(Errc::Denied, "{}: not permitted; is this user in the group dialout?", path);
-  return fail(Errc::Io, "{}: {}", path, std::strerror(error));
+  return fail(Errc::Io, "{}: {}", path, std::generic_category().message(error));
 }
 
 }  // namespace
@@ -210,7 +212,7 @@ Result<std::unique_ptr<Channel>> open_tty(const std::string& path,
   if (!lock) return fail(lock.error());
   termios former{};
   if (::tcgetattr(descriptor.get(), &former) != 0)
-    return fail(Errc::Io, "{}: {}", path, std::strerror(errno));
+    return fail(Errc::Io, "{}: {}", path, std::generic_category().message(errno));
   auto channel =
       std::make_unique<TtyChannel>(path, std::move(descriptor), std::move(*lock), former);
   if (const auto done = channel->apply(settings); !done) return fail(done.error());
