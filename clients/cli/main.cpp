@@ -120,5 +120,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A connection that breaks while sending is an error to report, not the end of the process.
   std::signal(SIGPIPE, SIG_IGN);
-  return run(argc, argv);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "dnc: %s\n", failure.what());
+    return kExitNo;
+  }
 }

@@ -53,7 +53,9 @@ class SignalWatch {
           inbox.post(StopRequested{signal});
         }) {}
   ~SignalWatch() {
-    ::pthread_kill(thread_.native_handle(), SIGTERM);  // ends the wait; the message is not read
+    // Ends the wait; the message is not read.
+    // NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread): sigwait takes it
+    ::pthread_kill(thread_.native_handle(), SIGTERM);
     thread_.join();
   }
   SignalWatch(const SignalWatch&) = delete;
@@ -251,7 +253,7 @@ int panel_main(int argc, char** argv) {
   return is_done ? 0 : 1;
 }
 
-int main(int argc, char** argv) {
+int run_gateway(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "panel") return panel_main(argc - 1, argv + 1);
   CLI::App app("Run the programs that a Dripline server feeds to one machine.", "dncgw");
   app.set_version_flag("--version", "dncgw " DRIPLINE_VERSION);
@@ -296,5 +298,10 @@ int main(int argc, char** argv) {
 }  // namespace dripline::gateway
 
 int main(int argc, char** argv) {
-  return dripline::gateway::main(argc, argv);
+  try {
+    return dripline::gateway::run_gateway(argc, argv);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "dncgw: %s\n", failure.what());
+    return 1;
+  }
 }

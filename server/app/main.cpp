@@ -29,8 +29,8 @@ int complain(const Error& error) {
 void keep_memory_small() {
   constexpr int kMapFrom = 256 * 1024;
   constexpr int kArenas = 2;
-  ::mallopt(M_MMAP_THRESHOLD, kMapFrom);
-  ::mallopt(M_ARENA_MAX, kArenas);
+  ::mallopt(M_MMAP_THRESHOLD, kMapFrom);  // NOLINT(concurrency-mt-unsafe): no threads yet
+  ::mallopt(M_ARENA_MAX, kArenas);        // NOLINT(concurrency-mt-unsafe): no threads yet
 }
 
 void serve_until(const sigset_t& signals, Server& server) {
@@ -78,10 +78,15 @@ int run(const Settings& settings) {
 }  // namespace dripline::app
 
 int main(int argc, char** argv) {
-  const auto line = dripline::app::read_command_line(argc, argv);
-  if (!line.print.empty()) {
-    fmt::print(line.exit_code == 0 ? stdout : stderr, "{}", line.print);
-    return line.exit_code;
+  try {
+    const auto line = dripline::app::read_command_line(argc, argv);
+    if (!line.print.empty()) {
+      fmt::print(line.exit_code == 0 ? stdout : stderr, "{}", line.print);
+      return line.exit_code;
+    }
+    return dripline::app::run(line.settings);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "dncd: %s\n", failure.what());
+    return dripline::app::kFailed;
   }
-  return dripline::app::run(line.settings);
 }

@@ -5,7 +5,9 @@
 
 #include "tests/support/program_generator.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{
       "Writes a Centurion lathe contour, every pass written out as short blocks, to standard "
       "output."};
@@ -24,4 +26,15 @@ int main(int argc, char** argv) {
     dripline::test_support::write_contour(blocks > 0 ? blocks : 200'000, print);
   }
   return std::fflush(stdout) == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "make_contour: %s\n", failure.what());
+    return 1;
+  }
 }
