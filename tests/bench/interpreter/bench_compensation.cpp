@@ -80,15 +80,15 @@ void measure(benchmark::State& state, bool is_on) {
       benchmark::Counter(static_cast<double>(sink.blocks), benchmark::Counter::kIsRate);
 }
 
-void CompensationOff(benchmark::State& state) {
+void compensation_off(benchmark::State& state) {
   measure(state, false);
 }
-BENCHMARK(CompensationOff)->Unit(benchmark::kMillisecond);
+BENCHMARK(compensation_off)->Unit(benchmark::kMillisecond);
 
-void CompensationOn(benchmark::State& state) {
+void compensation_on(benchmark::State& state) {
   measure(state, true);
 }
-BENCHMARK(CompensationOn)->Unit(benchmark::kMillisecond);
+BENCHMARK(compensation_on)->Unit(benchmark::kMillisecond);
 
 /// The same contour as a program: `tests/bench/run` shows what compensation adds to a whole block.
 std::string pocket_program(std::string_view start_up) {
@@ -122,25 +122,25 @@ void measure_program(benchmark::State& state, const std::string& text) {
       benchmark::Counter(static_cast<double>(sink.blocks), benchmark::Counter::kIsRate);
 }
 
-void FanucContour(benchmark::State& state) {
+void fanuc_contour(benchmark::State& state) {
   measure_program(state, pocket_program(""));
 }
-BENCHMARK(FanucContour)->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_contour)->Unit(benchmark::kMillisecond);
 
-void FanucContourCompensated(benchmark::State& state) {
+void fanuc_contour_compensated(benchmark::State& state) {
   measure_program(state, pocket_program("G41D1"));
 }
-BENCHMARK(FanucContourCompensated)->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_contour_compensated)->Unit(benchmark::kMillisecond);
 
-void FanucArcs(benchmark::State& state) {
+void fanuc_arcs(benchmark::State& state) {
   measure_program(state, circle_program(""));
 }
-BENCHMARK(FanucArcs)->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_arcs)->Unit(benchmark::kMillisecond);
 
-void FanucArcsCompensated(benchmark::State& state) {
+void fanuc_arcs_compensated(benchmark::State& state) {
   measure_program(state, circle_program("G41D1"));
 }
-BENCHMARK(FanucArcsCompensated)->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_arcs_compensated)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter::compensation

@@ -88,14 +88,14 @@ void measure(benchmark::State& state, std::string_view control, const std::strin
   state.counters["times_of_memory_scan"] = total.seconds / scanned;
 }
 
-void CenturionStraightBlocks(benchmark::State& state) {
+void centurion_straight_blocks(benchmark::State& state) {
   static const std::string kText = straight_blocks();
   measure(state, "centurion", kText, kText);
 }
-BENCHMARK(CenturionStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(centurion_straight_blocks)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 /// The scan reads as many bytes as the loop's passes execute.
-void CenturionMacros(benchmark::State& state) {
+void centurion_macros(benchmark::State& state) {
   static const std::string kText = macro_text();
   static const std::string kExecuted = [] {
     std::string executed;
@@ -104,13 +104,13 @@ void CenturionMacros(benchmark::State& state) {
   }();
   measure(state, "centurion", kText, kExecuted);
 }
-BENCHMARK(CenturionMacros)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(centurion_macros)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void FanucStraightBlocks(benchmark::State& state) {
+void fanuc_straight_blocks(benchmark::State& state) {
   static const std::string kText = straight_blocks() + "M30\n";
   measure(state, "fanuc", kText, kText);
 }
-BENCHMARK(FanucStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_straight_blocks)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 /// A shaft with shoulders, cones and fillets, over and over, cut by a tool with a nose.
 std::string contour_text() {
@@ -125,7 +125,7 @@ std::string contour_text() {
 }
 
 /// The same number of blocks as straight moves: what the compensated ones are compared with.
-void CenturionContour(benchmark::State& state, bool is_compensated) {
+void centurion_contour(benchmark::State& state, bool is_compensated) {
   std::string text = contour_text();
   Setup setup;
   ToolRecord& tool = setup.tools.emplace_back();
@@ -135,10 +135,10 @@ void CenturionContour(benchmark::State& state, bool is_compensated) {
   if (!is_compensated) text.erase(text.find("G42"), 3);
   measure(state, "centurion", text, text, setup);
 }
-BENCHMARK_CAPTURE(CenturionContour, programmed, false)
+BENCHMARK_CAPTURE(centurion_contour, programmed, false)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(CenturionContour, compensated, true)
+BENCHMARK_CAPTURE(centurion_contour, compensated, true)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
@@ -149,7 +149,7 @@ std::string custom_macro_text() {
          "IF[#1LT100000]GOTO10\nPCLOS\nM30\n";
 }
 
-void FanucMacros(benchmark::State& state) {
+void fanuc_macros(benchmark::State& state) {
   static const std::string kText = custom_macro_text();
   static const std::string kExecuted = [] {
     std::string executed;
@@ -158,7 +158,7 @@ void FanucMacros(benchmark::State& state) {
   }();
   measure(state, "fanuc", kText, kExecuted);
 }
-BENCHMARK(FanucMacros)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(fanuc_macros)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter

@@ -145,23 +145,23 @@ void measure(benchmark::State& state, const Workload& workload) {
   if (peer > 0) state.counters["times_faster_than_peer"] = peer * runs / ours;
 }
 
-void Rs274NgcStraightBlocks(benchmark::State& state) {
+void rs274ngc_straight_blocks(benchmark::State& state) {
   static const Workload kWorkload = straight();
   measure(state, kWorkload);
 }
-BENCHMARK(Rs274NgcStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(rs274ngc_straight_blocks)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void Rs274NgcArcs(benchmark::State& state) {
+void rs274ngc_arcs(benchmark::State& state) {
   static const Workload kWorkload = arcs();
   measure(state, kWorkload);
 }
-BENCHMARK(Rs274NgcArcs)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(rs274ngc_arcs)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void Rs274NgcLoops(benchmark::State& state) {
+void rs274ngc_loops(benchmark::State& state) {
   static const Workload kWorkload = loops();
   measure(state, kWorkload);
 }
-BENCHMARK(Rs274NgcLoops)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(rs274ngc_loops)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter

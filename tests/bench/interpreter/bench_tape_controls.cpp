@@ -89,20 +89,20 @@ void measure(benchmark::State& state, std::string_view control, const std::strin
   state.counters["times_of_rs274ngc"] = ours / ngc;
 }
 
-void TektronixStraightBlocks(benchmark::State& state) {
+void tektronix_straight_blocks(benchmark::State& state) {
   measure(state, "tektronix-1704", tape_text());
 }
-BENCHMARK(TektronixStraightBlocks)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(tektronix_straight_blocks)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void ProtoTrakStraightEvents(benchmark::State& state) {
+void prototrak_straight_events(benchmark::State& state) {
   measure(state, "prototrak-plus", event_text(0));
 }
-BENCHMARK(ProtoTrakStraightEvents)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(prototrak_straight_events)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void ProtoTrakCompensatedEvents(benchmark::State& state) {
+void prototrak_compensated_events(benchmark::State& state) {
   measure(state, "prototrak-plus", event_text(2));
 }
-BENCHMARK(ProtoTrakCompensatedEvents)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(prototrak_compensated_events)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace dripline::interpreter

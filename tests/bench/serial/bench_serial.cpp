@@ -56,7 +56,7 @@ void wait(int master, Clock::duration time) {
   (void)::ppoll(&entry, 1, &limit, nullptr);
 }
 
-void BM_DripFeed(benchmark::State& state) {
+void drip_feed(benchmark::State& state) {
   wire::LineSettings settings;
   settings.baud = static_cast<unsigned>(state.range(0));
   const auto character = wire::character_time(settings);
@@ -96,7 +96,7 @@ void BM_DripFeed(benchmark::State& state) {
     state.counters["backlog"] = backlog;
   }
 }
-BENCHMARK(BM_DripFeed)->Arg(9600)->Arg(38400)->Arg(115200)->Iterations(1)->UseManualTime();
+BENCHMARK(drip_feed)->Arg(9600)->Arg(38400)->Arg(115200)->Iterations(1)->UseManualTime();
 
 }  // namespace
 }  // namespace dripline

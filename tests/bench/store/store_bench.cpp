@@ -76,7 +76,7 @@ Digest push(SqliteStore& store, const std::vector<std::string>& pieces) {
   return revision->content;
 }
 
-void StoreRecords(benchmark::State& state) {
+void store_records(benchmark::State& state) {
   Place place;
   RecordBatch batch{"m1", 1, {}, {}, {}};
   batch.records.resize(static_cast<std::size_t>(state.range(0)));
@@ -95,9 +95,9 @@ void StoreRecords(benchmark::State& state) {
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(number));
 }
-BENCHMARK(StoreRecords)->Arg(1)->Arg(64)->Arg(256)->UseRealTime();
+BENCHMARK(store_records)->Arg(1)->Arg(64)->Arg(256)->UseRealTime();
 
-void UpdateCounters(benchmark::State& state) {
+void update_counters(benchmark::State& state) {
   Place place;
   SqliteStore& store = place.store();
   const Digest content = push(store, {"M30\n"});
@@ -117,9 +117,9 @@ void UpdateCounters(benchmark::State& state) {
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(n));
 }
-BENCHMARK(UpdateCounters)->UseRealTime();
+BENCHMARK(update_counters)->UseRealTime();
 
-void PushProgram(benchmark::State& state) {
+void push_program(benchmark::State& state) {
   const auto pieces = nc_program();
   for (auto _ : state) {
     state.PauseTiming();
@@ -132,9 +132,9 @@ void PushProgram(benchmark::State& state) {
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kProgramBytes));
 }
-BENCHMARK(PushProgram)->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(2);
+BENCHMARK(push_program)->UseRealTime()->Unit(benchmark::kMillisecond)->Iterations(2);
 
-void ReadProgram(benchmark::State& state) {
+void read_program(benchmark::State& state) {
   Place place;
   const Digest content = push(place.store(), nc_program());
   const auto piece = static_cast<std::uint64_t>(state.range(0));
@@ -146,7 +146,7 @@ void ReadProgram(benchmark::State& state) {
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kProgramBytes));
 }
-BENCHMARK(ReadProgram)
+BENCHMARK(read_program)
     ->Arg(16 << 10)
     ->Arg(1 << 20)
     ->UseRealTime()
