@@ -45,7 +45,7 @@ class BackgroundEditing : public testing::Test {
 
   void dnc(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
-    const auto done = test_support::run_to_end(std::move(arguments), system.folder() / "dnc.out");
+    const auto done = test_support::run_to_end(arguments, system.folder() / "dnc.out");
     EXPECT_EQ(done.status, 0) << done.output;
   }
   nlohmann::json status() const {

@@ -51,7 +51,7 @@ class Changer : public testing::Test {
   }
   Finished dnc(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
-    return test_support::run_to_end(std::move(arguments), system.folder() / "dnc.out");
+    return test_support::run_to_end(arguments, system.folder() / "dnc.out");
   }
   std::string run(const Lines& blocks) {
     system.push("7.h", program(blocks));

@@ -17,7 +17,7 @@ class Cli : public testing::Test {
  protected:
   Finished dnc(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
-    return test_support::run_to_end(std::move(arguments), system.folder() / "dnc.out");
+    return test_support::run_to_end(arguments, system.folder() / "dnc.out");
   }
   nlohmann::json dnc_json(std::vector<std::string> arguments) {
     arguments.push_back("--json");

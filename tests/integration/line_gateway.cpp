@@ -45,7 +45,7 @@ void LineGateway::start() {
     command.push_back(setting);
   }
   command.insert(command.end(), options_.arguments.begin(), options_.arguments.end());
-  gateway_.emplace(std::move(command), folder_.path() / "output");
+  gateway_.emplace(command, folder_.path() / "output");
   EXPECT_TRUE(wait_logged("is open")) << gateway_->output();
 }
 

@@ -87,7 +87,7 @@ void System::launch_server() {
                                    "127.0.0.1:0",        "--log",   folder() / "dncd.log"};
   append_network(command);
   command.insert(command.end(), options_.server_arguments.begin(), options_.server_arguments.end());
-  server_.emplace(std::move(command), folder() / "dncd.out");
+  server_.emplace(command, folder() / "dncd.out");
 }
 
 void System::start_server() {

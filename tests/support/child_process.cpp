@@ -22,6 +22,7 @@ namespace {
   ::dup2(file, STDOUT_FILENO);
   ::dup2(file, STDERR_FILENO);
   std::vector<char*> argv;
+  argv.reserve(command.size() + 1);
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
   ::execv(argv[0], argv.data());
@@ -41,7 +42,7 @@ std::string read_all(const std::filesystem::path& path) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::vector<std::string> command, std::filesystem::path output)
+ChildProcess::ChildProcess(const std::vector<std::string>& command, std::filesystem::path output)
     : output_(std::move(output)) {
   pid_ = ::fork();
   invariant(pid_ >= 0, "a process can be started");
@@ -102,10 +103,10 @@ std::uint64_t ChildProcess::peak_memory() const {
   return 0;
 }
 
-Finished run_to_end(std::vector<std::string> command, const std::filesystem::path& output,
+Finished run_to_end(const std::vector<std::string>& command, const std::filesystem::path& output,
                     std::chrono::milliseconds limit) {
   std::filesystem::remove(output);
-  ChildProcess process(std::move(command), output);
+  ChildProcess process(command, output);
   if (const auto status = process.wait(limit)) return {*status, process.output()};
   process.kill();
   return {137, process.output()};

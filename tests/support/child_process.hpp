@@ -14,7 +14,7 @@ namespace dripline::test_support {
 class ChildProcess {
  public:
   /// `command[0]` is a path. Dies with the test process.
-  ChildProcess(std::vector<std::string> command, std::filesystem::path output);
+  ChildProcess(const std::vector<std::string>& command, std::filesystem::path output);
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
@@ -42,7 +42,7 @@ struct Finished {
   int status = 0;
   std::string output;
 };
-Finished run_to_end(std::vector<std::string> command, const std::filesystem::path& output,
+Finished run_to_end(const std::vector<std::string>& command, const std::filesystem::path& output,
                     std::chrono::milliseconds limit = std::chrono::seconds(60));
 
 /// Polls every few milliseconds until `holds()`; false when the limit passes first.

@@ -1,5 +1,7 @@
 #include "tests/support/json_schema.hpp"
 
+#include <fmt/format.h>
+
 #include <regex>
 #include <set>
 
@@ -37,7 +39,7 @@ std::string object_violation(const json& document, const json& schema, const jso
   const json properties = schema.value("properties", json::object());
   const json others = schema.value("additionalProperties", json(true));
   for (const auto& [name, member] : value.items()) {
-    const std::string here = where + "." + name;
+    const std::string here = fmt::format("{}.{}", where, name);
     if (properties.contains(name)) {
       auto violation = schema_violation(document, properties[name], member, here);
       if (!violation.empty()) return violation;

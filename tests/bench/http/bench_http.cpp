@@ -56,6 +56,7 @@ void figure(const char* name, double value, const char* unit) {
 void measure_requests(std::uint16_t port) {
   std::atomic<std::uint64_t> served{0};
   std::vector<std::thread> clients;
+  clients.reserve(kClients);
   const auto start = Clock::now();
   for (int i = 0; i < kClients; ++i) {
     clients.emplace_back([&] {

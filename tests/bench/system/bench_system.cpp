@@ -43,7 +43,7 @@ class Bench : public testing::Test {
   double dnc(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {program_path("dnc"), "--state", system.server_state()});
     const auto start = Clock::now();
-    const auto done = run_to_end(std::move(arguments), system.folder() / "dnc.out", kLimit);
+    const auto done = run_to_end(arguments, system.folder() / "dnc.out", kLimit);
     EXPECT_EQ(done.status, 0) << done.output;
     return seconds_since(start);
   }

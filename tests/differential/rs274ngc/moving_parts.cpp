@@ -32,7 +32,7 @@ void Maker::lines(std::uint64_t count) {
     words += fmt::format("Y{}", value(y_));
     if (below(3) == 0) {
       z_ = between(-10'000, 20'000);
-      words = fmt::format("Z{} ", value(z_)) + words;
+      words.insert(0, fmt::format("Z{} ", value(z_)));
     }
     if (below(6) == 0) words += fmt::format(" A{}", text_of(between(-900'000, 900'000)));
     line_with_values(words);

@@ -106,7 +106,8 @@ class Program {
     const PlaneAxes axes = axes_of(Plane::XY);
     const PlaneVector out = in_plane(at_, axes) - center;
     if (length(out) == 0) return;
-    const Angle sweep = Angle::degrees((turn / 8 - 15) * 24.0);
+    const int steps = turn / 8 - 15;
+    const Angle sweep = Angle::degrees(steps * 24.0);
     if (sweep == Angle{}) return;
     set_in_plane(
         at_, axes,

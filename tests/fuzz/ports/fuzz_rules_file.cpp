@@ -13,7 +13,7 @@ namespace {
 using namespace dripline::ports;
 using What = InboundSplitter::Item::What;
 
-void add(std::vector<InboundSplitter::Item> items, std::string& reported) {
+void add(const std::vector<InboundSplitter::Item>& items, std::string& reported) {
   for (const auto& item : items) {
     if (item.what == What::Line && item.text.size() > InboundSplitter::kMaxLine) std::abort();
     // Pieces of a program may be cut anywhere.

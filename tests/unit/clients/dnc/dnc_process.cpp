@@ -1,5 +1,7 @@
 #include "tests/unit/clients/dnc/dnc_process.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <iterator>
 
@@ -9,7 +11,7 @@ std::vector<std::string> Dnc::command(const std::vector<std::string>& arguments)
   std::vector<std::string> all{
       "/usr/bin/env",       "-i", "-C", folder_.path().string(), "HOME=" + folder_.path().string(),
       "DRIPLINE_STATE=none"};
-  for (const auto& [name, value] : environment) all.push_back(name + "=" + value);
+  for (const auto& [name, value] : environment) all.push_back(fmt::format("{}={}", name, value));
   all.push_back(program_);
   all.insert(all.end(), arguments.begin(), arguments.end());
   return all;
@@ -19,7 +21,7 @@ DncResult Dnc::operator()(const std::vector<std::string>& arguments) const {
   const std::string out = (folder_.path() / "stdout.txt").string();
   std::vector<std::string> all{"/bin/sh", "-c", "out=$1; shift; exec \"$@\" >\"$out\"", "sh", out};
   for (auto& word : command(arguments)) all.push_back(std::move(word));
-  const auto finished = run_to_end(std::move(all), folder_.path() / "stderr.txt");
+  const auto finished = run_to_end(all, folder_.path() / "stderr.txt");
   return {finished.status, read("stdout.txt"), finished.output};
 }
 

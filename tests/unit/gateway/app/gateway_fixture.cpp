@@ -67,9 +67,9 @@ void GatewayFixture::make_attended() {
 
 std::string GatewayFixture::panel(const std::string& line) {
   std::string answer;
-  gateway->receive(
-      PanelRequest{parse_panel_command(line).value(), [&](std::string text) { answer = text; }},
-      clock.steady);
+  gateway->receive(PanelRequest{parse_panel_command(line).value(),
+                                [&](std::string text) { answer = std::move(text); }},
+                   clock.steady);
   return answer;
 }
 

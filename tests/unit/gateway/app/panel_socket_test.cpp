@@ -16,8 +16,9 @@ namespace {
 class OpenPanel : public testing::Test {
  protected:
   void SetUp() override {
-    auto opened = PanelSocket::open(
-        folder_.path(), [](PanelRequest request) { request.answer("ok " + request.command.text); });
+    auto opened = PanelSocket::open(folder_.path(), [](const PanelRequest& request) {
+      request.answer("ok " + request.command.text);
+    });
     ASSERT_TRUE(opened) << opened.error().what;
     socket_ = *std::move(opened);
   }
@@ -89,7 +90,8 @@ TEST(PanelSocket, NeedsNoShortPath) {
   const test_support::TemporaryFolder folder;
   const auto deep = folder.path() / std::string(120, 'd');
   std::filesystem::create_directory(deep);
-  const auto socket = PanelSocket::open(deep, [](PanelRequest request) { request.answer("ok"); });
+  const auto socket =
+      PanelSocket::open(deep, [](const PanelRequest& request) { request.answer("ok"); });
   ASSERT_TRUE(socket) << socket.error().what;
   EXPECT_EQ(ask_panel(deep, "status").value(), "ok");
 }

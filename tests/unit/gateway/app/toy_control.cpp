@@ -135,7 +135,7 @@ class ToyInterpreter final : public Interpreter {
 }  // namespace
 
 const Dialect& toy_control() {
-  static const Dialect toy{
+  static const Dialect kToy{
       .name = "toy",
       .title = "Toy",
       .likelihood = [](std::string_view, std::string_view) { return 0; },
@@ -144,7 +144,7 @@ const Dialect& toy_control() {
         return std::unique_ptr<Interpreter>(std::make_unique<ToyInterpreter>(setup, source, sink));
       },
       .feed_override_switch = {.step = 0.05, .most = 2, .fastest = std::nullopt}};
-  return toy;
+  return kToy;
 }
 
 }  // namespace dripline::gateway

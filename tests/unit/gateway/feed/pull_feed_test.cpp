@@ -210,7 +210,7 @@ TEST_F(PullFeedTest, AMissingCalledProgramIsNotFoundAndTheRunGoesOn) {
 TEST_F(PullFeedTest, ForeignAnswersAreIgnored) {
   PullFeed feed = make("M30\n");
   feed.poll(now);
-  for (dds::BlockData data : server.answers()) {
+  for (const dds::BlockData& data : server.answers()) {
     dds::BlockData other = data;
     other.session = 8;
     feed.on_data(other, now);

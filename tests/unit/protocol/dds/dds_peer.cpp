@@ -60,7 +60,7 @@ int serve(const dds::NetworkOptions& options) {
   Answers answers;
   std::unique_ptr<dds::ServerEndpoint> server;
   dds::ServerHandlers handlers;
-  handlers.on_record = [&](dds::Record m) {
+  handlers.on_record = [&](const dds::Record& m) {
     answers.post([&server, m] {
       must(server->write(dds::RecordAck{m.machine, m.epoch, m.number}));
     });
@@ -77,7 +77,7 @@ int play_gateway(const dds::NetworkOptions& options, std::uint64_t session) {
   Answers answers;
   std::unique_ptr<dds::GatewayEndpoint> gateway;
   dds::GatewayHandlers handlers;
-  handlers.on_command = [&](dds::Command m) {
+  handlers.on_command = [&](const dds::Command& m) {
     answers.post([&gateway, m] {
       must(gateway->write(dds::CommandResult{m.machine, m.id, true, ""}));
     });

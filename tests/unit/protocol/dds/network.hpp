@@ -67,7 +67,7 @@ struct TestServer {
   ServerHandlers handlers() {
     return {.on_announce = [this](Announce m) { announces.put(std::move(m)); },
             .on_lost = [this](std::string m) { lost.put(std::move(m)); },
-            .on_rival = [this](std::string, bool is_there) { rivals.put(is_there); },
+            .on_rival = [this](const std::string&, bool is_there) { rivals.put(is_there); },
             .on_status = [this](Status m) { statuses.put(std::move(m)); },
             .on_record = [this](Record m) { records.put(std::move(m)); },
             .on_command_result = [this](CommandResult m) { results.put(std::move(m)); },

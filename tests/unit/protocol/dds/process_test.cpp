@@ -24,6 +24,7 @@ class PeerProcess {
         (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dds_peer").string();
     arguments.insert(arguments.begin(), path);
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     if (posix_spawn(&pid_, path.c_str(), &actions, nullptr, argv.data(), environ) != 0) {

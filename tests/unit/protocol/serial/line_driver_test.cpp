@@ -26,7 +26,7 @@ std::string program(std::size_t size) {
 
 std::unique_ptr<LineDriver> start_faulty(LineLog& log, const Pty& pty,
                                          test_support::FaultRates rates,
-                                         std::shared_ptr<ChannelControl> control,
+                                         const std::shared_ptr<ChannelControl>& control,
                                          wire::LineSettings settings = {}) {
   auto line = LineDriver::start(
       {.address = pty.path(),

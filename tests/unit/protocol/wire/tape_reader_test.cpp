@@ -100,9 +100,9 @@ TEST_P(TapeReaderLine, ReportsABlockThatIsNotOnTheTape) {
 
 // Rows: TK-04.
 TEST_P(TapeReaderLine, StopsAtASpoiledRowAndDropsTheBlock) {
-  const std::pair<ReaderFault, std::string> kFaults[] = {{ReaderFault::Parity, "wrong parity"},
-                                                         {ReaderFault::Chad, "wrong parity"}};
-  for (const auto& [fault, words] : kFaults) {
+  const std::pair<ReaderFault, std::string> faults[] = {{ReaderFault::Parity, "wrong parity"},
+                                                        {ReaderFault::Chad, "wrong parity"}};
+  for (const auto& [fault, words] : faults) {
     auto settings = settings_of(GetParam());
     auto control = make_discipline(settings, Role::Control).value();
     settings.reader.fault = fault;
@@ -120,10 +120,10 @@ TEST_P(TapeReaderLine, StopsAtASpoiledRowAndDropsTheBlock) {
 }
 
 TEST_P(TapeReaderLine, HasTheFaultsOfAReaderThatNoCodeShows) {
-  const std::pair<ReaderFault, std::string> kFaults[] = {
+  const std::pair<ReaderFault, std::string> faults[] = {
       {ReaderFault::MissingSprocket, "missing sprocket hole"},
       {ReaderFault::SprocketSpacing, "wrong sprocket hole spacing"}};
-  for (const auto& [fault, words] : kFaults) {
+  for (const auto& [fault, words] : faults) {
     auto settings = settings_of(GetParam());
     auto host = make_discipline(settings, Role::Host).value();
     settings.reader.fault = fault;

@@ -167,7 +167,7 @@ TEST_P(TapeLineFaults, NeverHangTheReader) {
   });
 }
 
-std::vector<Part> tapes(std::vector<Kind> kinds) {
+std::vector<Part> tapes(const std::vector<Kind>& kinds) {
   std::vector<Part> parts;
   for (const auto& [name, line_template] :
        {std::pair{"eia", "tektronix1704"}, std::pair{"iso", "tektronix1704-iso"}}) {

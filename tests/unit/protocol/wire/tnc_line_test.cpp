@@ -29,7 +29,7 @@ LineSimulator line(const LineSettings& settings) {
 }
 
 /// Answers each request of the control with `program`, or takes what it offers.
-void serve(LineSimulator& line, std::string program) {
+void serve(LineSimulator& line, const std::string& program) {
   line.host().on_event = [program](LineEnd& end, const Event& event, LineTime now) {
     const auto* request = std::get_if<Request>(&event);
     if (request == nullptr) return;

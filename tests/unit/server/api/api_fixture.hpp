@@ -43,7 +43,7 @@ class ApiTest : public ServerTest {
                                       api::Token{.name = "admin", .secret = kSecret});
   }
 
-  api::Response call(const std::string& method, const std::string& target, Call call = {}) {
+  api::Response call(const std::string& method, const std::string& target, const Call& call = {}) {
     auto parsed = api::parse_target(target);
     EXPECT_TRUE(parsed) << target;
     api::Request request;

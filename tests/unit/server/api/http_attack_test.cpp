@@ -120,6 +120,7 @@ class HttpAttack : public testing::Test {
   }
   std::vector<RawPeer> idle(int number) {
     std::vector<RawPeer> peers;
+    peers.reserve(static_cast<std::size_t>(number));
     for (int i = 0; i < number; ++i) peers.push_back(peer());
     return peers;
   }
@@ -308,6 +309,7 @@ TEST_F(HttpAttack, ComesBackWhenDescriptorsRanOut) {
   ::setrlimit(RLIMIT_NOFILE, &low);
   {
     std::vector<RawPeer> peers;
+    peers.reserve(300);
     for (int i = 0; i < 300; ++i) peers.push_back(peer());
     EXPECT_FALSE(peers.back().is_connected());
   }

@@ -179,6 +179,7 @@ TEST_F(Http, StopsWhileSomebodyListens) {
 TEST_F(Http, ServesManyAtOnce) {
   push("O1", "M30\n");
   std::vector<std::thread> threads;
+  threads.reserve(8);
   std::atomic<int> good{0};
   for (int i = 0; i < 8; ++i) {
     threads.emplace_back([&] {

@@ -1,5 +1,7 @@
 // The description of the API against the API: every route is described, everything described is a
 // route, and the real answers follow the schemas.
+#include <fmt/format.h>
+
 #include <set>
 
 #include "tests/support/json_schema.hpp"
@@ -130,7 +132,7 @@ TEST_F(OpenApi, DescribesEveryRouteAndNothingElse) {
     for (const auto& [verb, operation] : item.items()) {
       std::string method;
       for (const char c : verb) method += static_cast<char>(c - 'a' + 'A');
-      described.insert(method + " " + path);
+      described.insert(fmt::format("{} {}", method, path));
       EXPECT_TRUE(operation.contains("summary")) << method << " " << path;
     }
   }

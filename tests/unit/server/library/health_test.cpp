@@ -61,7 +61,7 @@ TEST_F(HealthState, TheWatchReportsTheErrorOfTheStore) {
   const auto state = health_.state();
   EXPECT_EQ(state.level, Level::Failed);
   EXPECT_EQ(state.findings.back().detail, "disk full: /somewhere");
-  EXPECT_EQ(state.findings.back().what.find("/"), std::string::npos);
+  EXPECT_EQ(state.findings.back().what.find('/'), std::string::npos);
 }
 
 TEST(HealthDisk, WarnsBeforeItIsFull) {

@@ -50,6 +50,7 @@ TEST_F(PortServiceTest, PutsPrintedLinesIntoTheReportOfTheRun) {
 
 std::vector<std::string> texts_of(const std::vector<storage::Record>& records) {
   std::vector<std::string> texts;
+  texts.reserve(records.size());
   for (const auto& record : records) texts.push_back(record.text);
   return texts;
 }

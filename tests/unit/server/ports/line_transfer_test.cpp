@@ -34,6 +34,7 @@ class LineTransferTest : public PortServiceTest {
   }
   Result<ports::PortTransfer> send(const std::vector<std::string>& names) {
     std::vector<ports::ProgramChoice> choices;
+    choices.reserve(names.size());
     for (const auto& name : names) choices.push_back({.program = name, .revision = {}});
     return ports_->send("com1", choices);
   }

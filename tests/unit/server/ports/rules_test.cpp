@@ -154,7 +154,7 @@ TEST(Rules, MakeNamesFitForTheLibrary) {
   EXPECT_EQ(fit_program_name(std::string(300, 'a')).size(), 128u);
 }
 
-std::string text_of_items(std::vector<InboundSplitter::Item> items) {
+std::string text_of_items(const std::vector<InboundSplitter::Item>& items) {
   std::string text;
   for (const auto& item : items) {
     using What = InboundSplitter::Item::What;

@@ -30,11 +30,11 @@ TEST(PostCycles, PostsRoughFacingWith45DegreeRelief) {  // CEN-236
 }
 
 TEST(PostCycles, PostsPatternRepeatsAlikeForTurningAndFacing) {  // CEN-236
+  const std::string fields = kStocks + kStart + kPattern + "passes = 3";
   for (const std::string type : {"pattern_repeat_turning", "pattern_repeat_facing"}) {
-    EXPECT_EQ(
-        posted(event(type, kStocks + kStart + kPattern + "passes = 3") + event("end_cycle", "")),
-        "G0 X3.25 Z.2\nP140 = .2\nP139 = 3.25\nG73 P9805 Q9905 U.02 W.01 I.03 K.015 D3\n"
-        "N9805\nG40\nN9905\n");
+    EXPECT_EQ(posted(event(type, fields) + event("end_cycle", "")),
+              "G0 X3.25 Z.2\nP140 = .2\nP139 = 3.25\nG73 P9805 Q9905 U.02 W.01 I.03 K.015 D3\n"
+              "N9805\nG40\nN9905\n");
   }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "clients/tools/graphics/turned_views.hpp"
@@ -157,8 +158,8 @@ TEST(TurnedViews, DrawTheWayLimitsAndZone) {
   const auto picture = draw_turned(nullptr, simulation.path(), view);
   ASSERT_TRUE(picture);
   const auto at = [&](double z, double x) {
-    return picture->at(static_cast<std::size_t>((z + 80) * 10 + 0.5),
-                       static_cast<std::size_t>((25 - x) * 10 + 0.5));
+    return picture->at(static_cast<std::size_t>(std::lround((z + 80) * 10)),
+                       static_cast<std::size_t>(std::lround((25 - x) * 10)));
   };
   EXPECT_EQ(at(-20, 15), 255) << "the feed";
   EXPECT_GT(at(-70, 10), 0) << "the limit of Z";

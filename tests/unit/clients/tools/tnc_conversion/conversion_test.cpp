@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -194,7 +195,8 @@ TEST(Tnc155ConversionOfPlanes, LooksForTheFirstToolCallOrBlank) {
        {"4 CC X+0,000 Y+0,000\n", "4 LP PR+5,000 PA+30,000 R0 F M\n", "4 L Y+5,000 RL F M\n",
         "4 X+5,000 R+ F M\n", "4 CALL LBL 3 REP\n", "4 CALL PGM 8\n", "4 TOOL CALL 1\n",
         "4 CYCL DEF 10.0 ROTATION\n5 CYCL DEF 10.1 ROT +30,000\n"}) {
-    EXPECT_EQ(start_of(first_move + in_the_plane + call), "G17") << in_the_plane;
+    EXPECT_EQ(start_of(fmt::format("{}{}{}", first_move, in_the_plane, call)), "G17")
+        << in_the_plane;
   }
 }
 

@@ -90,7 +90,7 @@ TEST(Tnc155ConversionTrace, OfMovesBeforeTheFirstPlaneIsTheSame) {
        {"", "5 L X+9 Z+9\n", "5 CC X+0 Y+0\n6 CP IPA+90 DR+\n", "5 CC Y+0 Z+0\n",
         "5 LP PR+5 PA+9 R0\n", "5 L X+5 Y+5\n6 RND R1\n", "5 X+20 R+\n", "5 TOOL CALL 1\n",
         "5 LBL 1\n6 L IX+1\n", "5 CALL LBL 1 REP\n6 LBL 1\n", "5 CALL PGM 8\n"}) {
-    EXPECT_TRUE(does_the_same(definition + between + rest)) << between;
+    EXPECT_TRUE(does_the_same(fmt::format("{}{}{}", definition, between, rest))) << between;
   }
 }
 

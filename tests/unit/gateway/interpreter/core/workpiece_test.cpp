@@ -34,7 +34,7 @@ Workpiece plane(Axis axis, double at) {
   workpiece.add(ProbePlane{axis, Length::mm(at)});
   return workpiece;
 }
-Workpiece profile(std::vector<std::pair<double, double>> points) {
+Workpiece profile(const std::vector<std::pair<double, double>>& points) {
   ProbeProfile outline;
   for (const auto& [x, z] : points) outline.points.push_back({Length::mm(x), Length::mm(z)});
   Workpiece workpiece;

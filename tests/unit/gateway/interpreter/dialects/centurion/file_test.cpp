@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "gateway/interpreter/dialects/centurion/reading/chart_index.hpp"
@@ -22,8 +23,8 @@ TEST(Extraction, SplitsAtEachLineThatBeginsWithO) {
 
 TEST(Extraction, KeepsTheBytesOfAProgramWhateverEndsItsLines) {
   for (const std::string end : {"\r", "\n", "\r\n"}) {
-    const std::string first = "O1" + end + end + "X1 (O9 IN A COMMENT)" + end;
-    const std::string second = "O2" + end + "G65 P5 A1" + end;
+    const std::string first = fmt::format("O1{0}{0}X1 (O9 IN A COMMENT){0}", end);
+    const std::string second = fmt::format("O2{0}G65 P5 A1{0}", end);
     const std::string both = first + second;
     const auto programs = extract_programs(both);
     ASSERT_EQ(programs.size(), 2U);

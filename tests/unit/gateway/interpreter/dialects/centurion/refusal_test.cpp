@@ -116,7 +116,7 @@ TEST(Refusals, DeepNestingOfBracketsIsRefused) {
 }
 
 TEST(Setups, ForeignRecordsAreRefusedByName) {
-  const auto refusal = [](ControlSetup setup) {
+  const auto refusal = [](const ControlSetup& setup) {
     MemorySource source("");
     EventLog log;
     const auto made = kCenturionDialect.make(setup, source, log);
@@ -134,7 +134,7 @@ TEST(Setups, ForeignRecordsAreRefusedByName) {
   EXPECT_NE(refusal(tool).find("25"), std::string::npos);
   ControlSetup start;
   start.start.set(Axis::Y, Length::mm(1));
-  EXPECT_NE(refusal(start).find("Y"), std::string::npos);
+  EXPECT_NE(refusal(start).find('Y'), std::string::npos);
   ControlSetup option;
   option.control.set("circular", {true, 3});
   EXPECT_NE(refusal(option).find("circular"), std::string::npos);

@@ -34,6 +34,7 @@ std::string store(const std::vector<std::string>& pockets, int magazine = 20) {
 std::vector<std::string> reports(const std::vector<int>& calls,
                                  const std::vector<std::string>& pockets, int magazine = 20) {
   std::vector<std::string> blocks;
+  blocks.reserve(calls.size());
   for (const int tool : calls) blocks.push_back("TOOL CALL " + std::to_string(tool) + " Z S100");
   std::vector<std::string> lines;
   for (const std::string& event : run_blocks(blocks, {store(pockets, magazine), {}}).events) {

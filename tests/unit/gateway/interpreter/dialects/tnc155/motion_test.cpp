@@ -85,8 +85,8 @@ TEST(TncMotion, SingleAxisBlocksAddTheRadiusAlongTheTravel) {
 // HD-093, HD-183: tool data are not scaled, mirrored or not.
 TEST(TncMotion, SingleAxisBlocksAddTheRadiusUnscaled) {
   const std::vector<std::string> scaled{"CYCL DEF 11.0 SCALING", "CYCL DEF 11.1 SCL 2"};
-  const auto with = [&](std::string radius, std::vector<std::string> before,
-                        std::vector<std::string> blocks) {
+  const auto with = [&](const std::string& radius, const std::vector<std::string>& before,
+                        const std::vector<std::string>& blocks) {
     std::vector<std::string> all{"TOOL DEF 1 L+0 R" + radius, "TOOL CALL 1 Z S100"};
     all.insert(all.end(), scaled.begin(), scaled.end());
     all.insert(all.end(), before.begin(), before.end());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "gateway/interpreter/stages/blending/corner_blender.hpp"
 #include "tests/unit/gateway/interpreter/stages/compensation/contour.hpp"
 
