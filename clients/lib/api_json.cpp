@@ -111,13 +111,12 @@ class Writer {
       }
     } else if constexpr (std::same_as<T, std::string>) {
       object_[key] = field.empty() ? OrderedJson(nullptr) : OrderedJson(field);
-    } else if constexpr (requires { OrderedJson(field); } && !std::is_class_v<T>) {
+    } else if constexpr (std::same_as<T, std::vector<std::string>> ||
+                         (requires { OrderedJson(field); } && !std::is_class_v<T>)) {
       object_[key] = field;
     } else if constexpr (kIsMap<T>) {
       object_[key] = OrderedJson::object();
       for (const auto& [name, value] : field) object_[key][name] = value;
-    } else if constexpr (std::same_as<T, std::vector<std::string>>) {
-      object_[key] = field;
     } else if constexpr (kIsList<T>) {
       object_[key] = OrderedJson::array();
       for (const auto& item : field) {

@@ -62,6 +62,7 @@ std::vector<const Dialect*> detect_dialect(std::string_view head, std::string_vi
     candidates.erase(candidates.begin() + 1, candidates.end());
   }
   std::vector<const Dialect*> found;
+  found.reserve(candidates.size());
   for (const Candidate& candidate : candidates) found.push_back(candidate.dialect);
   return found;
 }

@@ -59,16 +59,18 @@ template <class Field>
 struct PresentIf {
   Field flag;
 };
+template <class Field>
+PresentIf(Field) -> PresentIf<Field>;
+
 /// crc(sample): the CRC-32 of the member.
 template <class Field>
 struct CheckedBy {
   Field crc;
 };
+template <class Field>
+CheckedBy(Field) -> CheckedBy<Field>;
 
-#define DRIPLINE_FIELD(path)  \
-  [](auto& sample) -> auto& { \
-    return sample.path;       \
-  }
+#define DRIPLINE_FIELD(path) [](auto& sample) -> decltype(auto) { return (sample.path); }
 #define DRIPLINE_MEMBER(name) (Member{#name, m.name, #name, DRIPLINE_FIELD(name)})
 #define DRIPLINE_MEMBER_AS(name, wire) (Member{#name, m.name, #wire, DRIPLINE_FIELD(wire)})
 

@@ -117,7 +117,7 @@ void SettingsReader::declare(CLI::App& app) {
   for (const Setting& setting : settings_) {
     std::string fallback = setting.fallback;
     if (!fallback.empty() && !setting.unit.empty()) fallback += " " + std::string(setting.unit);
-    if (!fallback.empty()) fallback = " [" + fallback + "]";
+    if (!fallback.empty()) fallback = fmt::format(" [{}]", fallback);
     auto* option = app.add_option_function<std::string>(
         "--" + std::string(setting.key),
         [this, &setting](const std::string& value) { given_.emplace_back(&setting, value); },

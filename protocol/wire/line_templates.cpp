@@ -101,7 +101,7 @@ LineSettings rtscts() {
 }
 
 const auto& templates() {
-  static const std::array rows{
+  static const std::array kRows{
       LineTemplate{"plain", "any control with XON/XOFF, 9600 8N1", "", LineSettings{}},
       LineTemplate{"rtscts", "any control with RTS/CTS, 9600 8N1", "", rtscts()},
       LineTemplate{"xmodem", "XMODEM, 9600 8N1", "", xmodem()},
@@ -123,7 +123,7 @@ const auto& templates() {
       LineTemplate{"tektronix1704-iso", "Tektronix 1704 as its tape reader, ISO, 300 characters/s",
                    "tektronix-1704", tektronix1704(CharacterCode::Iso)},
   };
-  return rows;
+  return kRows;
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ constexpr std::array<TapeRow, 256> make_eia_decoding() {
 constexpr std::array<std::uint8_t, 128> make_eia_encoding() {
   std::array<std::uint8_t, 128> table{};  // 0: none, as no character is written as a blank
   for (const auto& known : kEiaRows) {
-    if (known.character != 0) table[static_cast<std::size_t>(known.character)] = known.row;
+    if (known.character != 0) table[static_cast<unsigned char>(known.character)] = known.row;
   }
   return table;
 }

@@ -67,9 +67,9 @@ storage::Page read_page(QueryReader& query) {
 }
 
 machines::MachineListener publish_to(EventHub& hub) {
-  const auto publish = [&hub](std::string kind, const std::string& machine, const auto& make_json) {
+  const auto publish = [&hub](const char* kind, const std::string& machine, const auto& make_json) {
     if (!hub.has_listeners()) return;
-    hub.publish({.kind = std::move(kind), .machine = machine, .data = to_text(make_json())});
+    hub.publish({.kind = kind, .machine = machine, .data = to_text(make_json())});
   };
   return {.on_machine =
               [publish](const machines::MachineView& view) {

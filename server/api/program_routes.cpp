@@ -118,7 +118,7 @@ Result<BodySource> opened(BodySource source) {
   auto first = source();
   if (!first) return fail(first.error());
   auto head = std::make_shared<std::optional<std::string>>(*std::move(first));
-  return [head, source]() -> Result<std::optional<std::string>> {
+  return [head, source = std::move(source)]() -> Result<std::optional<std::string>> {
     if (!*head) return source();
     std::string text = *std::exchange(*head, std::nullopt);
     return text;

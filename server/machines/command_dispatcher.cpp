@@ -30,7 +30,7 @@ CommandDispatcher::CommandDispatcher(dds::ServerEndpoint& endpoint, const Clock&
     : session_(random_number() | 1),
       endpoint_(endpoint),
       clock_(clock),
-      options_(options),
+      options_(std::move(options)),
       on_late_start_(std::move(on_late_start)) {}
 
 SteadyTime CommandDispatcher::stamp(dds::Command& command) {

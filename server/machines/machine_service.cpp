@@ -73,7 +73,7 @@ dds::ServerHandlers MachineService::handlers() {
     Parts* parts = this->parts();
     registry_.on_announce(announce);
     if (parts == nullptr) return;
-    pool_.post([this, parts, announce] {
+    pool_.post([this, parts, announce = std::move(announce)] {
       parts->records.greet(announce.machine, announce.epoch);
       refuse_stranger(announce);
     });

@@ -38,7 +38,8 @@ class OnceAnswer {
 
   void give(Result<void> result) {
     if (!answer_) return;
-    strand_.post([answer = std::exchange(answer_, nullptr), result] { answer(result); });
+    strand_.post(
+        [answer = std::exchange(answer_, nullptr), result = std::move(result)] { answer(result); });
   }
 
  private:

@@ -103,10 +103,9 @@ PortListener PortService::listener_for(const Entry& entry, const Machine& machin
       .sends_programs_only = entry.settings.control.kind == wire::ControlKind::ProtoTrak,
       .calls = std::move(calls)});
   return {
-      .on_incoming =
-          [inbound](Incoming incoming, std::function<void()> kept) {
-            inbound->take(std::move(incoming), std::move(kept));
-          },
+      .on_incoming = [inbound](
+                         const Incoming& incoming,
+                         std::function<void()> kept) { inbound->take(incoming, std::move(kept)); },
       .on_sent =
           [this, inbound, name](const SendEnd& end) {
             if (end.progress.kind == JobKind::Transfer) {

@@ -137,7 +137,7 @@ CheckReport report_of(const OfflineProgram& program, interpreter::MemorySource& 
     report.called.push_back(program.file_of(source, called));
   }
   if (!command.lists_stops) return report;
-  report.stops.emplace();
+  report.stops = CheckReport::ProgrammedStops{};
   report.stops->count = sinks.stops.count();
   for (const auto& [stop, times] : sinks.stops.places()) {
     report.stops->places.push_back({stop, times, block_text(source, stop.origin)});

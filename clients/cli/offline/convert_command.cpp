@@ -48,6 +48,7 @@ Value value_of(const std::vector<std::pair<std::string, Value>>& values, std::st
 template <class Value>
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, Value>>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& value : values) names.push_back(value.first);
   return names;
 }

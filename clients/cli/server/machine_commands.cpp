@@ -36,7 +36,7 @@ class MachineWatch {
         said_.clear();
         if (auto read = refresh(); !read) say_once(read.error().what);
       } else if (auto* machine = std::get_if<client::Machine>(&*item)) {
-        take(std::move(*machine));
+        take(*machine);
       }
     }
     area_.clear();
@@ -48,16 +48,16 @@ class MachineWatch {
     if (name_.empty()) {
       auto machines = client_.machines();
       if (!machines) return client::failed(machines.error());
-      for (auto& machine : *machines) take(std::move(machine));
+      for (const auto& machine : *machines) take(machine);
       return {};
     }
     auto machine = client_.machine(name_);
     if (!machine) return client::failed(machine.error());
-    take(std::move(*machine));
+    take(*machine);
     return {};
   }
 
-  void take(client::Machine machine) {
+  void take(const client::Machine& machine) {
     if (!name_.empty() && machine.name != name_) return;
     const std::string line = status_line(machine);
     if (context_.wants_json) {

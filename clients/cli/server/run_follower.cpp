@@ -56,13 +56,13 @@ class RunFollower {
       run_ = std::move(*run);
       show();
     } else if (auto* machine = std::get_if<client::Machine>(&item)) {
-      take_status(std::move(*machine));
+      take_status(*machine);
     } else if (auto* record = std::get_if<client::Record>(&item)) {
       if (record->run == run_.id && is_for_people(*record)) tell(*record);
     }
   }
 
-  void take_status(client::Machine machine) {
+  void take_status(const client::Machine& machine) {
     if (machine.name != run_.machine) return;
     status_ = machine.status;
     show();
@@ -87,7 +87,7 @@ class RunFollower {
     last_heard_ = clock_.steady_now();
     is_lost_ = false;
     run_ = std::move(*run);
-    if (auto machine = client_.machine(run_.machine)) return take_status(std::move(*machine));
+    if (auto machine = client_.machine(run_.machine)) return take_status(*machine);
     show();
   }
 

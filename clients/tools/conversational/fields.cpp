@@ -15,7 +15,7 @@ Event with(Member Record::*member, Value value) {
 }
 
 const std::array<EventKind, 36>& kinds() {
-  static const std::array<EventKind, 36> all{{
+  static const std::array<EventKind, 36> kAll{{
       {"program_setup", "Program Set-Up", ProgramSetup{}},
       {"position", "Position", Position{}},
       {"line", "Geometry - Line", Line{}},
@@ -54,7 +54,7 @@ const std::array<EventKind, 36>& kinds() {
       {"floating_zero", "Special - Floating Zero", FloatingZero{}},
       {"end_of_program", "End of Program", EndOfProgram{}},
   }};
-  return all;
+  return kAll;
 }
 
 /// Which of the kinds that share a record.

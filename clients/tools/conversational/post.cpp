@@ -49,8 +49,8 @@ Result<std::string> post(const Events& events, const PostOptions& options) {
     std::visit(
         [&](const auto& record) {
           using Record = std::decay_t<decltype(record)>;
-          constexpr bool is_geometry = std::is_same_v<Record, Line> || std::is_same_v<Record, Arc>;
-          if (!is_geometry) out.set_motion("");
+          constexpr bool kIsGeometry = std::is_same_v<Record, Line> || std::is_same_v<Record, Arc>;
+          if (!kIsGeometry) out.set_motion("");
           post(out, record);
         },
         event);

@@ -78,7 +78,8 @@ void append_number(std::string& out, double value) {
   }
   const double size = std::fabs(value);
   if (size >= kFastLimit) return append_large(out, value);
-  const auto scaled = static_cast<std::uint64_t>(size * static_cast<double>(kMillion) + 0.5);
+  const auto scaled =
+      static_cast<std::uint64_t>(std::llround(size * static_cast<double>(kMillion)));
   if (scaled == 0) {
     out += '0';
     return;

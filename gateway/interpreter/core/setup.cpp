@@ -104,7 +104,7 @@ void read_tool(Table& table, std::vector<ToolRecord>& tools) {
   if (std::any_of(tools.begin(), tools.end(), same)) {
     table.complain("number", fmt::format("tool {} is given twice", tool.number));
   }
-  tools.push_back(std::move(tool));
+  tools.push_back(tool);
 }
 
 /// The name under which a record is found again; it must be there and differ from the others'.

@@ -41,7 +41,7 @@ Result<void> DisciplineBase::offer(std::string_view text, bool is_last, LineTime
                 room());
   }
   if (const auto checked = check_text(text, lines_offered_ + 1); !checked) {
-    const Error error = checked.error();
+    const Error& error = checked.error();
     fail_transfer(error, now);
     return fail(error);
   }

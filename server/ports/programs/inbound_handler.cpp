@@ -36,7 +36,7 @@ InboundHandler::InboundHandler(Parts parts)
       calls_(parts_.calls),
       splitter_(*parts_.rules, parts_.extracts_programs) {}
 
-void InboundHandler::take(Incoming incoming, std::function<void()> kept) {
+void InboundHandler::take(const Incoming& incoming, std::function<void()> kept) {
   std::vector<InboundSplitter::Item> items;
   switch (incoming.what) {
     case Incoming::What::Began:

@@ -32,7 +32,7 @@ class InboundHandler {
   explicit InboundHandler(Parts parts);
 
   /// `kept` is called when the text is stored, or needs not be.
-  void take(Incoming incoming, std::function<void()> kept);
+  void take(const Incoming& incoming, std::function<void()> kept);
   void answer(const wire::TransferRequest& request) { calls_.answer(request); }
   void on_answer_over() { calls_.on_answer_over(); }
   void on_transfer_completed() { calls_.on_transfer_completed(); }

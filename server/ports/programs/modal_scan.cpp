@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "gateway/interpreter/registry.hpp"
 
@@ -50,7 +51,7 @@ int tenths(std::string_view value) {
   double number = 0;
   const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
   if (read.ec != std::errc{} || number < 0 || number > 999) return -1;
-  return static_cast<int>(number * 10 + 0.5);
+  return static_cast<int>(std::lround(number * 10));
 }
 
 interpreter::TextForm text_form(std::string_view control) {

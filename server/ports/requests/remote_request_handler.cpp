@@ -102,6 +102,7 @@ std::vector<storage::Revision> numbered_programs(std::span<const storage::Progra
     in_order.emplace(std::pair(number.size(), number), program.latest);
   }
   std::vector<storage::Revision> revisions;
+  revisions.reserve(in_order.size());
   for (auto& [number, revision] : in_order) revisions.push_back(std::move(revision));
   return revisions;
 }

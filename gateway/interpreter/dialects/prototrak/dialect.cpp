@@ -48,7 +48,7 @@ int likelihood(std::string_view head, std::string_view) {
   if (ends == 0) return 0;
   const auto lines = std::count(head.begin(), head.end(), '\n') + 1;
   const bool has_event_code =
-      head.find("G10") != std::string_view::npos && head.find("#") == std::string_view::npos;
+      head.find("G10") != std::string_view::npos && head.find('#') == std::string_view::npos;
   if (ends * 2 < lines) return 0;
   return has_event_code ? 95 : 60;
 }

@@ -36,6 +36,7 @@ std::vector<std::int64_t> steps(std::int64_t step, std::int64_t last) {
 
 std::vector<double> scaled(const std::vector<std::int64_t>& values, double factor) {
   std::vector<double> made;
+  made.reserve(values.size());
   for (const std::int64_t value : values) made.push_back(static_cast<double>(value) * factor);
   return made;
 }

@@ -45,7 +45,9 @@ std::vector<MemoryCell> CenturionInterpreter::memory_cells() const {
 /// Tables that G20 or G21 has converted are shown in the unit they began with.
 bool CenturionInterpreter::read_memory(std::vector<double>& values) {
   const bool is_known =
-      !values.empty() && std::memcmp(&known_memory_, &run_.parameters, sizeof known_memory_) == 0;
+      !values.empty() &&
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): it has no padding (parameters.hpp)
+      std::memcmp(&known_memory_, &run_.parameters, sizeof known_memory_) == 0;
   if (is_known) return false;
   known_memory_ = run_.parameters;
   Parameters shown = known_memory_;

@@ -76,11 +76,10 @@ BlockHead read_head(const char* begin) {
 
 bool count_loops(const char* begin, int& depth) {
   for (const char* at = begin; !is_end_of_block(*at);) {
+    const bool is_letter = kind_of(*at) == CharKind::Letter;
     if (*at == '(') {
       at = skip_to(at, ')');
-    } else if (kind_of(*at) != CharKind::Letter) {
-      ++at;
-    } else if (upper(*at) == 'W') {
+    } else if (is_letter && upper(*at) == 'W') {
       if (take_word(at, "WHILE")) {
         ++depth;
       } else if (take_word(at, "WEND")) {
@@ -88,7 +87,7 @@ bool count_loops(const char* begin, int& depth) {
       } else {
         ++at;
       }
-    } else if (take_word(at, "PRINT") || take_word(at, "DPRNT")) {
+    } else if (is_letter && (take_word(at, "PRINT") || take_word(at, "DPRNT"))) {
       at = skip_output_text(at);
     } else {
       ++at;
@@ -104,11 +103,10 @@ constexpr std::uint32_t kComputed = ~0u;
 /// The label of the first GOTO in the block, kComputed where it is an expression.
 std::optional<std::uint32_t> goto_target(const char* begin) {
   for (const char* at = begin; !is_end_of_block(*at);) {
+    const bool is_letter = kind_of(*at) == CharKind::Letter;
     if (*at == '(') {
       at = skip_to(at, ')');
-    } else if (kind_of(*at) != CharKind::Letter) {
-      ++at;
-    } else if (upper(*at) == 'G' && take_word(at, "GOTO")) {
+    } else if (is_letter && upper(*at) == 'G' && take_word(at, "GOTO")) {
       at = skip_blanks(at);
       if (!is_digit(*at)) return kComputed;
       const Number number = read_number(at);
@@ -116,7 +114,7 @@ std::optional<std::uint32_t> goto_target(const char* begin) {
       const bool is_alone = is_end_of_block(*after) || *after == '(';
       if (number.fault != NumberFault::None || !is_alone) return kComputed;
       return static_cast<std::uint32_t>(number.value);
-    } else if (take_word(at, "PRINT") || take_word(at, "DPRNT")) {
+    } else if (is_letter && (take_word(at, "PRINT") || take_word(at, "DPRNT"))) {
       at = skip_output_text(at);
     } else {
       ++at;

@@ -86,7 +86,7 @@ bool apply_feed(Run& run) {
 }
 
 bool apply_modes(Run& run) {
-  constexpr auto bit = [](GGroup group) { return 1u << static_cast<unsigned>(group); };
+  const auto bit = [](GGroup group) { return 1u << static_cast<unsigned>(group); };
   constexpr unsigned kRare = bit(GGroup::Plane) | bit(GGroup::Units) | bit(GGroup::Lathe) |
                              bit(GGroup::Radius) | bit(GGroup::Length) | bit(GGroup::System) |
                              bit(GGroup::Path);

@@ -143,7 +143,7 @@ bool make_nurbs(Run& run) {
 }
 
 bool fits_in_nurbs(Run& run) {
-  constexpr auto bit = [](GGroup group) { return 1u << static_cast<unsigned>(group); };
+  const auto bit = [](GGroup group) { return 1u << static_cast<unsigned>(group); };
   constexpr unsigned kHarmless =
       bit(GGroup::OneShot) | bit(GGroup::Motion) | bit(GGroup::Distance) |
       bit(GGroup::ArcDistance) | bit(GGroup::FeedMode) | bit(GGroup::Units) | bit(GGroup::Lathe) |

@@ -34,6 +34,7 @@ std::vector<MemoryCell> Rs274NgcInterpreter::memory_cells() const {
 bool Rs274NgcInterpreter::read_memory(std::vector<double>& values) {
   const bool is_known =
       !values.empty() &&
+      // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): arrays of doubles have no padding
       std::memcmp(&known_parameters_, &run_.parameters, sizeof known_parameters_) == 0 &&
       known_tools_ == run_.tools;
   if (is_known) return false;

@@ -43,7 +43,7 @@ Demand demand_of(const Block& block) {
   }
 }
 
-bool meets(const ControlVersion& version, Demand demand, Fault& fault) {
+bool meets(const ControlVersion& version, const Demand& demand, Fault& fault) {
   if (demand.feature == Feature::Count || version.has(demand.feature)) return true;
   fault = {demand.code, 0, demand.words + ": " + version.lacks(demand.feature)};
   return false;
