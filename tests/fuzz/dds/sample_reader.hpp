@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "protocol/base/crc32.hpp"
+#include "protocol/base/digest.hpp"
 #include "protocol/dds/impl/topic.hpp"
 #include "protocol/dds/members.hpp"
 

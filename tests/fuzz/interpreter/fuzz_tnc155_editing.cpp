@@ -1,8 +1,8 @@
 #include <cstdint>
 
+#include "clients/tools/program_editing/program_edit.hpp"
 #include "clients/tools/program_editing/tnc155/block_words.hpp"
 #include "clients/tools/program_editing/tnc155/cut_program.hpp"
-#include "clients/tools/program_editing/tnc155/tnc_editor.hpp"
 
 /// Any text is edited word by word or refused: a word that gets the value it has leaves its block
 /// as the control writes it, unless it is refused.

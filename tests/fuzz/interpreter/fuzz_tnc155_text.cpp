@@ -4,7 +4,7 @@
 
 #include "clients/tools/program_editing/tnc155/whole_program.hpp"
 #include "clients/tools/tnc_conversion/conversion.hpp"
-#include "gateway/interpreter/core/memory_source.hpp"
+#include "gateway/interpreter/core/program_source.hpp"
 #include "tests/support/tnc155_trace.hpp"
 
 namespace {

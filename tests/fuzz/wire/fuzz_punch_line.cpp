@@ -1,10 +1,10 @@
-// Both ends of a ProtoTRAK's line; the first byte says which.
+// Both ends of a line that reads and punches whole programs; the first byte says which.
 #include "tests/fuzz/wire/line_script.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline;
   if (size == 0) return 0;
-  auto settings = wire::find_template("prototrak").value()->settings;
+  auto settings = wire::find_template(FUZZED_TEMPLATE).value()->settings;
   if ((data[0] & 2) != 0) settings.answer_limit.reset();
   if ((data[0] & 4) != 0) settings.end_character.reset();
   settings.trailer = data[0] / 8 % 8;

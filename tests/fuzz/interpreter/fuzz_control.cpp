@@ -5,7 +5,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dripline::interpreter;
   if (size == 0) return 0;
-  const Dialect& dialect = **find_dialect("tektronix-1704");
+  const Dialect& dialect = **find_dialect(FUZZED_CONTROL);
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   const auto whole = run_in_windows(dialect, text, ProgramSource::kMaxWindow);
   const auto pieces = run_in_windows(dialect, text, data[0] % 32);
